@@ -1,0 +1,91 @@
+//! Axis-aligned bounding boxes.
+
+use glam::Vec3;
+
+/// A closed box, `min ≤ p ≤ max` in each axis. Empty while `min > max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Aabb {
+    /// Lower corner.
+    pub min: Vec3,
+    /// Upper corner.
+    pub max: Vec3,
+}
+
+impl Aabb {
+    /// The box that holds nothing; growing it gives what it was grown by.
+    pub const EMPTY: Self = Self {
+        min: Vec3::INFINITY,
+        max: Vec3::NEG_INFINITY,
+    };
+
+    /// The smallest box around the points; [`Aabb::EMPTY`] for none.
+    pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
+        points.into_iter().fold(Self::EMPTY, |b, p| Self {
+            min: b.min.min(p),
+            max: b.max.max(p),
+        })
+    }
+
+    /// The smallest box around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+
+    /// Whether it holds no point.
+    pub fn is_empty(&self) -> bool {
+        !self.min.cmple(self.max).all()
+    }
+
+    /// Its middle. Halved before added, so that it can't overflow.
+    pub fn centre(&self) -> Vec3 {
+        0.5 * self.min + 0.5 * self.max
+    }
+
+    /// Its edges' lengths; zero if it is empty.
+    pub fn extent(&self) -> Vec3 {
+        (self.max - self.min).max(Vec3::ZERO)
+    }
+
+    /// Half its surface, what the surface-area heuristic weighs by; zero if it is empty.
+    pub fn half_area(&self) -> f32 {
+        let e = self.extent();
+        e.x * (e.y + e.z) + e.y * e.z
+    }
+
+    /// The radius of the sphere about [`centre`](Self::centre) through the corners; zero if it is empty.
+    pub fn radius(&self) -> f64 {
+        0.5 * self.extent().as_dvec3().length()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_empty_box_is_neutral() {
+        let b = Aabb::around([Vec3::ZERO, Vec3::ONE]);
+        assert_eq!(Aabb::EMPTY.union(b), b);
+        assert!(Aabb::EMPTY.is_empty() && !b.is_empty());
+        assert_eq!(Aabb::EMPTY.half_area(), 0.0);
+        assert_eq!(Aabb::EMPTY.radius(), 0.0);
+    }
+
+    #[test]
+    fn a_box_of_one_point_holds_it() {
+        let b = Aabb::around([Vec3::splat(3.0)]);
+        assert!(!b.is_empty());
+        assert_eq!(b.centre(), Vec3::splat(3.0));
+        assert_eq!(b.half_area(), 0.0);
+    }
+
+    #[test]
+    fn the_centre_of_the_largest_box_is_finite() {
+        let b = Aabb::around([Vec3::splat(f32::MAX), Vec3::splat(f32::MAX)]);
+        assert!(b.centre().is_finite());
+    }
+}

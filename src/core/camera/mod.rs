@@ -1,0 +1,351 @@
+//! Which ray belongs to a pixel?
+//!
+//! Pixel (0, 0) is at the top left; its centre is at (0.5, 0.5). Right-handed: x right, y up, and
+//! the camera looks along −z of its own space.
+
+mod turntable;
+
+pub use turntable::{StandardView, Turntable, UpAxis};
+
+use crate::ray::Ray;
+use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2, Vec3};
+
+/// How the picture narrows with distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Projection {
+    /// All rays start at the eye.
+    Perspective {
+        /// Angle between the picture's upper and lower edge.
+        fov_y_radians: f64,
+    },
+    /// All rays are parallel; they start in the plane through the eye.
+    Orthographic {
+        /// Height of the picture in the scene's units.
+        height: f64,
+    },
+}
+
+/// Why a camera can't be.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum CameraError {
+    /// A position isn't finite, or too large for f32.
+    #[error("the camera's position or target isn't finite in f32")]
+    NotFinite,
+    /// Eye and target are the same point.
+    #[error("the camera's eye and target are the same point")]
+    NoDirection,
+    /// The up vector points along the view.
+    #[error("the camera's up vector is zero or points along the view")]
+    NoUp,
+    /// The field of view isn't between 0° and 180°, or the height isn't positive.
+    #[error(
+        "the field of view must be between 0 and 180 degrees, the orthographic height positive"
+    )]
+    BadProjection,
+    /// The picture has no pixel.
+    #[error("the picture has no pixels")]
+    NoPixels,
+}
+
+/// A camera with its resolution: everything that makes a ray of a pixel. Immutable.
+///
+/// The eye is rounded to f32, the start of every ray, so that whatever else is drawn for this camera
+/// can start from the same point.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Camera {
+    eye: Vec3,
+    /// Columns: right, up, back.
+    world_from_camera: DMat3,
+    projection: Projection,
+    resolution: UVec2,
+}
+
+impl Camera {
+    /// A camera at `eye` that sees `target` in the middle, with `up` pointing up.
+    ///
+    /// # Errors
+    /// See [`CameraError`].
+    pub fn look_at(
+        eye: DVec3,
+        target: DVec3,
+        up: DVec3,
+        projection: Projection,
+        resolution: UVec2,
+    ) -> Result<Self, CameraError> {
+        if !(eye.as_vec3().is_finite() && target.as_vec3().is_finite()) {
+            return Err(CameraError::NotFinite);
+        }
+        let back = (eye - target).try_normalize();
+        let back = back.ok_or(CameraError::NoDirection)?;
+        let up = up.try_normalize().ok_or(CameraError::NoUp)?;
+        let right = up.cross(back);
+        // Below this the up vector's own rounding decides which way is right.
+        if right.length() < 1e-12 {
+            return Err(CameraError::NoUp);
+        }
+        let right = right.normalize();
+        Self::from_axes(
+            eye,
+            DMat3::from_cols(right, back.cross(right), back),
+            projection,
+            resolution,
+        )
+    }
+
+    fn from_axes(
+        eye: DVec3,
+        world_from_camera: DMat3,
+        projection: Projection,
+        resolution: UVec2,
+    ) -> Result<Self, CameraError> {
+        let is_good = match projection {
+            Projection::Perspective { fov_y_radians } => {
+                fov_y_radians > 0.0 && fov_y_radians < std::f64::consts::PI
+            }
+            Projection::Orthographic { height } => height > 0.0 && height.is_finite(),
+        };
+        if !is_good {
+            return Err(CameraError::BadProjection);
+        }
+        if resolution.min_element() == 0 {
+            return Err(CameraError::NoPixels);
+        }
+        let eye = eye.as_vec3();
+        if !eye.is_finite() {
+            return Err(CameraError::NotFinite);
+        }
+        Ok(Self {
+            eye,
+            world_from_camera,
+            projection,
+            resolution,
+        })
+    }
+
+    /// The ray through a place in a pixel; `sample` is (0.5, 0.5) for its centre.
+    ///
+    /// The direction has unit length, but for its rounding to f32.
+    pub fn ray(&self, pixel: UVec2, sample: Vec2) -> Ray {
+        self.ray_through(pixel.as_dvec2() + sample.as_dvec2())
+    }
+
+    /// The ray through a place in the picture, in pixels from its top left corner.
+    pub fn ray_through(&self, at: DVec2) -> Ray {
+        let on_plane = self.plane_from_pixel(at);
+        let (origin, dir) = match self.projection {
+            Projection::Perspective { .. } => {
+                let dir = self.world_from_camera * on_plane.extend(-1.0).normalize();
+                (self.eye, dir.as_vec3())
+            }
+            Projection::Orthographic { .. } => {
+                let offset = self.world_from_camera * on_plane.extend(0.0);
+                let origin = (self.eye.as_dvec3() + offset).as_vec3();
+                (origin, -self.back().as_vec3())
+            }
+        };
+        Ray {
+            origin,
+            dir,
+            t_min: 0.0,
+            t_max: f32::INFINITY,
+        }
+    }
+
+    /// Where a point appears, in pixels from the top left corner; `None` if it isn't in front.
+    pub fn pixel_of(&self, point: DVec3) -> Option<DVec2> {
+        let in_camera = self.world_from_camera.transpose() * (point - self.eye.as_dvec3());
+        let depth = match self.projection {
+            Projection::Perspective { .. } => -in_camera.z,
+            Projection::Orthographic { .. } => 1.0,
+        };
+        if depth <= 0.0 || in_camera.z > 0.0 {
+            return None;
+        }
+        let size = self.resolution.as_dvec2();
+        let clip = in_camera.truncate() / depth / self.half_extent();
+        Some((clip * DVec2::new(0.5, -0.5) + 0.5) * size)
+    }
+
+    /// The clip space of a GPU, from coordinates relative to the eye (the scene's axes).
+    ///
+    /// Depth is 1 at `near` and falls with distance: to 0 at infinity in perspective, which loses no
+    /// precision far away, and to 0 at `far` in an orthographic picture.
+    pub fn clip_from_eye(&self, near: f64, far: f64) -> DMat4 {
+        let half = self.half_extent();
+        let clip_from_camera = match self.projection {
+            Projection::Perspective { .. } => DMat4::from_cols(
+                DVec4::new(1.0 / half.x, 0.0, 0.0, 0.0),
+                DVec4::new(0.0, 1.0 / half.y, 0.0, 0.0),
+                DVec4::new(0.0, 0.0, 0.0, -1.0),
+                DVec4::new(0.0, 0.0, near, 0.0),
+            ),
+            Projection::Orthographic { .. } => DMat4::from_cols(
+                DVec4::new(1.0 / half.x, 0.0, 0.0, 0.0),
+                DVec4::new(0.0, 1.0 / half.y, 0.0, 0.0),
+                DVec4::new(0.0, 0.0, 1.0 / (far - near), 0.0),
+                DVec4::new(0.0, 0.0, far / (far - near), 1.0),
+            ),
+        };
+        clip_from_camera * DMat4::from_mat3(self.world_from_camera.transpose())
+    }
+
+    /// Where the rays start, or the middle of the plane in which they do.
+    pub fn eye(&self) -> Vec3 {
+        self.eye
+    }
+
+    /// Unit vector to the right of the picture.
+    pub fn right(&self) -> DVec3 {
+        self.world_from_camera.x_axis
+    }
+
+    /// Unit vector to the top of the picture.
+    pub fn up(&self) -> DVec3 {
+        self.world_from_camera.y_axis
+    }
+
+    /// Unit vector towards the viewer.
+    pub fn back(&self) -> DVec3 {
+        self.world_from_camera.z_axis
+    }
+
+    /// How the picture narrows with distance.
+    pub fn projection(&self) -> Projection {
+        self.projection
+    }
+
+    /// Width and height in pixels.
+    pub fn resolution(&self) -> UVec2 {
+        self.resolution
+    }
+
+    /// Length that a pixel spans at a distance along the view.
+    pub fn pixel_size_at(&self, depth: f64) -> f64 {
+        let scale = match self.projection {
+            Projection::Perspective { .. } => depth,
+            Projection::Orthographic { .. } => 1.0,
+        };
+        2.0 * self.half_extent().y * scale / f64::from(self.resolution.y)
+    }
+
+    /// Half the picture's width and height at distance 1 (perspective) or anywhere (orthographic).
+    fn half_extent(&self) -> DVec2 {
+        let half_height = match self.projection {
+            Projection::Perspective { fov_y_radians } => (0.5 * fov_y_radians).tan(),
+            Projection::Orthographic { height } => 0.5 * height,
+        };
+        let size = self.resolution.as_dvec2();
+        DVec2::new(half_height * size.x / size.y, half_height)
+    }
+
+    fn plane_from_pixel(&self, at: DVec2) -> DVec2 {
+        let size = self.resolution.as_dvec2();
+        (at / size - 0.5) * DVec2::new(2.0, -2.0) * self.half_extent()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const PERSPECTIVE: Projection = Projection::Perspective { fov_y_radians: 1.0 };
+    const ORTHOGRAPHIC: Projection = Projection::Orthographic { height: 3.0 };
+
+    fn camera(projection: Projection) -> Camera {
+        let (eye, target) = (DVec3::new(3.0, 4.0, 5.0), DVec3::new(0.0, 1.0, 0.0));
+        Camera::look_at(eye, target, DVec3::Y, projection, UVec2::new(320, 200)).expect("good")
+    }
+
+    #[test]
+    fn a_point_projects_to_the_pixel_whose_ray_goes_through_it() {
+        for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
+            let camera = camera(projection);
+            for at in [
+                DVec2::new(0.5, 0.5),
+                DVec2::new(160.0, 100.0),
+                DVec2::new(300.2, 7.9),
+            ] {
+                let ray = camera.ray_through(at);
+                let point = ray.origin.as_dvec3() + 6.0 * ray.dir.as_dvec3();
+                let back = camera.pixel_of(point).expect("in front");
+                assert!((back - at).length() < 1e-3, "{at} {back}");
+            }
+        }
+    }
+
+    #[test]
+    fn the_middle_of_the_picture_shows_the_target_with_up_above() {
+        for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
+            let camera = camera(projection);
+            let middle = camera
+                .pixel_of(DVec3::new(0.0, 1.0, 0.0))
+                .expect("in front");
+            assert!((middle - DVec2::new(160.0, 100.0)).length() < 1e-4);
+            let above = camera
+                .pixel_of(DVec3::new(0.0, 1.5, 0.0))
+                .expect("in front");
+            assert!(above.y < middle.y && (above.x - middle.x).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn a_sample_at_a_half_is_the_pixels_centre() {
+        let camera = camera(PERSPECTIVE);
+        let centre = camera.ray(UVec2::new(10, 20), Vec2::splat(0.5));
+        assert_eq!(centre, camera.ray_through(DVec2::new(10.5, 20.5)));
+    }
+
+    #[test]
+    fn clip_space_agrees_with_pixels_and_its_depth_falls_from_one() {
+        for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
+            let camera = camera(projection);
+            let clip_from_eye = camera.clip_from_eye(0.5, 100.0);
+            // The ray's direction is rounded to f32.
+            let mut last_depth = 1.0 + f64::from(f32::EPSILON);
+            for distance in [0.5, 1.0, 10.0, 99.0] {
+                let ray = camera.ray_through(DVec2::new(40.0, 30.0));
+                let along = distance / -ray.dir.as_dvec3().dot(camera.back());
+                let point = ray.origin.as_dvec3() + along * ray.dir.as_dvec3();
+                let clip = clip_from_eye * (point - camera.eye().as_dvec3()).extend(1.0);
+                let at = (clip.truncate().truncate() / clip.w * DVec2::new(0.5, -0.5) + 0.5)
+                    * DVec2::new(320.0, 200.0);
+                assert!((at - DVec2::new(40.0, 30.0)).length() < 1e-3, "{at}");
+                let depth = clip.z / clip.w;
+                assert!(depth > 0.0 && depth < last_depth, "{depth}");
+                last_depth = depth;
+            }
+        }
+    }
+
+    #[test]
+    fn impossible_cameras_are_refused_with_the_reason() {
+        let make = |eye: DVec3, up: DVec3, projection, size| {
+            Camera::look_at(eye, DVec3::ZERO, up, projection, size).expect_err("refused")
+        };
+        let (eye, size) = (DVec3::Z, UVec2::ONE);
+        assert_eq!(
+            make(DVec3::ZERO, DVec3::Y, PERSPECTIVE, size),
+            CameraError::NoDirection
+        );
+        assert_eq!(
+            make(DVec3::NAN, DVec3::Y, PERSPECTIVE, size),
+            CameraError::NotFinite
+        );
+        assert_eq!(
+            make(DVec3::Z * 1e300, DVec3::Y, PERSPECTIVE, size),
+            CameraError::NotFinite
+        );
+        assert_eq!(make(eye, DVec3::Z, PERSPECTIVE, size), CameraError::NoUp);
+        assert_eq!(
+            make(eye, DVec3::Y, PERSPECTIVE, UVec2::ZERO),
+            CameraError::NoPixels
+        );
+        for fov_y_radians in [0.0, 4.0, f64::NAN] {
+            let projection = Projection::Perspective { fov_y_radians };
+            assert_eq!(
+                make(eye, DVec3::Y, projection, size),
+                CameraError::BadProjection
+            );
+        }
+    }
+}

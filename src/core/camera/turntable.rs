@@ -1,0 +1,355 @@
+//! Orbit, pan and zoom: the camera as a hand moves it.
+
+use super::{Camera, Projection};
+use crate::aabb::Aabb;
+use glam::{DMat3, DVec2, DVec3, UVec2};
+use std::f64::consts::{FRAC_PI_2, PI, TAU};
+
+/// Which axis of the file points up. OBJ doesn't say.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UpAxis {
+    /// As most modellers write it.
+    #[default]
+    Y,
+    /// As CAD and surveying have it.
+    Z,
+}
+
+/// A view along an axis.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StandardView {
+    /// From +Z (Y up) or −Y (Z up).
+    Front,
+    /// Opposite to the front.
+    Back,
+    /// From +X.
+    Right,
+    /// From −X.
+    Left,
+    /// From above.
+    Top,
+    /// From below.
+    Bottom,
+}
+
+/// A camera on a sphere around a pivot, which always keeps the horizon level.
+///
+/// Lengths are in the scene's units; nothing depends on the scene's size.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Turntable {
+    /// What it turns about, in the middle of the picture.
+    pub pivot: DVec3,
+    /// From the pivot to the eye.
+    pub distance: f64,
+    /// Angle about the up axis; 0 looks from the front.
+    pub yaw_radians: f64,
+    /// Angle above the horizon, from −π/2 to π/2.
+    pub pitch_radians: f64,
+    /// Vertical field of view; in an orthographic picture it gives the height at the pivot.
+    pub fov_y_radians: f64,
+    /// Whether rays are parallel.
+    pub is_orthographic: bool,
+    /// Which axis points up.
+    pub up_axis: UpAxis,
+    /// The scene, as a sphere.
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Turntable {
+    /// Radians that a drag across the picture's height turns by.
+    const RADIANS_PER_HEIGHT: f64 = PI;
+    /// How near to the pivot the eye may come, relative to the scene: there f32 still resolves a
+    /// hundredth of the distance.
+    const NEAREST: f64 = 1e-5;
+    /// How far from the pivot it may go, in radii.
+    const FARTHEST: f64 = 1e4;
+
+    /// Looks at all of a scene, from a little above and to the right.
+    pub fn framing(bounds: Aabb, resolution: UVec2) -> Self {
+        let mut turntable = Self {
+            pivot: DVec3::ZERO,
+            distance: 1.0,
+            yaw_radians: 30f64.to_radians(),
+            pitch_radians: 20f64.to_radians(),
+            fov_y_radians: 40f64.to_radians(),
+            is_orthographic: false,
+            up_axis: UpAxis::Y,
+            centre: DVec3::ZERO,
+            radius: 1.0,
+        };
+        turntable.frame(bounds, resolution);
+        turntable
+    }
+
+    /// Moves back or forth until the whole scene fits, with the direction as it is.
+    ///
+    /// An empty scene or one of a single point counts as one of radius 1, or as small as f32 can
+    /// tell from its place.
+    pub fn frame(&mut self, bounds: Aabb, resolution: UVec2) {
+        if bounds.is_empty() {
+            (self.centre, self.radius) = (DVec3::ZERO, 1.0);
+        } else {
+            self.centre = bounds.centre().as_dvec3();
+            self.radius = bounds.radius();
+            if self.radius == 0.0 {
+                let place = self.centre.abs().max_element();
+                self.radius = if place == 0.0 { 1.0 } else { 1e-3 * place };
+            }
+        }
+        self.pivot = self.centre;
+        let aspect = f64::from(resolution.x) / f64::from(resolution.y.max(1));
+        let half_y = 0.5 * self.fov_y_radians;
+        let half_x = (half_y.tan() * aspect).atan();
+        self.distance = self.radius / half_y.min(half_x).max(1e-3).sin();
+    }
+
+    /// Turns by a drag, in pixels to the right and down.
+    pub fn orbit(&mut self, drag_px: DVec2, resolution: UVec2) {
+        let angle = drag_px * Self::RADIANS_PER_HEIGHT / f64::from(resolution.y.max(1));
+        self.yaw_radians = (self.yaw_radians - angle.x).rem_euclid(TAU);
+        self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
+    }
+
+    /// Shifts by a drag, so that the pivot's plane follows the pointer.
+    pub fn pan(&mut self, drag_px: DVec2, resolution: UVec2) {
+        let axes = self.world_from_camera();
+        let per_pixel = self.height_at_pivot() / f64::from(resolution.y.max(1));
+        self.pivot += (axes.y_axis * drag_px.y - axes.x_axis * drag_px.x) * per_pixel;
+    }
+
+    /// Scales the distance by `factor` about `anchor`, which keeps its place in the picture.
+    pub fn zoom(&mut self, factor: f64, anchor: DVec3) {
+        let nearest = Self::NEAREST * (self.radius + (self.pivot - self.centre).length());
+        let distance = (self.distance * factor).clamp(nearest, Self::FARTHEST * self.radius);
+        if distance.is_finite() {
+            let scale = distance / self.distance;
+            self.pivot = anchor + (self.pivot - anchor) * scale;
+            self.distance = distance;
+        }
+    }
+
+    /// Turns about another point from now on, which comes to the middle of the picture; the eye
+    /// keeps its distance.
+    pub fn set_pivot(&mut self, pivot: DVec3) {
+        self.pivot = pivot;
+    }
+
+    /// Looks along an axis.
+    pub fn look_from(&mut self, view: StandardView) {
+        (self.yaw_radians, self.pitch_radians) = match view {
+            StandardView::Front => (0.0, 0.0),
+            StandardView::Back => (PI, 0.0),
+            StandardView::Right => (FRAC_PI_2, 0.0),
+            StandardView::Left => (3.0 * FRAC_PI_2, 0.0),
+            StandardView::Top => (0.0, FRAC_PI_2),
+            StandardView::Bottom => (0.0, -FRAC_PI_2),
+        };
+    }
+
+    /// The point under a pixel in the plane through the pivot that faces the camera.
+    pub fn on_pivot_plane(&self, at_px: DVec2, resolution: UVec2) -> DVec3 {
+        let axes = self.world_from_camera();
+        let from_middle = at_px - 0.5 * resolution.as_dvec2();
+        let per_pixel = self.height_at_pivot() / f64::from(resolution.y.max(1));
+        self.pivot + (axes.x_axis * from_middle.x - axes.y_axis * from_middle.y) * per_pixel
+    }
+
+    /// The camera, for a picture of this size; at least one pixel is assumed.
+    ///
+    /// The eye of an orthographic camera stands outside of the scene, so that nothing is cut off.
+    /// Where f32 can't hold the eye, it stands at the largest number that it can.
+    pub fn camera(&self, resolution: UVec2) -> Camera {
+        let axes = self.world_from_camera();
+        let (projection, distance) = if self.is_orthographic {
+            let height = self.height_at_pivot();
+            let outside = 2.0 * self.radius + (self.pivot - self.centre).length();
+            (
+                Projection::Orthographic { height },
+                self.distance.max(outside),
+            )
+        } else {
+            let fov_y_radians = self.fov_y_radians;
+            (Projection::Perspective { fov_y_radians }, self.distance)
+        };
+        let limit = DVec3::splat(f64::from(f32::MAX));
+        let eye = (self.pivot + axes.z_axis * distance).clamp(-limit, limit);
+        Camera::from_axes(eye, axes, projection, resolution.max(UVec2::ONE))
+            .expect("the eye is finite, the projection within its limits")
+    }
+
+    /// Right, up and back, level with the horizon; well-defined also straight from above.
+    fn world_from_camera(&self) -> DMat3 {
+        let (sin_yaw, cos_yaw) = self.yaw_radians.sin_cos();
+        let (sin_pitch, cos_pitch) = self.pitch_radians.sin_cos();
+        let right = DVec3::new(cos_yaw, 0.0, -sin_yaw);
+        let back = DVec3::new(cos_pitch * sin_yaw, sin_pitch, cos_pitch * cos_yaw);
+        let in_file = |v: DVec3| match self.up_axis {
+            UpAxis::Y => v,
+            UpAxis::Z => DVec3::new(v.x, -v.z, v.y),
+        };
+        let (right, back) = (in_file(right), in_file(back));
+        DMat3::from_cols(right, back.cross(right), back)
+    }
+
+    fn height_at_pivot(&self) -> f64 {
+        2.0 * self.distance * (0.5 * self.fov_y_radians).tan()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    const SIZE: UVec2 = UVec2::new(800, 600);
+
+    /// Scenes of very different size, and one far from the mesh's origin.
+    fn scenes() -> [Aabb; 5] {
+        let cube = |size: f32, at: Vec3| Aabb::around([at, at + size]);
+        [
+            cube(1e-6, Vec3::ZERO),
+            cube(1.0, Vec3::ZERO),
+            cube(1e6, Vec3::ZERO),
+            cube(100.0, Vec3::splat(1e7)),
+            cube(1e30, Vec3::ZERO),
+        ]
+    }
+
+    fn pixel_of(turntable: &Turntable, point: DVec3) -> DVec2 {
+        turntable.camera(SIZE).pixel_of(point).expect("in front")
+    }
+
+    /// A hundredth of a pixel, or what rounding the eye to f32 moves it by.
+    fn tolerance(turntable: &Turntable) -> f64 {
+        let place = turntable.camera(SIZE).eye().as_dvec3().abs().max_element();
+        let pixel = turntable.height_at_pivot() / f64::from(SIZE.y);
+        0.01 + place * f64::from(f32::EPSILON) / pixel
+    }
+
+    #[test]
+    fn framing_shows_the_whole_scene_and_fills_the_picture() {
+        for scene in scenes() {
+            for orthographic in [false, true] {
+                let mut turntable = Turntable::framing(scene, SIZE);
+                turntable.is_orthographic = orthographic;
+                let corners = (0..8).map(|k| {
+                    let pick = |axis: usize| [scene.min, scene.max][k >> axis & 1][axis];
+                    Vec3::new(pick(0), pick(1), pick(2)).as_dvec3()
+                });
+                let pixels: Vec<DVec2> = corners.map(|p| pixel_of(&turntable, p)).collect();
+                let inside =
+                    |p: &DVec2| p.cmpge(DVec2::ZERO).all() && p.cmple(SIZE.as_dvec2()).all();
+                assert!(pixels.iter().all(inside), "{scene:?}: {pixels:?}");
+                let heights = pixels.iter().map(|p| p.y);
+                let spread =
+                    heights.clone().fold(f64::MIN, f64::max) - heights.fold(f64::MAX, f64::min);
+                assert!(spread > 0.5 * f64::from(SIZE.y), "{spread}");
+            }
+        }
+    }
+
+    #[test]
+    fn zoom_keeps_the_point_under_the_cursor_there() {
+        for scene in scenes() {
+            for orthographic in [false, true] {
+                let mut turntable = Turntable::framing(scene, SIZE);
+                turntable.is_orthographic = orthographic;
+                let cursor = DVec2::new(600.0, 150.0);
+                let anchor = turntable.on_pivot_plane(cursor, SIZE);
+                for factor in [0.8, 0.5, 0.1, 1.5, 20.0] {
+                    turntable.zoom(factor, anchor);
+                    let moved = (pixel_of(&turntable, anchor) - cursor).length();
+                    assert!(moved < tolerance(&turntable), "{scene:?} {factor}: {moved}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn zoom_stops_before_f32_gives_out() {
+        for scene in scenes() {
+            let mut turntable = Turntable::framing(scene, SIZE);
+            let anchor = turntable.pivot;
+            for factor in [0.5, 2.0] {
+                (0..200).for_each(|_| turntable.zoom(factor, anchor));
+                assert!(turntable.distance > 0.0 && turntable.distance.is_finite());
+                let ray = turntable.camera(SIZE).ray_through(DVec2::ZERO);
+                assert!(ray.origin.is_finite() && ray.dir.is_normalized());
+            }
+        }
+    }
+
+    #[test]
+    fn pan_moves_the_pivots_plane_with_the_pointer() {
+        for scene in scenes() {
+            let mut turntable = Turntable::framing(scene, SIZE);
+            let point = turntable.pivot;
+            turntable.pan(DVec2::new(50.0, -30.0), SIZE);
+            let expected = 0.5 * SIZE.as_dvec2() + DVec2::new(50.0, -30.0);
+            let off = (pixel_of(&turntable, point) - expected).length();
+            assert!(off < tolerance(&turntable), "{scene:?}: {off}");
+        }
+    }
+
+    #[test]
+    fn orbit_keeps_pivot_distance_and_horizon() {
+        for scene in scenes() {
+            let mut turntable = Turntable::framing(scene, SIZE);
+            let before = turntable;
+            for drag in [
+                DVec2::new(123.0, 45.0),
+                DVec2::new(-3.0, 1e5),
+                DVec2::new(7.0, -1e6),
+            ] {
+                turntable.orbit(drag, SIZE);
+                assert_eq!(
+                    (turntable.pivot, turntable.distance),
+                    (before.pivot, before.distance)
+                );
+                let camera = turntable.camera(SIZE);
+                assert!(camera.right().y.abs() < 1e-15 && camera.up().y > -1e-15);
+                let axes = turntable.world_from_camera();
+                assert!((axes.determinant() - 1.0).abs() < 1e-12);
+            }
+        }
+    }
+
+    #[test]
+    fn standard_views_look_along_the_axes_for_either_up() {
+        let mut turntable = Turntable::framing(scenes()[1], SIZE);
+        for (up_axis, front, up) in [
+            (UpAxis::Y, DVec3::Z, DVec3::Y),
+            (UpAxis::Z, DVec3::NEG_Y, DVec3::Z),
+        ] {
+            turntable.up_axis = up_axis;
+            for (view, back) in [
+                (StandardView::Front, front),
+                (StandardView::Back, -front),
+                (StandardView::Right, DVec3::X),
+                (StandardView::Left, DVec3::NEG_X),
+                (StandardView::Top, up),
+                (StandardView::Bottom, -up),
+            ] {
+                turntable.look_from(view);
+                assert!(
+                    (turntable.camera(SIZE).back() - back).length() < 1e-12,
+                    "{view:?}"
+                );
+            }
+        }
+    }
+
+    #[test]
+    fn a_scene_of_one_point_or_of_nothing_can_be_looked_at() {
+        for bounds in [
+            Aabb::EMPTY,
+            Aabb::around([Vec3::ZERO]),
+            Aabb::around([Vec3::splat(1e7)]),
+        ] {
+            let turntable = Turntable::framing(bounds, SIZE);
+            assert!(turntable.distance > 0.0);
+            turntable.camera(UVec2::ZERO);
+        }
+    }
+}

@@ -1,0 +1,239 @@
+//! What does the picture look like so far?
+//!
+//! Sums of samples as integers: adding them gives the same picture in whatever order tiles arrive.
+//! Pixels not yet sampled show their block's colour from a coarser pass.
+
+use crate::integrator::palette::to_display;
+use crate::render::plan::{Pass, Plan, Unit};
+use glam::{UVec2, Vec3};
+use std::sync::LazyLock;
+
+/// A sum of samples in linear RGB, in units of 2⁻¹⁶: finer than any display shows.
+pub type FixedRgb = [u32; 3];
+
+/// One in [`FixedRgb`].
+const ONE: f32 = 65536.0;
+/// Brighter samples count as this bright, which keeps 4096 of them below 2³².
+const BRIGHTEST: f32 = 15.0;
+
+/// A sample's radiance for summing up; `None` if it isn't finite.
+pub fn fixed(radiance: Vec3) -> Option<FixedRgb> {
+    let channel = |x: f32| (x.clamp(0.0, BRIGHTEST) * ONE).round() as u32;
+    radiance
+        .is_finite()
+        .then(|| radiance.to_array().map(channel))
+}
+
+/// The samples of one tile in one pass, pixel by pixel in the pass's order.
+#[derive(Clone, Debug)]
+pub struct TileSamples {
+    /// Which pass and tile.
+    pub unit: Unit,
+    /// Sums over the pass's samples.
+    pub sums: Vec<FixedRgb>,
+}
+
+/// A rectangle of pixels: from, and up to but not including.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// Left and top.
+    pub min: UVec2,
+    /// Right and bottom, not included.
+    pub max: UVec2,
+}
+
+impl PixelRect {
+    /// The smallest rectangle around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+}
+
+/// A picture in the making.
+#[derive(Clone, Debug)]
+pub struct Film {
+    plan: Plan,
+    sums: Vec<FixedRgb>,
+    counts: Vec<u16>,
+    /// The size of the block whose colour a pixel shows; 0 once it has its own.
+    shown_step: Vec<u8>,
+    /// sRGB with alpha 255, row by row from the top.
+    pixels: Vec<[u8; 4]>,
+    /// Tiles done, by pass.
+    tiles_done: Vec<usize>,
+}
+
+impl Film {
+    /// An empty film for a plan, all pixels of one linear colour.
+    pub fn new(plan: Plan, background: Vec3) -> Self {
+        let count = plan.size().element_product() as usize;
+        Self {
+            sums: vec![[0; 3]; count],
+            counts: vec![0; count],
+            shown_step: vec![u8::MAX; count],
+            pixels: vec![encode(fixed(background).unwrap_or_default(), 1); count],
+            tiles_done: vec![0; plan.pass_count()],
+            plan,
+        }
+    }
+
+    /// Forgets all samples for another plan. Pixels keep their colour until they get a new one, if
+    /// the size is the same.
+    pub fn restart(&mut self, plan: Plan, background: Vec3) {
+        if plan.size() != self.plan.size() {
+            *self = Self::new(plan, background);
+            return;
+        }
+        self.sums.fill([0; 3]);
+        self.counts.fill(0);
+        self.shown_step.fill(u8::MAX);
+        self.tiles_done = vec![0; plan.pass_count()];
+        self.plan = plan;
+    }
+
+    /// Adds a tile, and says which pixels changed.
+    pub fn add(&mut self, tile: &TileSamples) -> PixelRect {
+        let pass = self.plan.pass(tile.unit.pass);
+        let rect = self.plan.tile_rect(tile.unit.tile);
+        let samples = pass.samples_per_pixel() as u16;
+        let pixels: Vec<UVec2> = self.plan.pixels(tile.unit).collect();
+        for (pixel, sum) in pixels.into_iter().zip(&tile.sums) {
+            let i = self.index(pixel);
+            for (total, part) in self.sums[i].iter_mut().zip(sum) {
+                *total += part;
+            }
+            self.counts[i] += samples;
+            self.shown_step[i] = 0;
+            self.pixels[i] = encode(self.sums[i], u32::from(self.counts[i]));
+            if let Pass::Lattice { step } = pass {
+                self.fill_block(pixel, step);
+            }
+        }
+        self.tiles_done[tile.unit.pass] += 1;
+        rect
+    }
+
+    /// Gives a pixel's colour to those of its block that show a coarser one.
+    fn fill_block(&mut self, pixel: UVec2, step: u32) {
+        let colour = self.pixels[self.index(pixel)];
+        let min = pixel / step * step;
+        let max = (min + step).min(self.plan.size());
+        for y in min.y..max.y {
+            for x in min.x..max.x {
+                let i = self.index(UVec2::new(x, y));
+                if u32::from(self.shown_step[i]) > step {
+                    self.shown_step[i] = step as u8;
+                    self.pixels[i] = colour;
+                }
+            }
+        }
+    }
+
+    /// Passes whose tiles are all there.
+    pub fn passes_done(&self) -> usize {
+        let is_done = |&&done: &&usize| done == self.plan.tile_count();
+        self.tiles_done.iter().take_while(is_done).count()
+    }
+
+    /// Whether every sample of the plan is there.
+    pub fn is_complete(&self) -> bool {
+        self.passes_done() == self.plan.pass_count()
+    }
+
+    /// Samples that every pixel has; 0 while there are coarse blocks.
+    pub fn samples(&self) -> u32 {
+        self.plan.samples_after(self.passes_done())
+    }
+
+    /// What was to be rendered.
+    pub fn plan(&self) -> &Plan {
+        &self.plan
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.plan.size()
+    }
+
+    /// sRGB with alpha 255, row by row from the top.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        &self.pixels
+    }
+
+    fn index(&self, pixel: UVec2) -> usize {
+        pixel.y as usize * self.plan.size().x as usize + pixel.x as usize
+    }
+}
+
+/// The mean of a pixel's samples as 8-bit sRGB.
+fn encode(sum: FixedRgb, count: u32) -> [u8; 4] {
+    /// For each linear value in units of 2⁻¹⁶. A table: powf for each pixel would stall the window.
+    static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
+        let encoded = |i: u32| (255.0 * to_display(i as f32 / ONE)).round() as u8;
+        (0..=ONE as u32).map(encoded).collect()
+    });
+    let [r, g, b] = sum.map(|s| SRGB[(s / count).min(ONE as u32) as usize]);
+    [r, g, b, 255]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mean_of_samples_is_encoded_as_srgb() {
+        // 128/255 through the transfer function.
+        let grey = fixed(Vec3::splat(0.215_861)).expect("finite");
+        assert_eq!(encode(grey, 1), [128, 128, 128, 255]);
+        assert_eq!(encode(grey.map(|x| x * 4), 4), [128, 128, 128, 255]);
+        assert_eq!(encode([u32::MAX; 3], 4096), [255; 4]);
+    }
+
+    #[test]
+    fn what_is_not_finite_is_not_a_colour() {
+        assert_eq!(fixed(Vec3::new(0.0, f32::NAN, 0.0)), None);
+        assert_eq!(fixed(Vec3::splat(-1.0)), Some([0; 3]));
+        assert_eq!(fixed(Vec3::splat(1e9)), fixed(Vec3::splat(BRIGHTEST)));
+    }
+
+    #[test]
+    fn the_order_of_tiles_does_not_change_the_picture() {
+        let plan = Plan::new(UVec2::new(70, 50), 4, 4);
+        let tiles: Vec<TileSamples> = (0..plan.unit_count())
+            .map(|k| {
+                let unit = plan.unit(k);
+                let shade = |p: UVec2| [p.x * 500, p.y * 700, k as u32 * 90];
+                let samples = plan.pass(unit.pass).samples_per_pixel();
+                let sums = plan.pixels(unit).map(|p| shade(p).map(|x| x * samples));
+                TileSamples {
+                    unit,
+                    sums: sums.collect(),
+                }
+            })
+            .collect();
+        let mut forwards = Film::new(plan.clone(), Vec3::ZERO);
+        let mut backwards = forwards.clone();
+        tiles.iter().for_each(|tile| _ = forwards.add(tile));
+        tiles.iter().rev().for_each(|tile| _ = backwards.add(tile));
+        assert!(forwards.is_complete() && backwards.is_complete());
+        assert_eq!(forwards.pixels(), backwards.pixels());
+        assert_eq!(forwards.samples(), 4);
+    }
+
+    #[test]
+    fn the_first_pass_covers_the_whole_picture() {
+        let plan = Plan::new(UVec2::new(101, 53), 8, 1);
+        let mut film = Film::new(plan.clone(), Vec3::ZERO);
+        for tile in 0..plan.tile_count() {
+            let unit = plan.unit(tile);
+            let sums = plan.pixels(unit).map(|_| [ONE as u32; 3]).collect();
+            film.add(&TileSamples { unit, sums });
+        }
+        assert!(film.pixels().iter().all(|&p| p == [255; 4]));
+        assert_eq!((film.passes_done(), film.samples()), (1, 0));
+    }
+}

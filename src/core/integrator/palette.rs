@@ -1,0 +1,81 @@
+//! Colours for numbers.
+
+use crate::sampler::mix;
+use glam::Vec3;
+
+/// Linear RGB of a colour that is to be seen as these sRGB values in 0…1; outside, clamped.
+///
+/// Source: IEC 61966-2-1.
+pub fn from_display(srgb: Vec3) -> Vec3 {
+    let linear = |s: f32| {
+        if s <= 0.040_45 {
+            s / 12.92
+        } else {
+            ((s + 0.055) / 1.055).powf(2.4)
+        }
+    };
+    Vec3::from_array(srgb.clamp(Vec3::ZERO, Vec3::ONE).to_array().map(linear))
+}
+
+/// sRGB value in 0…1 of a linear one, clamped. The inverse of [`from_display`].
+///
+/// Source: IEC 61966-2-1.
+pub fn to_display(linear: f32) -> f32 {
+    let x = linear.clamp(0.0, 1.0);
+    if x <= 0.003_130_8 {
+        12.92 * x
+    } else {
+        1.055 * x.powf(1.0 / 2.4) - 0.055
+    }
+}
+
+/// A colour for an id; neighbours' ids get different ones.
+pub fn id_colour(id: u32) -> Vec3 {
+    let bits = mix(u64::from(id) + 1);
+    let channel = |shift: u32| 0.25 + 0.7 * (bits >> shift & 0xff) as f32 / 255.0;
+    from_display(Vec3::new(channel(0), channel(8), channel(16)))
+}
+
+/// Cost at the upper end of [`cost_colour`]'s scale: a bad ray in a good tree.
+pub const COST_SCALE: u32 = 1024;
+
+/// A colour for a count of tests: black at none, over blue, red and yellow to white at
+/// [`COST_SCALE`] and above, by the logarithm.
+pub fn cost_colour(tests: u32) -> Vec3 {
+    const STOPS: [Vec3; 6] = [
+        Vec3::new(0.0, 0.0, 0.0),
+        Vec3::new(0.10, 0.10, 0.45),
+        Vec3::new(0.45, 0.10, 0.55),
+        Vec3::new(0.90, 0.25, 0.25),
+        Vec3::new(1.0, 0.75, 0.20),
+        Vec3::new(1.0, 1.0, 1.0),
+    ];
+    let scale = (1.0 + tests as f32).log2() / (1.0 + COST_SCALE as f32).log2();
+    let at = scale.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
+    let stop = (at as usize).min(STOPS.len() - 2);
+    from_display(STOPS[stop].lerp(STOPS[stop + 1], at - stop as f32))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_transfer_functions_are_inverse() {
+        for i in 0..=255 {
+            let s = i as f32 / 255.0;
+            let back = to_display(from_display(Vec3::splat(s)).x);
+            assert_eq!((back * 255.0).round(), i as f32);
+        }
+        assert!((from_display(Vec3::splat(0.5)).x - 0.214_041).abs() < 1e-6);
+    }
+
+    #[test]
+    fn more_tests_are_brighter() {
+        let brightness = |tests| cost_colour(tests).element_sum();
+        for (less, more) in [(0, 1), (1, 10), (10, 100), (100, COST_SCALE)] {
+            assert!(brightness(less) < brightness(more));
+        }
+        assert_eq!(cost_colour(u32::MAX), Vec3::ONE);
+    }
+}

@@ -1,0 +1,52 @@
+//! Views that show a number of the hit as a colour.
+
+use super::Context;
+use super::palette::{cost_colour, from_display, id_colour};
+use crate::interaction::SurfaceInteraction;
+use crate::ray::Ray;
+use glam::Vec3;
+
+pub(super) fn normal(context: &Context, ray: &Ray) -> Vec3 {
+    context
+        .intersector
+        .closest_hit(ray)
+        .map_or(context.background, |hit| {
+            let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+            from_display(0.5 * surface.shading_normal + 0.5)
+        })
+}
+
+pub(super) fn barycentric(context: &Context, ray: &Ray) -> Vec3 {
+    context
+        .intersector
+        .closest_hit(ray)
+        .map_or(context.background, |hit| {
+            from_display(Vec3::from_array(hit.barycentric()))
+        })
+}
+
+pub(super) fn depth(context: &Context, ray: &Ray) -> Vec3 {
+    context
+        .intersector
+        .closest_hit(ray)
+        .map_or(context.background, |hit| {
+            let bounds = context.scene.bounds();
+            // Distance along the ray from its start to the scene's sphere, front and back.
+            let middle = (bounds.centre() - ray.origin).as_dvec3().length();
+            let nearest = (middle - bounds.radius()).max(0.0);
+            let distance = f64::from(hit.t) * ray.dir.as_dvec3().length();
+            let part = (distance - nearest) / (middle + bounds.radius() - nearest);
+            from_display(Vec3::splat(1.0 - 0.9 * part as f32))
+        })
+}
+
+pub(super) fn triangle(context: &Context, ray: &Ray) -> Vec3 {
+    let hit = context.intersector.closest_hit(ray);
+    hit.map_or(context.background, |hit| id_colour(hit.primitive))
+}
+
+/// Rays that hit nothing cost something, too: they have no background here.
+pub(super) fn cost(context: &Context, ray: &Ray) -> Vec3 {
+    let (_, cost) = context.intersector.closest_hit_with_cost(ray);
+    cost_colour(cost.boxes + cost.triangles)
+}

@@ -1,0 +1,75 @@
+//! What is the surface like at a hit?
+
+use crate::ray::{Hit, Ray};
+use crate::scene::{Scene, Shading};
+use glam::Vec3;
+
+/// A hit, and what the mesh says of that place.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfaceInteraction {
+    /// The hit.
+    pub hit: Hit,
+    /// l1·A + l2·B + l3·C, in the mesh's coordinates: nearer to the surface than `o + t·d`.
+    pub position: Vec3,
+    /// Unit length, by the right-hand rule over A, B, C, whichever side is seen.
+    pub geometric_normal: Vec3,
+    /// Unit length; equal to the geometric one in flat shading and where no other is known.
+    pub shading_normal: Vec3,
+    /// Index into the mesh's materials.
+    pub material: u32,
+}
+
+impl SurfaceInteraction {
+    /// Looks up a hit in the scene. Normals at vertices are computed when the first smooth one is
+    /// asked for.
+    pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
+        let mesh = scene.mesh();
+        let weights = hit.barycentric();
+        let geometric_normal = mesh.geometric_normal(hit.primitive);
+        let shading_normal = match shading {
+            Shading::Flat => geometric_normal,
+            Shading::Smooth => {
+                let corners = scene.vertex_normals().of_triangle(hit.primitive);
+                weighted(weights, corners)
+                    .try_normalize()
+                    .unwrap_or(geometric_normal)
+            }
+        };
+        Self {
+            hit,
+            position: weighted(weights, mesh.corners(hit.primitive)),
+            geometric_normal,
+            shading_normal,
+            material: mesh
+                .material
+                .get(hit.primitive as usize)
+                .copied()
+                .unwrap_or(0),
+        }
+    }
+
+    /// The shading normal on the side from which the ray comes.
+    pub fn facing_normal(&self, ray: &Ray) -> Vec3 {
+        if self.geometric_normal.dot(ray.dir) > 0.0 {
+            -self.shading_normal
+        } else {
+            self.shading_normal
+        }
+    }
+}
+
+/// l1·a + l2·b + l3·c.
+fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
+    l1 * a + l2 * b + l3 * c
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_weights_go_to_the_right_corners() {
+        let corners = [Vec3::X, Vec3::Y, Vec3::Z];
+        assert_eq!(weighted([0.2, 0.3, 0.5], corners), Vec3::new(0.2, 0.3, 0.5));
+    }
+}

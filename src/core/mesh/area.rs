@@ -1,0 +1,91 @@
+//! Has a triangle exactly zero area? Such a triangle has no normal and no barycentric coordinates.
+
+use glam::Vec3;
+
+/// Whether the corners lie on one line, exactly. Not finite corners: no.
+///
+/// They do if and only if their three projections along the axes do; each projection is an
+/// orientation test, whose terms are products of two f32 and so exact in f64.
+pub fn has_zero_area(corners: [Vec3; 3]) -> bool {
+    [(0, 1), (1, 2), (2, 0)]
+        .into_iter()
+        .all(|(x, y)| is_flat(corners.map(|p| [f64::from(p[x]), f64::from(p[y])])))
+}
+
+/// Whether A×B + B×C + C×A is zero in 2D.
+fn is_flat([a, b, c]: [[f64; 2]; 3]) -> bool {
+    let terms = [
+        a[0] * b[1],
+        -(a[1] * b[0]),
+        b[0] * c[1],
+        -(b[1] * c[0]),
+        c[0] * a[1],
+        -(c[1] * a[0]),
+    ];
+    // Six terms, five roundings: an error of at most 5·2⁻⁵³·Σ|term|, and a little for its own sake.
+    let sum: f64 = terms.iter().sum();
+    let size: f64 = terms.iter().map(|x| x.abs()).sum();
+    if sum.abs() > 8.0 * f64::EPSILON * size {
+        return false;
+    }
+    exact_sum_is_zero(terms)
+}
+
+/// Whether the terms cancel exactly.
+///
+/// Keeps the sum as an expansion, numbers that don't overlap, whose sum is exact; it is zero if and
+/// only if all of them are.
+/// Source: Shewchuk, "Adaptive Precision Floating-Point Arithmetic", DCG 18, 1997 (Grow-Expansion).
+fn exact_sum_is_zero(terms: [f64; 6]) -> bool {
+    let mut expansion = [0.0f64; 6];
+    for (count, term) in terms.into_iter().enumerate() {
+        let mut carry = term;
+        for part in &mut expansion[..count] {
+            (carry, *part) = two_sum(carry, *part);
+        }
+        expansion[count] = carry;
+    }
+    expansion.iter().all(|&part| part == 0.0)
+}
+
+/// a + b as its rounded value and what rounding lost.
+/// Source: Knuth, The Art of Computer Programming 2, 4.2.2.
+fn two_sum(a: f64, b: f64) -> (f64, f64) {
+    let sum = a + b;
+    let b_part = sum - a;
+    let a_part = sum - b_part;
+    (sum, (a - a_part) + (b - b_part))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn points_on_a_line_have_no_area_at_any_scale() {
+        for scale in [1e-40f32, 1e-20, 1.0, 1e20, 1e38] {
+            // Multiples of a power of two stay exactly on the line.
+            let unit = 2f32.powi(scale.log2() as i32);
+            let dir = Vec3::new(1.0, 2.0, -3.0) * unit / 4.0;
+            assert!(has_zero_area([dir, dir * 2.0, dir * 4.0]), "{scale}");
+            assert!(has_zero_area([dir, dir, Vec3::ZERO]), "{scale}");
+        }
+    }
+
+    #[test]
+    fn the_thinnest_triangle_has_area() {
+        let next = |x: f32| f32::from_bits(x.to_bits() + 1);
+        let [a, b] = [Vec3::ZERO, Vec3::splat(1e6)];
+        assert!(has_zero_area([a, b, Vec3::splat(0.5e6)]));
+        let c = Vec3::new(0.5e6, 0.5e6, next(0.5e6));
+        assert!(!has_zero_area([a, b, c]));
+        let tiny = f32::from_bits(1);
+        assert!(!has_zero_area([a, Vec3::X * tiny, Vec3::Y * tiny]));
+    }
+
+    #[test]
+    fn a_sum_that_f64_would_round_to_zero_is_not_zero() {
+        assert!(!exact_sum_is_zero([1e30, 1.0, -1e30, 0.0, 0.0, 0.0]));
+        assert!(exact_sum_is_zero([1e30, 1.0, -1e30, -0.5, -0.5, 0.0]));
+    }
+}

@@ -1,0 +1,110 @@
+//! Which triangles, about which origin?
+//!
+//! An indexed mesh as the file gave it: each vertex once, triangles as three indices, and for each
+//! triangle the polygon that it came from, so that a wireframe can hide triangulation diagonals.
+
+mod area;
+mod health;
+mod normals;
+
+pub use area::has_zero_area;
+pub use health::{Health, SLIVER_ASPECT};
+pub use normals::VertexNormals;
+
+use crate::aabb::Aabb;
+use glam::{DVec3, Vec3};
+
+/// Marks a corner without a normal in [`TriangleMesh::corner_normals`].
+pub const NO_NORMAL: u32 = u32::MAX;
+
+/// What a face looks like.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Material {
+    /// As the file calls it.
+    pub name: String,
+    /// Diffuse reflectance in linear RGB, where the material library gives one.
+    pub diffuse: Option<Vec3>,
+}
+
+/// Why triangles are missing that the file has.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dropped {
+    /// Their area is exactly zero, once their corners are rounded to f32.
+    pub zero_area: usize,
+    /// A corner is NaN or infinite, or too large for f32.
+    pub non_finite: usize,
+}
+
+/// An indexed triangle mesh. Its positions are f32 about an f64 origin: that is what rays are asked
+/// against, exactly.
+///
+/// All lists that go by triangle have the same length.
+#[derive(Clone, Debug, Default)]
+pub struct TriangleMesh {
+    /// Where (0, 0, 0) of the positions lies in the file's coordinates.
+    pub origin: DVec3,
+    /// The vertices, relative to [`origin`](Self::origin).
+    pub positions: Vec<Vec3>,
+    /// Three indices into the positions; no triangle has zero area or a non-finite corner.
+    pub triangles: Vec<[u32; 3]>,
+    /// The file's face (counted from 0) that a triangle is part of.
+    pub faces: Vec<u32>,
+    /// Bit k: the edge from corner k to the next one is an edge of the polygon, no diagonal.
+    pub outline: Vec<u8>,
+    /// Index into [`materials`](Self::materials).
+    pub material: Vec<u32>,
+    /// Index into [`groups`](Self::groups).
+    pub group: Vec<u32>,
+    /// The file's normals, as given: not always unit length. Empty if it has none.
+    pub normals: Vec<Vec3>,
+    /// Indices into the normals, or [`NO_NORMAL`]. Empty if the file has no normals.
+    pub corner_normals: Vec<[u32; 3]>,
+    /// The materials that faces name; the first one is for faces that name none.
+    pub materials: Vec<Material>,
+    /// The groups and objects that faces lie in; the first one is for faces outside any.
+    pub groups: Vec<String>,
+    /// How many polygons the triangles come from, those that were dropped not counted.
+    pub face_count: usize,
+    /// What is missing.
+    pub dropped: Dropped,
+}
+
+impl TriangleMesh {
+    /// The corners of a triangle.
+    pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
+        self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// The box around the triangles; vertices that no triangle uses don't count.
+    pub fn bounds(&self) -> Aabb {
+        let used = self.triangles.iter().flatten();
+        Aabb::around(used.map(|&v| self.positions[v as usize]))
+    }
+
+    /// The unit normal by the right-hand rule over A, B, C, rounded to f32.
+    ///
+    /// In f64, where neither a product nor a length of f32 numbers under- or overflows.
+    pub fn geometric_normal(&self, triangle: u32) -> Vec3 {
+        let [a, b, c] = self.corners(triangle).map(Vec3::as_dvec3);
+        (b - a).cross(c - a).normalize_or_zero().as_vec3()
+    }
+
+    /// Bytes taken by each part: name and size.
+    pub fn bytes(&self) -> [(&'static str, usize); 4] {
+        [
+            ("positions", size_of_val(&self.positions[..])),
+            ("triangles", size_of_val(&self.triangles[..])),
+            (
+                "normals",
+                size_of_val(&self.normals[..]) + size_of_val(&self.corner_normals[..]),
+            ),
+            (
+                "faces",
+                size_of_val(&self.faces[..])
+                    + size_of_val(&self.outline[..])
+                    + size_of_val(&self.material[..])
+                    + size_of_val(&self.group[..]),
+            ),
+        ]
+    }
+}

@@ -1,0 +1,98 @@
+//! What can go wrong with an OBJ file.
+
+use crate::progress::Cancelled;
+use std::fmt;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Why a file couldn't be loaded. Every message names the file, and the line where there is one.
+#[derive(Debug, thiserror::Error)]
+pub enum LoadError {
+    /// It isn't there, or can't be read.
+    #[error("{}: {source}", path.display())]
+    Unreadable {
+        /// The file.
+        path: PathBuf,
+        /// What the system said.
+        source: io::Error,
+    },
+    /// It is a directory.
+    #[error("{}: this is a directory, not an OBJ file", path.display())]
+    Directory {
+        /// The directory.
+        path: PathBuf,
+    },
+    /// A line can't be understood.
+    #[error("{}:{line}: {message}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// The line, counted from 1.
+        line: usize,
+        /// What is wrong there.
+        message: String,
+    },
+    /// The file as a whole holds nothing to show.
+    #[error("{}: {message}", path.display())]
+    Content {
+        /// The file.
+        path: PathBuf,
+        /// What it is or lacks.
+        message: String,
+    },
+    /// The user cancelled.
+    #[error("{}: loading was cancelled", path.display())]
+    Cancelled {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// An error before the file's name is known.
+#[derive(Debug)]
+pub(super) enum Problem {
+    Line(usize, String),
+    Content(String),
+    Read(io::Error),
+    Cancelled,
+}
+
+impl Problem {
+    pub(super) fn in_file(self, path: &Path) -> LoadError {
+        let path = path.to_owned();
+        match self {
+            Self::Line(line, message) => LoadError::Line {
+                path,
+                line,
+                message,
+            },
+            Self::Content(message) => LoadError::Content { path, message },
+            Self::Read(source) => LoadError::Unreadable { path, source },
+            Self::Cancelled => LoadError::Cancelled { path },
+        }
+    }
+}
+
+impl From<Cancelled> for Problem {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// Something odd that didn't keep the mesh from loading.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Warning {
+    /// The first line that it concerns, counted from 1.
+    pub line: Option<usize>,
+    /// What it is, with how often.
+    pub message: String,
+}
+
+impl fmt::Display for Warning {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self.line {
+            Some(line) => write!(f, "line {line}: {}", self.message),
+            None => f.write_str(&self.message),
+        }
+    }
+}

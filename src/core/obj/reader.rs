@@ -1,0 +1,410 @@
+//! A reader that sees every line before tobj does.
+//!
+//! It joins continued lines, strips comments and a byte order mark, resolves and checks the indices
+//! of faces, notes groups, materials and line numbers, and passes on plain `v x y z`, `vn x y z` and
+//! `f a//n …` only. So tobj sees one model, keeps each vertex once, and never meets the input that
+//! makes it panic or change geometry without a word.
+
+use super::error::{Problem, Warning};
+use crate::progress::Progress;
+use std::collections::BTreeMap;
+use std::io::{self, BufRead, Read};
+
+/// Read in pieces of this size, between which a cancel is noticed.
+const CHUNK: usize = 1 << 18;
+
+/// What the reader learnt on the way.
+#[derive(Debug, Default)]
+pub(super) struct Facts {
+    pub vertex_count: usize,
+    pub face_count: usize,
+    normal_count: usize,
+    /// Whether a face has a normal at each corner.
+    pub face_has_normals: Vec<bool>,
+    /// Runs of faces: the first one, and what it and those after it use.
+    pub face_materials: Vec<(usize, String)>,
+    pub face_groups: Vec<(usize, String)>,
+    /// Names of material libraries, with the line.
+    pub libraries: Vec<(usize, String)>,
+    face_lines: LineRuns,
+    /// Line and text of the statement that was passed on last.
+    current: (usize, String),
+    /// The highest index of a vertex and a normal, and the line of the face that has it.
+    highest: [(usize, usize); 2],
+    /// Statements that were left out: first line and count, by keyword.
+    ignored: BTreeMap<String, (usize, usize)>,
+}
+
+impl Facts {
+    /// The line, counted from 1, of an `f` statement, counted from 0.
+    pub(super) fn face_line(&self, face: usize) -> usize {
+        self.face_lines.line(face)
+    }
+
+    /// What was left out, a warning a keyword.
+    pub(super) fn ignored_statements(&self) -> impl Iterator<Item = Warning> {
+        self.ignored.iter().map(|(keyword, (line, count))| Warning {
+            line: Some(*line),
+            message: format!("{count} “{keyword}” statement(s) ignored"),
+        })
+    }
+
+    /// What tobj objected to: the numbers on the line that it read last.
+    pub(super) fn unexplained(&self, error: &tobj::LoadError) -> Problem {
+        let (line, text) = &self.current;
+        let words: Vec<&str> = text.split_whitespace().skip(1).collect();
+        let message = match words.iter().find(|word| word.parse::<f64>().is_err()) {
+            Some(word) => format!("“{}” is not a number", shortened(word)),
+            None if words.len() < 3 => {
+                format!("three coordinates are needed, here are {}", words.len())
+            }
+            None => error.to_string(),
+        };
+        Problem::Line(*line, message)
+    }
+}
+
+/// Line numbers of statements, kept as runs of statements on consecutive lines.
+#[derive(Debug, Default)]
+struct LineRuns {
+    runs: Vec<(usize, usize)>,
+    count: usize,
+    next_line: usize,
+}
+
+impl LineRuns {
+    fn push(&mut self, line: usize) {
+        if line != self.next_line || self.runs.is_empty() {
+            self.runs.push((self.count, line));
+        }
+        self.count += 1;
+        self.next_line = line + 1;
+    }
+
+    fn line(&self, statement: usize) -> usize {
+        let run = self.runs.partition_point(|(first, _)| *first <= statement);
+        match run.checked_sub(1).map(|run| self.runs[run]) {
+            Some((first, line)) => line + statement - first,
+            None => 0,
+        }
+    }
+}
+
+/// See the [module](self). Give it to tobj as a `BufRead`, then ask [`finish`](Self::finish).
+pub(super) struct NormalisingReader<'p, R> {
+    source: R,
+    progress: &'p Progress,
+    /// Bytes read and not yet split into lines, from `start` on.
+    buffer: Vec<u8>,
+    start: usize,
+    is_at_end: bool,
+    line: usize,
+    /// The statement to pass on, and how much of it is consumed.
+    out: Vec<u8>,
+    consumed: usize,
+    facts: Facts,
+    problem: Option<Problem>,
+}
+
+impl<'p, R: Read> NormalisingReader<'p, R> {
+    pub(super) fn new(source: R, progress: &'p Progress) -> Self {
+        Self {
+            source,
+            progress,
+            buffer: Vec::new(),
+            start: 0,
+            is_at_end: false,
+            line: 0,
+            out: Vec::new(),
+            consumed: 0,
+            facts: Facts::default(),
+            problem: None,
+        }
+    }
+
+    /// What was learnt, or what was wrong with the file.
+    pub(super) fn finish(mut self) -> Result<Facts, Problem> {
+        if let Some(problem) = self.problem {
+            return Err(problem);
+        }
+        let counts = [
+            ("vertex", self.facts.vertex_count),
+            ("normal", self.facts.normal_count),
+        ];
+        for ((what, count), (highest, line)) in counts.into_iter().zip(self.facts.highest) {
+            // Only a whole file tells how many there are.
+            if highest > count && self.is_at_end {
+                return Err(Problem::Line(
+                    line,
+                    out_of_range(what, highest as i64, count),
+                ));
+            }
+        }
+        self.facts.current.1 = String::from_utf8_lossy(&self.out).into_owned();
+        Ok(self.facts)
+    }
+
+    /// Reads until a statement is there to be passed on; `out` stays empty at the end.
+    fn next_statement(&mut self) -> Result<(), Problem> {
+        self.out.clear();
+        self.consumed = 0;
+        let mut text = String::new();
+        while self.out.is_empty() && self.next_line(&mut text)? {
+            let line = self.line;
+            // A backslash at the end continues the statement on the next line.
+            while text.ends_with('\\') {
+                text.pop();
+                let mut more = String::new();
+                if !self.next_line(&mut more)? {
+                    break;
+                }
+                text.push(' ');
+                text.push_str(&more);
+            }
+            self.statement(&text, line)?;
+            self.facts.current.0 = line;
+        }
+        Ok(())
+    }
+
+    /// The next line without comment, byte order mark and line end. Lines end in LF, CR or CRLF;
+    /// bytes that aren't UTF-8 are read as Latin-1.
+    fn next_line(&mut self, text: &mut String) -> Result<bool, Problem> {
+        let mut searched = 0;
+        let (end, next) = loop {
+            let rest = &self.buffer[self.start..];
+            let found = rest[searched..]
+                .iter()
+                .position(|&b| b == b'\n' || b == b'\r');
+            match found.map(|at| at + searched) {
+                // A CR at the very end may be half of a CRLF: read on to know.
+                Some(at) if rest[at] == b'\n' || at + 1 < rest.len() || self.is_at_end => {
+                    let is_pair = rest[at] == b'\r' && rest.get(at + 1) == Some(&b'\n');
+                    break (at, at + 1 + usize::from(is_pair));
+                }
+                _ if self.is_at_end && rest.is_empty() => return Ok(false),
+                _ if self.is_at_end => break (rest.len(), rest.len()),
+                found => searched = found.unwrap_or(rest.len()),
+            }
+            self.fill()?;
+        };
+        self.line += 1;
+        let mut bytes = &self.buffer[self.start..self.start + end];
+        if self.line == 1 {
+            bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
+            if let Some(message) = not_an_obj(bytes) {
+                return Err(Problem::Content(message.to_owned()));
+            }
+        }
+        let bytes = bytes.split(|&b| b == b'#').next().unwrap_or_default();
+        text.clear();
+        match str::from_utf8(bytes) {
+            Ok(valid) => text.push_str(valid.trim()),
+            Err(_) => text.extend(bytes.iter().map(|&b| char::from(b))),
+        }
+        self.start += next;
+        Ok(true)
+    }
+
+    fn fill(&mut self) -> Result<(), Problem> {
+        self.progress.check()?;
+        self.buffer.drain(..self.start);
+        self.start = 0;
+        let before = self.buffer.len();
+        self.buffer.resize(before + CHUNK, 0);
+        let count = loop {
+            match self.source.read(&mut self.buffer[before..]) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                other => break other.map_err(Problem::Read)?,
+            }
+        };
+        self.buffer.truncate(before + count);
+        self.is_at_end = count == 0;
+        self.progress.add_read(count as u64);
+        Ok(())
+    }
+
+    /// Notes a statement, and puts into `out` what tobj is to see of it.
+    fn statement(&mut self, text: &str, line: usize) -> Result<(), Problem> {
+        let (keyword, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+        let rest = rest.trim();
+        let facts = &mut self.facts;
+        match keyword {
+            "v" => {
+                facts.vertex_count += 1;
+                self.pass_on_three(keyword, rest);
+            }
+            "vn" => {
+                facts.normal_count += 1;
+                self.pass_on_three(keyword, rest);
+            }
+            "f" => self.face(rest, line)?,
+            "usemtl" => facts
+                .face_materials
+                .push((facts.face_count, rest.to_owned())),
+            "o" | "g" => facts.face_groups.push((facts.face_count, rest.to_owned())),
+            "mtllib" => facts.libraries.push((line, rest.to_owned())),
+            // Texture coordinates and smoothing groups: nothing asks for them yet.
+            "" | "vt" | "s" => {}
+            _ => {
+                let keyword = shortened(keyword);
+                facts.ignored.entry(keyword).or_insert((line, 0)).1 += 1;
+            }
+        }
+        Ok(())
+    }
+
+    /// Three coordinates; a weight or a colour after them has no part in polygons.
+    fn pass_on_three(&mut self, keyword: &str, rest: &str) {
+        self.out.extend(keyword.bytes());
+        for word in rest.split_whitespace().take(3) {
+            self.out.push(b' ');
+            self.out.extend(word.bytes());
+        }
+        self.out.push(b'\n');
+    }
+
+    fn face(&mut self, rest: &str, line: usize) -> Result<(), Problem> {
+        let mut corners: Vec<(usize, Option<usize>)> = Vec::with_capacity(4);
+        for word in rest.split_whitespace() {
+            let corner = self.corner(word, line);
+            corners.push(corner.map_err(|message| Problem::Line(line, message))?);
+        }
+        if corners.len() < 3 {
+            let message = format!("a face needs three corners, this one has {}", corners.len());
+            return Err(Problem::Line(line, message));
+        }
+        // A face with normals at some corners only is taken as one without.
+        let has_normals = corners.iter().all(|(_, normal)| normal.is_some());
+        self.out.extend(b"f");
+        for (vertex, normal) in corners {
+            let word = match normal {
+                Some(normal) if has_normals => format!(" {vertex}//{normal}"),
+                _ => format!(" {vertex}"),
+            };
+            self.out.extend(word.bytes());
+        }
+        self.out.push(b'\n');
+        self.facts.face_count += 1;
+        self.facts.face_lines.push(line);
+        self.facts.face_has_normals.push(has_normals);
+        Ok(())
+    }
+
+    /// The vertex and the normal of a corner `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1.
+    fn corner(&mut self, word: &str, line: usize) -> Result<(usize, Option<usize>), String> {
+        let mut parts = word.split('/');
+        let vertex = parts.next().unwrap_or_default();
+        let (texture, normal) = (
+            parts.next().unwrap_or_default(),
+            parts.next().unwrap_or_default(),
+        );
+        if parts.next().is_some() {
+            return Err(format!(
+                "“{}” has more than vertex/texture/normal",
+                shortened(word)
+            ));
+        }
+        if !texture.is_empty() && texture.parse::<i64>().is_err() {
+            return Err(format!(
+                "“{}” in “{}” is not an index",
+                shortened(texture),
+                shortened(word)
+            ));
+        }
+        let vertex = self.index(0, vertex, word, line)?;
+        if normal.is_empty() {
+            return Ok((vertex, None));
+        }
+        Ok((vertex, Some(self.index(1, normal, word, line)?)))
+    }
+
+    /// An index as a positive number: −1 is the last one so far. One that is too high may still
+    /// come true further down, so that is checked at the end.
+    fn index(&mut self, kind: usize, part: &str, word: &str, line: usize) -> Result<usize, String> {
+        let (what, count) = [
+            ("vertex", self.facts.vertex_count),
+            ("normal", self.facts.normal_count),
+        ][kind];
+        let index: i64 = part.parse().map_err(|_| {
+            format!(
+                "“{}” in “{}” is not an index",
+                shortened(part),
+                shortened(word)
+            )
+        })?;
+        let resolved = if index < 0 {
+            count as i64 + 1 + index
+        } else {
+            index
+        };
+        if resolved <= 0 {
+            return Err(out_of_range(what, index, count));
+        }
+        let resolved = resolved as usize;
+        if resolved > self.facts.highest[kind].0 {
+            self.facts.highest[kind] = (resolved, line);
+        }
+        Ok(resolved)
+    }
+}
+
+impl<R: Read> Read for NormalisingReader<'_, R> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let available = self.fill_buf()?;
+        let count = available.len().min(out.len());
+        out[..count].copy_from_slice(&available[..count]);
+        self.consume(count);
+        Ok(count)
+    }
+}
+
+impl<R: Read> BufRead for NormalisingReader<'_, R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        if self.consumed == self.out.len() && self.problem.is_none() {
+            if let Err(problem) = self.next_statement() {
+                self.problem = Some(problem);
+                // tobj only has to stop; `finish` tells the reason.
+                return Err(io::ErrorKind::InvalidData.into());
+            }
+        }
+        Ok(&self.out[self.consumed..])
+    }
+
+    fn consume(&mut self, count: usize) {
+        self.consumed += count;
+    }
+}
+
+fn out_of_range(what: &str, index: i64, count: usize) -> String {
+    match index {
+        0 => format!("{what} index 0; indices start at 1"),
+        _ => format!("{what} index {index} is out of range: there are {count}"),
+    }
+}
+
+/// What a file is, if its first line shows that it is no OBJ.
+fn not_an_obj(first_line: &[u8]) -> Option<&'static str> {
+    let start = first_line.trim_ascii_start();
+    let begins =
+        |with: &[u8]| start.len() >= with.len() && start[..with.len()].eq_ignore_ascii_case(with);
+    if begins(b"<!doctype") || begins(b"<html") {
+        Some("this is an HTML page, not an OBJ file")
+    } else if begins(b"<?xml") {
+        Some("this is an XML file, not an OBJ file")
+    } else if first_line.contains(&0) {
+        Some("this is a binary file, not an OBJ file")
+    } else {
+        None
+    }
+}
+
+/// A word fit for a message.
+fn shortened(word: &str) -> String {
+    const LENGTH: usize = 40;
+    if word.chars().count() <= LENGTH {
+        word.to_owned()
+    } else {
+        word.chars().take(LENGTH).chain(['…']).collect()
+    }
+}

@@ -1,0 +1,227 @@
+use super::*;
+use glam::{DVec3, Vec3};
+
+fn load_text(text: &str) -> Result<Loaded, String> {
+    load_bytes(text.as_bytes())
+}
+
+fn load_bytes(bytes: &[u8]) -> Result<Loaded, String> {
+    let library = |name: &str| match name {
+        "a b.mtl" => Ok(b"newmtl red\nKd 1 0 0\n".to_vec()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    };
+    let progress = Progress::default();
+    parse(
+        bytes,
+        Path::new("x.obj"),
+        Recentre::Auto,
+        &library,
+        &progress,
+    )
+    .map_err(|e| e.to_string())
+}
+
+const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
+
+#[test]
+fn odd_spelling_is_read() {
+    let cases: [&[u8]; 9] = [
+        b"\xEF\xBB\xBFv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n",
+        b"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3",
+        b"v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",
+        b"v 0 0 0 # first\nv +1 .0 0e-3\nv\t0 1 0\t\nf 1 2 \\\n 3\n",
+        b"# Latin-1: \xe9\no caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n",
+        b"v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 1 1 1\nf 1 2 3\n",
+        b"f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n",
+        b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2 3/3\n",
+        b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/-5/ 2 3\n",
+    ];
+    for bytes in cases {
+        let text = String::from_utf8_lossy(bytes);
+        let mesh = load_bytes(bytes).expect(&text).mesh;
+        assert_eq!(mesh.corners(0), [Vec3::ZERO, Vec3::X, Vec3::Y], "{text}");
+    }
+}
+
+#[test]
+fn errors_name_the_line_and_the_word() {
+    let cases = [
+        (
+            "f 1 2 4",
+            "x.obj:4: vertex index 4 is out of range: there are 3",
+        ),
+        (
+            "f 1 2 -4",
+            "x.obj:4: vertex index -4 is out of range: there are 3",
+        ),
+        ("f 0 1 2", "x.obj:4: vertex index 0; indices start at 1"),
+        (
+            "f 1//-5 2 3",
+            "x.obj:4: normal index -5 is out of range: there are 0",
+        ),
+        (
+            "f 1//1 2//1 3//1",
+            "x.obj:4: normal index 1 is out of range: there are 0",
+        ),
+        (
+            "f 1/1/1/1 2 3",
+            "x.obj:4: “1/1/1/1” has more than vertex/texture/normal",
+        ),
+        ("f 1.0 2 3", "x.obj:4: “1.0” in “1.0” is not an index"),
+        ("f 1/x 2 3", "x.obj:4: “x” in “1/x” is not an index"),
+        (
+            "f 1 2",
+            "x.obj:4: a face needs three corners, this one has 2",
+        ),
+        ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5: “1,5” is not a number"),
+        (
+            "v 0 1\nf 1 2 3",
+            "x.obj:4: three coordinates are needed, here are 2",
+        ),
+        ("vn a b c", "x.obj:4: “a” is not a number"),
+        (
+            "",
+            "x.obj: 3 vertices, but no face: there is nothing to show",
+        ),
+        (
+            "f 1 1 2",
+            "x.obj: no triangle is left: all 1 have zero area",
+        ),
+        (
+            "v nan 0 0\nf 1 2 4",
+            "x.obj:5: no triangle is left: every face uses a vertex that is NaN or infinite",
+        ),
+    ];
+    for (statement, expected) in cases {
+        let error = load_text(&format!("{TRIANGLE}{statement}\n")).expect_err(statement);
+        assert_eq!(error, expected, "{statement}");
+    }
+}
+
+#[test]
+fn what_is_no_obj_is_called_by_its_name() {
+    let cases: [(&[u8], &str); 4] = [
+        (
+            b"",
+            "x.obj: no vertices and no faces: this is not an OBJ file, or an empty one",
+        ),
+        (
+            b"  <!DOCTYPE html>\n",
+            "x.obj: this is an HTML page, not an OBJ file",
+        ),
+        (
+            b"\x7fELF\0\0",
+            "x.obj: this is a binary file, not an OBJ file",
+        ),
+        (
+            b"hello world",
+            "x.obj: no vertices and no faces: this is not an OBJ file, or an empty one",
+        ),
+    ];
+    for (bytes, expected) in cases {
+        assert_eq!(load_bytes(bytes).expect_err(expected), expected);
+    }
+    let missing = load(
+        Path::new("/no/such.obj"),
+        Recentre::Auto,
+        &Progress::default(),
+    );
+    assert!(
+        missing
+            .expect_err("missing")
+            .to_string()
+            .starts_with("/no/such.obj: ")
+    );
+    let folder = load(Path::new("/"), Recentre::Auto, &Progress::default());
+    assert!(
+        folder
+            .expect_err("folder")
+            .to_string()
+            .contains("directory")
+    );
+}
+
+#[test]
+fn faces_with_a_bad_vertex_are_dropped_with_a_warning() {
+    let text = format!("{TRIANGLE}v 1e400 0 0\nv inf 0 0\nf 1 2 3\nf 1 2 4\nf 1 2 5 3\nf 1 2 2\n");
+    let loaded = load_text(&text).expect("one face is good");
+    assert_eq!(loaded.mesh.triangles.len(), 1);
+    assert_eq!(loaded.mesh.dropped.non_finite, 3);
+    assert_eq!(loaded.mesh.dropped.zero_area, 1);
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(
+        warnings,
+        [
+            "line 7: 3 triangle(s) dropped: a corner is not finite",
+            "line 9: 1 triangle(s) dropped: their area is zero",
+        ]
+    );
+}
+
+#[test]
+fn a_mesh_far_away_keeps_its_detail() {
+    let text = "v 4649776.25 30.125 -10000000.5\nv 4649777.25 30.125 -10000000.5\nv 4649776.25 31.1 -10000000.5\nf 1 2 3\n";
+    let loaded = load_text(text).expect("good");
+    let mesh = &loaded.mesh;
+    assert_ne!(mesh.origin, DVec3::ZERO);
+    let file = |p: Vec3| p.as_dvec3() + mesh.origin;
+    assert_eq!(
+        file(mesh.positions[0]),
+        DVec3::new(4_649_776.25, 30.125, -10_000_000.5)
+    );
+    assert!(loaded.max_rounding < 1e-7, "{}", loaded.max_rounding);
+}
+
+#[test]
+fn an_ordinary_mesh_keeps_the_files_numbers() {
+    let loaded = load_text(&format!("{TRIANGLE}f 1 2 3\n")).expect("good");
+    assert_eq!(loaded.mesh.origin, DVec3::ZERO);
+    assert_eq!(loaded.max_rounding, 0.0);
+}
+
+#[test]
+fn polygons_keep_their_id_and_hide_their_diagonals() {
+    let text = format!("{TRIANGLE}v 1 1 0\nf 1 2 3\nf 1 2 4 3\n");
+    let mesh = load_text(&text).expect("good").mesh;
+    assert_eq!(mesh.faces, [0, 1, 1]);
+    assert_eq!(mesh.outline, [0b111, 0b011, 0b110]);
+    assert_eq!(mesh.face_count, 2);
+}
+
+#[test]
+fn names_normals_and_materials_go_to_their_faces() {
+    let text = format!(
+        "mtllib a b.mtl\nmtllib missing.mtl\n{TRIANGLE}vn 0 0 2\nf 1 2 3\ng left side\nusemtl red\nf 1//1 2//1 3//1\nusemtl blue\nf 1//1 2 3//1\nl 1 2\nl 2 3\ncurv 1\n"
+    );
+    let loaded = load_text(&text).expect("good");
+    let mesh = &loaded.mesh;
+    let material = |t: usize| &mesh.materials[mesh.material[t] as usize];
+    assert_eq!(
+        [0, 1, 2].map(|t| material(t).name.as_str()),
+        ["", "red", "blue"]
+    );
+    assert_eq!(material(1).diffuse, Some(Vec3::X));
+    assert_eq!(material(2).diffuse, None);
+    assert_eq!(mesh.groups[mesh.group[1] as usize], "left side");
+    assert_eq!(mesh.corner_normals, [[u32::MAX; 3], [0; 3], [u32::MAX; 3]]);
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    assert_eq!(warnings[0], "line 15: 1 “curv” statement(s) ignored");
+    assert_eq!(warnings[1], "line 13: 2 “l” statement(s) ignored");
+    assert!(warnings[2].starts_with("line 2: material library “missing.mtl”: "));
+}
+
+#[test]
+fn a_cancelled_load_says_so() {
+    let progress = Progress::default();
+    progress.cancel();
+    let library = |_: &str| Err(io::ErrorKind::NotFound.into());
+    let result = parse(
+        TRIANGLE.as_bytes(),
+        Path::new("x.obj"),
+        Recentre::Auto,
+        &library,
+        &progress,
+    );
+    assert!(matches!(result, Err(LoadError::Cancelled { .. })));
+}

@@ -1,0 +1,135 @@
+//! What is rendered: jobs, and the tracing of one tile.
+
+use super::plan::{Plan, Unit};
+use super::worker::{Message, Renderer};
+use crate::film::{Film, FixedRgb, TileSamples, fixed};
+use crate::integrator::{Context, Integrator};
+use glam::UVec2;
+use std::any::Any;
+use std::cell::Cell;
+use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::time::{Duration, Instant};
+
+/// A picture to be rendered.
+#[derive(Clone)]
+pub struct Job {
+    /// What is looked at, and from where.
+    pub context: Context,
+    /// How it is seen.
+    pub integrator: &'static Integrator,
+    /// Which pixel when. Its size is the camera's resolution.
+    pub plan: Plan,
+}
+
+/// A tile that has been traced.
+#[derive(Debug)]
+pub struct TileResult {
+    /// What it shows.
+    pub samples: TileSamples,
+    /// Samples whose colour wasn't finite; they count as black.
+    pub non_finite: u32,
+    /// Rays traced.
+    pub rays: u32,
+    /// How long it took.
+    pub busy: Duration,
+}
+
+/// A sample whose tracing panicked; its tile stays as it was.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "rendering failed at pixel {},{}, sample {sample}, kernel {kernel}: {message}; \
+     to see that ray alone: hitscope inspect FILE --pixel {},{} --kernel {kernel}",
+    pixel.x, pixel.y, pixel.x, pixel.y
+)]
+pub struct RenderPanic {
+    /// Where.
+    pub pixel: UVec2,
+    /// Number of the sample in the pixel.
+    pub sample: u32,
+    /// The kernel in use.
+    pub kernel: &'static str,
+    /// What the panic said.
+    pub message: String,
+}
+
+impl Job {
+    /// Traces a tile; `None` if `is_stale` said so between two rows.
+    pub(super) fn trace(
+        &self,
+        unit: Unit,
+        is_stale: impl Fn() -> bool,
+    ) -> Result<Option<TileResult>, RenderPanic> {
+        let at = Cell::new((UVec2::ZERO, 0));
+        let traced = catch_unwind(AssertUnwindSafe(|| self.trace_at(unit, is_stale, &at)));
+        traced.map_err(|panic| RenderPanic {
+            pixel: at.get().0,
+            sample: at.get().1,
+            kernel: self.context.intersector.kernel().name,
+            message: message_of(&*panic),
+        })
+    }
+
+    fn trace_at(
+        &self,
+        unit: Unit,
+        is_stale: impl Fn() -> bool,
+        at: &Cell<(UVec2, u32)>,
+    ) -> Option<TileResult> {
+        let start = Instant::now();
+        let samples = self.plan.pass(unit.pass).samples();
+        let mut sums: Vec<FixedRgb> = Vec::new();
+        let (mut rays, mut non_finite) = (0, 0);
+        let mut row = u32::MAX;
+        for pixel in self.plan.pixels(unit) {
+            if pixel.y != row {
+                row = pixel.y;
+                if is_stale() {
+                    return None;
+                }
+            }
+            let mut sum = [0; 3];
+            for sample in samples.clone() {
+                at.set((pixel, sample));
+                let place = Plan::position(pixel, sample);
+                let ray = self.context.camera.ray(pixel, place);
+                match fixed(self.integrator.radiance(&self.context, &ray)) {
+                    Some(colour) => (0..3).for_each(|k| sum[k] += colour[k]),
+                    None => non_finite += 1,
+                }
+                rays += 1;
+            }
+            sums.push(sum);
+        }
+        Some(TileResult {
+            samples: TileSamples { unit, sums },
+            non_finite,
+            rays,
+            busy: start.elapsed(),
+        })
+    }
+}
+
+/// Renders a whole job on `threads` threads and waits for it.
+///
+/// # Errors
+/// The first [`RenderPanic`].
+pub fn render(job: Job, threads: usize) -> Result<Film, RenderPanic> {
+    let mut film = Film::new(job.plan.clone(), job.context.background);
+    let mut renderer = Renderer::new(threads, || ());
+    renderer.post(job);
+    while !film.is_complete() {
+        match renderer.wait_next() {
+            Message::Tile(tile) => {
+                film.add(&tile.samples);
+            }
+            Message::Panicked(panic) => return Err(panic),
+        }
+    }
+    Ok(film)
+}
+
+fn message_of(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(|s| (*s).to_owned());
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "no message".to_owned())
+}

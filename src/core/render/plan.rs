@@ -1,0 +1,247 @@
+//! Which pixel is traced when?
+//!
+//! First one pixel of each block, then of smaller blocks, until every pixel has its centre sample;
+//! then passes that double the samples. No sample is taken twice.
+//!
+//! ```text
+//! step 4          step 2          step 1
+//! · · · ·         · · · ·         x x x x
+//! · · · ·         · x · x         x · x ·      · sampled in this pass: x
+//! · · x ·         · · · ·         x x · x
+//! · · · ·         · x · x         x · x ·
+//! ```
+
+use glam::{UVec2, Vec2};
+
+use crate::film::PixelRect;
+use crate::sampler::sample_position;
+
+/// Width and height of a tile in pixels; every block size divides it.
+pub const TILE_PX: u32 = 48;
+/// The block sizes that a first pass can have.
+pub const STEPS: [u32; 8] = [1, 2, 3, 4, 6, 8, 12, 16];
+/// Most samples a pixel that the film can sum up.
+pub const MAX_SAMPLES: u32 = 4096;
+
+/// What is traced in one go over the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pass {
+    /// One pixel of each block of `step` × `step`, unless it was traced before.
+    Lattice {
+        /// Block size in pixels.
+        step: u32,
+    },
+    /// The samples `first..first + count` of every pixel.
+    Samples {
+        /// Number of the first one.
+        first: u32,
+        /// How many.
+        count: u32,
+    },
+}
+
+impl Pass {
+    /// Samples that each of its pixels gets.
+    pub fn samples_per_pixel(self) -> u32 {
+        match self {
+            Self::Lattice { .. } => 1,
+            Self::Samples { count, .. } => count,
+        }
+    }
+
+    /// Numbers of the samples that each of its pixels gets.
+    pub fn samples(self) -> std::ops::Range<u32> {
+        match self {
+            Self::Lattice { .. } => 0..1,
+            Self::Samples { first, count } => first..first + count,
+        }
+    }
+}
+
+/// A piece of work: one tile of one pass.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Unit {
+    /// Index of the pass.
+    pub pass: usize,
+    /// Index of the tile, row by row.
+    pub tile: usize,
+}
+
+/// All passes over a picture.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Plan {
+    size: UVec2,
+    passes: Vec<Pass>,
+}
+
+impl Plan {
+    /// A plan for a picture of `size`, whose first pass traces a pixel in each block of
+    /// `first_step` (rounded up to one of [`STEPS`]), and which ends with at least `samples` a pixel
+    /// (rounded up to a power of two, at most [`MAX_SAMPLES`]).
+    pub fn new(size: UVec2, first_step: u32, samples: u32) -> Self {
+        let last = STEPS[STEPS.len() - 1];
+        let mut step = STEPS.into_iter().find(|&s| s >= first_step).unwrap_or(last);
+        let mut passes = vec![Pass::Lattice { step }];
+        while step > 1 {
+            step /= if step % 2 == 0 { 2 } else { 3 };
+            passes.push(Pass::Lattice { step });
+        }
+        let samples = samples.clamp(1, MAX_SAMPLES).next_power_of_two();
+        let mut first = 1;
+        while first < samples {
+            passes.push(Pass::Samples {
+                first,
+                count: first,
+            });
+            first *= 2;
+        }
+        Self { size, passes }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// How many passes there are.
+    pub fn pass_count(&self) -> usize {
+        self.passes.len()
+    }
+
+    /// A pass.
+    pub fn pass(&self, index: usize) -> Pass {
+        self.passes[index]
+    }
+
+    /// Tiles in a pass.
+    pub fn tile_count(&self) -> usize {
+        self.tiles().element_product() as usize
+    }
+
+    /// Pieces of work in all.
+    pub fn unit_count(&self) -> usize {
+        self.tile_count() * self.pass_count()
+    }
+
+    /// A piece of work, in the order in which they are done.
+    pub fn unit(&self, index: usize) -> Unit {
+        Unit {
+            pass: index / self.tile_count(),
+            tile: index % self.tile_count(),
+        }
+    }
+
+    /// Samples that every pixel has after so many passes.
+    pub fn samples_after(&self, passes_done: usize) -> u32 {
+        match passes_done.checked_sub(1).map(|last| self.passes[last]) {
+            Some(Pass::Samples { first, count }) => first + count,
+            Some(Pass::Lattice { step: 1 }) => 1,
+            Some(Pass::Lattice { .. }) | None => 0,
+        }
+    }
+
+    /// The pixels of a tile.
+    pub fn tile_rect(&self, tile: usize) -> PixelRect {
+        let across = self.tiles().x;
+        let min = UVec2::new(tile as u32 % across, tile as u32 / across) * TILE_PX;
+        PixelRect {
+            min,
+            max: (min + TILE_PX).min(self.size),
+        }
+    }
+
+    /// The pixels that a piece of work traces, row by row.
+    pub fn pixels(&self, unit: Unit) -> impl Iterator<Item = UVec2> + '_ {
+        let rect = self.tile_rect(unit.tile);
+        let pass = self.passes[unit.pass];
+        let step = match pass {
+            Pass::Lattice { step } => step,
+            Pass::Samples { .. } => 1,
+        };
+        let coarser = match pass {
+            Pass::Lattice { .. } => &self.passes[..unit.pass],
+            Pass::Samples { .. } => &[],
+        };
+        let rows = (rect.min.y..rect.max.y).step_by(step as usize);
+        rows.flat_map(move |y| {
+            let columns = (rect.min.x..rect.max.x).step_by(step as usize);
+            columns.map(move |x| self.representative(UVec2::new(x, y), step))
+        })
+        .filter(move |&pixel| !coarser.iter().any(|&pass| self.lattice_holds(pass, pixel)))
+    }
+
+    /// The place of a sample in its pixel.
+    pub fn position(pixel: UVec2, sample: u32) -> Vec2 {
+        sample_position(pixel, sample)
+    }
+
+    /// The pixel that stands for the block around `pixel`: its middle, if that is in the picture.
+    fn representative(&self, pixel: UVec2, step: u32) -> UVec2 {
+        (pixel / step * step + step / 2).min(self.size - 1)
+    }
+
+    fn lattice_holds(&self, pass: Pass, pixel: UVec2) -> bool {
+        match pass {
+            Pass::Lattice { step } => self.representative(pixel, step) == pixel,
+            Pass::Samples { .. } => false,
+        }
+    }
+
+    fn tiles(&self) -> UVec2 {
+        (self.size + (TILE_PX - 1)) / TILE_PX
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_sample_of_every_pixel_is_taken_exactly_once() {
+        for size in [UVec2::new(1, 1), UVec2::new(100, 61), UVec2::new(49, 2)] {
+            for step in STEPS {
+                let plan = Plan::new(size, step, 4);
+                let mut seen = vec![[0; 4]; size.element_product() as usize];
+                for unit in (0..plan.unit_count()).map(|k| plan.unit(k)) {
+                    for p in plan.pixels(unit) {
+                        for sample in plan.pass(unit.pass).samples() {
+                            seen[(p.y * size.x + p.x) as usize][sample as usize] += 1;
+                        }
+                    }
+                }
+                assert!(seen.iter().all(|s| *s == [1; 4]), "{size} {step}");
+            }
+        }
+    }
+
+    #[test]
+    fn block_sizes_divide_the_tile_and_each_other() {
+        for step in STEPS {
+            assert_eq!(TILE_PX % step, 0);
+            let plan = Plan::new(UVec2::splat(100), step, 1);
+            let mut last = plan.pass(0);
+            assert_eq!(last, Pass::Lattice { step });
+            for pass in (1..plan.pass_count()).map(|k| plan.pass(k)) {
+                let (Pass::Lattice { step: coarse }, Pass::Lattice { step: fine }) = (last, pass)
+                else {
+                    panic!("{pass:?} in a plan of one sample");
+                };
+                assert_eq!(coarse % fine, 0);
+                last = pass;
+            }
+            assert_eq!(last, Pass::Lattice { step: 1 });
+        }
+    }
+
+    #[test]
+    fn samples_double_up_to_what_was_asked_for() {
+        let plan = Plan::new(UVec2::splat(10), 1, 16);
+        let samples: Vec<u32> = (0..=plan.pass_count())
+            .map(|k| plan.samples_after(k))
+            .collect();
+        assert_eq!(samples, [0, 1, 2, 4, 8, 16]);
+        assert_eq!(Plan::new(UVec2::ONE, 1, 0).pass_count(), 1);
+        let most = Plan::new(UVec2::ONE, 1, u32::MAX);
+        assert_eq!(most.samples_after(most.pass_count()), MAX_SAMPLES);
+    }
+}

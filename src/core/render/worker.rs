@@ -1,0 +1,192 @@
+//! The threads that render.
+
+use super::job::{Job, RenderPanic, TileResult};
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
+use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
+use std::thread::JoinHandle;
+
+/// Tiles that wait to be shown before the threads wait, too.
+const CHANNEL_TILES: usize = 64;
+
+/// What a thread sends.
+#[derive(Debug)]
+pub enum Message {
+    /// A tile of the newest job.
+    Tile(TileResult),
+    /// A tile of the newest job that couldn't be traced.
+    Panicked(RenderPanic),
+}
+
+/// The job that the threads work on, and the next tile of it.
+struct Posted {
+    job: Job,
+    generation: u64,
+    next_unit: AtomicUsize,
+}
+
+impl Posted {
+    fn is_in_later_pass(&self) -> bool {
+        self.next_unit.load(Relaxed) >= self.job.plan.tile_count()
+    }
+}
+
+#[derive(Default)]
+struct State {
+    posted: Option<Arc<Posted>>,
+    is_paused: bool,
+    is_ending: bool,
+}
+
+struct Shared {
+    state: Mutex<State>,
+    changed: Condvar,
+    /// The newest job's; 0 at the end, which makes whatever is being traced stale.
+    generation: AtomicU64,
+}
+
+impl Shared {
+    fn state(&self) -> MutexGuard<'_, State> {
+        // Nothing panics while it holds the lock; if it did, the state would still be whole.
+        self.state.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// Threads that render the job posted last. Dropping it ends them within a row of pixels.
+pub struct Renderer {
+    shared: Arc<Shared>,
+    /// `None` only while it is dropped.
+    messages: Option<Receiver<(u64, Message)>>,
+    threads: Vec<JoinHandle<()>>,
+    generation: u64,
+}
+
+impl Renderer {
+    /// Starts `threads` threads, at least one; `wake` is called after each message.
+    pub fn new(threads: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        let shared = Arc::new(Shared {
+            state: Mutex::default(),
+            changed: Condvar::new(),
+            generation: AtomicU64::new(0),
+        });
+        let (sender, messages) = sync_channel(CHANNEL_TILES);
+        let wake: Arc<dyn Fn() + Send + Sync> = Arc::new(wake);
+        let start = |k: usize| {
+            let (shared, sender, wake) = (Arc::clone(&shared), sender.clone(), Arc::clone(&wake));
+            std::thread::Builder::new()
+                .name(format!("render-{k}"))
+                .spawn(move || work(&shared, &sender, &*wake))
+        };
+        // Where the system grants fewer threads, those it grants do the work.
+        let threads: Vec<_> = (0..threads.max(1)).map_while(|k| start(k).ok()).collect();
+        assert!(!threads.is_empty(), "the system grants no thread at all");
+        Self {
+            shared,
+            messages: Some(messages),
+            threads,
+            generation: 0,
+        }
+    }
+
+    /// How many threads there are.
+    pub fn thread_count(&self) -> usize {
+        self.threads.len()
+    }
+
+    /// Renders this from now on, and nothing else.
+    pub fn post(&mut self, job: Job) {
+        self.generation += 1;
+        let mut state = self.shared.state();
+        state.posted = Some(Arc::new(Posted {
+            job,
+            generation: self.generation,
+            next_unit: AtomicUsize::new(0),
+        }));
+        self.shared.generation.store(self.generation, Relaxed);
+        self.shared.changed.notify_all();
+    }
+
+    /// Stops after the first, coarse pass, or after the tiles that are being traced. No work is
+    /// lost, and jobs posted while paused still get their first pass: the picture follows the camera.
+    pub fn pause(&mut self) {
+        self.shared.state().is_paused = true;
+    }
+
+    /// Goes on where [`pause`](Self::pause) stopped.
+    pub fn resume(&mut self) {
+        self.shared.state().is_paused = false;
+        self.shared.changed.notify_all();
+    }
+
+    /// A message that is there, of the newest job. Never waits.
+    pub fn try_next(&self) -> Option<Message> {
+        let messages = self.messages.as_ref()?;
+        let newest = |(generation, message)| (generation == self.generation).then_some(message);
+        messages.try_iter().find_map(newest)
+    }
+
+    /// The next message of the newest job. Waits for it, so call it only while there is work left.
+    pub fn wait_next(&self) -> Message {
+        let messages = self.messages.iter().flatten();
+        let newest = |(generation, message)| (generation == self.generation).then_some(message);
+        messages
+            .into_iter()
+            .find_map(newest)
+            .expect("the threads live as long as the renderer")
+    }
+}
+
+impl Drop for Renderer {
+    fn drop(&mut self) {
+        self.shared.state().is_ending = true;
+        self.shared.generation.store(0, Relaxed);
+        self.shared.changed.notify_all();
+        // A thread that waits for room in the channel now gets an error instead, and ends.
+        self.messages = None;
+        for thread in self.threads.drain(..) {
+            // A panic outside of tracing has already been printed by the thread.
+            _ = thread.join();
+        }
+    }
+}
+
+fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() + Send + Sync)) {
+    let mut done = 0;
+    while let Some(posted) = wait_for_work(shared, done) {
+        let generation = posted.generation;
+        let index = posted.next_unit.fetch_add(1, Relaxed);
+        if index >= posted.job.plan.unit_count() {
+            done = generation;
+            continue;
+        }
+        let unit = posted.job.plan.unit(index);
+        let is_stale = || shared.generation.load(Relaxed) != generation;
+        let message = match posted.job.trace(unit, is_stale) {
+            Ok(Some(tile)) => Message::Tile(tile),
+            Ok(None) => continue,
+            Err(panic) => Message::Panicked(panic),
+        };
+        if sender.send((generation, message)).is_err() {
+            return;
+        }
+        wake();
+    }
+}
+
+/// The newest job, once it isn't the one that is done and isn't held up by a pause; `None` at the end.
+fn wait_for_work(shared: &Shared, done: u64) -> Option<Arc<Posted>> {
+    let mut state = shared.state();
+    loop {
+        if state.is_ending {
+            return None;
+        }
+        if let Some(posted) = &state.posted
+            && posted.generation != done
+            && !(state.is_paused && posted.is_in_later_pass())
+        {
+            return Some(Arc::clone(posted));
+        }
+        let waited = shared.changed.wait(state);
+        state = waited.unwrap_or_else(PoisonError::into_inner);
+    }
+}

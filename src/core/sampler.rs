@@ -1,0 +1,70 @@
+//! Where in its pixel a sample lies.
+//!
+//! The first sample is the pixel's centre, the ray that a click asks about. The others follow the R2
+//! sequence, shifted for each pixel by a hash, so that neighbours don't share a pattern. A position
+//! depends on pixel and sample alone, never on threads or time.
+//!
+//! Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (R2).
+
+use glam::{UVec2, Vec2};
+
+/// 2⁶⁴/φ₂ and 2⁶⁴/φ₂², φ₂ = 1.3247… the plastic number, the root of x³ = x + 1.
+const STEP: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1c];
+
+/// The place of a sample in its pixel, each coordinate in [0, 1); (0.5, 0.5) is the centre.
+pub fn sample_position(pixel: UVec2, sample: u32) -> Vec2 {
+    if sample == 0 {
+        return Vec2::splat(0.5);
+    }
+    let seed = mix(u64::from(pixel.x) << 32 | u64::from(pixel.y));
+    let shift = [seed, mix(seed)];
+    let coordinate = |axis: usize| {
+        let bits = shift[axis].wrapping_add(STEP[axis].wrapping_mul(u64::from(sample)));
+        // 24 bits: what an f32 below 1 holds exactly.
+        (bits >> 40) as f32 / (1u32 << 24) as f32
+    };
+    Vec2::new(coordinate(0), coordinate(1))
+}
+
+/// A bijection of 64-bit words that leaves no visible pattern.
+///
+/// Source: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators",
+/// OOPSLA 2014; constants: D. Stafford's variant 13.
+pub fn mix(x: u64) -> u64 {
+    let x = (x ^ (x >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    let x = (x ^ (x >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    x ^ (x >> 31)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_sample_is_the_centre() {
+        assert_eq!(sample_position(UVec2::new(7, 9), 0), Vec2::splat(0.5));
+    }
+
+    #[test]
+    fn sixteen_samples_fill_a_four_by_four_grid_evenly() {
+        let mut cells = [0; 16];
+        for sample in 1..=64 {
+            let p = sample_position(UVec2::new(3, 5), sample);
+            assert!(p.min_element() >= 0.0 && p.max_element() < 1.0);
+            cells[(p.y * 4.0) as usize * 4 + (p.x * 4.0) as usize] += 1;
+        }
+        assert!(cells.iter().all(|&n| (2..=6).contains(&n)), "{cells:?}");
+    }
+
+    #[test]
+    fn the_steps_are_the_plastic_numbers_powers() {
+        let plastic = 1.324_717_957_244_746_f64;
+        for (step, power) in STEP.into_iter().zip([1, 2]) {
+            let fraction = step as f64 / 2f64.powi(64);
+            assert!(
+                (fraction - plastic.powi(-power)).abs() < 1e-12,
+                "{fraction}"
+            );
+        }
+    }
+}

@@ -1,0 +1,82 @@
+//! What is there to be seen?
+
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::intersector::Intersector;
+use crate::kernel::TriangleKernel;
+use crate::mesh::{TriangleMesh, VertexNormals};
+use crate::progress::{Cancelled, Phase, Progress};
+use std::sync::{Arc, OnceLock};
+use std::time::{Duration, Instant};
+
+/// How normals vary over a triangle.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Shading {
+    /// One normal a triangle.
+    #[default]
+    Flat,
+    /// Normals interpolated from the vertices.
+    Smooth,
+}
+
+/// A mesh with its tree. Immutable: another scene replaces it.
+#[derive(Debug)]
+pub struct Scene {
+    mesh: TriangleMesh,
+    bvh: Arc<Bvh>,
+    build_time: Duration,
+    /// Made when smooth shading first asks for it.
+    vertex_normals: OnceLock<VertexNormals>,
+}
+
+impl Scene {
+    /// Builds the tree over a mesh.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn new(mesh: TriangleMesh, progress: &Progress) -> Result<Self, Cancelled> {
+        progress.enter(Phase::Building);
+        let start = Instant::now();
+        let boxes: Vec<Aabb> = (0..mesh.triangles.len() as u32)
+            .map(|triangle| Aabb::around(mesh.corners(triangle)))
+            .collect();
+        let bvh = Arc::new(Bvh::build(&boxes, &|| progress.check())?);
+        Ok(Self {
+            mesh,
+            bvh,
+            build_time: start.elapsed(),
+            vertex_normals: OnceLock::new(),
+        })
+    }
+
+    /// The triangles.
+    pub fn mesh(&self) -> &TriangleMesh {
+        &self.mesh
+    }
+
+    /// The tree over the triangles' boxes.
+    pub fn bvh(&self) -> &Bvh {
+        &self.bvh
+    }
+
+    /// The box around everything, in the mesh's coordinates.
+    pub fn bounds(&self) -> Aabb {
+        self.bvh.bounds()
+    }
+
+    /// How long the tree took.
+    pub fn build_time(&self) -> Duration {
+        self.build_time
+    }
+
+    /// Normals at the corners, computed at the first call.
+    pub fn vertex_normals(&self) -> &VertexNormals {
+        self.vertex_normals
+            .get_or_init(|| VertexNormals::of(&self.mesh))
+    }
+
+    /// Packs the scene for a kernel.
+    pub fn intersector(&self, kernel: &TriangleKernel) -> Box<dyn Intersector> {
+        kernel.intersector(&self.mesh, Arc::clone(&self.bvh))
+    }
+}
