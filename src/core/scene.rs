@@ -5,7 +5,9 @@ use crate::bvh::Bvh;
 use crate::intersector::Intersector;
 use crate::kernel::TriangleKernel;
 use crate::mesh::{TriangleMesh, VertexNormals};
+use crate::obj::{self, LoadError, Loaded, Recentre, Warning};
 use crate::progress::{Cancelled, Phase, Progress};
+use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
@@ -78,5 +80,49 @@ impl Scene {
     /// Packs the scene for a kernel.
     pub fn intersector(&self, kernel: &TriangleKernel) -> Box<dyn Intersector> {
         kernel.intersector(&self.mesh, Arc::clone(&self.bvh))
+    }
+}
+
+/// A scene from a file, and what is known of the file besides.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// What was dropped or ignored, for the user to know.
+    pub warnings: Vec<Warning>,
+    /// `v` statements in the file.
+    pub vertex_count: usize,
+    /// The largest distance, in a coordinate, between the file's decimals and what is traced.
+    pub max_rounding: f64,
+    /// How long reading, parsing and checking took; the tree's time is the scene's.
+    pub load_time: Duration,
+}
+
+impl LoadedScene {
+    /// Loads an OBJ file and builds the tree over it.
+    ///
+    /// # Errors
+    /// See [`LoadError`].
+    pub fn load(path: &Path, recentre: Recentre, progress: &Progress) -> Result<Self, LoadError> {
+        let start = Instant::now();
+        let loaded = obj::load(path, recentre, progress)?;
+        Self::of(loaded, start, progress).map_err(|Cancelled| LoadError::Cancelled {
+            path: path.to_owned(),
+        })
+    }
+
+    /// Builds the tree over a mesh whose loading began at `start`.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn of(loaded: Loaded, start: Instant, progress: &Progress) -> Result<Self, Cancelled> {
+        let load_time = start.elapsed();
+        Ok(Self {
+            scene: Arc::new(Scene::new(loaded.mesh, progress)?),
+            warnings: loaded.warnings,
+            vertex_count: loaded.vertex_count,
+            max_rounding: loaded.max_rounding,
+            load_time,
+        })
     }
 }

@@ -1,1 +1,12 @@
-//! x
+//! hitscope's laboratory: exact answers, inspection of single rays, and the commands that need no
+//! window.
+//!
+//! | module | answers |
+//! |---|---|
+//! | [`oracle`] | what does exact arithmetic say of this ray and this triangle? |
+//! | [`inspection`] | what happens to this ray: every kernel beside the exact answer |
+//! | [`commands`] | what do `render`, `inspect`, `trace` and `info` do? |
+
+pub mod commands;
+pub mod inspection;
+pub mod oracle;

@@ -12,8 +12,8 @@ use glam::{DVec3, Vec3};
 const FACES_PER_CHECK: usize = 1 << 14;
 
 pub(super) fn assemble(
-    parsed: tobj::Mesh,
-    facts: Facts,
+    parsed: &tobj::Mesh,
+    facts: &Facts,
     recentre: Recentre,
     library: Library,
     progress: &Progress,
@@ -21,7 +21,7 @@ pub(super) fn assemble(
     progress.enter(Phase::Checking);
     let mut warnings: Vec<Warning> = facts.ignored_statements().collect();
     let exact: Vec<DVec3> = points(&parsed.positions);
-    let (materials, face_material) = materials(&facts, library, &mut warnings);
+    let (materials, face_material) = materials(facts, library, &mut warnings);
     let (groups, face_group) = named_runs(&facts.face_groups, "");
 
     let mut mesh = TriangleMesh {
@@ -35,12 +35,12 @@ pub(super) fn assemble(
         ..TriangleMesh::default()
     };
     mesh.positions = exact.iter().map(|&p| (p - mesh.origin).as_vec3()).collect();
-    add_triangles(&mut mesh, &parsed, &exact, &facts, &mut warnings, progress)?;
+    add_triangles(&mut mesh, parsed, &exact, facts, &mut warnings, progress)?;
     for &face in &mesh.faces {
         mesh.material.push(face_material.of(face as usize));
         mesh.group.push(face_group.of(face as usize));
     }
-    require_content(&mesh, &facts, &parsed)?;
+    require_content(&mesh, facts, parsed)?;
     Ok(Loaded {
         max_rounding: max_rounding(&mesh, &exact),
         mesh,

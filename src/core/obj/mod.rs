@@ -17,7 +17,7 @@ use crate::progress::{Phase, Progress};
 use reader::NormalisingReader;
 use std::fs::File;
 use std::io::{self, Read};
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 /// Where a mesh's origin is put.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -97,18 +97,13 @@ pub fn parse(
     };
     let model = models.into_iter().next().map(|model| model.mesh);
     assemble::assemble(
-        model.unwrap_or_default(),
-        facts,
+        &model.unwrap_or_default(),
+        &facts,
         recentre,
         library,
         progress,
     )
     .map_err(|problem| problem.in_file(path))
-}
-
-/// The path of an error that isn't known to come from a file.
-pub fn unnamed() -> PathBuf {
-    PathBuf::from("<memory>")
 }
 
 #[cfg(test)]

@@ -361,12 +361,13 @@ impl<R: Read> Read for NormalisingReader<'_, R> {
 
 impl<R: Read> BufRead for NormalisingReader<'_, R> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        if self.consumed == self.out.len() && self.problem.is_none() {
-            if let Err(problem) = self.next_statement() {
-                self.problem = Some(problem);
-                // tobj only has to stop; `finish` tells the reason.
-                return Err(io::ErrorKind::InvalidData.into());
-            }
+        if self.consumed == self.out.len()
+            && self.problem.is_none()
+            && let Err(problem) = self.next_statement()
+        {
+            self.problem = Some(problem);
+            // tobj only has to stop; `finish` tells the reason.
+            return Err(io::ErrorKind::InvalidData.into());
         }
         Ok(&self.out[self.consumed..])
     }

@@ -1,0 +1,194 @@
+//! `hitscope info`: what is in a file, and what it asks of a kernel.
+
+use super::{CommandError, load};
+use clap::Args;
+use hitscope_core::kernel::triangle::default_triangle_kernel;
+use hitscope_core::kernel::{KernelInfo, Tier};
+use hitscope_core::mesh::{Health, SLIVER_ASPECT};
+use hitscope_core::obj::Recentre;
+use hitscope_core::scene::LoadedScene;
+use serde::Serialize;
+use std::collections::BTreeMap;
+use std::io::Write;
+use std::path::PathBuf;
+
+/// Shows what a file holds: counts, bounds, memory, the mesh's health
+#[derive(Args, Clone, Debug)]
+pub struct InfoArgs {
+    /// The OBJ file
+    pub file: PathBuf,
+    /// Print JSON
+    #[arg(long)]
+    pub json: bool,
+}
+
+#[derive(Serialize)]
+struct Info {
+    vertices: usize,
+    triangles: usize,
+    polygons: usize,
+    materials: usize,
+    groups: usize,
+    bounds: Bounds,
+    origin: [f64; 3],
+    /// Largest distance, in a coordinate, between the file's decimals and what is traced.
+    max_rounding: f64,
+    bytes: BTreeMap<&'static str, usize>,
+    dropped: BTreeMap<&'static str, usize>,
+    warnings: Vec<String>,
+    health: HealthReport,
+    tier: TierReport,
+    load_ms: f64,
+    build_ms: f64,
+}
+
+/// In the file's coordinates.
+#[derive(Serialize)]
+struct Bounds {
+    min: [f64; 3],
+    max: [f64; 3],
+}
+
+#[derive(Serialize)]
+struct HealthReport {
+    degenerate: usize,
+    non_finite: usize,
+    non_manifold_edges: usize,
+    open_edges: usize,
+    slivers: usize,
+    flipped_edges: usize,
+    max_aspect: f64,
+}
+
+/// The kernel that the scene requires, and why.
+#[derive(Serialize)]
+struct TierReport {
+    name: &'static str,
+    reasons: Vec<String>,
+}
+
+impl InfoArgs {
+    /// Loads the file and prints what is in it.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        let loaded = load(&self.file, Recentre::Auto)?;
+        let info = Info::of(&loaded);
+        if self.json {
+            let json = serde_json::to_string_pretty(&info);
+            writeln!(out, "{}", json.expect("an info is plain data"))?;
+        } else {
+            info.print(out)?;
+        }
+        Ok(())
+    }
+}
+
+impl Info {
+    fn of(loaded: &LoadedScene) -> Self {
+        let scene = &loaded.scene;
+        let mesh = scene.mesh();
+        let bounds = scene.bounds();
+        let in_file = |p: glam::Vec3| (p.as_dvec3() + mesh.origin).to_array();
+        let intersector = scene.intersector(default_triangle_kernel());
+        let mut bytes = BTreeMap::from(mesh.bytes());
+        bytes.insert("tree", scene.bvh().bytes());
+        bytes.insert("packed triangles", intersector.bytes());
+        let health = Health::of(mesh);
+        // The first of each list stands for faces that name none.
+        let named = |names: usize, of: &[u32]| names - usize::from(!of.contains(&0));
+        Self {
+            vertices: loaded.vertex_count,
+            triangles: mesh.triangles.len(),
+            polygons: mesh.face_count,
+            materials: named(mesh.materials.len(), &mesh.material),
+            groups: named(mesh.groups.len(), &mesh.group),
+            bounds: Bounds {
+                min: in_file(bounds.min),
+                max: in_file(bounds.max),
+            },
+            origin: mesh.origin.to_array(),
+            max_rounding: loaded.max_rounding,
+            bytes,
+            dropped: BTreeMap::from([
+                ("zero_area", mesh.dropped.zero_area),
+                ("non_finite", mesh.dropped.non_finite),
+            ]),
+            warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
+            tier: TierReport::of(&health, intersector.kernel()),
+            health: HealthReport {
+                degenerate: mesh.dropped.zero_area,
+                non_finite: mesh.dropped.non_finite,
+                non_manifold_edges: health.non_manifold_edges,
+                open_edges: health.open_edges,
+                slivers: health.slivers,
+                flipped_edges: health.flipped_edges,
+                max_aspect: health.max_aspect,
+            },
+            load_ms: loaded.load_time.as_secs_f64() * 1e3,
+            build_ms: scene.build_time().as_secs_f64() * 1e3,
+        }
+    }
+
+    fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        writeln!(out, "vertices      {}", self.vertices)?;
+        writeln!(out, "triangles     {}", self.triangles)?;
+        writeln!(out, "polygons      {}", self.polygons)?;
+        writeln!(out, "materials     {}", self.materials)?;
+        writeln!(out, "groups        {}", self.groups)?;
+        writeln!(out, "bounds        {:?}", self.bounds.min)?;
+        writeln!(out, "              {:?}", self.bounds.max)?;
+        writeln!(out, "origin        {:?}", self.origin)?;
+        writeln!(out, "rounded by    {:e} at most", self.max_rounding)?;
+        for (part, bytes) in &self.bytes {
+            writeln!(out, "bytes         {bytes} {part}")?;
+        }
+        for (reason, count) in &self.dropped {
+            writeln!(out, "dropped       {count} {reason}")?;
+        }
+        let health = &self.health;
+        writeln!(out, "open edges    {}", health.open_edges)?;
+        writeln!(out, "non-manifold  {}", health.non_manifold_edges)?;
+        writeln!(out, "flipped       {}", health.flipped_edges)?;
+        writeln!(
+            out,
+            "slivers       {} (longer than {SLIVER_ASPECT} times their height)",
+            health.slivers
+        )?;
+        writeln!(
+            out,
+            "load, build   {:.1} ms, {:.1} ms",
+            self.load_ms, self.build_ms
+        )?;
+        writeln!(out, "tier          {}", self.tier.name)?;
+        for reason in &self.tier.reasons {
+            writeln!(out, "              {reason}")?;
+        }
+        for warning in &self.warnings {
+            writeln!(out, "warning       {warning}")?;
+        }
+        Ok(())
+    }
+}
+
+impl TierReport {
+    fn of(health: &Health, kernel: &KernelInfo) -> Self {
+        let mut reasons = Vec::new();
+        if health.open_edges + health.non_manifold_edges == 0 {
+            reasons.push("the mesh is closed: a gap between triangles would show".to_owned());
+        } else {
+            reasons.push("triangles share edges: a gap between them would show".to_owned());
+        }
+        if health.slivers > 0 {
+            reasons.push(format!(
+                "{} sliver(s), up to {:.0} times longer than high: f32 decides some of their rays wrongly",
+                health.slivers, health.max_aspect
+            ));
+        }
+        Self {
+            name: kernel.tier.map_or(kernel.name, Tier::name),
+            reasons,
+        }
+    }
+}

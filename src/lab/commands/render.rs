@@ -1,0 +1,142 @@
+//! `hitscope render`: a picture without a window.
+
+use super::args::{CameraArgs, KernelArg, ViewArg};
+use super::{CommandError, load};
+use clap::{Args, ValueEnum};
+use glam::{UVec2, Vec3};
+use hitscope_core::integrator::Context;
+use hitscope_core::integrator::palette::from_display;
+use hitscope_core::obj::Recentre;
+use hitscope_core::render::plan::Plan;
+use hitscope_core::render::{Job, render};
+use hitscope_core::scene::{LoadedScene, Shading};
+use hitscope_core::{Camera, Film};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// Renders a mesh to a PNG file
+#[derive(Args, Clone, Debug)]
+pub struct RenderArgs {
+    /// The OBJ file
+    pub file: PathBuf,
+    /// The PNG file to write
+    #[arg(short, long, value_name = "OUT.png")]
+    pub output: PathBuf,
+    /// Camera
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    /// Samples for each pixel, rounded up to a power of two
+    #[arg(long, default_value_t = 16, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub samples: u32,
+    /// How normals vary over a triangle
+    #[arg(long, default_value = "flat")]
+    pub shading: ShadingArg,
+    /// View
+    #[command(flatten)]
+    pub view: ViewArg,
+    /// Draw the polygons' edges over it (needs a GPU, or software that acts as one)
+    #[arg(long)]
+    pub wireframe: bool,
+    /// Draw normals over it (likewise)
+    #[arg(long)]
+    pub normals: bool,
+    /// Kernel
+    #[command(flatten)]
+    pub kernel: KernelArg,
+    /// Threads [default: one a core]
+    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
+    pub threads: Option<u16>,
+}
+
+/// How normals vary over a triangle.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum ShadingArg {
+    /// One normal a triangle
+    Flat,
+    /// Interpolated from the vertices
+    Smooth,
+}
+
+impl From<ShadingArg> for Shading {
+    fn from(arg: ShadingArg) -> Self {
+        match arg {
+            ShadingArg::Flat => Self::Flat,
+            ShadingArg::Smooth => Self::Smooth,
+        }
+    }
+}
+
+/// A picture, with what is needed to draw over it.
+pub struct Rendered {
+    /// The picture.
+    pub film: Film,
+    /// From where it was taken.
+    pub camera: Camera,
+    /// What it shows.
+    pub loaded: LoadedScene,
+    /// How its normals vary.
+    pub shading: Shading,
+}
+
+/// What pictures without a window have behind the mesh, in linear RGB.
+fn background() -> Vec3 {
+    from_display(Vec3::new(0.13, 0.14, 0.16))
+}
+
+/// One a core.
+pub fn default_thread_count() -> usize {
+    std::thread::available_parallelism().map_or(1, usize::from)
+}
+
+impl RenderArgs {
+    /// Traces the picture. The overlay is left to the caller, who has a GPU or hasn't.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn trace(&self) -> Result<Rendered, CommandError> {
+        let loaded = load(&self.file, Recentre::Auto)?;
+        self.trace_scene(loaded)
+    }
+
+    /// The same for a scene that is there already; the file's name isn't looked at.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn trace_scene(&self, loaded: LoadedScene) -> Result<Rendered, CommandError> {
+        let camera = self.camera.camera(&loaded.scene)?;
+        let shading = self.shading.into();
+        let context = Context {
+            intersector: Arc::from(loaded.scene.intersector(self.kernel.kernel())),
+            scene: Arc::clone(&loaded.scene),
+            camera,
+            shading,
+            background: background(),
+        };
+        let job = Job {
+            context,
+            integrator: self.view.integrator(),
+            plan: Plan::new(camera.resolution(), 1, self.samples),
+        };
+        let threads = self.threads.map_or_else(default_thread_count, usize::from);
+        Ok(Rendered {
+            film: render(job, threads)?,
+            camera,
+            loaded,
+            shading,
+        })
+    }
+}
+
+/// Writes sRGB pixels, row by row from the top, as a PNG file.
+///
+/// # Errors
+/// [`CommandError::Image`].
+pub fn write_png(path: &Path, size: UVec2, pixels: &[[u8; 4]]) -> Result<(), CommandError> {
+    let bytes = pixels.as_flattened();
+    let kind = image::ExtendedColorType::Rgba8;
+    image::save_buffer_with_format(path, bytes, size.x, size.y, kind, image::ImageFormat::Png)
+        .map_err(|source| CommandError::Image {
+            path: path.to_owned(),
+            source,
+        })
+}

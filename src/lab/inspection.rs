@@ -1,0 +1,244 @@
+//! What happens to this ray? The hit, the exact answer, and every kernel beside it.
+
+use crate::oracle::{self, ExactHit, Fraction};
+use glam::{DVec3, UVec2, Vec2, Vec3};
+use hitscope_core::interaction::SurfaceInteraction;
+use hitscope_core::intersector::Cost;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::scene::{Scene, Shading};
+use hitscope_core::{Camera, Hit, Intersector, Ray};
+use serde::Serialize;
+
+/// All that is known of a pixel's ray. Serialises to what `inspect --json` prints.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Inspection {
+    /// The pixel, from the top left.
+    pub pixel: [u32; 2],
+    /// The ray through its centre.
+    pub ray: RayReport,
+    /// The kernel that was asked.
+    pub kernel: &'static str,
+    /// What it found.
+    pub hit: Option<HitReport>,
+    /// What there is to be found.
+    pub exact: Option<ExactReport>,
+    /// Every kernel in the table.
+    pub kernels: Vec<KernelRow>,
+    /// What the ray cost.
+    pub cost: CostReport,
+}
+
+/// A ray in the file's coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct RayReport {
+    /// Where it starts.
+    pub origin: [f64; 3],
+    /// Where it goes; t counts its lengths.
+    pub direction: [f32; 3],
+}
+
+/// A hit, with what the mesh says of its place. Positions are in the file's coordinates.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct HitReport {
+    /// Distance in lengths of the direction.
+    pub t: f32,
+    /// Weights of the three corners.
+    pub barycentric: [f32; 3],
+    /// Index of the triangle.
+    pub triangle: u32,
+    /// Index of the file's face.
+    pub face: u32,
+    /// l1·A + l2·B + l3·C.
+    pub position: [f64; 3],
+    /// Unit length, by the right-hand rule.
+    pub geometric_normal: [f32; 3],
+    /// Unit length; the geometric one in flat shading.
+    pub shading_normal: [f32; 3],
+    /// The triangle's corners.
+    pub vertices: [[f64; 3]; 3],
+    /// Name of the material; empty if the face names none.
+    pub material: String,
+    /// Name of the group or object; empty if the face lies in none.
+    pub group: String,
+}
+
+/// The exact answer, correctly rounded to f64 and as fractions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactReport {
+    /// The nearest triangle; of several at the same t the lowest.
+    pub triangle: u32,
+    /// Others at exactly the same t.
+    pub also: Vec<u32>,
+    /// Distance in lengths of the direction.
+    pub t: f64,
+    /// Weights of the three corners.
+    pub barycentric: [f64; 3],
+    /// t as numerator/denominator.
+    pub t_fraction: String,
+    /// The weights likewise.
+    pub barycentric_fractions: [String; 3],
+    /// Whether the hit lies on an edge or at a corner.
+    pub is_on_boundary: bool,
+}
+
+/// What one kernel says of the ray.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct KernelRow {
+    /// The kernel.
+    pub name: &'static str,
+    /// Whether it hit anything.
+    pub hit: bool,
+    /// The triangle that it hit.
+    pub triangle: Option<u32>,
+    /// Distance in lengths of the direction.
+    pub t: Option<f32>,
+    /// Weights of the three corners.
+    pub barycentric: Option<[f32; 3]>,
+    /// |t − exact t| in units in the last place of f32, against the same triangle's exact answer;
+    /// none if exactly the triangle isn't hit.
+    pub t_error_ulps: Option<f64>,
+    /// The largest error of a weight, likewise.
+    pub barycentric_error: Option<f64>,
+}
+
+/// Tests done for the ray.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+pub struct CostReport {
+    /// Boxes tested.
+    pub boxes: u32,
+    /// Triangles tested.
+    pub triangles: u32,
+}
+
+impl Inspection {
+    /// Traces the ray through a pixel's centre.
+    pub fn of_pixel(
+        scene: &Scene,
+        intersector: &dyn Intersector,
+        shading: Shading,
+        camera: &Camera,
+        pixel: UVec2,
+    ) -> Self {
+        let ray = camera.ray(pixel, Vec2::splat(0.5));
+        let (hit, Cost { boxes, triangles }) = intersector.closest_hit_with_cost(&ray);
+        let mesh = scene.mesh();
+        // Sorted, so that the first of equals is the lowest.
+        let mut candidates = intersector.candidates(&ray);
+        candidates.sort_unstable();
+        Self {
+            pixel: pixel.to_array(),
+            ray: RayReport {
+                origin: in_file(mesh, ray.origin),
+                direction: ray.dir.to_array(),
+            },
+            kernel: intersector.kernel().name,
+            hit: hit.map(|hit| HitReport::new(scene, hit, shading)),
+            exact: ExactReport::nearest(mesh, &ray, &candidates),
+            kernels: TRIANGLE_KERNELS
+                .iter()
+                .map(|kernel| KernelRow::new(kernel, mesh, &ray, &candidates))
+                .collect(),
+            cost: CostReport { boxes, triangles },
+        }
+    }
+}
+
+impl HitReport {
+    /// Looks up all that is known of a hit.
+    pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
+        let mesh = scene.mesh();
+        let surface = SurfaceInteraction::new(scene, hit, shading);
+        let index = hit.primitive as usize;
+        Self {
+            t: hit.t,
+            barycentric: hit.barycentric(),
+            triangle: hit.primitive,
+            face: mesh.faces[index],
+            position: position_in_file(mesh, &hit),
+            geometric_normal: surface.geometric_normal.to_array(),
+            shading_normal: surface.shading_normal.to_array(),
+            vertices: mesh.corners(hit.primitive).map(|p| in_file(mesh, p)),
+            material: mesh.materials[mesh.material[index] as usize].name.clone(),
+            group: mesh.groups[mesh.group[index] as usize].clone(),
+        }
+    }
+}
+
+impl ExactReport {
+    fn nearest(mesh: &TriangleMesh, ray: &Ray, candidates: &[u32]) -> Option<Self> {
+        let exact = |&triangle: &u32| {
+            oracle::intersect(ray, mesh.corners(triangle)).map(|hit| (triangle, hit))
+        };
+        let hits: Vec<(u32, ExactHit)> = candidates.iter().filter_map(exact).collect();
+        let (triangle, hit) = hits.iter().min_by(|a, b| a.1.t.cmp(&b.1.t))?;
+        let at_same_t = hits
+            .iter()
+            .filter(|(other, h)| other != triangle && h.t == hit.t);
+        Some(Self {
+            triangle: *triangle,
+            also: at_same_t.map(|(other, _)| *other).collect(),
+            t: hit.t.to_f64(),
+            barycentric: hit.barycentric.each_ref().map(Fraction::to_f64),
+            t_fraction: hit.t.to_string(),
+            barycentric_fractions: hit.barycentric.each_ref().map(ToString::to_string),
+            is_on_boundary: hit.is_on_boundary,
+        })
+    }
+}
+
+impl KernelRow {
+    /// Asks the kernel about every candidate, in scalar f32, which has the bits of the SIMD lanes.
+    fn new(kernel: &TriangleKernel, mesh: &TriangleMesh, ray: &Ray, candidates: &[u32]) -> Self {
+        let test = |&triangle: &u32| {
+            let hit = kernel.intersect(ray, mesh.corners(triangle))?;
+            Some(Hit {
+                primitive: triangle,
+                ..hit
+            })
+        };
+        let nearest = candidates
+            .iter()
+            .filter_map(test)
+            .min_by(|a, b| a.t.total_cmp(&b.t));
+        let exact = nearest.and_then(|hit| oracle::intersect(ray, mesh.corners(hit.primitive)));
+        let errors = nearest.zip(exact).map(|(hit, exact)| errors(&hit, &exact));
+        Self {
+            name: kernel.info.name,
+            hit: nearest.is_some(),
+            triangle: nearest.map(|hit| hit.primitive),
+            t: nearest.map(|hit| hit.t),
+            barycentric: nearest.map(|hit| hit.barycentric()),
+            t_error_ulps: errors.map(|(t, _)| t),
+            barycentric_error: errors.map(|(_, barycentric)| barycentric),
+        }
+    }
+}
+
+/// The error of t in ulps of f32, and the largest error of a weight.
+fn errors(hit: &Hit, exact: &ExactHit) -> (f64, f64) {
+    let distance = |x: f32, exact: &Fraction| {
+        let x = Fraction::from_f64(x.into()).expect("a hit is finite");
+        x.minus(exact).to_f64().abs()
+    };
+    let rounded = exact.t.to_f32().abs();
+    let ulp = f64::from(rounded.next_up()) - f64::from(rounded);
+    let weights = hit.barycentric().into_iter().zip(&exact.barycentric);
+    let weight_error = weights
+        .map(|(x, exact)| distance(x, exact))
+        .fold(0.0, f64::max);
+    (distance(hit.t, &exact.t) / ulp, weight_error)
+}
+
+/// A point of the mesh in the file's coordinates.
+fn in_file(mesh: &TriangleMesh, p: Vec3) -> [f64; 3] {
+    (p.as_dvec3() + mesh.origin).to_array()
+}
+
+/// Where a hit lies, in the file's coordinates, from its weights in f64.
+pub fn position_in_file(mesh: &TriangleMesh, hit: &Hit) -> [f64; 3] {
+    let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
+    let (u, v) = (f64::from(hit.u), f64::from(hit.v));
+    let p: DVec3 = a + u * (b - a) + v * (c - a);
+    (p + mesh.origin).to_array()
+}

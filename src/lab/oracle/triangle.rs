@@ -1,0 +1,180 @@
+//! Where does a ray meet a triangle, exactly?
+//!
+//! With A, B, C taken relative to the ray's origin, o + t·d = l1·A + l2·B + l3·C by Cramer's rule:
+//!
+//! ```text
+//! w1 = d·(B×C), w2 = d·(C×A), w3 = d·(A×B),  det = w1 + w2 + w3
+//! l1 = w1/det,  l2 = w2/det,  l3 = w3/det,   t = A·(A×B + B×C + C×A)/det = A·(B×C)/det
+//! ```
+//!
+//! Every f32 is an integer times a power of two, so all of it is integer arithmetic.
+
+use super::fraction::{Fraction, decode};
+use dashu_int::IBig;
+use glam::Vec3;
+use hitscope_core::Ray;
+use std::cmp::Ordering;
+
+/// The exact answer for a ray and a triangle that it hits.
+#[derive(Clone, Debug)]
+pub struct ExactHit {
+    /// Distance in lengths of the direction.
+    pub t: Fraction,
+    /// Weights of the three corners; they add up to 1.
+    pub barycentric: [Fraction; 3],
+    /// Whether it lies on an edge or at a corner.
+    pub is_on_boundary: bool,
+}
+
+/// The hit with `t_min < t < t_max`, or `None`.
+///
+/// The triangle is closed: its boundary belongs to it. A ray in its plane misses it, and so does any
+/// ray a triangle of zero area. A NaN or an infinity anywhere but in `t_max` is a miss.
+pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
+    let places = [ray.origin, corners[0], corners[1], corners[2]];
+    let (places, length_exponent) = integers(&places)?;
+    let (dirs, dir_exponent) = integers(&[ray.dir])?;
+    let d = &dirs[0];
+    let relative = |corner: &[IBig; 3]| minus(corner, &places[0]);
+    let [a, b, c] = [
+        relative(&places[1]),
+        relative(&places[2]),
+        relative(&places[3]),
+    ];
+
+    let b_cross_c = cross(&b, &c);
+    let w = [
+        dot(d, &b_cross_c),
+        dot(d, &cross(&c, &a)),
+        dot(d, &cross(&a, &b)),
+    ];
+    let det = &w[0] + &w[1] + &w[2];
+    let side = det.cmp(&IBig::ZERO);
+    // Inside: no weight has the sign opposite to det's.
+    let is_inside = w.iter().all(|w| w.cmp(&IBig::ZERO) != side.reverse());
+    if side == Ordering::Equal || !is_inside {
+        return None;
+    }
+
+    let fraction = |numerator: &IBig| Fraction::new(numerator.clone(), det.clone());
+    let t = fraction(&dot(&a, &b_cross_c))?.scaled(length_exponent - dir_exponent);
+    let is_before_end = match ray.t_max {
+        f32::INFINITY => true,
+        t_max => t < Fraction::from_f64(t_max.into())?,
+    };
+    if t <= Fraction::from_f64(ray.t_min.into())? || !is_before_end {
+        return None;
+    }
+    Some(ExactHit {
+        t,
+        barycentric: [fraction(&w[0])?, fraction(&w[1])?, fraction(&w[2])?],
+        is_on_boundary: w.contains(&IBig::ZERO),
+    })
+}
+
+/// The vectors as integers times a common power of two, whose exponent comes second.
+fn integers(vectors: &[Vec3]) -> Option<(Vec<[IBig; 3]>, i32)> {
+    let mut decoded = Vec::with_capacity(vectors.len());
+    for v in vectors {
+        let [x, y, z] = v.to_array().map(|x| decode(f64::from(x)));
+        decoded.push([x?, y?, z?]);
+    }
+    let nonzero = decoded
+        .iter()
+        .flatten()
+        .filter(|(mantissa, _)| *mantissa != 0);
+    let common = nonzero.map(|(_, exponent)| *exponent).min().unwrap_or(0);
+    let integer = |(mantissa, exponent): (i64, i32)| match mantissa {
+        0 => IBig::ZERO,
+        _ => IBig::from(mantissa) << (exponent - common) as usize,
+    };
+    let integers = decoded.into_iter().map(|v| v.map(integer)).collect();
+    Some((integers, common))
+}
+
+fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+    std::array::from_fn(|k| &a[k] - &b[k])
+}
+
+fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+    std::array::from_fn(|k| {
+        let (i, j) = ((k + 1) % 3, (k + 2) % 3);
+        &a[i] * &b[j] - &a[j] * &b[i]
+    })
+}
+
+fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
+    &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const TRIANGLE: [Vec3; 3] = [
+        Vec3::ZERO,
+        Vec3::new(4.0, 0.0, 0.0),
+        Vec3::new(0.0, 4.0, 0.0),
+    ];
+
+    fn hit(origin: Vec3, dir: Vec3) -> Option<ExactHit> {
+        intersect(&Ray::new(origin, dir).expect("a ray"), TRIANGLE)
+    }
+
+    fn answer(hit: &ExactHit) -> [String; 4] {
+        let [l1, l2, l3] = &hit.barycentric;
+        [&hit.t, l1, l2, l3].map(ToString::to_string)
+    }
+
+    #[test]
+    fn known_cases() {
+        let inside = hit(Vec3::new(1.0, 2.0, 6.0), Vec3::new(0.0, 0.0, -4.0)).expect("inside");
+        assert_eq!(answer(&inside), ["3/2", "1/4", "1/4", "1/2"]);
+        assert!(!inside.is_on_boundary);
+        let corner = hit(Vec3::new(4.0, 0.0, -1.0), Vec3::Z).expect("the boundary belongs to it");
+        assert_eq!(answer(&corner), ["1", "0", "1", "0"]);
+        assert!(corner.is_on_boundary);
+        assert!(
+            hit(Vec3::new(2.1, 2.0, 1.0), Vec3::NEG_Z).is_none(),
+            "outside"
+        );
+        assert!(hit(Vec3::new(1.0, 1.0, 1.0), Vec3::Z).is_none(), "behind");
+        assert!(hit(Vec3::new(1.0, 1.0, 0.0), Vec3::Z).is_none(), "t = 0");
+        assert!(
+            hit(Vec3::new(-1.0, 1.0, 0.0), Vec3::X).is_none(),
+            "in its plane"
+        );
+    }
+
+    #[test]
+    fn one_ulp_beside_the_edge_is_outside_at_any_scale() {
+        for exponent in [-120, -60, 0, 60, 120] {
+            let scale = 2f32.powi(exponent);
+            let corners = TRIANGLE.map(|p| p * scale);
+            let at =
+                |x: f32| Ray::new(Vec3::new(x, 2.0 * scale, scale), Vec3::NEG_Z).expect("a ray");
+            let edge = 2.0 * scale;
+            assert!(intersect(&at(edge), corners).is_some_and(|h| h.is_on_boundary));
+            assert!(intersect(&at(edge.next_up()), corners).is_none());
+            assert!(intersect(&at(edge.next_down()), corners).is_some_and(|h| !h.is_on_boundary));
+        }
+    }
+
+    #[test]
+    fn what_has_no_answer_is_a_miss() {
+        let ray = Ray::new(Vec3::Z, Vec3::NEG_Z).expect("a ray");
+        assert!(intersect(&ray, [Vec3::ZERO; 3]).is_none());
+        assert!(intersect(&ray, [Vec3::NAN, Vec3::X, Vec3::Y]).is_none());
+        assert!(intersect(&ray, [Vec3::INFINITY, Vec3::X, Vec3::Y]).is_none());
+    }
+
+    #[test]
+    fn the_interval_is_open() {
+        let ray = |lo, hi| {
+            Ray::with_interval(Vec3::new(1.0, 1.0, 2.0), Vec3::NEG_Z, lo, hi).expect("a ray")
+        };
+        assert!(intersect(&ray(0.0, 2.5), TRIANGLE).is_some());
+        assert!(intersect(&ray(2.0, 2.5), TRIANGLE).is_none());
+        assert!(intersect(&ray(0.0, 2.0), TRIANGLE).is_none());
+    }
+}
