@@ -117,6 +117,11 @@ impl Film {
         rect
     }
 
+    /// Counts a tile as done that couldn't be traced; its pixels stay as they are.
+    pub fn skip(&mut self, unit: Unit) {
+        self.tiles_done[unit.pass] += 1;
+    }
+
     /// Gives a pixel's colour to those of its block that show a coarser one.
     fn fill_block(&mut self, pixel: UVec2, step: u32) {
         let colour = self.pixels[self.index(pixel)];

@@ -1,1 +1,28 @@
-//! x
+//! hitscope's window: a progressive ray tracer's picture, the mesh's lines over it, and what a click
+//! on a pixel tells.
+//!
+//! | module | answers |
+//! |---|---|
+//! | [`cli`] | what was asked for on the command line? |
+//! | [`app`] | what is in the window, and what does a frame do? |
+//! | [`bindings`] | which key does what? |
+//! | [`document`], [`opening`] | what is open, and how does a file get there? |
+//! | [`tracer`], [`picture`] | what is being traced, and how does it get on the screen? |
+//! | [`overlay`], [`gpu`] | what is drawn over it, and how? |
+//! | [`panels`], [`settings`] | what can be read and chosen at the side? |
+//! | [`offscreen`], [`screenshot`] | how do pictures get into files? |
+
+pub mod app;
+pub mod bindings;
+pub mod cli;
+pub mod document;
+pub mod gpu;
+pub mod offscreen;
+pub mod opening;
+pub mod overlay;
+pub mod panels;
+pub mod picture;
+pub mod screenshot;
+pub mod settings;
+pub mod task;
+pub mod tracer;

@@ -122,7 +122,7 @@ pub fn render(job: Job, threads: usize) -> Result<Film, RenderPanic> {
             Message::Tile(tile) => {
                 film.add(&tile.samples);
             }
-            Message::Panicked(panic) => return Err(panic),
+            Message::Panicked(_, panic) => return Err(panic),
         }
     }
     Ok(film)

@@ -1,6 +1,7 @@
 //! The threads that render.
 
 use super::job::{Job, RenderPanic, TileResult};
+use super::plan::Unit;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -15,7 +16,7 @@ pub enum Message {
     /// A tile of the newest job.
     Tile(TileResult),
     /// A tile of the newest job that couldn't be traced.
-    Panicked(RenderPanic),
+    Panicked(Unit, RenderPanic),
 }
 
 /// The job that the threads work on, and the next tile of it.
@@ -164,7 +165,7 @@ fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() +
         let message = match posted.job.trace(unit, is_stale) {
             Ok(Some(tile)) => Message::Tile(tile),
             Ok(None) => continue,
-            Err(panic) => Message::Panicked(panic),
+            Err(panic) => Message::Panicked(unit, panic),
         };
         if sender.send((generation, message)).is_err() {
             return;

@@ -1,0 +1,101 @@
+// Lines of constant width in pixels, anti-aliased by their distance from the middle.
+
+// Twin of `StyleUniform` in src/viewer/gpu/lines.rs.
+struct Style {
+    // sRGB, alpha not multiplied in.
+    colour: vec4f,
+    half_width_px: f32,
+    // The second end is moved to this many times its distance from the first.
+    stretch: f32,
+    // 1: lines fade where they would lie closer together than a few pixels. 0: they don't.
+    fade: f32,
+};
+
+@group(1) @binding(0) var<uniform> style: Style;
+
+struct Line {
+    @location(0) start: vec3f,
+    @location(1) end: vec3f,
+    // From the line to where the next one is to be expected.
+    @location(2) gap: vec3f,
+};
+
+struct Fragment {
+    @builtin(position) position: vec4f,
+    // Pixels from the middle of the line.
+    @location(0) @interpolate(linear) across_px: f32,
+    @location(1) @interpolate(flat) alpha: f32,
+};
+
+// Outside of every picture.
+const NOWHERE = Fragment(vec4f(2.0, 2.0, 0.0, 1.0), 0.0, 0.0);
+
+fn pixel_from_clip(clip: vec4f) -> vec2f {
+    return 0.5 * view.viewport * clip.xy / clip.w;
+}
+
+// How much of a line shows whose neighbour is this far away. Below the first number of pixels lines
+// merge into a veil, whose strength doesn't grow as they get denser; above the second they stand
+// alone.
+fn visible_part(gap_px: f32) -> f32 {
+    const MERGED_PX = 1.5;
+    const ALONE_PX = 9.0;
+    const VEIL = 0.12;
+    let veil = VEIL * min(gap_px / MERGED_PX, 1.0);
+    return mix(veil, 1.0, smoothstep(MERGED_PX, ALONE_PX, gap_px));
+}
+
+// A quad around the line, as two triangles:   1───3
+//                                             │ ╲ │
+//                                             0───2
+@vertex
+fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
+    var start = clip_from_position(line.start);
+    var end = clip_from_position(mix(line.start, line.end, style.stretch));
+
+    // Cut off what lies behind the eye, where a projection has no meaning.
+    if start.w < view.near_w && end.w < view.near_w {
+        return NOWHERE;
+    }
+    if start.w < view.near_w {
+        start = mix(start, end, (view.near_w - start.w) / (end.w - start.w));
+    }
+    if end.w < view.near_w {
+        end = mix(end, start, (view.near_w - end.w) / (start.w - end.w));
+    }
+
+    let along_px = pixel_from_clip(end) - pixel_from_clip(start);
+    let length_px = length(along_px);
+    if length_px < 1e-4 {
+        return NOWHERE;
+    }
+
+    var alpha = 1.0;
+    if style.fade > 0.0 {
+        let middle = mix(line.start, line.end, 0.5);
+        let here = clip_from_position(middle);
+        let beside = clip_from_position(middle + line.gap);
+        if min(here.w, beside.w) > view.near_w {
+            let gap_px = length(pixel_from_clip(beside) - pixel_from_clip(here));
+            alpha = visible_part(min(gap_px, length_px));
+        }
+    }
+
+    const CORNERS = array(0u, 1u, 2u, 2u, 1u, 3u);
+    let corner = CORNERS[vertex];
+    let side = select(-1.0, 1.0, (corner & 1u) == 1u);
+    let at = select(start, end, corner >= 2u);
+    let normal = vec2f(-along_px.y, along_px.x) / length_px;
+    // Half a pixel more than the line's half width, for the soft edge.
+    let across_px = side * (style.half_width_px + 0.5);
+    let offset = 2.0 * normal * across_px / view.viewport;
+    return Fragment(vec4f(at.xy + offset * at.w, at.zw), across_px, alpha);
+}
+
+// Colour with alpha multiplied in, sRGB-encoded as the picture below.
+@fragment
+fn fs_main(fragment: Fragment) -> @location(0) vec4f {
+    let coverage = clamp(style.half_width_px + 0.5 - abs(fragment.across_px), 0.0, 1.0);
+    let alpha = style.colour.a * fragment.alpha * coverage;
+    return vec4f(style.colour.rgb * alpha, alpha);
+}

@@ -1,0 +1,51 @@
+//! What keys and buttons do.
+
+use super::App;
+use crate::bindings::Action;
+use std::path::Path;
+
+impl App {
+    pub(super) fn perform(&mut self, action: Action, ctx: &egui::Context, frame: &eframe::Frame) {
+        match action {
+            Action::Open => {
+                let folder = self.document.path.as_deref().and_then(Path::parent);
+                self.open_dialog.open(ctx, frame, folder);
+            }
+            Action::Reload => {
+                if let Some(path) = self.document.path.clone() {
+                    self.load(path, ctx);
+                }
+            }
+            Action::Frame => {
+                let bounds = self.document.loaded.scene.bounds();
+                self.turntable.frame(bounds, self.resolution);
+            }
+            Action::LookFrom(view) => self.turntable.look_from(view),
+            Action::ToggleOrthographic => {
+                self.turntable.is_orthographic = !self.turntable.is_orthographic;
+            }
+            Action::ToggleWireframe => {
+                self.settings.shows_wireframe = !self.settings.shows_wireframe;
+            }
+            Action::ToggleNormals => self.settings.shows_normals = !self.settings.shows_normals,
+            Action::ToggleSmooth => self.settings.is_smooth = !self.settings.is_smooth,
+            Action::TogglePause => self.tracer.toggle_pause(),
+            Action::TogglePanel => self.settings.shows_panel = !self.settings.shows_panel,
+            Action::ToggleHelp => self.shows_help = !self.shows_help,
+            Action::Dismiss => self.dismiss(),
+        }
+        ctx.request_repaint();
+    }
+
+    /// Closes the topmost thing that can be closed.
+    fn dismiss(&mut self) {
+        if self.shows_help {
+            self.shows_help = false;
+        } else if self.open_dialog.dismiss() {
+        } else if self.notice.is_some() {
+            self.notice = None;
+        } else {
+            self.pick = None;
+        }
+    }
+}

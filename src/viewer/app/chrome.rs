@@ -1,0 +1,297 @@
+//! What is around the picture: tool bar, side panel, status line, messages, help.
+
+use super::App;
+use crate::bindings::{Action, KEYS, POINTER};
+use crate::panels;
+use crate::settings::Tab;
+use egui::{Align, Layout, RichText};
+use hitscope_core::integrator::INTEGRATORS;
+
+impl App {
+    pub(super) fn toolbar_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        let frame =
+            egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 4));
+        egui::Panel::top("toolbar").frame(frame).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                ui.spacing_mut().item_spacing.x = 4.0;
+                self.tools_ui(ui, actions);
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let mut shows_panel = self.settings.shows_panel;
+                    let panel = ui.toggle_value(&mut shows_panel, "Panel");
+                    if panel.on_hover_text("Side panel (I)").clicked() {
+                        actions.push(Action::TogglePanel);
+                    }
+                    if ui
+                        .button("Help")
+                        .on_hover_text("Keys and pointer (H)")
+                        .clicked()
+                    {
+                        actions.push(Action::ToggleHelp);
+                    }
+                });
+            });
+        });
+    }
+
+    fn tools_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        if ui
+            .button("Open")
+            .on_hover_text("Open a file (Ctrl+O)")
+            .clicked()
+        {
+            actions.push(Action::Open);
+        }
+        if ui
+            .button("Frame")
+            .on_hover_text("Show the whole mesh (Home)")
+            .clicked()
+        {
+            actions.push(Action::Frame);
+        }
+        let view = self.settings.integrator();
+        egui::ComboBox::from_id_salt("view")
+            .selected_text(view.title)
+            .width(92.0)
+            .show_ui(ui, |ui| {
+                for choice in INTEGRATORS {
+                    let name = choice.name.to_owned();
+                    ui.selectable_value(&mut self.settings.view, name, choice.title)
+                        .on_hover_text(choice.about);
+                }
+            });
+        let settings = &self.settings;
+        let switches = [
+            (
+                "Smooth",
+                settings.is_smooth,
+                Action::ToggleSmooth,
+                "Flat or smooth shading (S)",
+            ),
+            (
+                "Wire",
+                settings.shows_wireframe,
+                Action::ToggleWireframe,
+                "Wireframe (W)",
+            ),
+            (
+                "Normals",
+                settings.shows_normals,
+                Action::ToggleNormals,
+                "Normals (N)",
+            ),
+            (
+                "Ortho",
+                self.turntable.is_orthographic,
+                Action::ToggleOrthographic,
+                "Perspective or parallel rays (5)",
+            ),
+            (
+                "Pause",
+                self.tracer.is_paused(),
+                Action::TogglePause,
+                "Hold refinement (P)",
+            ),
+        ];
+        for (label, mut is_on, action, hint) in switches {
+            if ui
+                .toggle_value(&mut is_on, label)
+                .on_hover_text(hint)
+                .clicked()
+            {
+                actions.push(action);
+            }
+        }
+    }
+
+    pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        let mut is_expanded = self.settings.shows_panel;
+        egui::Panel::right("panel")
+            .default_size(300.0)
+            .size_range(240.0..=420.0)
+            .show_collapsible(ui, &mut is_expanded, |ui| {
+                ui.add_space(4.0);
+                ui.horizontal(|ui| {
+                    for (tab, label) in [
+                        (Tab::Inspect, "Inspect"),
+                        (Tab::View, "View"),
+                        (Tab::Mesh, "Mesh"),
+                    ] {
+                        ui.selectable_value(&mut self.settings.tab, tab, label);
+                    }
+                });
+                ui.separator();
+                egui::ScrollArea::vertical()
+                    .auto_shrink(false)
+                    .show(ui, |ui| match self.settings.tab {
+                        Tab::Inspect => {
+                            let inspection = self.pick.as_ref().map(|pick| &pick.inspection);
+                            panels::inspect::inspect_ui(ui, inspection);
+                        }
+                        Tab::View => {
+                            panels::view::view_ui(
+                                ui,
+                                &mut self.settings,
+                                &mut self.turntable,
+                                actions,
+                            );
+                        }
+                        Tab::Mesh => panels::mesh::mesh_ui(ui, &mut self.document),
+                    });
+            });
+        self.settings.shows_panel = is_expanded;
+    }
+
+    pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {
+        let status = self.tracer.status();
+        let scene = &self.document.loaded.scene;
+        let refined = match (status.samples, self.tracer.is_paused()) {
+            (_, true) => format!("paused at {} samples", status.samples),
+            (0, _) => format!("pass {} of {}", status.passes, status.pass_count),
+            (samples, _) => format!("{samples} of {} samples", self.settings.samples),
+        };
+        let mut parts = vec![
+            refined,
+            format!("{:.1} Mrays/s", status.rays_per_s / 1e6),
+            format!("{} triangles", grouped(scene.mesh().triangles.len())),
+            format!("tree {:.0} ms", scene.build_time().as_secs_f64() * 1e3),
+            format!("{:.1} s", status.lasted.as_secs_f64()),
+        ];
+        if let Some(interval) = status.frame_interval {
+            parts.push(format!("frame {:.0} ms", interval.as_secs_f64() * 1e3));
+        }
+        if self.tracer.non_finite() > 0 {
+            parts.push(format!("{} samples not finite", self.tracer.non_finite()));
+        }
+        let frame =
+            egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
+        egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
+            let text = RichText::new(parts.join("  ·  ")).monospace().size(11.0);
+            ui.add(egui::Label::new(text).truncate());
+        });
+    }
+
+    /// What floats over the picture.
+    pub(super) fn windows_ui(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
+        if let Some(path) = self.open_dialog.field_ui(ctx) {
+            self.load(path, ctx);
+        }
+        let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
+        if let Some(file) = dropped {
+            self.load(file.path().to_owned(), ctx);
+        }
+        self.drop_hint_ui(ctx);
+        self.notices_ui(ctx);
+        self.help_ui(ctx, actions);
+    }
+
+    fn drop_hint_ui(&self, ctx: &egui::Context) {
+        if ctx.input(|input| input.raw.hovered_files.is_empty()) {
+            return;
+        }
+        egui::Area::new(egui::Id::unique("drop"))
+            .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
+            .show(ctx, |ui| {
+                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop to open"));
+            });
+    }
+
+    /// What is being loaded, and what the user must know.
+    fn notices_ui(&mut self, ctx: &egui::Context) {
+        if self.loading.is_none() && self.notice.is_none() {
+            return;
+        }
+        let mut is_closed = false;
+        egui::Area::new(egui::Id::unique("notices"))
+            .anchor(egui::Align2::LEFT_TOP, egui::vec2(10.0, 42.0))
+            .show(ctx, |ui| {
+                ui.set_max_width((ui.ctx().content_rect().width() - 20.0).min(560.0));
+                if let Some(loading) = &self.loading {
+                    egui::Frame::popup(ui.style()).show(ui, |ui| {
+                        ui.label(format!("Loading {}", loading.path.display()));
+                        loading.progress_ui(ui);
+                    });
+                }
+                if let Some(notice) = &self.notice {
+                    egui::Frame::popup(ui.style()).show(ui, |ui| {
+                        let visuals = ui.visuals();
+                        let (title, colour) = if notice.is_error {
+                            ("Error", visuals.error_fg_color)
+                        } else {
+                            ("Note", visuals.warn_fg_color)
+                        };
+                        ui.horizontal(|ui| {
+                            ui.label(RichText::new(title).color(colour).strong());
+                            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                                is_closed = ui.small_button("Close").clicked();
+                            });
+                        });
+                        ui.label(&notice.text);
+                    });
+                }
+            });
+        if is_closed {
+            self.notice = None;
+        }
+    }
+
+    fn help_ui(&self, ctx: &egui::Context, actions: &mut Vec<Action>) {
+        if !self.shows_help {
+            return;
+        }
+        let response = egui::Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
+            ui.heading("Keys and pointer");
+            ui.add_space(4.0);
+            let height = ui.ctx().content_rect().height() - 120.0;
+            egui::ScrollArea::vertical()
+                .max_height(height)
+                .show(ui, |ui| {
+                    let row = |ui: &mut egui::Ui, keys: &str, about: &str| {
+                        ui.label(RichText::new(keys).strong());
+                        ui.label(about);
+                        ui.end_row();
+                    };
+                    egui::Grid::new("keys")
+                        .num_columns(2)
+                        .spacing([16.0, 3.0])
+                        .show(ui, |ui| {
+                            for (pointer, about) in POINTER {
+                                row(ui, pointer, about);
+                            }
+                            for binding in KEYS {
+                                row(ui, &binding.key_text(ctx), binding.about);
+                            }
+                        });
+                });
+            ui.add_space(6.0);
+            ui.button("Close").clicked()
+        });
+        if response.inner || response.backdrop_response.clicked() {
+            actions.push(Action::ToggleHelp);
+        }
+    }
+}
+
+/// `1234567` as `1 234 567`, with narrow spaces.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i) % 3 == 0 {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_grouped_by_three() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(69451), "69\u{202f}451");
+        assert_eq!(grouped(1_111_216), "1\u{202f}111\u{202f}216");
+    }
+}

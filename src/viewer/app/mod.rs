@@ -1,0 +1,291 @@
+//! The window: what is in it, and what its parts do to each other.
+//!
+//! | file | part |
+//! |---|---|
+//! | this one | state, and the order of a frame |
+//! | [`actions`] | what keys and buttons do |
+//! | [`canvas`] | the picture, and the pointer on it |
+//! | [`chrome`] | tool bar, status line, messages, help |
+
+mod actions;
+mod canvas;
+mod chrome;
+
+pub use chrome::grouped;
+
+use crate::document::Document;
+use crate::opening::{Loading, OpenDialog};
+use crate::overlay::OverlayLayer;
+use crate::picture::Picture;
+use crate::screenshot::Screenshot;
+use crate::settings::Settings;
+use crate::tracer::Tracer;
+use eframe::egui_wgpu;
+use egui_wgpu::RenderState;
+use glam::{DVec3, UVec2};
+use hitscope_core::Film;
+use hitscope_core::camera::Turntable;
+use hitscope_lab::commands::default_thread_count;
+use hitscope_lab::inspection::Inspection;
+use std::path::PathBuf;
+use std::sync::{Arc, Mutex};
+
+/// How the window starts.
+#[derive(Clone, Debug, Default)]
+pub struct StartOptions {
+    /// A file to load; the embedded scene without one.
+    pub file: Option<PathBuf>,
+    /// Save a picture of the window, and close it.
+    pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
+}
+
+/// Why the window can't start.
+#[derive(Debug, thiserror::Error)]
+#[error("the window needs wgpu, but eframe runs without it")]
+pub struct NoWgpu;
+
+/// A pixel that was clicked.
+struct Pick {
+    inspection: Inspection,
+    /// Where the ray hit, in the scene's coordinates.
+    point: Option<DVec3>,
+}
+
+/// Something that the user must know, until it is closed.
+struct Notice {
+    text: String,
+    is_error: bool,
+}
+
+/// The viewer.
+pub struct App {
+    settings: Settings,
+    document: Document,
+    loading: Option<Loading>,
+    open_dialog: OpenDialog,
+    turntable: Turntable,
+    tracer: Tracer,
+    picture: Picture,
+    overlay: OverlayLayer,
+    pick: Option<Pick>,
+    notice: Option<Notice>,
+    shows_help: bool,
+    /// Size of the picture in physical pixels, as it was last laid out.
+    resolution: UVec2,
+    /// Whether the camera still has to be set up for the scene: only the layout knows the size.
+    is_unframed: bool,
+    /// Uncaught errors of the GPU, from whatever thread they come.
+    gpu_errors: Arc<Mutex<Vec<String>>>,
+    screenshot: Option<Screenshot>,
+}
+
+impl App {
+    /// Starts the threads and shows the embedded scene, or loads a file.
+    ///
+    /// # Errors
+    /// [`NoWgpu`].
+    pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Result<Self, NoWgpu> {
+        let render_state = cc.wgpu_render_state.clone().ok_or(NoWgpu)?;
+        // A picture of the window shows the defaults, whatever was used last.
+        let stored = match start.screenshot {
+            Some(_) => None,
+            None => cc
+                .storage
+                .and_then(|storage| eframe::get_value(storage, SETTINGS_KEY)),
+        };
+        let settings: Settings = stored.unwrap_or_default();
+        cc.egui_ctx.set_theme(settings.theme);
+        let document = Document::embedded(settings.kernel());
+        let loading = start
+            .file
+            .map(|file| Loading::start(file, &settings, &cc.egui_ctx));
+        Ok(Self {
+            turntable: Turntable::framing(document.loaded.scene.bounds(), UVec2::new(16, 9)),
+            document,
+            loading,
+            open_dialog: OpenDialog::default(),
+            tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
+            gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
+            picture: Picture::new(render_state.clone()),
+            overlay: OverlayLayer::new(render_state),
+            pick: None,
+            notice: None,
+            shows_help: false,
+            resolution: UVec2::ZERO,
+            is_unframed: true,
+            screenshot: start.screenshot.map(Screenshot::new),
+            settings,
+        })
+    }
+
+    /// The picture as far as it is.
+    pub fn film(&self) -> &Film {
+        self.tracer.film()
+    }
+
+    /// Whether the picture has all its samples and nothing is being loaded.
+    pub fn is_settled(&self) -> bool {
+        self.loading.is_none() && self.tracer.is_complete()
+    }
+
+    /// How things are shown.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// What is open.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The camera as the user moved it.
+    pub fn turntable(&self) -> &Turntable {
+        &self.turntable
+    }
+
+    /// What is known of the pixel that was clicked.
+    pub fn inspection(&self) -> Option<&Inspection> {
+        self.pick.as_ref().map(|pick| &pick.inspection)
+    }
+
+    /// What the user is told, until it is closed.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_ref().map(|notice| notice.text.as_str())
+    }
+
+    /// What came of the picture of the window, if one was asked for.
+    pub fn screenshot(&self) -> Option<&Screenshot> {
+        self.screenshot.as_ref()
+    }
+
+    fn error(&mut self, text: impl ToString) {
+        self.notice = Some(Notice {
+            text: text.to_string(),
+            is_error: true,
+        });
+    }
+
+    fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
+        if let Some(loading) = &self.loading {
+            loading.cancel();
+        }
+        self.notice = None;
+        self.loading = Some(Loading::start(path, &self.settings, ctx));
+    }
+
+    /// Takes over a document that is ready; one that can't be loaded leaves the old one in place.
+    fn poll_loading(&mut self, ctx: &egui::Context) {
+        if let Some(path) = self.open_dialog.poll() {
+            self.load(path, ctx);
+        }
+        let Some(loading) = &self.loading else { return };
+        let result = match loading.poll() {
+            Ok(None) => return,
+            Ok(Some(result)) => result.map_err(|error| match error {
+                hitscope_core::obj::LoadError::Cancelled { .. } => None,
+                error => Some(error.to_string()),
+            }),
+            Err(broken) => Err(Some(format!("{}: {broken}", loading.path.display()))),
+        };
+        self.loading = None;
+        match result {
+            Ok(document) => self.show(document, ctx),
+            Err(Some(message)) => self.error(message),
+            Err(None) => {}
+        }
+    }
+
+    fn show(&mut self, document: Document, ctx: &egui::Context) {
+        let is_same_file = self.document.path == document.path;
+        self.document = document;
+        self.pick = None;
+        self.is_unframed |= !is_same_file;
+        let title = format!("{} – hitscope", self.document.name());
+        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
+        let warnings = &self.document.loaded.warnings;
+        if let Some(first) = warnings.first() {
+            let more = match warnings.len() - 1 {
+                0 => String::new(),
+                n => format!(" (and {n} more, in the Mesh tab)"),
+            };
+            self.notice = Some(Notice {
+                text: format!("{}: {first}{more}", self.document.name()),
+                is_error: false,
+            });
+        }
+    }
+
+    fn poll_gpu_errors(&mut self) {
+        // A poisoned lock still holds the messages.
+        let mut errors = self
+            .gpu_errors
+            .lock()
+            .unwrap_or_else(std::sync::PoisonError::into_inner);
+        let message = errors.drain(..).next();
+        drop(errors);
+        if let Some(message) = message {
+            self.error(format!("graphics: {message}"));
+        }
+    }
+}
+
+const SETTINGS_KEY: &str = "settings";
+
+impl eframe::App for App {
+    /// Runs also while the window is hidden, so that nothing piles up.
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.poll_loading(ctx);
+        self.poll_gpu_errors();
+        if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
+            self.error(broken);
+            self.settings.kernel = self.document.intersector().kernel().name.to_owned();
+        }
+        if let Some(panic) = self.tracer.collect(ctx).first() {
+            self.error(panic);
+        }
+        let is_settled = self.is_settled();
+        if let Some(screenshot) = &mut self.screenshot {
+            screenshot.step(ctx, is_settled);
+        }
+    }
+
+    fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
+        let ctx = ui.ctx().clone();
+        let mut actions = crate::bindings::pressed(&ctx);
+        self.toolbar_ui(ui, &mut actions);
+        self.status_ui(ui);
+        self.panel_ui(ui, &mut actions);
+        self.canvas_ui(ui);
+        self.windows_ui(&ctx, &mut actions);
+        for action in actions {
+            self.perform(action, &ctx, frame);
+        }
+    }
+
+    fn save(&mut self, storage: &mut dyn eframe::Storage) {
+        eframe::set_value(storage, SETTINGS_KEY, &self.settings);
+    }
+}
+
+/// Collects errors that wgpu would otherwise panic on.
+fn catch_gpu_errors(render_state: &RenderState, ctx: &egui::Context) -> Arc<Mutex<Vec<String>>> {
+    let errors: Arc<Mutex<Vec<String>>> = Arc::default();
+    let (shared, ctx) = (Arc::clone(&errors), ctx.clone());
+    let push = move |message: String| {
+        eprintln!("hitscope: graphics: {message}");
+        if let Ok(mut errors) = shared.lock() {
+            errors.push(message);
+        }
+        ctx.request_repaint();
+    };
+    let lost = push.clone();
+    let device = &render_state.device;
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| push(error.to_string())));
+    device.set_device_lost_callback(move |reason, message| {
+        // Closing the window loses the device as well.
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            lost(format!("the device was lost: {message}"));
+        }
+    });
+    errors
+}

@@ -1,0 +1,157 @@
+//! What is open: a scene, its file, and the intersector that traces it.
+
+use crate::task::{Broken, Task};
+use hitscope_core::Intersector;
+use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::mesh::Health;
+use hitscope_core::obj::{self, LoadError, Recentre};
+use hitscope_core::progress::Progress;
+use hitscope_core::scene::LoadedScene;
+use std::io;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::time::Instant;
+
+const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
+const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
+
+/// A scene that can be traced. Made by a loading thread.
+pub struct Document {
+    /// Where it comes from; `None` for the embedded scene.
+    pub path: Option<PathBuf>,
+    /// The scene, and what is known of its file.
+    pub loaded: LoadedScene,
+    intersector: Arc<dyn Intersector>,
+    /// For another kernel, while it is being made.
+    packing: Option<(&'static str, Task<Box<dyn Intersector>>)>,
+    health: HealthState,
+}
+
+enum HealthState {
+    Unasked,
+    Checking(Task<Health>),
+    Known(Health),
+    Broken,
+}
+
+impl Document {
+    /// Loads a file and packs it for a kernel.
+    ///
+    /// # Errors
+    /// See [`LoadError`].
+    pub fn load(
+        path: &Path,
+        kernel: &TriangleKernel,
+        progress: &Progress,
+    ) -> Result<Self, LoadError> {
+        let loaded = LoadedScene::load(path, Recentre::Auto, progress)?;
+        Ok(Self::new(Some(path.to_owned()), loaded, kernel))
+    }
+
+    /// The embedded scene.
+    pub fn embedded(kernel: &TriangleKernel) -> Self {
+        Self::new(None, embedded_scene(), kernel)
+    }
+
+    fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: &TriangleKernel) -> Self {
+        Self {
+            path,
+            intersector: Arc::from(loaded.scene.intersector(kernel)),
+            loaded,
+            packing: None,
+            health: HealthState::Unasked,
+        }
+    }
+
+    /// For titles.
+    pub fn name(&self) -> String {
+        let file = self.path.as_deref().and_then(Path::file_name);
+        file.map_or("Default scene".to_owned(), |name| {
+            name.to_string_lossy().into_owned()
+        })
+    }
+
+    /// Answers this scene's rays, with the kernel that was last ready.
+    pub fn intersector(&self) -> &Arc<dyn Intersector> {
+        &self.intersector
+    }
+
+    /// Changes to a kernel, as soon as the scene is packed for it.
+    ///
+    /// # Errors
+    /// [`Broken`] if packing failed; the kernel before stays.
+    pub fn use_kernel(
+        &mut self,
+        kernel: &'static TriangleKernel,
+        ctx: &egui::Context,
+    ) -> Result<(), Broken> {
+        if let Some((name, task)) = &self.packing
+            && *name == kernel.info.name
+        {
+            if let Some(intersector) = task.poll()? {
+                self.intersector = Arc::from(intersector);
+                self.packing = None;
+            }
+        } else if self.intersector.kernel().name != kernel.info.name {
+            let scene = Arc::clone(&self.loaded.scene);
+            let pack = move || scene.intersector(kernel);
+            self.packing = Some((kernel.info.name, Task::spawn("pack", ctx, pack)));
+        }
+        Ok(())
+    }
+
+    /// The mesh's health, computed when first asked for; `None` until it is known.
+    pub fn health(&mut self, ctx: &egui::Context) -> Option<Health> {
+        match &self.health {
+            HealthState::Unasked => {
+                let scene = Arc::clone(&self.loaded.scene);
+                let check = move || Health::of(scene.mesh());
+                self.health = HealthState::Checking(Task::spawn("health", ctx, check));
+            }
+            HealthState::Checking(task) => match task.poll() {
+                Ok(None) => {}
+                Ok(Some(health)) => self.health = HealthState::Known(health),
+                Err(Broken) => self.health = HealthState::Broken,
+            },
+            HealthState::Known(_) | HealthState::Broken => {}
+        }
+        match self.health {
+            HealthState::Known(health) => Some(health),
+            _ => None,
+        }
+    }
+}
+
+/// The scene that is shown when no file is given.
+pub fn embedded_scene() -> LoadedScene {
+    let library = |name: &str| match name {
+        "default.mtl" => Ok(DEFAULT_MTL.to_vec()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    };
+    let (start, progress) = (Instant::now(), Progress::default());
+    let path = Path::new("the embedded scene");
+    let loaded = obj::parse(
+        DEFAULT_OBJ.as_bytes(),
+        path,
+        Recentre::Auto,
+        &library,
+        &progress,
+    );
+    let loaded = loaded.expect("a test opens the embedded scene");
+    LoadedScene::of(loaded, start, &progress).expect("nobody cancels")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_embedded_scene_loads_without_a_warning() {
+        let loaded = embedded_scene();
+        assert_eq!(loaded.warnings, []);
+        let mesh = loaded.scene.mesh();
+        let groups: Vec<&str> = mesh.groups.iter().map(String::as_str).collect();
+        assert_eq!(groups, ["", "floor", "knot", "gem", "shell"]);
+        assert!(mesh.materials[1..].iter().all(|m| m.diffuse.is_some()));
+    }
+}

@@ -1,0 +1,250 @@
+//! What the GPU draws over the traced picture: lines, hidden where triangles lie before them.
+//!
+//! [`Overlay`] owns a colour and a depth target of its own, so that the result doesn't depend on the
+//! window's: depth first ([`depth`]), then lines ([`lines`]), both for the same [`view`]. Depth is
+//! reversed (1 near, 0 far), which keeps its precision far away.
+
+pub mod depth;
+pub mod lines;
+pub mod view;
+
+use depth::{DepthMesh, DepthPipeline};
+use glam::UVec2;
+use lines::{LinePipelines, LineSet, Visibility};
+use view::{ViewBinding, ViewUniform};
+
+/// The colour target: sRGB-encoded, alpha multiplied in, as egui's textures are.
+const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+/// Reversed depth needs a float to be precise.
+const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
+
+/// Why something can't be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum GpuError {
+    /// There is no GPU, nor software that acts as one.
+    #[error("no graphics adapter was found: {0}")]
+    NoAdapter(String),
+    /// The mesh needs a larger buffer than the GPU grants.
+    #[error("the overlay needs a buffer of {needed} bytes; this GPU grants {granted}")]
+    TooLarge {
+        /// Bytes needed.
+        needed: u64,
+        /// Bytes granted.
+        granted: u64,
+    },
+    /// The picture couldn't be read back.
+    #[error("the overlay couldn't be read back: {0}")]
+    ReadBack(String),
+}
+
+/// Draws lines over a mesh, hidden where the mesh is before them. Lives as long as the device.
+pub struct Overlay {
+    view: ViewBinding,
+    depth: DepthPipeline,
+    lines: LinePipelines,
+    targets: Option<Targets>,
+}
+
+/// Textures of the picture's size.
+struct Targets {
+    size: UVec2,
+    colour: wgpu::Texture,
+    colour_view: wgpu::TextureView,
+    depth_view: wgpu::TextureView,
+}
+
+impl Overlay {
+    /// Compiles the shaders.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let view = ViewBinding::new(device);
+        Self {
+            depth: DepthPipeline::new(device, &view, DEPTH_FORMAT),
+            lines: LinePipelines::new(device, &view, COLOUR_FORMAT, DEPTH_FORMAT),
+            view,
+            targets: None,
+        }
+    }
+
+    /// The pipelines for lines, which make [`LineSet`]s.
+    pub fn lines(&self) -> &LinePipelines {
+        &self.lines
+    }
+
+    /// Draws the lines of each set over a transparent ground, and returns the texture. It is the
+    /// same one until the size changes.
+    pub fn draw(
+        &mut self,
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        view: &ViewUniform,
+        mesh: &DepthMesh,
+        sets: &[(&LineSet, Visibility)],
+    ) -> &wgpu::Texture {
+        let size = view.size();
+        if self
+            .targets
+            .as_ref()
+            .is_none_or(|targets| targets.size != size)
+        {
+            self.targets = Some(Targets::new(device, size));
+        }
+        let targets = self.targets.as_ref().expect("made above");
+        self.view.upload(queue, view);
+
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor {
+            label: Some("overlay"),
+        });
+        {
+            let mut pass = targets.begin_depth(&mut encoder);
+            pass.set_bind_group(0, self.view.group(), &[]);
+            self.depth.draw(&mut pass, mesh);
+        }
+        {
+            let mut pass = targets.begin_lines(&mut encoder);
+            pass.set_bind_group(0, self.view.group(), &[]);
+            for (set, visibility) in sets {
+                self.lines.draw(&mut pass, set, *visibility);
+            }
+        }
+        queue.submit([encoder.finish()]);
+        &targets.colour
+    }
+}
+
+impl Targets {
+    fn new(device: &wgpu::Device, size: UVec2) -> Self {
+        let texture = |label, format, usage| {
+            device.create_texture(&wgpu::TextureDescriptor {
+                label: Some(label),
+                size: wgpu::Extent3d {
+                    width: size.x,
+                    height: size.y,
+                    depth_or_array_layers: 1,
+                },
+                mip_level_count: 1,
+                sample_count: 1,
+                dimension: wgpu::TextureDimension::D2,
+                format,
+                usage: usage | wgpu::TextureUsages::RENDER_ATTACHMENT,
+                view_formats: &[],
+            })
+        };
+        let colour_usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
+        let colour = texture("overlay colour", COLOUR_FORMAT, colour_usage);
+        let depth = texture("overlay depth", DEPTH_FORMAT, wgpu::TextureUsages::empty());
+        let view =
+            |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
+        Self {
+            size,
+            colour_view: view(&colour),
+            depth_view: view(&depth),
+            colour,
+        }
+    }
+
+    fn begin_depth<'e>(&self, encoder: &'e mut wgpu::CommandEncoder) -> wgpu::RenderPass<'e> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("overlay depth"),
+            depth_stencil_attachment: Some(self.depth(wgpu::LoadOp::Clear(0.0))),
+            ..Default::default()
+        })
+    }
+
+    fn begin_lines<'e>(&self, encoder: &'e mut wgpu::CommandEncoder) -> wgpu::RenderPass<'e> {
+        encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+            label: Some("overlay lines"),
+            color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                view: &self.colour_view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })],
+            depth_stencil_attachment: Some(self.depth(wgpu::LoadOp::Load)),
+            ..Default::default()
+        })
+    }
+
+    fn depth(&self, load: wgpu::LoadOp<f32>) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+        wgpu::RenderPassDepthStencilAttachment {
+            view: &self.depth_view,
+            depth_ops: Some(wgpu::Operations {
+                load,
+                store: wgpu::StoreOp::Store,
+            }),
+            stencil_ops: None,
+        }
+    }
+}
+
+/// A buffer with these contents; an error where the device grants none that large.
+fn buffer(
+    device: &wgpu::Device,
+    label: &str,
+    contents: &[u8],
+    usage: wgpu::BufferUsages,
+) -> Result<wgpu::Buffer, GpuError> {
+    use wgpu::util::DeviceExt as _;
+    let (needed, granted) = (contents.len() as u64, device.limits().max_buffer_size);
+    if needed > granted {
+        return Err(GpuError::TooLarge { needed, granted });
+    }
+    Ok(
+        device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some(label),
+            contents,
+            usage,
+        }),
+    )
+}
+
+/// A bind group layout of one uniform for vertex and fragment shaders.
+fn uniform_layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some(label),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::VERTEX_FRAGMENT,
+            ty: wgpu::BindingType::Buffer {
+                ty: wgpu::BufferBindingType::Uniform,
+                has_dynamic_offset: false,
+                min_binding_size: None,
+            },
+            count: None,
+        }],
+    })
+}
+
+/// A uniform buffer of a size, and the group that binds it.
+fn uniform_group(
+    device: &wgpu::Device,
+    label: &str,
+    layout: &wgpu::BindGroupLayout,
+    size: usize,
+) -> (wgpu::Buffer, wgpu::BindGroup) {
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some(label),
+        size: size as u64,
+        usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+        mapped_at_creation: false,
+    });
+    let group = device.create_bind_group(&wgpu::BindGroupDescriptor {
+        label: Some(label),
+        layout,
+        entries: &[wgpu::BindGroupEntry {
+            binding: 0,
+            resource: buffer.as_entire_binding(),
+        }],
+    });
+    (buffer, group)
+}
+
+/// A shader behind the part that all share.
+fn shader(device: &wgpu::Device, label: &str, source: &str) -> wgpu::ShaderModule {
+    device.create_shader_module(wgpu::ShaderModuleDescriptor {
+        label: Some(label),
+        source: wgpu::ShaderSource::Wgsl(format!("{}\n{source}", view::SHADER).into()),
+    })
+}

@@ -1,0 +1,83 @@
+//! Which view is drawn: the camera, as shaders see it.
+
+use super::{uniform_group, uniform_layout};
+use bytemuck::{Pod, Zeroable};
+use glam::UVec2;
+use hitscope_core::camera::Projection;
+use hitscope_core::{Aabb, Camera};
+
+/// The part that all shaders share.
+pub const SHADER: &str = include_str!("../../../shaders/view.wgsl");
+
+/// Twin of `View` in shaders/view.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+pub struct ViewUniform {
+    clip_from_eye: [[f32; 4]; 4],
+    eye: [f32; 3],
+    near_w: f32,
+    viewport: [f32; 2],
+    padding: [f32; 2],
+}
+
+impl ViewUniform {
+    /// The view of a camera on a scene with these bounds.
+    pub fn new(camera: &Camera, bounds: &Aabb) -> Self {
+        let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
+        let reach = from_eye.length() + bounds.radius();
+        // Reversed float depth stays precise whatever the near plane. This one is nearer than f32
+        // tells a point from the eye. Parallel rays start at the eye's plane.
+        let (near, near_w) = match camera.projection() {
+            Projection::Perspective { .. } => (1e-6 * reach, 1e-6 * reach),
+            Projection::Orthographic { .. } => (0.0, 0.0),
+        };
+        let clip_from_eye = camera.clip_from_eye(near, reach);
+        Self {
+            clip_from_eye: clip_from_eye.as_mat4().to_cols_array_2d(),
+            eye: camera.eye().to_array(),
+            near_w: near_w as f32,
+            viewport: camera.resolution().as_vec2().to_array(),
+            padding: [0.0; 2],
+        }
+    }
+
+    /// Width and height of the picture.
+    pub fn size(&self) -> UVec2 {
+        UVec2::from_array(self.viewport.map(|x| x as u32))
+    }
+}
+
+/// The uniform on the GPU, as group 0 of every pipeline.
+pub struct ViewBinding {
+    layout: wgpu::BindGroupLayout,
+    buffer: wgpu::Buffer,
+    group: wgpu::BindGroup,
+}
+
+impl ViewBinding {
+    /// Makes the buffer; [`upload`](Self::upload) fills it.
+    pub fn new(device: &wgpu::Device) -> Self {
+        let layout = uniform_layout(device, "view");
+        let (buffer, group) = uniform_group(device, "view", &layout, size_of::<ViewUniform>());
+        Self {
+            layout,
+            buffer,
+            group,
+        }
+    }
+
+    /// Sets the view for what is submitted next.
+    pub fn upload(&self, queue: &wgpu::Queue, view: &ViewUniform) {
+        queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(view));
+    }
+
+    /// For pipelines' layouts.
+    pub fn layout(&self) -> &wgpu::BindGroupLayout {
+        &self.layout
+    }
+
+    /// For passes.
+    pub fn group(&self) -> &wgpu::BindGroup {
+        &self.group
+    }
+}

@@ -1,0 +1,159 @@
+//! The overlay without a window: for `render --wireframe` and `--normals`.
+
+use crate::gpu::depth::DepthMesh;
+use crate::gpu::lines::Visibility;
+use crate::gpu::view::ViewUniform;
+use crate::gpu::{GpuError, Overlay};
+use crate::overlay::wireframe::{self, Edges};
+use crate::overlay::{Options, normals};
+use hitscope_lab::commands::Rendered;
+
+/// Draws edges and normals over a rendered picture.
+///
+/// # Errors
+/// See [`GpuError`]: without an adapter there is nothing to draw with.
+pub fn draw_over(
+    pixels: &mut [[u8; 4]],
+    rendered: &Rendered,
+    wireframe: bool,
+    normals: bool,
+) -> Result<(), GpuError> {
+    let (device, queue) = device()?;
+    let scene = &rendered.loaded.scene;
+    let options = Options {
+        wireframe: wireframe.then_some(Edges::Polygons),
+        wire_colour: crate::settings::Settings::default().wire_colour,
+        normals: normals.then_some(rendered.shading),
+        normal_length: crate::settings::Settings::default().normal_length,
+        picked: None,
+        line_width_px: 1.0,
+    };
+    let mut overlay = Overlay::new(&device);
+    let mut sets = Vec::new();
+    if let Some(edges) = options.wireframe {
+        let lines = wireframe::lines(scene.mesh(), edges);
+        sets.push(
+            overlay
+                .lines()
+                .upload(&device, &queue, &lines, &options.wire_style())?,
+        );
+    }
+    if let Some(shading) = options.normals {
+        let lines = normals::lines(scene, shading);
+        sets.push(
+            overlay
+                .lines()
+                .upload(&device, &queue, &lines, &options.normal_style())?,
+        );
+    }
+    let sets: Vec<_> = sets.iter().map(|set| (set, Visibility::Hidden)).collect();
+    let mesh = DepthMesh::new(&device, scene.mesh())?;
+    let view = ViewUniform::new(&rendered.camera, &scene.bounds());
+    let texture = overlay.draw(&device, &queue, &view, &mesh, &sets);
+    let drawn = read_back(&device, &queue, texture)?;
+    for (under, over) in pixels.iter_mut().zip(drawn) {
+        *under = blend(*under, over);
+    }
+    Ok(())
+}
+
+/// A device with the largest buffers that the adapter grants.
+///
+/// # Errors
+/// [`GpuError::NoAdapter`].
+pub fn device() -> Result<(wgpu::Device, wgpu::Queue), GpuError> {
+    let no_adapter = |error: String| GpuError::NoAdapter(error);
+    let instance =
+        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let adapter =
+        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+            .map_err(|error| no_adapter(error.to_string()))?;
+    let granted = adapter.limits();
+    let descriptor = wgpu::DeviceDescriptor {
+        label: Some("offscreen"),
+        required_limits: wgpu::Limits {
+            max_buffer_size: granted.max_buffer_size,
+            max_texture_dimension_2d: granted.max_texture_dimension_2d,
+            ..wgpu::Limits::default()
+        },
+        ..wgpu::DeviceDescriptor::default()
+    };
+    pollster::block_on(adapter.request_device(&descriptor))
+        .map_err(|error| no_adapter(error.to_string()))
+}
+
+/// The pixels of a texture of four bytes each.
+///
+/// # Errors
+/// [`GpuError::ReadBack`].
+pub fn read_back(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    texture: &wgpu::Texture,
+) -> Result<Vec<[u8; 4]>, GpuError> {
+    let (width, height) = (texture.width(), texture.height());
+    let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("read back"),
+        size: u64::from(row) * u64::from(height),
+        usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
+        mapped_at_creation: false,
+    });
+    let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+    encoder.copy_texture_to_buffer(
+        texture.as_image_copy(),
+        wgpu::TexelCopyBufferInfo {
+            buffer: &buffer,
+            layout: wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(row),
+                rows_per_image: None,
+            },
+        },
+        texture.size(),
+    );
+    queue.submit([encoder.finish()]);
+
+    let failed = |error: &dyn std::fmt::Display| GpuError::ReadBack(error.to_string());
+    let (sender, receiver) = std::sync::mpsc::sync_channel(1);
+    buffer
+        .slice(..)
+        .map_async(wgpu::MapMode::Read, move |result| _ = sender.send(result));
+    device
+        .poll(wgpu::PollType::wait_indefinitely())
+        .map_err(|e| failed(&e))?;
+    receiver
+        .recv()
+        .map_err(|e| failed(&e))?
+        .map_err(|e| failed(&e))?;
+    let bytes = buffer
+        .slice(..)
+        .get_mapped_range()
+        .map_err(|e| failed(&e))?;
+    let rows = bytes.chunks_exact(row as usize);
+    let pixels = rows.flat_map(|row| row[..4 * width as usize].as_chunks().0.to_vec());
+    Ok(pixels.collect())
+}
+
+/// A pixel with alpha multiplied in over an opaque one, both sRGB-encoded.
+fn blend(under: [u8; 4], over: [u8; 4]) -> [u8; 4] {
+    let rest = 255 - u32::from(over[3]);
+    let channel = |k: usize| {
+        let sum = u32::from(over[k]) * 255 + u32::from(under[k]) * rest;
+        ((sum + 127) / 255).min(255) as u8
+    };
+    [channel(0), channel(1), channel(2), 255]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn nothing_over_a_pixel_leaves_it_and_an_opaque_one_replaces_it() {
+        let under = [10, 100, 255, 255];
+        assert_eq!(blend(under, [0; 4]), under);
+        assert_eq!(blend(under, [1, 2, 3, 255]), [1, 2, 3, 255]);
+        assert_eq!(blend([0, 0, 200, 255], [0, 64, 0, 128])[2], 100);
+    }
+}

@@ -1,0 +1,259 @@
+//! Wireframe, normals and the picked triangle, over the traced picture.
+//!
+//! Lines are gathered from the mesh in the background, when they are first asked for.
+
+pub mod normals;
+pub mod wireframe;
+
+use crate::gpu::depth::DepthMesh;
+use crate::gpu::lines::{Line, LineSet, StyleUniform, Visibility};
+use crate::gpu::view::ViewUniform;
+use crate::gpu::{GpuError, Overlay};
+use crate::picture::register;
+use crate::task::{Broken, Task};
+use eframe::egui_wgpu::RenderState;
+use hitscope_core::scene::Shading;
+use hitscope_core::{Camera, Scene};
+use std::sync::Arc;
+use wireframe::Edges;
+
+/// What is drawn over the picture. Lengths are in physical pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The mesh's edges.
+    pub wireframe: Option<Edges>,
+    /// sRGB of the edges.
+    pub wire_colour: [u8; 3],
+    /// Normals, of which kind.
+    pub normals: Option<Shading>,
+    /// Length of the normals, as a part of the mesh's radius.
+    pub normal_length: f32,
+    /// The picked triangle.
+    pub picked: Option<u32>,
+    /// Width of the wireframe's lines in pixels.
+    pub line_width_px: f32,
+}
+
+impl Options {
+    pub(crate) fn wire_style(&self) -> StyleUniform {
+        let [r, g, b] = self.wire_colour.map(|c| f32::from(c) / 255.0);
+        style([r, g, b, 0.85], self.line_width_px, 1.0)
+    }
+
+    pub(crate) fn normal_style(&self) -> StyleUniform {
+        StyleUniform {
+            stretch: self.normal_length,
+            ..style([0.16, 0.55, 0.95, 0.95], self.line_width_px, 1.0)
+        }
+    }
+
+    fn picked_style(&self, alpha: f32) -> StyleUniform {
+        style([1.0, 0.55, 0.0, alpha], 2.2 * self.line_width_px, 0.0)
+    }
+}
+
+fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
+    StyleUniform {
+        colour,
+        half_width_px: 0.5 * width_px,
+        stretch: 1.0,
+        fade,
+        padding: 0.0,
+    }
+}
+
+/// A set of lines of one kind: which it is, once it is on the GPU, and on the way there.
+struct Lines<K> {
+    ready: Option<(K, LineSet)>,
+    gathering: Option<(K, Task<Vec<Line>>)>,
+}
+
+impl<K> Default for Lines<K> {
+    fn default() -> Self {
+        Self {
+            ready: None,
+            gathering: None,
+        }
+    }
+}
+
+impl<K: Copy + PartialEq + Send + 'static> Lines<K> {
+    /// Sees to it that the lines of this kind get ready; whether they just did.
+    fn prepare(
+        &mut self,
+        kind: K,
+        ctx: &egui::Context,
+        gather: impl FnOnce() -> Vec<Line> + Send + 'static,
+        upload: impl FnOnce(&[Line]) -> Result<LineSet, GpuError>,
+    ) -> Result<bool, OverlayError> {
+        if self.ready.as_ref().is_some_and(|(ready, _)| *ready == kind) {
+            return Ok(false);
+        }
+        match &self.gathering {
+            Some((gathering, task)) if *gathering == kind => {
+                let Some(lines) = task.poll()? else {
+                    return Ok(false);
+                };
+                self.gathering = None;
+                self.ready = Some((kind, upload(&lines)?));
+                Ok(true)
+            }
+            _ => {
+                self.gathering = Some((kind, Task::spawn("lines", ctx, gather)));
+                Ok(false)
+            }
+        }
+    }
+}
+
+/// Why the overlay can't be drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum OverlayError {
+    /// The GPU refuses.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// Gathering lines failed.
+    #[error(transparent)]
+    Broken(#[from] Broken),
+}
+
+/// The overlay of the window's picture.
+pub struct OverlayLayer {
+    render_state: RenderState,
+    overlay: Overlay,
+    scene: Option<Arc<Scene>>,
+    mesh: Option<DepthMesh>,
+    wireframe: Lines<Edges>,
+    normals: Lines<Shading>,
+    /// The picked triangle, faint where it is hidden and strong where it isn't.
+    picked: Option<(u32, [LineSet; 2])>,
+    texture: Option<(wgpu::Texture, egui::TextureId)>,
+    /// What the texture shows.
+    drawn: Option<(ViewUniform, Options)>,
+}
+
+impl OverlayLayer {
+    /// Compiles the shaders.
+    pub fn new(render_state: RenderState) -> Self {
+        Self {
+            overlay: Overlay::new(&render_state.device),
+            render_state,
+            scene: None,
+            mesh: None,
+            wireframe: Lines::default(),
+            normals: Lines::default(),
+            picked: None,
+            texture: None,
+            drawn: None,
+        }
+    }
+
+    /// The overlay for a camera, as a texture of the picture's size; `None` if nothing is to be
+    /// drawn. What isn't ready yet is missing, and a repaint comes when it is.
+    ///
+    /// # Errors
+    /// See [`OverlayError`].
+    pub fn draw(
+        &mut self,
+        scene: &Arc<Scene>,
+        camera: &Camera,
+        options: &Options,
+        ctx: &egui::Context,
+    ) -> Result<Option<egui::TextureId>, OverlayError> {
+        if options.wireframe.is_none() && options.normals.is_none() && options.picked.is_none() {
+            return Ok(None);
+        }
+        self.use_scene(scene)?;
+        let is_new = self.prepare(scene, options, ctx)?;
+        let view = ViewUniform::new(camera, &scene.bounds());
+        if is_new || self.drawn != Some((view, *options)) {
+            self.redraw(&view, options);
+            self.drawn = Some((view, *options));
+        }
+        Ok(self.texture.as_ref().map(|(_, id)| *id))
+    }
+
+    /// Starts anew for another scene.
+    fn use_scene(&mut self, scene: &Arc<Scene>) -> Result<(), GpuError> {
+        if self
+            .scene
+            .as_ref()
+            .is_some_and(|old| Arc::ptr_eq(old, scene))
+        {
+            return Ok(());
+        }
+        self.mesh = None;
+        self.wireframe = Lines::default();
+        self.normals = Lines::default();
+        self.picked = None;
+        self.drawn = None;
+        self.mesh = Some(DepthMesh::new(&self.render_state.device, scene.mesh())?);
+        self.scene = Some(Arc::clone(scene));
+        Ok(())
+    }
+
+    /// Whether something new is ready to be drawn.
+    fn prepare(
+        &mut self,
+        scene: &Arc<Scene>,
+        options: &Options,
+        ctx: &egui::Context,
+    ) -> Result<bool, OverlayError> {
+        let RenderState { device, queue, .. } = &self.render_state;
+        let pipelines = self.overlay.lines();
+        let mut is_new = false;
+        if let Some(edges) = options.wireframe {
+            let shared = Arc::clone(scene);
+            let gather = move || wireframe::lines(shared.mesh(), edges);
+            let upload =
+                |lines: &[Line]| pipelines.upload(device, queue, lines, &options.wire_style());
+            is_new |= self.wireframe.prepare(edges, ctx, gather, upload)?;
+        }
+        if let Some(shading) = options.normals {
+            let shared = Arc::clone(scene);
+            let gather = move || normals::lines(&shared, shading);
+            let upload =
+                |lines: &[Line]| pipelines.upload(device, queue, lines, &options.normal_style());
+            is_new |= self.normals.prepare(shading, ctx, gather, upload)?;
+        }
+        if let Some(triangle) = options.picked
+            && self
+                .picked
+                .as_ref()
+                .is_none_or(|(picked, _)| *picked != triangle)
+        {
+            let lines = wireframe::triangle_lines(scene.mesh(), triangle);
+            let upload =
+                |alpha| pipelines.upload(device, queue, &lines, &options.picked_style(alpha));
+            self.picked = Some((triangle, [upload(0.3)?, upload(1.0)?]));
+            is_new = true;
+        }
+        Ok(is_new)
+    }
+
+    fn redraw(&mut self, view: &ViewUniform, options: &Options) {
+        let RenderState { device, queue, .. } = &self.render_state;
+        let mut sets: Vec<(&LineSet, Visibility)> = Vec::new();
+        if let (Some(_), Some((_, set))) = (options.wireframe, &self.wireframe.ready) {
+            set.set_style(queue, &options.wire_style());
+            sets.push((set, Visibility::Hidden));
+        }
+        if let (Some(_), Some((_, set))) = (options.normals, &self.normals.ready) {
+            set.set_style(queue, &options.normal_style());
+            sets.push((set, Visibility::Hidden));
+        }
+        if let (Some(_), Some((_, [faint, strong]))) = (options.picked, &self.picked) {
+            faint.set_style(queue, &options.picked_style(0.3));
+            strong.set_style(queue, &options.picked_style(1.0));
+            sets.push((faint, Visibility::Through));
+            sets.push((strong, Visibility::Hidden));
+        }
+        let Some(mesh) = &self.mesh else { return };
+        let texture = self.overlay.draw(device, queue, view, mesh, &sets);
+        if self.texture.as_ref().is_none_or(|(old, _)| old != texture) {
+            let old = self.texture.as_ref().map(|(_, id)| *id);
+            let id = register(&self.render_state, texture, old);
+            self.texture = Some((texture.clone(), id));
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! The edges of a mesh as lines.
+
+use crate::gpu::lines::Line;
+use glam::Vec3;
+use hitscope_core::TriangleMesh;
+
+/// Which edges are drawn.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Edges {
+    /// Those of the file's polygons.
+    Polygons,
+    /// Those of all triangles, diagonals included.
+    Triangles,
+}
+
+/// Each edge once, with the smaller height of its triangles as the gap to the next line.
+pub fn lines(mesh: &TriangleMesh, edges: Edges) -> Vec<Line> {
+    let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles.len());
+    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+        for k in 0..3u8 {
+            if edges == Edges::Polygons && mesh.outline[triangle] & (1 << k) == 0 {
+                continue;
+            }
+            let (a, b) = (corners[usize::from(k)], corners[(usize::from(k) + 1) % 3]);
+            let key = u64::from(a.min(b)) << 32 | u64::from(a.max(b));
+            uses.push((key, triangle as u32, k));
+        }
+    }
+    uses.sort_unstable();
+    let same_edge = uses.chunk_by(|a, b| a.0 == b.0);
+    let line = |uses: &[(u64, u32, u8)]| {
+        let each = uses
+            .iter()
+            .map(|&(_, triangle, k)| edge(mesh, triangle, k.into()));
+        each.min_by(|a, b| a.gap.length_squared().total_cmp(&b.gap.length_squared()))
+    };
+    same_edge.filter_map(line).collect()
+}
+
+/// The outline of one triangle.
+pub fn triangle_lines(mesh: &TriangleMesh, triangle: u32) -> [Line; 3] {
+    [0, 1, 2].map(|k| edge(mesh, triangle, k))
+}
+
+/// Edge k of a triangle, with the height on it.
+fn edge(mesh: &TriangleMesh, triangle: u32, k: usize) -> Line {
+    let corners = mesh.corners(triangle);
+    let (start, end, opposite) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
+    // In f64, where squares of f32 numbers neither under- nor overflow.
+    let along = (end - start).as_dvec3();
+    let height = (opposite - start).as_dvec3().reject_from(along);
+    let gap = if height.is_finite() {
+        height.as_vec3()
+    } else {
+        Vec3::ZERO
+    };
+    Line { start, end, gap }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A unit square of two triangles that share the diagonal from 0 to 2.
+    fn square() -> TriangleMesh {
+        TriangleMesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
+            triangles: vec![[0, 1, 2], [0, 2, 3]],
+            outline: vec![0b011, 0b110],
+            ..TriangleMesh::default()
+        }
+    }
+
+    #[test]
+    fn diagonals_are_hidden_and_shared_edges_drawn_once() {
+        assert_eq!(lines(&square(), Edges::Polygons).len(), 4);
+        let all = lines(&square(), Edges::Triangles);
+        assert_eq!(all.len(), 5);
+        let diagonal = all
+            .iter()
+            .find(|l| (l.end - l.start).length() > 1.1)
+            .expect("drawn");
+        assert!((diagonal.gap.length() - 0.5f32.sqrt()).abs() < 1e-6);
+    }
+
+    #[test]
+    fn the_gap_is_the_triangles_height() {
+        let gaps = triangle_lines(&square(), 0).map(|line| line.gap);
+        assert_eq!(gaps[0], Vec3::Y);
+        assert_eq!(gaps[1], Vec3::NEG_X);
+    }
+}

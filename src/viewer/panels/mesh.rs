@@ -1,0 +1,81 @@
+//! What is in the file.
+
+use super::{row_ui, section_ui};
+use crate::app::grouped;
+use crate::document::Document;
+use egui::RichText;
+use hitscope_core::mesh::SLIVER_ASPECT;
+
+/// Counts, place, memory, health, warnings.
+pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
+    let health = document.health(ui.ctx());
+    let loaded = &document.loaded;
+    let scene = &loaded.scene;
+    let mesh = scene.mesh();
+    let path = document
+        .path
+        .as_ref()
+        .map(|path| path.display().to_string());
+    ui.label(RichText::new(document.name()).strong());
+    if let Some(path) = path {
+        ui.label(RichText::new(path).weak().size(11.0));
+    }
+    section_ui(ui, "Counts", |ui| {
+        row_ui(ui, "vertices", grouped(loaded.vertex_count));
+        row_ui(ui, "triangles", grouped(mesh.triangles.len()));
+        row_ui(ui, "polygons", grouped(mesh.face_count));
+        let named = |names: usize, of: &[u32]| names - usize::from(!of.contains(&0));
+        row_ui(ui, "materials", named(mesh.materials.len(), &mesh.material));
+        row_ui(ui, "groups", named(mesh.groups.len(), &mesh.group));
+    });
+    section_ui(ui, "Place", |ui| {
+        let bounds = scene.bounds();
+        let corner = |p: glam::Vec3| (p.as_dvec3() + mesh.origin).to_array();
+        let lines = |v: [f64; 3]| v.map(|x| x.to_string()).join("\n");
+        row_ui(ui, "lowest", lines(corner(bounds.min)));
+        row_ui(ui, "highest", lines(corner(bounds.max)));
+        row_ui(ui, "origin", lines(mesh.origin.to_array()));
+        row_ui(
+            ui,
+            "rounded by",
+            format!("{:.1e} at most", loaded.max_rounding),
+        );
+    });
+    section_ui(ui, "Time and memory", |ui| {
+        let ms = |time: std::time::Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
+        row_ui(ui, "load", ms(loaded.load_time));
+        row_ui(ui, "tree", ms(scene.build_time()));
+        let kb = |bytes: usize| format!("{:.0} kB", bytes as f64 / 1e3);
+        for (part, bytes) in mesh.bytes() {
+            row_ui(ui, part, kb(bytes));
+        }
+        row_ui(ui, "tree", kb(scene.bvh().bytes()));
+        row_ui(ui, "packed", kb(document.intersector().bytes()));
+    });
+    section_ui(ui, "Health", |ui| {
+        row_ui(
+            ui,
+            "zero area",
+            format!("{} dropped", mesh.dropped.zero_area),
+        );
+        row_ui(
+            ui,
+            "not finite",
+            format!("{} dropped", mesh.dropped.non_finite),
+        );
+        if let Some(health) = health {
+            row_ui(ui, "open edges", grouped(health.open_edges));
+            row_ui(ui, "non-manifold", grouped(health.non_manifold_edges));
+            row_ui(ui, "flipped", grouped(health.flipped_edges));
+            row_ui(ui, "slivers", grouped(health.slivers)).on_hover_text(format!(
+                "Triangles longer than {SLIVER_ASPECT} times their height"
+            ));
+        }
+    });
+    if !loaded.warnings.is_empty() {
+        ui.label(RichText::new("Warnings").strong());
+        for warning in &loaded.warnings {
+            ui.label(warning.to_string());
+        }
+    }
+}

@@ -1,0 +1,166 @@
+//! How the mesh is seen.
+
+use crate::bindings::Action;
+use crate::settings::Settings;
+use egui::RichText;
+use hitscope_core::camera::{StandardView, Turntable};
+use hitscope_core::integrator::INTEGRATORS;
+use hitscope_core::integrator::palette::{COST_SCALE, cost_colour, to_display};
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+
+/// View, shading, kernel, overlay, camera, theme.
+pub fn view_ui(
+    ui: &mut egui::Ui,
+    settings: &mut Settings,
+    turntable: &mut Turntable,
+    actions: &mut Vec<Action>,
+) {
+    picture_ui(ui, settings);
+    ui.separator();
+    kernel_ui(ui, settings);
+    ui.separator();
+    overlay_ui(ui, settings);
+    ui.separator();
+    camera_ui(ui, settings, turntable, actions);
+    ui.separator();
+    ui.label(RichText::new("Theme").strong());
+    let before = settings.theme;
+    ui.horizontal(|ui| {
+        for (theme, label) in [
+            (egui::ThemePreference::Dark, "Dark"),
+            (egui::ThemePreference::Light, "Light"),
+            (egui::ThemePreference::System, "System"),
+        ] {
+            ui.selectable_value(&mut settings.theme, theme, label);
+        }
+    });
+    if settings.theme != before {
+        ui.ctx().set_theme(settings.theme);
+    }
+}
+
+fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    ui.label(RichText::new("Picture").strong());
+    ui.horizontal_wrapped(|ui| {
+        for choice in INTEGRATORS {
+            ui.selectable_value(&mut settings.view, choice.name.to_owned(), choice.title);
+        }
+    });
+    ui.label(RichText::new(settings.integrator().about).weak());
+    if settings.integrator().name == "cost" {
+        cost_legend_ui(ui);
+    }
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut settings.is_smooth, false, "Flat");
+        ui.selectable_value(&mut settings.is_smooth, true, "Smooth");
+        ui.label("shading");
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("Samples");
+        let mut power = settings.samples.max(1).ilog2();
+        let slider = egui::Slider::new(&mut power, 0..=12)
+            .custom_formatter(|power, _| format!("{}", 1u32 << power as u32))
+            .custom_parser(|text| text.parse().ok().map(f64::log2));
+        ui.add(slider).labelled_by(label.id);
+        settings.samples = 1 << power;
+    });
+}
+
+fn cost_legend_ui(ui: &mut egui::Ui) {
+    const MARKS: [u32; 6] = [0, 4, 16, 64, 256, COST_SCALE];
+    ui.horizontal(|ui| {
+        for tests in MARKS {
+            let [r, g, b] = cost_colour(tests)
+                .to_array()
+                .map(|x| (255.0 * to_display(x)) as u8);
+            let colour = egui::Color32::from_rgb(r, g, b);
+            let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
+            ui.painter().rect(
+                rect,
+                2.0,
+                colour,
+                ui.visuals().widgets.noninteractive.bg_stroke,
+                egui::StrokeKind::Inside,
+            );
+            ui.label(RichText::new(tests.to_string()).size(11.0));
+        }
+    });
+}
+
+fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    ui.label(RichText::new("Kernel").strong());
+    let current = &settings.kernel().info;
+    egui::ComboBox::from_id_salt("kernel")
+        .selected_text(current.title)
+        .width(200.0)
+        .show_ui(ui, |ui| {
+            for kernel in TRIANGLE_KERNELS {
+                let name = kernel.info.name.to_owned();
+                ui.selectable_value(&mut settings.kernel, name, kernel.info.title);
+            }
+        });
+    ui.label(RichText::new(settings.kernel().info.summary).weak());
+}
+
+fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    ui.label(RichText::new("Overlay").strong());
+    ui.horizontal(|ui| {
+        ui.checkbox(&mut settings.shows_wireframe, "Wireframe");
+        ui.color_edit_button_srgb(&mut settings.wire_colour);
+        ui.checkbox(&mut settings.shows_diagonals, "with diagonals");
+    });
+    ui.checkbox(&mut settings.shows_normals, "Normals");
+    ui.horizontal(|ui| {
+        let label = ui.label("Length");
+        let slider = egui::Slider::new(&mut settings.normal_length, 0.002..=0.5)
+            .logarithmic(true)
+            .custom_formatter(|part, _| format!("{:.1} %", 100.0 * part))
+            .custom_parser(|text| {
+                let percent = text.trim_end_matches(['%', ' ']).parse::<f64>().ok()?;
+                Some(percent / 100.0)
+            });
+        ui.add(slider).labelled_by(label.id);
+    });
+}
+
+fn camera_ui(
+    ui: &mut egui::Ui,
+    settings: &mut Settings,
+    turntable: &mut Turntable,
+    actions: &mut Vec<Action>,
+) {
+    ui.label(RichText::new("Camera").strong());
+    ui.horizontal(|ui| {
+        ui.selectable_value(&mut turntable.is_orthographic, false, "Perspective");
+        ui.selectable_value(&mut turntable.is_orthographic, true, "Orthographic");
+    });
+    ui.horizontal(|ui| {
+        let label = ui.label("Field of view");
+        let mut degrees = turntable.fov_y_radians.to_degrees();
+        let slider = egui::Slider::new(&mut degrees, 5.0..=120.0)
+            .suffix("°")
+            .fixed_decimals(0);
+        if ui.add(slider).labelled_by(label.id).changed() {
+            turntable.fov_y_radians = degrees.to_radians();
+        }
+    });
+    ui.horizontal(|ui| {
+        for (view, label) in [
+            (StandardView::Front, "Front"),
+            (StandardView::Back, "Back"),
+            (StandardView::Right, "Right"),
+            (StandardView::Left, "Left"),
+            (StandardView::Top, "Top"),
+            (StandardView::Bottom, "Bottom"),
+        ] {
+            if ui.small_button(label).clicked() {
+                actions.push(Action::LookFrom(view));
+            }
+        }
+    });
+    ui.horizontal(|ui| {
+        ui.label("Up axis");
+        ui.selectable_value(&mut settings.is_z_up, false, "Y");
+        ui.selectable_value(&mut settings.is_z_up, true, "Z");
+    });
+}

@@ -1,0 +1,98 @@
+//! What the user chose about how things are shown. Kept between runs.
+
+use egui::ThemePreference;
+use hitscope_core::camera::UpAxis;
+use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
+use hitscope_core::kernel::triangle::default_triangle_kernel;
+use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
+use hitscope_core::scene::Shading;
+use serde::{Deserialize, Serialize};
+
+/// A tab of the side panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Tab {
+    /// The picked pixel.
+    Inspect,
+    /// How the mesh is seen.
+    View,
+    /// What is in the file.
+    Mesh,
+}
+
+/// See the [module](self). Names that a later version doesn't know fall back to the default.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Name of the view.
+    pub view: String,
+    /// Name of the kernel.
+    pub kernel: String,
+    /// Interpolated normals.
+    pub is_smooth: bool,
+    /// Edges over the picture.
+    pub shows_wireframe: bool,
+    /// Edges of all triangles, not only of the file's polygons.
+    pub shows_diagonals: bool,
+    /// sRGB of the edges.
+    pub wire_colour: [u8; 3],
+    /// Normals over the picture.
+    pub shows_normals: bool,
+    /// As a part of the mesh's radius.
+    pub normal_length: f32,
+    /// Samples a pixel in the end; a power of two.
+    pub samples: u32,
+    /// Whether the mesh's z axis points up.
+    pub is_z_up: bool,
+    /// The side panel.
+    pub shows_panel: bool,
+    /// Its tab.
+    pub tab: Tab,
+    /// Dark, light, or as the system has it.
+    pub theme: ThemePreference,
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            view: INTEGRATORS[0].name.to_owned(),
+            kernel: default_triangle_kernel().info.name.to_owned(),
+            is_smooth: false,
+            shows_wireframe: false,
+            shows_diagonals: false,
+            wire_colour: [12, 14, 18],
+            shows_normals: false,
+            normal_length: 0.03,
+            samples: 64,
+            is_z_up: false,
+            shows_panel: true,
+            tab: Tab::View,
+            theme: ThemePreference::Dark,
+        }
+    }
+}
+
+impl Settings {
+    /// The view.
+    pub fn integrator(&self) -> &'static Integrator {
+        integrator(&self.view).unwrap_or(&INTEGRATORS[0])
+    }
+
+    /// The kernel.
+    pub fn kernel(&self) -> &'static TriangleKernel {
+        triangle_kernel(&self.kernel).unwrap_or_else(default_triangle_kernel)
+    }
+
+    /// Flat or smooth.
+    pub fn shading(&self) -> Shading {
+        if self.is_smooth {
+            Shading::Smooth
+        } else {
+            Shading::Flat
+        }
+    }
+
+    /// Which axis points up.
+    pub fn up_axis(&self) -> UpAxis {
+        if self.is_z_up { UpAxis::Z } else { UpAxis::Y }
+    }
+}

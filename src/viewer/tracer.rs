@@ -1,0 +1,261 @@
+//! Keeps the threads busy with what the window shows, and collects the picture.
+//!
+//! While the camera moves, each new view waits until the first pass of the one before is there; that
+//! pass is coarse enough to be quick.
+
+use glam::{UVec2, Vec3};
+use hitscope_core::film::PixelRect;
+use hitscope_core::integrator::{Context, Integrator};
+use hitscope_core::render::plan::{Plan, STEPS};
+use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
+use hitscope_core::{Camera, Film};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+/// What tracing the first pass may take. With what is left of 33 ms the window draws itself.
+const FIRST_PASS: Duration = Duration::from_millis(17);
+/// What the window spends on collecting tiles in one go.
+const COLLECTING: Duration = Duration::from_millis(6);
+/// Rays/s of a thread, until it is measured.
+const ASSUMED_SPEED: f64 = 1e6;
+
+/// What is to be seen.
+#[derive(Clone)]
+pub struct Request {
+    /// The scene, and from where.
+    pub context: Context,
+    /// How it is seen.
+    pub integrator: &'static Integrator,
+    /// Samples a pixel in the end.
+    pub samples: u32,
+}
+
+impl PartialEq for Request {
+    fn eq(&self, other: &Self) -> bool {
+        let (a, b) = (&self.context, &other.context);
+        Arc::ptr_eq(&a.scene, &b.scene)
+            && Arc::ptr_eq(&a.intersector, &b.intersector)
+            && (a.camera, a.shading, a.background) == (b.camera, b.shading, b.background)
+            && (self.integrator.name, self.samples) == (other.integrator.name, other.samples)
+    }
+}
+
+/// A request that the threads work on.
+struct Posted {
+    request: Request,
+    at: Instant,
+    /// From then to the newest tile.
+    lasted: Duration,
+}
+
+/// What the status line tells.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Status {
+    /// Samples that every pixel has; 0 while there are coarse blocks.
+    pub samples: u32,
+    /// Passes done.
+    pub passes: usize,
+    /// Passes in all.
+    pub pass_count: usize,
+    /// Rays a second, all threads together, while they trace.
+    pub rays_per_s: f64,
+    /// Since the view changed, until the newest tile.
+    pub lasted: Duration,
+    /// Between the last two views that were shown.
+    pub frame_interval: Option<Duration>,
+}
+
+/// Traces what was requested last.
+pub struct Tracer {
+    renderer: Renderer,
+    film: Film,
+    posted: Option<Posted>,
+    /// Of the picture that is shown: the newest one whose first pass is done.
+    shown: Option<Camera>,
+    shown_at: Option<Instant>,
+    frame_interval: Option<Duration>,
+    changed: Option<PixelRect>,
+    /// Rays traced, and seconds that threads spent on them, fading over time.
+    rays: f64,
+    busy_secs: f64,
+    is_paused: bool,
+    non_finite: u64,
+}
+
+impl Tracer {
+    /// Starts the threads, one a core.
+    pub fn new(threads: usize, ctx: &egui::Context) -> Self {
+        let ctx = ctx.clone();
+        Self {
+            renderer: Renderer::new(threads, move || ctx.request_repaint()),
+            film: Film::new(Plan::new(UVec2::ONE, 1, 1), Vec3::ZERO),
+            posted: None,
+            shown: None,
+            shown_at: None,
+            frame_interval: None,
+            changed: None,
+            rays: 0.0,
+            busy_secs: 0.0,
+            is_paused: false,
+            non_finite: 0,
+        }
+    }
+
+    /// Collects what the threads have sent; returns the panics among it.
+    pub fn collect(&mut self, ctx: &egui::Context) -> Vec<RenderPanic> {
+        let start = Instant::now();
+        let mut panics = Vec::new();
+        while let Some(message) = self.renderer.try_next() {
+            match message {
+                Message::Tile(tile) => self.add(&tile),
+                Message::Panicked(unit, panic) => {
+                    self.film.skip(unit);
+                    panics.push(panic);
+                }
+            }
+            if start.elapsed() > COLLECTING {
+                // The rest waits for the next frame.
+                ctx.request_repaint();
+                break;
+            }
+        }
+        if self.film.passes_done() > 0
+            && let Some(posted) = &self.posted
+            && self.shown != Some(posted.request.context.camera)
+        {
+            let now = Instant::now();
+            self.frame_interval = self.shown_at.map(|last| now - last);
+            self.shown_at = Some(now);
+            self.shown = Some(posted.request.context.camera);
+        }
+        panics
+    }
+
+    fn add(&mut self, tile: &TileResult) {
+        /// Half of the measured speed is as old as this many seconds of one thread.
+        const MEMORY_SECS: f64 = 0.5;
+        let rect = self.film.add(&tile.samples);
+        self.changed = Some(self.changed.map_or(rect, |changed| changed.union(rect)));
+        self.non_finite += u64::from(tile.non_finite);
+        let busy = tile.busy.as_secs_f64();
+        let fade = (-busy / MEMORY_SECS).exp2();
+        self.rays = self.rays * fade + f64::from(tile.rays);
+        self.busy_secs = self.busy_secs * fade + busy;
+        if let Some(posted) = &mut self.posted {
+            posted.lasted = posted.at.elapsed();
+        }
+    }
+
+    /// Sees to it that this is traced: now, or once the first pass of what is traced now is done.
+    pub fn request(&mut self, request: Request) {
+        let is_news = self
+            .posted
+            .as_ref()
+            .is_none_or(|posted| posted.request != request);
+        let is_waiting = self.posted.is_some() && self.film.passes_done() == 0;
+        if !is_news || is_waiting {
+            return;
+        }
+        let size = request.context.camera.resolution();
+        let plan = Plan::new(size, self.first_step(size), request.samples);
+        let background = request.context.background;
+        if self.film.size() == size {
+            self.film.restart(plan.clone(), background);
+        } else {
+            self.film = Film::new(plan.clone(), background);
+            self.changed = None;
+        }
+        self.renderer.post(Job {
+            context: request.context.clone(),
+            integrator: request.integrator,
+            plan,
+        });
+        self.posted = Some(Posted {
+            request,
+            at: Instant::now(),
+            lasted: Duration::ZERO,
+        });
+    }
+
+    /// The smallest blocks with which the first pass is quick enough.
+    fn first_step(&self, size: UVec2) -> u32 {
+        let affordable = self.rays_per_s() * FIRST_PASS.as_secs_f64();
+        let pixels = f64::from(size.x) * f64::from(size.y);
+        let is_affordable = |step: &u32| pixels / f64::from(step * step) <= affordable;
+        let coarsest = STEPS[STEPS.len() - 1];
+        STEPS.into_iter().find(is_affordable).unwrap_or(coarsest)
+    }
+
+    fn rays_per_s(&self) -> f64 {
+        let speed = if self.busy_secs > 0.0 {
+            self.rays / self.busy_secs
+        } else {
+            ASSUMED_SPEED
+        };
+        speed * self.renderer.thread_count() as f64
+    }
+
+    /// The picture, once its first pass is done, and which of its pixels changed since the last
+    /// call.
+    pub fn take_changes(&mut self) -> Option<(&Film, PixelRect)> {
+        if self.film.passes_done() == 0 {
+            return None;
+        }
+        let changed = self.changed.take()?;
+        Some((&self.film, changed))
+    }
+
+    /// From where the shown picture was taken; `None` before the first one.
+    pub fn shown_camera(&self) -> Option<&Camera> {
+        self.shown.as_ref()
+    }
+
+    /// Whether the picture of the last request is there with all its samples.
+    pub fn is_complete(&self) -> bool {
+        self.posted.is_some() && self.film.is_complete()
+    }
+
+    /// The picture as far as it is.
+    pub fn film(&self) -> &Film {
+        &self.film
+    }
+
+    /// Samples whose colour wasn't finite so far.
+    pub fn non_finite(&self) -> u64 {
+        self.non_finite
+    }
+
+    /// What the status line tells.
+    pub fn status(&self) -> Status {
+        Status {
+            samples: self.film.samples(),
+            passes: self.film.passes_done(),
+            pass_count: self.film.plan().pass_count(),
+            rays_per_s: if self.busy_secs > 0.0 {
+                self.rays_per_s()
+            } else {
+                0.0
+            },
+            lasted: self
+                .posted
+                .as_ref()
+                .map_or(Duration::ZERO, |posted| posted.lasted),
+            frame_interval: self.frame_interval,
+        }
+    }
+
+    /// Whether refinement stands still.
+    pub fn is_paused(&self) -> bool {
+        self.is_paused
+    }
+
+    /// Holds refinement, or lets it go on.
+    pub fn toggle_pause(&mut self) {
+        self.is_paused = !self.is_paused;
+        if self.is_paused {
+            self.renderer.pause();
+        } else {
+            self.renderer.resume();
+        }
+    }
+}
