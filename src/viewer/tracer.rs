@@ -16,6 +16,8 @@ use std::time::{Duration, Instant};
 const FIRST_PASS: Duration = Duration::from_millis(17);
 /// What the window spends on collecting tiles in one go.
 const COLLECTING: Duration = Duration::from_millis(6);
+/// Views that follow each other within this time are frames of a movement.
+const MOVING: Duration = Duration::from_millis(500);
 /// Rays/s of a thread, until it is measured.
 const ASSUMED_SPEED: f64 = 1e6;
 
@@ -61,7 +63,7 @@ pub struct Status {
     pub rays_per_s: f64,
     /// Since the view changed, until the newest tile.
     pub lasted: Duration,
-    /// Between the last two views that were shown.
+    /// Between the last two views that were shown, if the camera moved.
     pub frame_interval: Option<Duration>,
 }
 
@@ -124,7 +126,8 @@ impl Tracer {
             && self.shown != Some(posted.request.context.camera)
         {
             let now = Instant::now();
-            self.frame_interval = self.shown_at.map(|last| now - last);
+            // After a rest it isn't a frame of a movement.
+            self.frame_interval = self.shown_at.map(|last| now - last).filter(|i| *i < MOVING);
             self.shown_at = Some(now);
             self.shown = Some(posted.request.context.camera);
         }

@@ -51,7 +51,7 @@ pub struct Turntable {
     pub is_orthographic: bool,
     /// Which axis points up.
     pub up_axis: UpAxis,
-    /// The scene, as a sphere.
+    /// The scene, as a sphere about its box.
     centre: DVec3,
     radius: f64,
 }
@@ -82,26 +82,24 @@ impl Turntable {
         turntable
     }
 
-    /// Moves back or forth until the whole scene fits, with the direction as it is.
+    /// Moves back or forth until the scene's box fits, with the direction as it is.
     ///
     /// An empty scene or one of a single point counts as one of radius 1, or as small as f32 can
     /// tell from its place.
     pub fn frame(&mut self, bounds: Aabb, resolution: UVec2) {
-        if bounds.is_empty() {
-            (self.centre, self.radius) = (DVec3::ZERO, 1.0);
-        } else {
-            self.centre = bounds.centre().as_dvec3();
-            self.radius = bounds.radius();
-            if self.radius == 0.0 {
-                let place = self.centre.abs().max_element();
-                self.radius = if place == 0.0 { 1.0 } else { 1e-3 * place };
-            }
-        }
+        /// Room between the box and the picture's edge.
+        const MARGIN: f64 = 1.06;
+        (self.centre, self.radius) = sphere(bounds);
         self.pivot = self.centre;
-        let aspect = f64::from(resolution.x) / f64::from(resolution.y.max(1));
-        let half_y = 0.5 * self.fov_y_radians;
-        let half_x = (half_y.tan() * aspect).atan();
-        self.distance = self.radius / half_y.min(half_x).max(1e-3).sin();
+        let aspect = f64::from(resolution.x.max(1)) / f64::from(resolution.y.max(1));
+        let half_height = (0.5 * self.fov_y_radians).tan();
+        let half_width = half_height * aspect;
+        let camera_from_world = self.world_from_camera().transpose();
+        let needed = corners(bounds).into_iter().map(|corner| {
+            let p = camera_from_world * (corner - self.centre);
+            p.z.max(0.0) + MARGIN * (p.x.abs() / half_width).max(p.y.abs() / half_height)
+        });
+        self.distance = needed.fold(self.radius, f64::max);
     }
 
     /// Turns by a drag, in pixels to the right and down.
@@ -197,6 +195,30 @@ impl Turntable {
     }
 }
 
+/// Centre and radius of a scene, neither of them zero or infinite.
+fn sphere(bounds: Aabb) -> (DVec3, f64) {
+    if bounds.is_empty() {
+        return (DVec3::ZERO, 1.0);
+    }
+    let centre = bounds.centre().as_dvec3();
+    let place = centre.abs().max_element();
+    match bounds.radius() {
+        0.0 if place == 0.0 => (centre, 1.0),
+        0.0 => (centre, 1e-3 * place),
+        radius => (centre, radius),
+    }
+}
+
+/// The eight corners of a box; none of an empty one.
+fn corners(bounds: Aabb) -> Vec<DVec3> {
+    let corner = |k: usize| {
+        let pick = |axis: usize| [bounds.min, bounds.max][k >> axis & 1][axis];
+        DVec3::new(pick(0).into(), pick(1).into(), pick(2).into())
+    };
+    let count = if bounds.is_empty() { 0 } else { 8 };
+    (0..count).map(corner).collect()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -233,10 +255,7 @@ mod tests {
             for orthographic in [false, true] {
                 let mut turntable = Turntable::framing(scene, SIZE);
                 turntable.is_orthographic = orthographic;
-                let corners = (0..8).map(|k| {
-                    let pick = |axis: usize| [scene.min, scene.max][k >> axis & 1][axis];
-                    Vec3::new(pick(0), pick(1), pick(2)).as_dvec3()
-                });
+                let corners = corners(scene).into_iter();
                 let pixels: Vec<DVec2> = corners.map(|p| pixel_of(&turntable, p)).collect();
                 let inside =
                     |p: &DVec2| p.cmpge(DVec2::ZERO).all() && p.cmple(SIZE.as_dvec2()).all();

@@ -89,6 +89,16 @@ impl TriangleMesh {
         (b - a).cross(c - a).normalize_or_zero().as_vec3()
     }
 
+    /// How many materials faces name.
+    pub fn named_material_count(&self) -> usize {
+        self.materials.len().saturating_sub(1)
+    }
+
+    /// How many groups and objects faces lie in.
+    pub fn named_group_count(&self) -> usize {
+        self.groups.len().saturating_sub(1)
+    }
+
     /// Bytes taken by each part: name and size.
     pub fn bytes(&self) -> [(&'static str, usize); 4] {
         [

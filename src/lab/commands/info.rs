@@ -96,14 +96,12 @@ impl Info {
         bytes.insert("tree", scene.bvh().bytes());
         bytes.insert("packed triangles", intersector.bytes());
         let health = Health::of(mesh);
-        // The first of each list stands for faces that name none.
-        let named = |names: usize, of: &[u32]| names - usize::from(!of.contains(&0));
         Self {
             vertices: loaded.vertex_count,
             triangles: mesh.triangles.len(),
             polygons: mesh.face_count,
-            materials: named(mesh.materials.len(), &mesh.material),
-            groups: named(mesh.groups.len(), &mesh.group),
+            materials: mesh.named_material_count(),
+            groups: mesh.named_group_count(),
             bounds: Bounds {
                 min: in_file(bounds.min),
                 max: in_file(bounds.max),

@@ -1,6 +1,6 @@
 //! The picked pixel: what its ray hit, and what every kernel says of it.
 
-use super::{row_ui, section_ui};
+use super::{ROW_HEIGHT, row_ui, section_ui};
 use egui::RichText;
 use hitscope_lab::inspection::{ExactReport, HitReport, Inspection, KernelRow};
 use std::fmt::Display;
@@ -21,38 +21,38 @@ pub fn inspect_ui(ui: &mut egui::Ui, inspection: Option<&Inspection>) {
         }
     });
     match &inspection.hit {
-        Some(hit) => hit_ui(ui, inspection, hit),
+        Some(hit) => hit_ui(ui, inspection.kernel, hit),
         None => _ = ui.label(format!("{}: no hit", inspection.kernel)),
     }
-    if let Some(exact) = &inspection.exact {
-        exact_ui(ui, exact);
+    kernels_ui(ui, inspection.exact.as_ref(), &inspection.kernels);
+    if let Some(hit) = &inspection.hit {
+        surface_ui(ui, hit);
     }
-    kernels_ui(ui, &inspection.kernels);
-    section_ui(ui, "Cost", |ui| {
-        row_ui(ui, "boxes", inspection.cost.boxes);
-        row_ui(ui, "triangles", inspection.cost.triangles);
-    });
-    section_ui(ui, "Ray", |ui| {
+    section_ui(ui, "Cost and ray", |ui| {
+        let cost = inspection.cost;
+        row_ui(
+            ui,
+            "tested",
+            format!("{} boxes\n{} triangles", cost.boxes, cost.triangles),
+        );
         row_ui(ui, "origin", lines(inspection.ray.origin));
         row_ui(ui, "direction", lines(inspection.ray.direction));
     });
 }
 
-fn hit_ui(ui: &mut egui::Ui, inspection: &Inspection, hit: &HitReport) {
-    section_ui(ui, &format!("Hit ({})", inspection.kernel), |ui| {
+fn hit_ui(ui: &mut egui::Ui, kernel: &str, hit: &HitReport) {
+    section_ui(ui, &format!("Hit ({kernel})"), |ui| {
         row_ui(ui, "t", hit.t);
-        for (name, weight) in ["l1 (A)", "l2 (B)", "l3 (C)"]
-            .into_iter()
-            .zip(hit.barycentric)
-        {
-            row_ui(ui, name, weight);
-        }
+        row_ui(ui, "l1, l2, l3", lines(hit.barycentric));
         row_ui(ui, "triangle", hit.triangle);
         row_ui(ui, "polygon", hit.face);
         row_ui(ui, "material", or_dash(&hit.material));
         row_ui(ui, "group", or_dash(&hit.group));
         row_ui(ui, "position", lines(hit.position));
     });
+}
+
+fn surface_ui(ui: &mut egui::Ui, hit: &HitReport) {
     section_ui(ui, "Normals", |ui| {
         row_ui(ui, "geometric", lines(hit.geometric_normal));
         row_ui(ui, "shading", lines(hit.shading_normal));
@@ -64,61 +64,77 @@ fn hit_ui(ui: &mut egui::Ui, inspection: &Inspection, hit: &HitReport) {
     });
 }
 
-fn exact_ui(ui: &mut egui::Ui, exact: &ExactReport) {
-    section_ui(ui, "Exactly", |ui| {
-        row_ui(ui, "t", exact.t);
-        for (name, weight) in ["l1 (A)", "l2 (B)", "l3 (C)"]
-            .into_iter()
-            .zip(exact.barycentric)
-        {
-            row_ui(ui, name, weight);
-        }
-        row_ui(ui, "triangle", exact.triangle);
-        if exact.is_on_boundary {
-            row_ui(ui, "place", "on the boundary");
-        }
-        if !exact.also.is_empty() {
-            row_ui(ui, "also", format!("{:?}", exact.also));
-        }
-    });
-}
-
-/// One column a kernel, so that their numbers stand side by side.
-fn kernels_ui(ui: &mut egui::Ui, kernels: &[KernelRow]) {
-    ui.label(RichText::new("Kernels").strong());
-    egui::ScrollArea::horizontal().show(ui, |ui| {
-        egui::Grid::new("kernels")
-            .spacing([10.0, 2.0])
-            .striped(true)
-            .show(ui, |ui| {
-                ui.label("");
-                for kernel in kernels {
-                    ui.label(RichText::new(kernel.name).size(11.5));
-                }
-                ui.end_row();
-                let mut row = |name: &str, value: &dyn Fn(&KernelRow) -> Option<String>| {
-                    ui.label(name);
+/// One column a kernel beside the exact answer, so that their numbers can be compared.
+fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
+    ui.label(RichText::new("Kernels against exact arithmetic").strong());
+    let small =
+        |text: String| egui::Label::new(RichText::new(text).monospace().size(11.0)).extend();
+    egui::ScrollArea::horizontal()
+        .id_salt("kernels")
+        .show(ui, |ui| {
+            ui.spacing_mut().interact_size.y = ROW_HEIGHT;
+            egui::Grid::new("kernels")
+                .spacing([10.0, 2.0])
+                .striped(true)
+                .show(ui, |ui| {
+                    ui.label("");
+                    ui.label(RichText::new("exact").size(11.5));
                     for kernel in kernels {
-                        let text = value(kernel).unwrap_or("–".to_owned());
-                        ui.label(RichText::new(text).monospace().size(11.5));
+                        ui.label(RichText::new(kernel.name).size(11.5));
                     }
                     ui.end_row();
-                };
-                row("t", &|k| {
-                    Some(k.t.map_or("miss".to_owned(), |t| t.to_string()))
+                    let mut row =
+                        |name: &str,
+                         exact: Option<String>,
+                         value: &dyn Fn(&KernelRow) -> Option<String>| {
+                            ui.label(name);
+                            for text in [exact].into_iter().chain(kernels.iter().map(value)) {
+                                ui.add(small(text.unwrap_or("–".to_owned())));
+                            }
+                            ui.end_row();
+                        };
+                    let miss = || Some("miss".to_owned());
+                    row(
+                        "t",
+                        exact.map_or_else(miss, |e| Some(format!("{:.12}", e.t))),
+                        &|k| k.t.map_or_else(miss, |t| Some(t.to_string())),
+                    );
+                    row("off by", None, &|k| {
+                        k.t_error_ulps.map(|e| format!("{e:.3} ulp"))
+                    });
+                    for i in 0..3 {
+                        let weight = exact.map(|e| format!("{:.12}", e.barycentric[i]));
+                        row(["l1", "l2", "l3"][i], weight, &|k| {
+                            k.barycentric.map(|b| b[i].to_string())
+                        });
+                    }
+                    row("off by", None, &|k| {
+                        k.barycentric_error.map(|e| format!("{e:.1e}"))
+                    });
+                    row("triangle", exact.map(triangles), &|k| {
+                        k.triangle.map(|t| t.to_string())
+                    });
+                    row("place", exact.map(place), &|_| None);
                 });
-                row("off by", &|k| k.t_error_ulps.map(|e| format!("{e:.3} ulp")));
-                for i in 0..3 {
-                    let name = ["l1", "l2", "l3"][i];
-                    row(name, &|k| k.barycentric.map(|b| b[i].to_string()));
-                }
-                row("off by", &|k| {
-                    k.barycentric_error.map(|e| format!("{e:.1e}"))
-                });
-                row("triangle", &|k| k.triangle.map(|t| t.to_string()));
-            });
-    });
+        });
     ui.add_space(4.0);
+}
+
+/// The nearest triangle, and those at exactly the same distance.
+fn triangles(exact: &ExactReport) -> String {
+    let also = exact.also.iter().map(|t| format!(" {t}"));
+    std::iter::once(exact.triangle.to_string())
+        .chain(also)
+        .collect()
+}
+
+fn place(exact: &ExactReport) -> String {
+    let place = if exact.is_on_boundary {
+        "boundary"
+    } else {
+        "inside"
+    };
+    place.to_owned()
 }
 
 /// Three numbers, each on a line of its own.

@@ -24,9 +24,8 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
         row_ui(ui, "vertices", grouped(loaded.vertex_count));
         row_ui(ui, "triangles", grouped(mesh.triangles.len()));
         row_ui(ui, "polygons", grouped(mesh.face_count));
-        let named = |names: usize, of: &[u32]| names - usize::from(!of.contains(&0));
-        row_ui(ui, "materials", named(mesh.materials.len(), &mesh.material));
-        row_ui(ui, "groups", named(mesh.groups.len(), &mesh.group));
+        row_ui(ui, "materials", mesh.named_material_count());
+        row_ui(ui, "groups", mesh.named_group_count());
     });
     section_ui(ui, "Place", |ui| {
         let bounds = scene.bounds();

@@ -6,6 +6,9 @@ pub mod view;
 
 use egui::RichText;
 
+/// Height of a line of values, in points: lower than a button's, so that more fits.
+const ROW_HEIGHT: f32 = 14.0;
+
 /// A name, and a value that can be selected and copied.
 fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) -> egui::Response {
     ui.label(name);
@@ -19,9 +22,12 @@ fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) -> egui::Response
 fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) {
     ui.add_space(2.0);
     ui.label(RichText::new(title).strong());
-    egui::Grid::new(title)
-        .num_columns(2)
-        .spacing([10.0, 2.0])
-        .show(ui, rows);
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = ROW_HEIGHT;
+        egui::Grid::new(title)
+            .num_columns(2)
+            .spacing([10.0, 2.0])
+            .show(ui, rows);
+    });
     ui.add_space(4.0);
 }

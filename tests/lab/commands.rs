@@ -1,0 +1,268 @@
+//! The commands' contract: what goes in, what comes out.
+
+use clap::{Args, Parser};
+use hitscope_lab::commands::{
+    CommandError, InfoArgs, InspectArgs, RenderArgs, TraceArgs, write_png,
+};
+use serde_json::Value;
+use std::path::{Path, PathBuf};
+use tempfile::TempDir;
+
+/// A unit cube at the origin as six quads, the one in front named, and a far corner of it shared.
+const CUBE: &str = "\
+v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
+f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\ng front\nusemtl red\nf 5 6 7 8\n";
+
+#[derive(Parser)]
+struct Cli<A: Args> {
+    #[command(flatten)]
+    args: A,
+}
+
+/// A folder with `cube.obj`, and whatever else a test puts there.
+struct Folder(TempDir);
+
+impl Folder {
+    fn new() -> Self {
+        let folder = Self(tempfile::tempdir().expect("a folder"));
+        folder.write("cube.obj", CUBE);
+        folder
+    }
+
+    fn write(&self, name: &str, text: &str) -> PathBuf {
+        let path = self.0.path().join(name);
+        std::fs::write(&path, text).expect("written");
+        path
+    }
+
+    /// Parses a command line in which `@name` stands for a file of this folder.
+    fn args<A: Args>(&self, line: &str) -> A {
+        let word = |word: &str| match word.strip_prefix('@') {
+            Some(name) => self.0.path().join(name).into_os_string(),
+            None => word.into(),
+        };
+        let words = std::iter::once("hitscope".into()).chain(line.split_whitespace().map(word));
+        Cli::parse_from(words).args
+    }
+
+    fn trace(&self, options: &str, rays: &str) -> Vec<Value> {
+        self.write("rays.txt", rays);
+        let args: TraceArgs = self.args(&format!("@cube.obj --rays @rays.txt {options}"));
+        let mut out = Vec::new();
+        args.run(&mut out).expect("traced");
+        let text = String::from_utf8(out).expect("UTF-8");
+        text.lines()
+            .map(|line| serde_json::from_str(line).expect("JSON"))
+            .collect()
+    }
+
+    fn json(&self, run: impl FnOnce(&Self, &mut Vec<u8>) -> Result<(), CommandError>) -> Value {
+        let mut out = Vec::new();
+        run(self, &mut out).expect("done");
+        serde_json::from_slice(&out).expect("JSON")
+    }
+}
+
+#[test]
+fn trace_answers_each_ray_in_order() {
+    let rays = "# a comment\n0.25 0.5 3 0 0 -2\n\n5 5 5 1 0 0 # misses\n0.5 0.5 3 0 0 0\n1 2 3\n0.5 0.5 3 0 0 x\n";
+    let answers = Folder::new().trace("", rays);
+    assert_eq!(answers.len(), 5);
+    let hit = &answers[0];
+    assert_eq!(hit["hit"], true);
+    assert_eq!(
+        hit["t"], 1.0,
+        "two units away, in lengths of a direction of two"
+    );
+    assert_eq!(hit["face"], 5);
+    assert_eq!(hit["position"], serde_json::json!([0.25, 0.5, 1.0]));
+    let weights: f64 = hit["barycentric"]
+        .as_array()
+        .expect("three")
+        .iter()
+        .filter_map(Value::as_f64)
+        .sum();
+    assert_eq!(weights, 1.0);
+    assert_eq!(answers[1], serde_json::json!({ "hit": false }));
+    assert_eq!(answers[2]["error"], "the direction is zero");
+    assert_eq!(answers[3]["error"], "a ray has 6 or 8 numbers, here are 3");
+    assert_eq!(answers[4]["error"], "“x” is not a number");
+}
+
+#[test]
+fn trace_obeys_the_interval_and_its_switches() {
+    let folder = Folder::new();
+    let rays = "0.25 0.5 3 0 0 -1 0 2\n0.25 0.5 3 0 0 -1 2 9\n0.25 0.5 3 0 0 -1 3.5 9\n";
+    let closest: Vec<Value> = folder
+        .trace("", rays)
+        .iter()
+        .map(|a| a["t"].clone())
+        .collect();
+    assert_eq!(closest, [Value::Null, 3.0.into(), Value::Null]);
+    let any: Vec<Value> = folder
+        .trace("--any", rays)
+        .iter()
+        .map(|a| a["hit"].clone())
+        .collect();
+    assert_eq!(any, [false, true, false].map(Value::from));
+    let summary = folder.trace("--summary", rays);
+    assert_eq!(summary.len(), 1);
+    assert_eq!(
+        (&summary[0]["rays"], &summary[0]["hits"]),
+        (&3.into(), &1.into())
+    );
+}
+
+#[test]
+fn trace_all_gives_every_crossing_once() {
+    let rays = "0.25 0.75 3 0 0 -1\n0.5 0.5 3 0 0 -1\n9 9 9 1 0 0\n";
+    let answers = Folder::new().trace("--all", rays);
+    let ts = |answer: &Value| -> Vec<f64> {
+        let hits = answer["hits"].as_array().expect("a list");
+        hits.iter().filter_map(|hit| hit["t"].as_f64()).collect()
+    };
+    assert_eq!(ts(&answers[0]), [2.0, 3.0]);
+    // Along both diagonals: two triangles at the same t are one crossing.
+    assert_eq!(ts(&answers[1]), [2.0, 3.0]);
+    assert_eq!(
+        answers[1]["hits"][0]["also"].as_array().map(Vec::len),
+        Some(1)
+    );
+    assert_eq!(ts(&answers[2]), [0.0; 0]);
+}
+
+#[test]
+fn trace_gives_the_same_on_any_number_of_threads() {
+    let folder = Folder::new();
+    let rays: String = (0..500)
+        .map(|i| format!("{} 0.3 3 0.001 0.002 -1\n", f64::from(i) / 400.0))
+        .collect();
+    let one = folder.trace("--threads 1", &rays);
+    assert_eq!(one.len(), 500);
+    assert_eq!(one, folder.trace("--threads 7", &rays));
+}
+
+#[test]
+fn inspect_prints_what_the_contract_names() {
+    let folder = Folder::new();
+    let line = "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0 --json";
+    let found = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
+    assert_eq!(found["pixel"], serde_json::json!([50, 30]));
+    assert_eq!(found["kernel"], "watertight");
+    assert_eq!(found["hit"]["t"], 4.0);
+    assert_eq!(
+        (&found["hit"]["face"], &found["hit"]["material"]),
+        (&5.into(), &"red".into())
+    );
+    assert_eq!(found["hit"]["group"], "front");
+    assert_eq!(
+        found["hit"]["geometric_normal"],
+        serde_json::json!([0.0, 0.0, 1.0])
+    );
+    assert_eq!(found["exact"]["t_fraction"], "4");
+    let kernels = found["kernels"].as_array().expect("a list");
+    assert!(kernels.len() >= 2);
+    for kernel in kernels {
+        assert_eq!(
+            (&kernel["hit"], &kernel["t_error_ulps"]),
+            (&true.into(), &0.0.into())
+        );
+    }
+    assert!(found["cost"]["boxes"].as_u64() > Some(0));
+    let line = "@cube.obj --pixel 0,0 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0 --json";
+    let missed = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
+    assert_eq!(
+        (&missed["hit"], &missed["exact"]),
+        (&Value::Null, &Value::Null)
+    );
+}
+
+#[test]
+fn inspect_refuses_a_pixel_outside_and_an_impossible_camera() {
+    let folder = Folder::new();
+    let error = |line: &str| {
+        let result = folder.args::<InspectArgs>(line).run(&mut Vec::new());
+        result.expect_err(line).to_string()
+    };
+    let outside = error("@cube.obj --pixel 100,0 --size 100x50");
+    assert_eq!(outside, "pixel 100,0 is outside of the picture of 100x50");
+    let same = error("@cube.obj --pixel 1,1 --eye 1,1,1 --target 1,1,1");
+    assert_eq!(same, "the camera's eye and target are the same point");
+    assert!(error("@none.obj --pixel 1,1").contains("none.obj: "));
+}
+
+#[test]
+fn info_counts_what_is_there() {
+    let folder = Folder::new();
+    let info = folder.json(|f, out| f.args::<InfoArgs>("@cube.obj --json").run(out));
+    let expected = [
+        ("vertices", 8),
+        ("triangles", 12),
+        ("polygons", 6),
+        ("materials", 1),
+        ("groups", 1),
+    ];
+    for (key, count) in expected {
+        assert_eq!(info[key], count, "{key}");
+    }
+    assert_eq!(info["bounds"]["max"], serde_json::json!([1.0, 1.0, 1.0]));
+    assert_eq!(info["health"]["open_edges"], 0);
+    assert_eq!(info["tier"]["name"], "watertight");
+    folder.write("open.obj", &CUBE.replace("f 5 6 7 8", "f 5 6 7\nf 1 1 2"));
+    let info = folder.json(|f, out| f.args::<InfoArgs>("@open.obj --json").run(out));
+    assert_eq!(info["health"]["open_edges"], 3);
+    assert_eq!(info["dropped"]["zero_area"], 1);
+    assert_eq!(info["warnings"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn render_writes_a_png_of_the_size_asked_for() {
+    let folder = Folder::new();
+    let args: RenderArgs =
+        folder.args("@cube.obj -o @out.png --size 40x30 --samples 4 --threads 2");
+    let rendered = args.trace().expect("rendered");
+    write_png(&args.output, rendered.film.size(), rendered.film.pixels()).expect("written");
+    let image = image::open(&args.output).expect("a PNG").to_rgba8();
+    assert_eq!(image.dimensions(), (40, 30));
+    assert_ne!(
+        image.get_pixel(20, 15),
+        image.get_pixel(0, 0),
+        "the cube is in the middle"
+    );
+    let bad = write_png(
+        Path::new("/no/such/folder/x.png"),
+        rendered.film.size(),
+        rendered.film.pixels(),
+    );
+    assert!(
+        bad.expect_err("no folder")
+            .to_string()
+            .starts_with("/no/such/folder/x.png: ")
+    );
+}
+
+#[test]
+fn a_mesh_far_away_is_traced_in_the_files_coordinates() {
+    let folder = Folder::new();
+    let far: String = CUBE
+        .lines()
+        .map(|line| match line.strip_prefix("v ") {
+            Some(rest) => {
+                let p: Vec<f64> = rest
+                    .split(' ')
+                    .map(|x| x.parse::<f64>().expect("a number"))
+                    .collect();
+                format!("v {} {} {}\n", p[0] + 4_649_776.25, p[1] - 1e7, p[2])
+            }
+            None => format!("{line}\n"),
+        })
+        .collect();
+    folder.write("cube.obj", &far);
+    let ray = "4649776.5 -9999999.5 3 0 0 -1\n";
+    let near = &folder.trace("", ray)[0];
+    assert_eq!(
+        near["position"],
+        serde_json::json!([4_649_776.5, -9_999_999.5, 1.0])
+    );
+    assert_eq!(near["t"], 2.0);
+}

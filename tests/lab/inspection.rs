@@ -1,0 +1,90 @@
+//! Inspection against cases whose answer is known.
+
+use glam::{DVec3, UVec2, Vec3};
+use hitscope_core::camera::{Camera, Projection};
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::mesh::Material;
+use hitscope_core::progress::Progress;
+use hitscope_core::scene::Shading;
+use hitscope_core::{Scene, TriangleMesh};
+use hitscope_lab::inspection::Inspection;
+
+/// Two triangles of a square in the plane z = 0, which share the diagonal from (0, 0) to (2, 2).
+fn square() -> Scene {
+    let mesh = TriangleMesh {
+        positions: vec![
+            Vec3::ZERO,
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::new(2.0, 2.0, 0.0),
+            Vec3::new(0.0, 2.0, 0.0),
+        ],
+        triangles: vec![[0, 1, 2], [0, 2, 3]],
+        faces: vec![0, 0],
+        outline: vec![0b011, 0b110],
+        material: vec![0, 0],
+        group: vec![0, 0],
+        materials: vec![Material {
+            name: String::new(),
+            diffuse: None,
+        }],
+        groups: vec![String::new()],
+        face_count: 1,
+        ..TriangleMesh::default()
+    };
+    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+}
+
+fn inspect(at: DVec3) -> Inspection {
+    let scene = square();
+    let camera = Camera::look_at(
+        at + 4.0 * DVec3::Z,
+        at,
+        DVec3::Y,
+        Projection::Orthographic { height: 1.0 },
+        UVec2::ONE,
+    );
+    let intersector = scene.intersector(&TRIANGLE_KERNELS[0]);
+    Inspection::of_pixel(
+        &scene,
+        &*intersector,
+        Shading::Flat,
+        &camera.expect("good"),
+        UVec2::ZERO,
+    )
+}
+
+#[test]
+fn the_weights_are_those_of_the_corners() {
+    let found = inspect(DVec3::new(1.5, 0.5, 0.0));
+    let hit = found.hit.expect("inside");
+    assert_eq!((hit.triangle, hit.t), (0, 4.0));
+    assert_eq!(hit.barycentric, [0.25, 0.5, 0.25]);
+    assert_eq!(hit.position, [1.5, 0.5, 0.0]);
+    let exact = found.exact.expect("inside");
+    assert_eq!(exact.barycentric_fractions, ["1/4", "1/2", "1/4"]);
+    assert!(!exact.is_on_boundary && exact.also.is_empty());
+}
+
+#[test]
+fn a_hit_on_a_shared_edge_belongs_to_the_lower_triangle_and_names_the_other() {
+    let found = inspect(DVec3::new(1.0, 1.0, 0.0));
+    let exact = found.exact.expect("on the diagonal");
+    assert_eq!((exact.triangle, exact.also), (0, vec![1]));
+    assert!(exact.is_on_boundary);
+    for kernel in found.kernels {
+        assert_eq!(
+            (kernel.triangle, kernel.t),
+            (Some(0), Some(4.0)),
+            "{}",
+            kernel.name
+        );
+    }
+}
+
+#[test]
+fn a_miss_has_a_row_for_every_kernel() {
+    let found = inspect(DVec3::new(9.0, 9.0, 0.0));
+    assert!(found.hit.is_none() && found.exact.is_none());
+    assert_eq!(found.kernels.len(), TRIANGLE_KERNELS.len());
+    assert!(found.kernels.iter().all(|row| !row.hit && row.t.is_none()));
+}
