@@ -18,6 +18,9 @@ const FIRST_PASS: Duration = Duration::from_millis(17);
 const COLLECTING: Duration = Duration::from_millis(6);
 /// Views that follow each other within this time are frames of a movement.
 const MOVING: Duration = Duration::from_millis(500);
+/// Refinement begins when the view has been at rest for this long; until then the processor is left
+/// to drawing the window, which takes most of it where there is no GPU.
+const REST: Duration = Duration::from_millis(80);
 /// Rays/s of a thread, until it is measured.
 const ASSUMED_SPEED: f64 = 1e6;
 
@@ -80,7 +83,10 @@ pub struct Tracer {
     /// Rays traced, and seconds that threads spent on them, fading over time.
     rays: f64,
     busy_secs: f64,
+    /// By the user.
     is_paused: bool,
+    /// Until the view has been at rest.
+    is_held: bool,
     non_finite: u64,
 }
 
@@ -99,6 +105,7 @@ impl Tracer {
             rays: 0.0,
             busy_secs: 0.0,
             is_paused: false,
+            is_held: false,
             non_finite: 0,
         }
     }
@@ -121,6 +128,7 @@ impl Tracer {
                 break;
             }
         }
+        self.end_hold(ctx);
         if self.film.passes_done() > 0
             && let Some(posted) = &self.posted
             && self.shown != Some(posted.request.context.camera)
@@ -132,6 +140,21 @@ impl Tracer {
             self.shown = Some(posted.request.context.camera);
         }
         panics
+    }
+
+    /// Lets refinement begin once the view has been at rest.
+    fn end_hold(&mut self, ctx: &egui::Context) {
+        let since = self
+            .posted
+            .as_ref()
+            .map_or(REST, |posted| posted.at.elapsed());
+        if !self.is_held {
+        } else if since < REST {
+            ctx.request_repaint_after(REST - since);
+        } else {
+            self.is_held = false;
+            self.apply_pause();
+        }
     }
 
     fn add(&mut self, tile: &TileResult) {
@@ -168,6 +191,8 @@ impl Tracer {
             self.film = Film::new(plan.clone(), background);
             self.changed = None;
         }
+        self.is_held = true;
+        self.apply_pause();
         self.renderer.post(Job {
             context: request.context.clone(),
             integrator: request.integrator,
@@ -255,7 +280,11 @@ impl Tracer {
     /// Holds refinement, or lets it go on.
     pub fn toggle_pause(&mut self) {
         self.is_paused = !self.is_paused;
-        if self.is_paused {
+        self.apply_pause();
+    }
+
+    fn apply_pause(&mut self) {
+        if self.is_paused || self.is_held {
             self.renderer.pause();
         } else {
             self.renderer.resume();

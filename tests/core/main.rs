@@ -1,1 +1,30 @@
-//! x
+//! The core's integration tests: what a user of the crate may rely on.
+//!
+//! Every kernel in the table is tested here without being named, by what its `INFO` promises.
+
+// Makers of meshes, the same bits on every machine.
+mod shapes;
+
+// Numbers that look random and never change.
+mod random;
+
+// Every kernel: the easy cases, one triangle at a time.
+mod conformance;
+
+// The tree with its SIMD lanes against each triangle asked alone.
+mod intersector;
+
+// Kernels that promise it: no ray leaves a closed mesh.
+mod watertight;
+
+// What holds for any triangle and ray: scaling, permuting, reversing.
+mod properties;
+
+// 64×64 pictures, compared exactly.
+mod golden;
+
+// One thread or many, coarse first or not: the same picture.
+mod determinism;
+
+// Stopping: stale jobs, dropped renderers, pauses, cancelled loads, panics.
+mod cancellation;

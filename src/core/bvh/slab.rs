@@ -6,13 +6,16 @@
 //!
 //! Sources: Kay, Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; Ize, "Robust BVH Ray
 //! Traversal", JCGT 2(2), 2013. Differs from the latter: the padding is in the inverse direction of
-//! the far planes, where it costs nothing a box, and is 3 ulp wide instead of 2.
+//! the far planes, where it costs nothing a box, and is 3 ulp wide instead of 2; far planes behind
+//! the origin are padded, too, for rays whose interval begins there.
 
 use crate::aabb::Aabb;
 use crate::ray::Ray;
 
-/// 1 + 3·2⁻²³, rounded up: what a far distance is lengthened by. Ize derives 1 + 2·2⁻²³.
-pub(super) const PADDING: f32 = 1.000_000_4;
+/// 1 + 3·2⁻²³: what a far distance ahead is lengthened by. Ize derives 1 + 2·2⁻²³.
+const AHEAD: f32 = 1.0 + 3.0 * f32::EPSILON;
+/// 1 − 3·2⁻²³: a far distance behind the origin is negative, and made nearer to it.
+const BEHIND: f32 = 1.0 - 3.0 * f32::EPSILON;
 
 /// A ray made ready for many boxes.
 #[derive(Clone, Copy)]
@@ -20,6 +23,7 @@ pub(super) struct SlabRay {
     origin: [f32; 3],
     inv_near: [f32; 3],
     inv_far: [f32; 3],
+    inv_far_behind: [f32; 3],
     is_negative: [bool; 3],
     t_min: f32,
 }
@@ -30,7 +34,8 @@ impl SlabRay {
         Self {
             origin: ray.origin.to_array(),
             inv_near: inverse,
-            inv_far: inverse.map(|x| x * PADDING),
+            inv_far: inverse.map(|x| x * AHEAD),
+            inv_far_behind: inverse.map(|x| x * BEHIND),
             is_negative: inverse.map(f32::is_sign_negative),
             t_min: ray.t_min,
         }
@@ -51,7 +56,9 @@ impl SlabRay {
                 (lower[axis], upper[axis])
             };
             let enter = (first - self.origin[axis]) * self.inv_near[axis];
-            let leave = (last - self.origin[axis]) * self.inv_far[axis];
+            let rest = last - self.origin[axis];
+            let (ahead, behind) = (rest * self.inv_far[axis], rest * self.inv_far_behind[axis]);
+            let leave = if behind > ahead { behind } else { ahead };
             near = if enter > near { enter } else { near };
             far = if leave < far { leave } else { far };
         }

@@ -1,16 +1,23 @@
 //! Visiting the leaves that a ray meets, nearest first.
 
-use super::slab::{PADDING, SlabRay};
+use super::slab::SlabRay;
 use super::{Bvh, Child, MAX_DEPTH};
 use crate::ray::Ray;
+
+/// How much farther than the nearest hit boxes are visited, relatively: 16 ulp.
+///
+/// A kernel's t is rounded some nine times and a box's entry three, so that a hit may be reported
+/// before its box is entered. Measured on overlapping triangles in one plane, where that shows: of
+/// 5 M rays the lowest triangle lost 15 with 3 ulp, 9 with 4, 5 with 8, none with 16 (2026-11).
+const SLACK: f32 = 16.0 * f32::EPSILON;
 
 impl Bvh {
     /// Hands each leaf that the ray meets to `visit`, the nearer child first.
     ///
     /// `visit` gets the leaf's index and returns up to which t the ray is still of interest: the
     /// nearest hit so far, or `ray.t_max`. A negative infinity ends the walk. Boxes at exactly that
-    /// distance are still visited, and those up to 3 ulp behind it, so that of two hits at equal t
-    /// the caller sees both. `box_tested` is called once for each box tested.
+    /// distance are still visited, and those a little behind it, so that of two hits at equal t the
+    /// caller sees both. `box_tested` is called once for each box tested.
     #[inline(always)]
     pub fn traverse(
         &self,
@@ -31,7 +38,8 @@ impl Bvh {
         let mut current = root;
         loop {
             if let Some(leaf) = current.as_leaf() {
-                t_max = visit(leaf) * PADDING;
+                let limit = visit(leaf);
+                t_max = limit + limit.abs() * SLACK;
             } else {
                 let node = &self.nodes[current.index()];
                 box_tested();

@@ -128,6 +128,11 @@ impl App {
         self.loading.is_none() && self.tracer.is_complete()
     }
 
+    /// Whether refinement stands still by the user's wish.
+    pub fn is_paused(&self) -> bool {
+        self.tracer.is_paused()
+    }
+
     /// How things are shown.
     pub fn settings(&self) -> &Settings {
         &self.settings

@@ -2,8 +2,10 @@
 //!
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 //! Differs from it: no back-face culling; only the edge value that came out 0 is decided again in
-//!   f64, lane by lane, so that a lane's answer doesn't depend on its neighbours.
-//! Promises: watertight over shared edges and vertices of any scale and offset.
+//!   f64, lane by lane, so that a lane's answer doesn't depend on its neighbours; the weights are
+//!   divided before they meet the depths, which are interpolated from A's.
+//! Promises: watertight over shared edges and vertices, at any offset, for lengths from 1e-18 to
+//!   1e18: beyond, the product of two leaves f32's range.
 //! Doesn't promise: an answer for triangles of zero area (they are dropped at load); the right
 //!   triangle of two where rounding the sheared vertices moves an edge across the ray.
 //!
@@ -94,15 +96,16 @@ impl Kernel for Watertight {
 
         // det = 0: the triangle is seen edge-on. A NaN fails every comparison.
         let det = u + v + w;
-        let det_abs = det.abs();
-        let depth = (u * a[2] + v * b[2] + w * c[2]) * ray.shear[2];
-        let t = depth.flip(det) / det_abs;
-        let mask = inside & zero.lt(det_abs) & t_min.lt(t) & t.le(t_max);
+        // Weights before depths: a product of three lengths would leave f32's range at 1e±13.
+        let (l2, l3) = (v / det, w / det);
+        let depth = a[2] + (l2 * (b[2] - a[2]) + l3 * (c[2] - a[2]));
+        let t = depth * ray.shear[2];
+        let mask = inside & zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
         mask.any().then(|| LaneHit {
             mask,
             t,
-            u: v.flip(det) / det_abs,
-            v: w.flip(det) / det_abs,
+            u: l2,
+            v: l3,
         })
     }
 }

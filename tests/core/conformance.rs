@@ -1,0 +1,346 @@
+//! Every kernel in the table: the cases that any algorithm must answer, one triangle at a time.
+//!
+//! What only some kernels promise is tested elsewhere, by their `INFO`.
+
+use crate::random::Random;
+use crate::shapes::{scene, soup};
+use glam::{DVec3, Vec3, Vec3Swizzles};
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::obj::{self, Recentre};
+use hitscope_core::progress::Progress;
+use hitscope_core::ray::RayError;
+use hitscope_core::{Hit, Ray};
+use std::path::Path;
+
+/// Half an ulp of 1, by which a rounding to f32 errs.
+const U: f64 = 1.0 / (1 << 24) as f64;
+
+/// Not symmetric in any way: a weight on the wrong corner shows.
+const CORNERS: [Vec3; 3] = [
+    Vec3::new(-1.0, -0.5, 2.0),
+    Vec3::new(1.5, -1.0, 2.5),
+    Vec3::new(0.25, 1.5, 3.0),
+];
+
+fn ray(origin: Vec3, dir: Vec3) -> Ray {
+    Ray::new(origin, dir).expect("a ray")
+}
+
+fn blend(weights: [f64; 3], corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    weights[0] * a + weights[1] * b + weights[2] * c
+}
+
+/// Calls `check` with every kernel, weight by weight, and with the axes swapped, mirrored and the
+/// winding reversed: which of a kernel's branches is taken must not matter.
+fn in_every_pose(check: impl Fn(&TriangleKernel, [Vec3; 3], [f64; 3])) {
+    const WEIGHTS: [[f64; 3]; 4] = [
+        [0.25, 0.25, 0.5],
+        [0.125, 0.5, 0.375],
+        [0.625, 0.125, 0.25],
+        [0.0625, 0.1875, 0.75],
+    ];
+    for kernel in TRIANGLE_KERNELS {
+        for pose in 0..48 {
+            let corners = CORNERS.map(|p| posed(p, pose));
+            for weights in WEIGHTS {
+                check(kernel, corners, weights);
+                let ([a, b, c], [x, y, z]) = (corners, weights);
+                check(kernel, [a, c, b], [x, z, y]);
+            }
+        }
+    }
+}
+
+/// One of the 48 ways to permute and mirror the axes.
+fn posed(p: Vec3, pose: usize) -> Vec3 {
+    let turned = [p, p.yzx(), p.zxy(), p.yxz(), p.xzy(), p.zyx()][pose % 6];
+    let sign = |bit: usize| {
+        if (pose / 6) >> bit & 1 == 1 {
+            -1.0
+        } else {
+            1.0
+        }
+    };
+    turned * Vec3::new(sign(0), sign(1), sign(2))
+}
+
+/// Asserts t, u, v and the point, for a ray from `origin` whose direction is the rounded way to the
+/// point with these weights, `lengths` times as long.
+///
+/// Cramer's rule: each numerator and the determinant is a sum of six products of three differences,
+/// each product with three roundings of the differences, two of the products and three of the sum:
+/// 8u of the product of the lengths. Such a product over det is at most 10 here, where det is
+/// 2·area·cos of the ray with the normal; the rounded direction adds u. Numerator and determinant, 6
+/// products each: 2·6·8·10·u ≈ 1000u, relative to the coordinates.
+fn assert_hit_at(
+    kernel: &TriangleKernel,
+    corners: [Vec3; 3],
+    weights: [f64; 3],
+    origin: Vec3,
+    lengths: f64,
+) {
+    let name = kernel.info.name;
+    let point = blend(weights, corners);
+    let dir = ((point - origin.as_dvec3()) * lengths).as_vec3();
+    let hit = kernel.intersect(&ray(origin, dir), corners);
+    let hit = hit.unwrap_or_else(|| panic!("{name} misses {corners:?} from {origin}"));
+
+    let size = corners.map(|p| f64::from(p.abs().max_element()));
+    let size = size.into_iter().fold(0.0, f64::max);
+    let found = hit.barycentric().map(f64::from);
+    for (weight, expected) in found.into_iter().zip(weights) {
+        assert!(
+            (weight - expected).abs() <= 1000.0 * U,
+            "{name}: {found:?}, not {weights:?}"
+        );
+    }
+    let (t, expected) = (f64::from(hit.t), 1.0 / lengths);
+    assert!(
+        (t - expected).abs() <= 1000.0 * U * expected,
+        "{name}: t {t}, not {expected}"
+    );
+    let off = (blend(found, corners) - point).length();
+    assert!(off <= 1000.0 * U * size, "{name}: {off} off the point");
+}
+
+#[test]
+fn a_hit_inside_has_its_weights_on_the_right_corners_from_both_sides() {
+    in_every_pose(|kernel, corners, weights| {
+        let point = blend(weights, corners).as_vec3();
+        let [a, b, c] = corners;
+        let normal = (b - a).cross(c - a);
+        for side in [1.0, -1.0] {
+            let origin = point + side * normal + 0.125 * (b - a);
+            assert_hit_at(kernel, corners, weights, origin, 1.0);
+        }
+    });
+}
+
+#[test]
+fn a_longer_direction_counts_fewer_of_its_lengths() {
+    in_every_pose(|kernel, corners, weights| {
+        for lengths in [1e-10, 1e-3, 0.25, 7.0, 1e10] {
+            assert_hit_at(kernel, corners, weights, Vec3::splat(0.125), lengths);
+        }
+    });
+}
+
+#[test]
+fn easy_hits_are_found_at_any_usual_scale() {
+    in_every_pose(|kernel, corners, weights| {
+        for scale in [1e-6, 1e-3, 1e3, 1e6] {
+            let corners = corners.map(|p| p * scale);
+            let origin = Vec3::splat(0.125) * scale;
+            assert_hit_at(kernel, corners, weights, origin, 1.0);
+            assert_hit_at(kernel, corners, weights, origin, f64::from(1.0 / scale));
+        }
+    });
+}
+
+#[test]
+fn an_offset_that_leaves_the_numbers_exact_changes_no_bit() {
+    in_every_pose(|kernel, corners, weights| {
+        // CORNERS are multiples of 1/4, so that up to 2²¹ nothing is rounded away.
+        let origin = Vec3::splat(0.25);
+        let dir = (blend(weights, corners) - origin.as_dvec3()).as_vec3();
+        let here = kernel.intersect(&ray(origin, dir), corners);
+        let offset = Vec3::new(131_072.0, -65_536.0, 1_048_576.0);
+        let there = kernel.intersect(&ray(origin + offset, dir), corners.map(|p| p + offset));
+        assert_eq!(here, there, "{}", kernel.info.name);
+        assert!(here.is_some(), "{}", kernel.info.name);
+    });
+}
+
+#[test]
+fn a_ray_beside_any_edge_or_corner_is_a_miss() {
+    // Beyond an edge one weight is negative, beyond a corner two are.
+    const OUTSIDE: [[f64; 3]; 6] = [
+        [-0.125, 0.5, 0.625],
+        [0.5, -0.125, 0.625],
+        [0.5, 0.625, -0.125],
+        [1.25, -0.125, -0.125],
+        [-0.125, 1.25, -0.125],
+        [-0.125, -0.125, 1.25],
+    ];
+    in_every_pose(|kernel, corners, _| {
+        for weights in OUTSIDE {
+            let dir = blend(weights, corners).as_vec3();
+            let hit = kernel.intersect(&ray(Vec3::ZERO, dir), corners);
+            assert_eq!(hit, None, "{} {weights:?}", kernel.info.name);
+        }
+    });
+}
+
+#[test]
+fn a_triangle_behind_the_origin_is_a_miss() {
+    in_every_pose(|kernel, corners, weights| {
+        let dir = -blend(weights, corners).as_vec3();
+        let hit = kernel.intersect(&ray(Vec3::ZERO, dir), corners);
+        assert_eq!(hit, None, "{}", kernel.info.name);
+    });
+}
+
+#[test]
+fn a_ray_parallel_to_the_plane_is_a_miss() {
+    // In an axis-aligned plane the determinant is 0 whatever the order of operations.
+    let flat = [
+        Vec3::ZERO,
+        Vec3::new(2.0, 0.0, 0.0),
+        Vec3::new(0.0, 2.0, 0.0),
+    ];
+    for kernel in TRIANGLE_KERNELS {
+        for pose in 0..48 {
+            let corners = flat.map(|p| posed(p, pose));
+            for height in [0.0, 0.5] {
+                for dir in [Vec3::X, Vec3::Y, Vec3::new(1.0, 0.75, 0.0)] {
+                    let from = posed(Vec3::new(-1.0, 0.25, height), pose);
+                    let hit = kernel.intersect(&ray(from, posed(dir, pose)), corners);
+                    assert_eq!(hit, None, "{} pose {pose}", kernel.info.name);
+                }
+            }
+        }
+    }
+}
+
+#[test]
+fn the_interval_is_open_at_both_ends() {
+    in_every_pose(|kernel, corners, weights| {
+        let dir = blend(weights, corners).as_vec3();
+        let t = kernel
+            .intersect(&ray(Vec3::ZERO, dir), corners)
+            .expect("a hit")
+            .t;
+        let hit = |t_min, t_max| {
+            let ray = Ray::with_interval(Vec3::ZERO, dir, t_min, t_max).expect("a ray");
+            kernel.intersect(&ray, corners).map(|hit| hit.t)
+        };
+        assert_eq!(hit(t, 9.0), None);
+        assert_eq!(hit(0.0, t), None);
+        assert_eq!(hit(t.next_down(), t.next_up()), Some(t));
+        assert_eq!(hit(-1.0, 9.0), Some(t));
+    });
+}
+
+#[test]
+fn a_negative_interval_finds_what_lies_behind() {
+    in_every_pose(|kernel, corners, weights| {
+        let dir = -blend(weights, corners).as_vec3();
+        let ray = Ray::with_interval(Vec3::ZERO, dir, -2.0, 2.0).expect("a ray");
+        let hit = kernel.intersect(&ray, corners).expect("a hit behind");
+        assert!((f64::from(hit.t) + 1.0).abs() <= 1000.0 * U, "{}", hit.t);
+    });
+}
+
+#[test]
+fn a_triangle_with_a_nan_is_a_miss() {
+    in_every_pose(|kernel, corners, weights| {
+        let ray = ray(Vec3::ZERO, blend(weights, corners).as_vec3());
+        for slot in 0..9 {
+            let mut corners = corners;
+            corners[slot / 3][slot % 3] = f32::NAN;
+            assert_eq!(
+                kernel.intersect(&ray, corners),
+                None,
+                "{} {slot}",
+                kernel.info.name
+            );
+        }
+    });
+}
+
+#[test]
+fn triangles_that_no_ray_can_hit_are_dropped_at_load() {
+    let text =
+        "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 4\nf 1 2 2\nf 1 2 5\nf 1 2 3\n";
+    let no_library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+    let progress = Progress::default();
+    let loaded = obj::parse(
+        text.as_bytes(),
+        Path::new("x.obj"),
+        Recentre::Off,
+        &no_library,
+        &progress,
+    );
+    let mesh = loaded.expect("one good triangle").mesh;
+    assert_eq!(mesh.triangles.len(), 1);
+    assert_eq!(mesh.corners(0), [Vec3::ZERO, Vec3::X, Vec3::Y]);
+    assert_eq!((mesh.dropped.zero_area, mesh.dropped.non_finite), (2, 1));
+    for kernel in TRIANGLE_KERNELS {
+        let intersector = scene(mesh.clone()).intersector(kernel);
+        let hit = intersector.closest_hit(&ray(Vec3::new(0.25, 0.25, 1.0), Vec3::NEG_Z));
+        assert_eq!(
+            hit.map(|hit| hit.primitive),
+            Some(0),
+            "{}",
+            kernel.info.name
+        );
+    }
+}
+
+#[test]
+fn rays_that_are_not_finite_are_refused_in_every_slot() {
+    for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        for slot in 0..3 {
+            let mut v = Vec3::ONE;
+            v[slot] = bad;
+            assert_eq!(Ray::new(v, Vec3::ONE), Err(RayError::OriginNotFinite));
+            assert_eq!(Ray::new(Vec3::ONE, v), Err(RayError::DirectionNotFinite));
+        }
+    }
+    for zero in [Vec3::ZERO, -Vec3::ZERO, Vec3::new(0.0, -0.0, 0.0)] {
+        assert_eq!(Ray::new(Vec3::ONE, zero), Err(RayError::DirectionZero));
+    }
+}
+
+#[test]
+fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
+    const EXTREMES: [f32; 10] = [
+        0.0,
+        -0.0,
+        1e-45,
+        -1e-38,
+        1e-20,
+        1.0,
+        -1.0,
+        1e20,
+        -3e38,
+        f32::MAX,
+    ];
+    let mut random = Random::new(1);
+    let mut any = || Vec3::from_array([(); 3].map(|()| EXTREMES[random.index(EXTREMES.len())]));
+    let mut hits = vec![0; TRIANGLE_KERNELS.len()];
+    for _ in 0..40_000 {
+        let (origin, dir, corners) = (any(), any(), [any(), any(), any()]);
+        let Ok(ray) = Ray::new(origin, dir) else {
+            continue;
+        };
+        for (kernel, hits) in TRIANGLE_KERNELS.iter().zip(&mut hits) {
+            if let Some(Hit { t, u, v, .. }) = kernel.intersect(&ray, corners) {
+                let is_good =
+                    t > 0.0 && t < f32::INFINITY && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0;
+                assert!(
+                    is_good,
+                    "{} t {t} u {u} v {v}: {ray:?} {corners:?}",
+                    kernel.info.name
+                );
+                *hits += 1;
+            }
+        }
+    }
+    assert!(hits.iter().all(|&n| n > 0), "{hits:?}");
+    // The same through the tree: nothing panics, nothing hangs.
+    let triangles: Vec<[Vec3; 3]> = (0..200).map(|_| [any(), any(), any()]).collect();
+    let scene = scene(soup(&triangles));
+    for intersector in TRIANGLE_KERNELS
+        .iter()
+        .map(|kernel| scene.intersector(kernel))
+    {
+        for _ in 0..2000 {
+            if let Ok(ray) = Ray::new(any(), any()) {
+                let hit = intersector.closest_hit(&ray);
+                assert!(hit.is_none_or(|hit| hit.t > 0.0 && hit.t < f32::INFINITY));
+            }
+        }
+    }
+}

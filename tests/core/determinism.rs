@@ -1,0 +1,84 @@
+//! One thread or many, coarse first or not, whatever was rendered before: the same picture.
+
+use crate::golden::job;
+use glam::UVec2;
+use hitscope_core::Film;
+use hitscope_core::camera::Projection;
+use hitscope_core::integrator::INTEGRATORS;
+use hitscope_core::render::plan::{Plan, STEPS};
+use hitscope_core::render::{Job, Message, Renderer, render};
+use hitscope_core::scene::Shading;
+
+/// Several tiles, the last ones cut off.
+const SIZE: UVec2 = UVec2::new(131, 101);
+
+fn picture(view: &str, first_step: u32) -> Job {
+    let projection = Projection::Perspective {
+        fov_y_radians: 0.75,
+    };
+    job(
+        view,
+        Shading::Smooth,
+        projection,
+        Plan::new(SIZE, first_step, 4),
+    )
+}
+
+fn rendered(job: Job, threads: usize) -> Vec<[u8; 4]> {
+    render(job, threads).expect("no panic").pixels().to_vec()
+}
+
+/// Posts a job and takes its tiles until the picture is complete.
+fn posted(renderer: &mut Renderer, job: Job) -> Vec<[u8; 4]> {
+    let mut film = Film::new(job.plan.clone(), job.context.background);
+    renderer.post(job);
+    while !film.is_complete() {
+        match renderer.wait_next() {
+            Message::Tile(tile) => _ = film.add(&tile.samples),
+            Message::Panicked(_, panic) => panic!("{panic}"),
+        }
+    }
+    film.pixels().to_vec()
+}
+
+#[test]
+fn any_number_of_threads_renders_the_same_picture() {
+    for view in INTEGRATORS {
+        let alone = rendered(picture(view.name, 4), 1);
+        for threads in [2, 5] {
+            assert_eq!(
+                rendered(picture(view.name, 4), threads),
+                alone,
+                "{} {threads}",
+                view.name
+            );
+        }
+    }
+}
+
+#[test]
+fn however_coarse_the_first_pass_the_picture_ends_the_same() {
+    let at_once = rendered(picture("shaded", 1), 2);
+    assert!(at_once.iter().any(|pixel| *pixel != at_once[0]));
+    for step in STEPS {
+        assert_eq!(
+            rendered(picture("shaded", step), 2),
+            at_once,
+            "first step {step}"
+        );
+    }
+}
+
+#[test]
+fn what_was_rendered_before_leaves_no_trace() {
+    let mut renderer = Renderer::new(3, || ());
+    let views = ["shaded", "depth", "cost"];
+    let forwards = views.map(|view| posted(&mut renderer, picture(view, 8)));
+    let mut backwards = views;
+    backwards.reverse();
+    let mut pictures = backwards.map(|view| posted(&mut renderer, picture(view, 8)));
+    pictures.reverse();
+    assert_eq!(forwards, pictures);
+    let alone = views.map(|view| rendered(picture(view, 8), 1));
+    assert_eq!(forwards, alone);
+}

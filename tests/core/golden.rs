@@ -1,0 +1,154 @@
+//! 64×64 pictures of a torus in every view, compared exactly.
+//!
+//! To write them anew, look at the difference first, then:
+//!
+//! ```sh
+//! HITSCOPE_GOLDEN=write cargo test -p hitscope-core --test core golden
+//! ```
+//!
+//! On a difference the actual picture is kept in the system's temporary folder, and the message says
+//! where. Pixels are flat shaded unless a name says smooth.
+
+use crate::shapes::{Place, scene, torus};
+use glam::{DVec3, UVec2, Vec3};
+use hitscope_core::camera::Projection;
+use hitscope_core::integrator::{Context, INTEGRATORS, integrator};
+use hitscope_core::kernel::triangle::default_triangle_kernel;
+use hitscope_core::render::plan::Plan;
+use hitscope_core::render::{Job, render};
+use hitscope_core::scene::Shading;
+use hitscope_core::{Camera, Film};
+use std::fs;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+const SIZE: UVec2 = UVec2::splat(64);
+const PERSPECTIVE: Projection = Projection::Perspective {
+    fov_y_radians: 0.75,
+};
+const ORTHOGRAPHIC: Projection = Projection::Orthographic { height: 2.5 };
+
+/// A torus from above, in the view of this name.
+pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
+    let scene = Arc::new(scene(torus(24, 12, Place::UNIT)));
+    let intersector = scene.intersector(default_triangle_kernel()).into();
+    let eye = DVec3::new(1.25, -2.0, 2.25);
+    let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, projection, plan.size());
+    Job {
+        context: Context {
+            scene,
+            intersector,
+            camera: camera.expect("a camera"),
+            shading,
+            background: Vec3::new(0.05, 0.1, 0.2),
+        },
+        integrator: integrator(view).expect("a view"),
+        plan,
+    }
+}
+
+#[test]
+fn every_view_shows_what_it_showed() {
+    let mut different = Vec::new();
+    let mut check = |name: &str, view: &str, shading, projection, samples| {
+        let job = job(view, shading, projection, Plan::new(SIZE, 4, samples));
+        let film = render(job, 2).expect("no panic");
+        different.extend(compare(name, &film));
+    };
+    for view in INTEGRATORS {
+        check(view.name, view.name, Shading::Flat, PERSPECTIVE, 1);
+    }
+    for view in ["shaded", "normal"] {
+        check(
+            &format!("{view}-smooth"),
+            view,
+            Shading::Smooth,
+            PERSPECTIVE,
+            1,
+        );
+    }
+    // More than one sample, too: the places in the pixel are part of the picture.
+    check(
+        "shaded-orthographic",
+        "shaded",
+        Shading::Smooth,
+        ORTHOGRAPHIC,
+        4,
+    );
+    assert!(different.is_empty(), "\n{}", different.join("\n"));
+}
+
+#[test]
+fn golden_pictures_differ_from_each_other() {
+    if is_writing() {
+        return;
+    }
+    let names = INTEGRATORS.iter().map(|view| view.name);
+    let names = names.chain(["shaded-smooth", "normal-smooth", "shaded-orthographic"]);
+    let pictures: Vec<Vec<u8>> = names.map(|name| read_ppm(&golden_path(name))).collect();
+    for (k, picture) in pictures.iter().enumerate() {
+        assert!(
+            !pictures[..k].contains(picture),
+            "picture {k} is there twice"
+        );
+    }
+}
+
+/// What is different, if anything is; or writes the golden picture, if that is what was asked for.
+fn compare(name: &str, film: &Film) -> Option<String> {
+    let actual: Vec<u8> = film.pixels().iter().flat_map(|p| p[..3].to_vec()).collect();
+    if is_writing() {
+        fs::write(golden_path(name), ppm(&actual)).expect("the folder can be written");
+        return None;
+    }
+    let expected = read_ppm(&golden_path(name));
+    let is_same = |(a, b): &(&[u8], &[u8])| a == b;
+    let count = actual
+        .chunks(3)
+        .zip(expected.chunks(3))
+        .filter(|pair| !is_same(pair))
+        .count();
+    if count == 0 {
+        return None;
+    }
+    let folder = std::env::temp_dir().join("hitscope-golden");
+    fs::create_dir_all(&folder).expect("a temporary folder");
+    let path = folder.join(format!("{name}.ppm"));
+    fs::write(&path, ppm(&actual)).expect("a temporary file");
+    Some(format!(
+        "{name}: {count} pixels differ; the actual picture is {}",
+        path.display()
+    ))
+}
+
+fn is_writing() -> bool {
+    std::env::var_os("HITSCOPE_GOLDEN").is_some_and(|value| value == "write")
+}
+
+fn golden_path(name: &str) -> PathBuf {
+    // The crate's manifest is in src/core.
+    let folder = PathBuf::from(env!("CARGO_MANIFEST_DIR")).join("../../tests/core/golden");
+    folder.join(format!("{name}.ppm"))
+}
+
+/// A PPM's header, the only one that is read back.
+fn header() -> String {
+    format!("P6\n{} {}\n255\n", SIZE.x, SIZE.y)
+}
+
+fn ppm(rgb: &[u8]) -> Vec<u8> {
+    [header().as_bytes(), rgb].concat()
+}
+
+fn read_ppm(path: &PathBuf) -> Vec<u8> {
+    let bytes = fs::read(path).unwrap_or_else(|e| panic!("{}: {e}", path.display()));
+    let rgb = bytes.strip_prefix(header().as_bytes());
+    let rgb = rgb.unwrap_or_else(|| panic!("{}: not a 64×64 PPM", path.display()));
+    assert_eq!(
+        rgb.len(),
+        3 * SIZE.element_product() as usize,
+        "{}",
+        path.display()
+    );
+    rgb.to_vec()
+}

@@ -1,0 +1,341 @@
+//! The tree with its SIMD lanes against each triangle asked alone: the same bits.
+//!
+//! For rays at edges, corners and flat boxes only of kernels that promise to be watertight: the
+//! others' t may err by more than boxes are padded, so that the tree leaves such a hit out.
+
+use crate::random::Random;
+use crate::shapes::{Place, flat_grid, in_torus, scene, soup, sphere, torus};
+use glam::Vec3;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::{Hit, Intersector, Ray, Scene, TriangleMesh};
+
+/// The bits of an answer: equal floats may differ in them, NaN may not.
+fn bits(hit: Option<Hit>) -> Option<(u32, u32, u32, u32)> {
+    hit.map(|h| (h.primitive, h.t.to_bits(), h.u.to_bits(), h.v.to_bits()))
+}
+
+/// Every triangle asked alone, in scalar arithmetic; sorted as `all_hits` promises.
+fn one_by_one(kernel: &TriangleKernel, corners: &[[Vec3; 3]], ray: &Ray) -> Vec<Hit> {
+    let asked = corners.iter().enumerate().filter_map(|(k, &corners)| {
+        let hit = kernel.intersect(ray, corners)?;
+        Some(Hit {
+            primitive: k as u32,
+            ..hit
+        })
+    });
+    let mut hits: Vec<Hit> = asked.collect();
+    hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.primitive.cmp(&b.primitive)));
+    hits
+}
+
+fn corners_of(mesh: &TriangleMesh) -> Vec<[Vec3; 3]> {
+    let count = mesh.triangles.len() as u32;
+    (0..count).map(|k| mesh.corners(k)).collect()
+}
+
+/// Asserts that every question about a ray gets the answer that asking one by one gives. Returns
+/// whether anything was hit.
+fn assert_same(
+    kernel: &TriangleKernel,
+    intersector: &dyn Intersector,
+    corners: &[[Vec3; 3]],
+    ray: &Ray,
+) -> bool {
+    let name = kernel.info.name;
+    let expected = one_by_one(kernel, corners, ray);
+    let closest = intersector.closest_hit(ray);
+    assert_eq!(
+        bits(closest),
+        bits(expected.first().copied()),
+        "{name} {ray:?}"
+    );
+    let all = intersector.all_hits(ray);
+    let all: Vec<_> = all.into_iter().map(|hit| bits(Some(hit))).collect();
+    let expected: Vec<_> = expected.into_iter().map(|hit| bits(Some(hit))).collect();
+    assert_eq!(all, expected, "{name} {ray:?}");
+    assert_eq!(
+        intersector.any_hit(ray),
+        closest.is_some(),
+        "{name} {ray:?}"
+    );
+    closest.is_some()
+}
+
+/// Which kernels a case is for.
+#[derive(Clone, Copy)]
+enum Ask {
+    Every,
+    Watertight,
+}
+
+impl Ask {
+    fn kernels(self) -> impl Iterator<Item = &'static TriangleKernel> {
+        let is_asked = move |kernel: &&TriangleKernel| match self {
+            Self::Every => true,
+            Self::Watertight => kernel.info.is_watertight,
+        };
+        TRIANGLE_KERNELS.iter().filter(is_asked)
+    }
+}
+
+/// Asserts it for many rays of each kernel, of which enough must hit.
+fn assert_same_for_rays(
+    ask: Ask,
+    scene: &Scene,
+    count: usize,
+    mut next_ray: impl FnMut() -> Option<Ray>,
+) {
+    let corners = corners_of(scene.mesh());
+    for kernel in ask.kernels() {
+        let intersector = scene.intersector(kernel);
+        let mut hits = 0;
+        for _ in 0..count {
+            if let Some(ray) = next_ray() {
+                hits += usize::from(assert_same(kernel, &*intersector, &corners, &ray));
+            }
+        }
+        assert!(
+            hits > count / 20,
+            "{}: only {hits} of {count} hit",
+            kernel.info.name
+        );
+    }
+}
+
+#[test]
+fn simd_lanes_give_the_bits_of_the_scalar_kernel() {
+    // One triangle a scene: the tree is one box, and a lane of the block is all there is.
+    let mut random = Random::new(2);
+    for kernel in TRIANGLE_KERNELS {
+        let mut hits = 0;
+        for _ in 0..10_000 {
+            let corners = [(); 3].map(|()| random.in_cube_f32());
+            let intersector = scene(soup(&[corners])).intersector(kernel);
+            for _ in 0..2 {
+                let origin = random.in_cube_f32() * 3.0;
+                let [a, b, c] = corners;
+                let target = (a + b + c) / 3.0 + 0.4 * random.in_cube_f32();
+                let ray = Ray::new(origin, target - origin).expect("a ray");
+                let (lane, scalar) = (
+                    intersector.closest_hit(&ray),
+                    kernel.intersect(&ray, corners),
+                );
+                assert_eq!(
+                    bits(lane),
+                    bits(scalar),
+                    "{} {ray:?} {corners:?}",
+                    kernel.info.name
+                );
+                hits += usize::from(scalar.is_some());
+            }
+        }
+        assert!(hits > 3000, "{hits}");
+    }
+}
+
+#[test]
+fn the_tree_answers_like_every_triangle_asked_alone() {
+    let mut random = Random::new(3);
+    for place in [Place::UNIT, Place::new(1e-6, 10.0), Place::new(1e6, 1000.0)] {
+        for mesh in [torus(24, 12, place), sphere(7, place)] {
+            let scene = scene(mesh);
+            assert_same_for_rays(Ask::Every, &scene, 2500, || {
+                let origin = place.of(2.0 * random.in_cube());
+                let target = place.of(0.8 * random.in_cube());
+                Ray::new(origin, target - origin).ok()
+            });
+        }
+    }
+}
+
+#[test]
+fn the_tree_answers_like_every_triangle_asked_alone_at_edges_and_corners() {
+    let mut random = Random::new(4);
+    let place = Place::new(1.0, 3.0);
+    let scene = scene(torus(16, 8, place));
+    let corners = corners_of(scene.mesh());
+    assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
+        let [a, b, _] = corners[random.index(corners.len())];
+        let target = a + (b - a) * [0.0, 0.25, random.unit() as f32][random.index(3)];
+        let origin = place.of(3.0 * random.in_cube());
+        Ray::new(origin, target - origin).ok()
+    });
+}
+
+#[test]
+fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
+    let mut random = Random::new(5);
+    let scene = scene(torus(24, 12, Place::UNIT));
+    assert_same_for_rays(Ask::Every, &scene, 4000, || {
+        let origin = in_torus(random.unit(), random.unit(), 0.3).as_vec3();
+        let dir = random.in_cube_f32();
+        let [a, b] = [random.signed() as f32, 2.0 * random.signed() as f32];
+        Ray::with_interval(origin, dir, a, b).ok()
+    });
+}
+
+#[test]
+fn an_interval_that_ends_at_a_hit_leaves_it_out() {
+    let mut random = Random::new(12);
+    let scene = scene(sphere(6, Place::UNIT));
+    for intersector in TRIANGLE_KERNELS.iter().map(|k| scene.intersector(k)) {
+        for _ in 0..500 {
+            let (origin, dir) = (0.3 * random.in_cube_f32(), random.in_cube_f32());
+            let whole = Ray::new(origin, dir).expect("a ray");
+            let t = intersector.closest_hit(&whole).expect("from inside").t;
+            let hit_in = |t_min, t_max| {
+                let ray = Ray::with_interval(origin, dir, t_min, t_max).expect("a ray");
+                let closest = intersector.closest_hit(&ray).map(|hit| hit.t);
+                assert_eq!(intersector.any_hit(&ray), closest.is_some());
+                assert_eq!(intersector.all_hits(&ray).first().map(|h| h.t), closest);
+                closest
+            };
+            assert_eq!(hit_in(0.0, t), None);
+            assert_eq!(hit_in(0.0, t.next_up()), Some(t));
+            assert_eq!(hit_in(t.next_down(), t.next_up()), Some(t));
+        }
+    }
+}
+
+#[test]
+fn a_flat_grid_behind_the_origin_is_found_by_a_negative_interval() {
+    // Boxes without thickness: nothing but the padding keeps a ray that is aimed at their border.
+    let mut random = Random::new(6);
+    let grid = flat_grid(8, Place::new(0.25, 0.1));
+    let scene = scene(grid);
+    let corners = corners_of(scene.mesh());
+    assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
+        let target = corners[random.index(corners.len())][random.index(3)];
+        let dir = random.in_cube_f32();
+        Ray::with_interval(target + dir, dir, -10.0, 10.0).ok()
+    });
+}
+
+#[test]
+fn of_equal_distances_the_lowest_triangle_counts() {
+    let mut random = Random::new(7);
+    let corners = [
+        Vec3::new(-1.0, -1.0, 0.0),
+        Vec3::new(1.0, -0.875, 0.0),
+        Vec3::new(0.125, 1.0, 0.0),
+    ];
+    // The same triangle again and again: every leaf holds hits at the same distance.
+    let copies = scene(soup(&[corners; 40]));
+    assert_eq!(copies.mesh().triangles.len(), 40);
+    assert_same_for_rays(Ask::Every, &copies, 8000, || {
+        let target = 0.4 * random.in_cube_f32() * Vec3::new(1.0, 1.0, 0.0);
+        let origin = 3.0 * random.in_cube_f32();
+        Ray::new(origin, target - origin).ok()
+    });
+    for kernel in TRIANGLE_KERNELS {
+        let ray = Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
+        let hit = copies.intersector(kernel).closest_hit(&ray);
+        assert_eq!(
+            hit.map(|hit| hit.primitive),
+            Some(0),
+            "{}",
+            kernel.info.name
+        );
+    }
+}
+
+#[test]
+fn of_equal_distances_the_lowest_triangle_counts_in_overlapping_coplanar_ones() {
+    let mut random = Random::new(8);
+    // In one plane, of different sizes and places, so that they lie in different leaves.
+    let on_plane = |p: Vec3| Vec3::new(p.x, p.y, 0.375);
+    let triangles: Vec<[Vec3; 3]> = (0..60)
+        .map(|_| [(); 3].map(|()| on_plane(random.in_cube_f32())))
+        .collect();
+    let scene = scene(soup(&triangles));
+    assert_same_for_rays(Ask::Watertight, &scene, 20_000, || {
+        let target = on_plane(0.5 * random.in_cube_f32());
+        let origin = 3.0 * random.in_cube_f32();
+        Ray::new(origin, target - origin).ok()
+    });
+}
+
+#[test]
+fn of_equal_distances_behind_the_origin_the_lowest_triangle_counts() {
+    let corners = [
+        Vec3::new(-1.0, -1.0, 0.0),
+        Vec3::new(1.0, -1.0, 0.0),
+        Vec3::new(0.0, 1.0, 0.0),
+    ];
+    let copies = scene(soup(&[corners; 40]));
+    for kernel in TRIANGLE_KERNELS {
+        let (origin, dir) = (Vec3::new(0.0, 0.0, 3.0), Vec3::Z);
+        let ray = Ray::with_interval(origin, dir, -10.0, 10.0).expect("a ray");
+        let intersector = copies.intersector(kernel);
+        assert_eq!(intersector.all_hits(&ray).len(), 40, "{}", kernel.info.name);
+        let hit = intersector.closest_hit(&ray);
+        assert_eq!(
+            hit.map(|hit| hit.primitive),
+            Some(0),
+            "{}",
+            kernel.info.name
+        );
+    }
+}
+
+#[test]
+fn a_hit_whose_t_rounds_to_before_its_box_is_not_left_out() {
+    // A plane across an axis: the kernel's t errs by more half-ulps than the box's.
+    let mut random = Random::new(9);
+    let mut corner = || random.in_cube_f32().with_z(0.375);
+    let triangles: Vec<[Vec3; 3]> = (0..60).map(|_| [(); 3].map(|()| corner())).collect();
+    let scene = scene(soup(&triangles));
+    let origin = Vec3::new(-0.274_436_77, 0.293_592_54, 0.288_934_6);
+    let dir = Vec3::new(0.088_818_06, -0.016_551_644, 0.086_065_41);
+    let mut rays = [Ray::new(origin, dir).ok()].into_iter();
+    assert_same_for_rays(Ask::Watertight, &scene, 1, || rays.next().flatten());
+}
+
+#[test]
+fn the_candidates_hold_every_triangle_that_is_hit() {
+    let mut random = Random::new(9);
+    let scene = scene(torus(24, 12, Place::UNIT));
+    let corners = corners_of(scene.mesh());
+    for kernel in TRIANGLE_KERNELS {
+        let intersector = scene.intersector(kernel);
+        let (mut hits, mut candidates) = (0, 0);
+        for _ in 0..3000 {
+            let origin = 2.0 * random.in_cube_f32();
+            let ray = Ray::new(origin, random.in_cube_f32() - origin).expect("a ray");
+            let found = intersector.candidates(&ray);
+            for hit in one_by_one(kernel, &corners, &ray) {
+                assert!(
+                    found.contains(&hit.primitive),
+                    "{} {ray:?}",
+                    kernel.info.name
+                );
+                hits += 1;
+            }
+            candidates += found.len();
+        }
+        // Not simply all of them: the tree has left most out.
+        assert!(
+            hits > 1000 && candidates < 3000 * corners.len() / 4,
+            "{hits} {candidates}"
+        );
+    }
+}
+
+#[test]
+fn counting_the_cost_changes_no_answer() {
+    let mut random = Random::new(10);
+    let scene = scene(sphere(8, Place::UNIT));
+    for kernel in TRIANGLE_KERNELS {
+        let intersector = scene.intersector(kernel);
+        for _ in 0..3000 {
+            let origin = 2.0 * random.in_cube_f32();
+            let ray = Ray::new(origin, random.in_cube_f32() - origin).expect("a ray");
+            let (hit, cost) = intersector.closest_hit_with_cost(&ray);
+            assert_eq!(bits(hit), bits(intersector.closest_hit(&ray)));
+            assert!(
+                cost.boxes > 0 && (hit.is_none() || cost.triangles > 0),
+                "{cost:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,145 @@
+//! What holds for any triangle and ray: scaling, permuting, reversing; and the two ways to the point.
+//!
+//! The seed is fixed, so that a failure comes again; proptest prints the case, shrunk.
+
+use glam::{DVec3, Vec3};
+use hitscope_core::Ray;
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+use proptest::prelude::*;
+use proptest::test_runner::RngSeed;
+
+/// Half an ulp of 1, by which a rounding to f32 errs.
+const U: f64 = 1.0 / (1 << 24) as f64;
+
+fn config() -> ProptestConfig {
+    ProptestConfig {
+        cases: 2000,
+        rng_seed: RngSeed::Fixed(20_130_601),
+        failure_persistence: None,
+        ..ProptestConfig::default()
+    }
+}
+
+fn point(size: f32) -> impl Strategy<Value = Vec3> {
+    let coordinate = move || -size..size;
+    (coordinate(), coordinate(), coordinate()).prop_map(Vec3::from)
+}
+
+/// A triangle of any shape, in front of an origin at 4…8 along z, and a ray that is aimed at its
+/// inside or a little beside it.
+fn aimed() -> impl Strategy<Value = ([Vec3; 3], Ray)> {
+    let corners = [point(1.0), point(1.0), point(1.0)];
+    let origin = (-2.0f32..2.0, -2.0f32..2.0, 4.0f32..8.0).prop_map(Vec3::from);
+    let weights = (-0.1f32..1.0, -0.1f32..1.0);
+    (corners, origin, weights, 0.1f32..10.0).prop_map(|([a, b, c], origin, (u, v), length)| {
+        let target = a + u * (b - a) + v * (c - a);
+        let ray = Ray::new(origin, length * (target - origin)).expect("apart");
+        ([a, b, c], ray)
+    })
+}
+
+/// The bits of t, u and v.
+fn bits(hit: Option<hitscope_core::Hit>) -> Option<[u32; 3]> {
+    hit.map(|hit| [hit.t, hit.u, hit.v].map(f32::to_bits))
+}
+
+/// The hit's place by its weights, but for the rounding of the weights themselves.
+fn place([a, b, c]: [Vec3; 3], hit: hitscope_core::Hit) -> DVec3 {
+    let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
+    a + f64::from(hit.u) * (b - a) + f64::from(hit.v) * (c - a)
+}
+
+/// How far o + t·d may be off the place by weights, in any coordinate, for edge functions of corners
+/// sheared along the ray.
+///
+/// With M the largest coordinate of a corner from the origin, L the longest edge, and det twice the
+/// triangle's area as the ray sees it: moving and shearing the corners errs by 6uM (one rounding of
+/// the difference, its error sheared, of the shear, of the product, and of a difference of at most
+/// 2M). An edge function of sheared corners, which lie within 2L of the ray, errs by
+/// 3u·(2L)²; three of them, over det, times the corners' distance of 2L from the ray: 9·8·u·L³/det.
+/// Normalising the weights errs by 3u each, over edges: 6uL ≤ 12uM. t has, besides those weights,
+/// 9 roundings, of at most M.
+fn place_bound([a, b, c]: [Vec3; 3], ray: &Ray) -> f64 {
+    let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
+    let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
+    let far = [a, b, c].map(|p| (p - origin).abs().max_element());
+    let far = far.into_iter().fold(0.0, f64::max);
+    let longest = [b - a, c - b, a - c].map(DVec3::length);
+    let longest = longest.into_iter().fold(0.0, f64::max);
+    let det = (b - a).cross(c - a).dot(dir).abs() / dir.abs().max_element();
+    U * (27.0 * far + 72.0 * longest.powi(3) / det)
+}
+
+proptest! {
+    #![proptest_config(config())]
+
+    #[test]
+    fn scaling_by_a_power_of_two_scales_t_and_changes_no_other_bit(
+        (corners, ray) in aimed(),
+        exponent in -16i32..16,
+    ) {
+        // Every product and sum scales exactly, as long as nothing under- or overflows.
+        let scale = 2f32.powi(exponent);
+        for kernel in TRIANGLE_KERNELS {
+            let hit = kernel.intersect(&ray, corners);
+            let moved = Ray::new(ray.origin * scale, ray.dir).expect("a ray");
+            let scaled = kernel.intersect(&moved, corners.map(|p| p * scale));
+            let expected = hit.map(|hit| hitscope_core::Hit { t: hit.t * scale, ..hit });
+            prop_assert_eq!(bits(scaled), bits(expected), "{}", kernel.info.name);
+        }
+    }
+
+    #[test]
+    fn a_direction_longer_by_a_power_of_two_divides_t_and_changes_no_other_bit(
+        (corners, ray) in aimed(),
+        exponent in -16i32..16,
+    ) {
+        let scale = 2f32.powi(exponent);
+        for kernel in TRIANGLE_KERNELS {
+            let hit = kernel.intersect(&ray, corners);
+            let longer = Ray::new(ray.origin, ray.dir * scale).expect("a ray");
+            let expected = hit.map(|hit| hitscope_core::Hit { t: hit.t / scale, ..hit });
+            let longer = kernel.intersect(&longer, corners);
+            prop_assert_eq!(bits(longer), bits(expected), "{}", kernel.info.name);
+        }
+    }
+
+    #[test]
+    fn the_order_of_corners_permutes_the_weights_and_nothing_else((corners, ray) in aimed()) {
+        const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
+        // Edge functions are the same but for their sign. Their sum rounds twice and the quotient
+        // once: u and v err by 3u of themselves. 1 − u − v rounds twice more: 5u. Two hits: 10u.
+        let tolerance = (10.0 * U) as f32;
+        for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.is_watertight) {
+            let hit = kernel.intersect(&ray, corners);
+            for order in ORDERS {
+                let other = kernel.intersect(&ray, order.map(|k| corners[k]));
+                prop_assert_eq!(other.is_some(), hit.is_some(), "{} {:?}", kernel.info.name, order);
+                let (Some(hit), Some(other)) = (hit, other) else { continue };
+                for (slot, corner) in order.into_iter().enumerate() {
+                    let (found, expected) = (other.barycentric()[slot], hit.barycentric()[corner]);
+                    prop_assert!((found - expected).abs() <= tolerance, "{} {} {:?}", found, expected, order);
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn reversing_the_ray_turns_a_hit_in_front_into_a_miss((corners, ray) in aimed()) {
+        let back = Ray::new(ray.origin, -ray.dir).expect("a ray");
+        for kernel in TRIANGLE_KERNELS {
+            prop_assert_eq!(kernel.intersect(&back, corners), None, "{}", kernel.info.name);
+        }
+    }
+
+    #[test]
+    fn the_hit_lies_on_the_ray_and_on_the_triangle((corners, ray) in aimed()) {
+        for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.is_watertight) {
+            let Some(hit) = kernel.intersect(&ray, corners) else { continue };
+            let on_ray = ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3();
+            let off = (on_ray - place(corners, hit)).abs().max_element();
+            let bound = place_bound(corners, &ray);
+            prop_assert!(off <= bound, "{} off by {}, bound {}", kernel.info.name, off, bound);
+        }
+    }
+}

@@ -1,0 +1,182 @@
+//! Makers of meshes, the same bits on every machine: only sums, products, quotients and roots.
+
+use glam::{DVec2, DVec3, Vec3};
+use hitscope_core::mesh::has_zero_area;
+use hitscope_core::progress::Progress;
+use hitscope_core::{Scene, TriangleMesh};
+
+/// Where a shape of size 1 about the origin is put.
+#[derive(Clone, Copy, Debug)]
+pub struct Place {
+    /// What it is multiplied by first.
+    pub scale: f64,
+    /// What is added then.
+    pub offset: DVec3,
+}
+
+impl Place {
+    /// As it is.
+    pub const UNIT: Self = Self {
+        scale: 1.0,
+        offset: DVec3::ZERO,
+    };
+
+    /// Scaled, then moved by so many times the scale, another way in each axis.
+    pub fn new(scale: f64, offset_in_scales: f64) -> Self {
+        Self {
+            scale,
+            offset: DVec3::new(1.0, -0.75, 0.5) * (offset_in_scales * scale),
+        }
+    }
+
+    /// Where a point of the shape lies, rounded to f32.
+    pub fn of(&self, point: DVec3) -> Vec3 {
+        (self.scale * point + self.offset).as_vec3()
+    }
+}
+
+/// Radius of the torus's middle line.
+pub const TORUS_RADIUS: f64 = 0.75;
+/// Radius of the torus's tube.
+pub const TUBE_RADIUS: f64 = 0.3;
+
+/// A point on the unit circle; `turn` 0…1 goes once around, not quite evenly.
+///
+/// Source: the rational parametrisation ((1 − s²)/(1 + s²), 2s/(1 + s²)), a quarter at a time.
+pub fn circle(turn: f64) -> DVec2 {
+    let quarters = 4.0 * turn;
+    let s = quarters - quarters.floor();
+    let (x, y) = ((1.0 - s * s) / (1.0 + s * s), 2.0 * s / (1.0 + s * s));
+    match quarters.floor() as i64 & 3 {
+        0 => DVec2::new(x, y),
+        1 => DVec2::new(-y, x),
+        2 => DVec2::new(-x, -y),
+        _ => DVec2::new(y, -x),
+    }
+}
+
+/// A point of the torus about the z axis, at `depth` times the tube's radius from its middle line.
+pub fn in_torus(around: f64, across: f64, depth: f64) -> DVec3 {
+    let (ring, tube) = (circle(around), circle(across) * (TUBE_RADIUS * depth));
+    (ring * (TORUS_RADIUS + tube.x)).extend(tube.y)
+}
+
+/// A closed torus of `around` × `across` quads, two triangles each, wound to the outside.
+pub fn torus(around: u32, across: u32, place: Place) -> TriangleMesh {
+    let turn = |k: u32, n: u32| f64::from(k) / f64::from(n);
+    let points = (0..around).flat_map(|i| {
+        (0..across).map(move |j| place.of(in_torus(turn(i, around), turn(j, across), 1.0)))
+    });
+    let vertex = |i: u32, j: u32| i % around * across + j % across;
+    let quads = (0..around).flat_map(|i| (0..across).map(move |j| (i, j)));
+    let triangles = quads.flat_map(|(i, j)| {
+        let [a, b] = [vertex(i, j), vertex(i + 1, j)];
+        let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
+        [[a, b, c], [a, c, d]]
+    });
+    mesh(points.collect(), triangles.collect())
+}
+
+/// A closed sphere of radius 1: a cube of `cells` × `cells` quads a side, blown up.
+pub fn sphere(cells: u32, place: Place) -> TriangleMesh {
+    surface_of_cube(cells, |corner| {
+        let p = 2.0 * corner.as_dvec3() / f64::from(cells) - 1.0;
+        place.of(p / (p.x * p.x + p.y * p.y + p.z * p.z).sqrt())
+    })
+}
+
+/// A closed cube from (0, 0, 0) to `cells` in each axis, every face a grid of unit squares.
+pub fn cube(cells: u32, place: Place) -> TriangleMesh {
+    surface_of_cube(cells, |corner| place.of(corner.as_dvec3()))
+}
+
+/// The grid z = 0 from (0, 0) to (`cells`, `cells`), an open mesh of unit squares.
+pub fn flat_grid(cells: u32, place: Place) -> TriangleMesh {
+    let row = cells + 1;
+    let points = (0..row)
+        .flat_map(|y| (0..row).map(move |x| place.of(DVec3::new(f64::from(x), f64::from(y), 0.0))));
+    let squares = (0..cells).flat_map(|y| (0..cells).map(move |x| y * row + x));
+    let triangles = squares.flat_map(|a| [[a, a + 1, a + row + 1], [a, a + row + 1, a + row]]);
+    mesh(points.collect(), triangles.collect())
+}
+
+/// The six sides of a cube of cells; sides have their own vertices, at the same places.
+fn surface_of_cube(cells: u32, place: impl Fn(glam::UVec3) -> Vec3) -> TriangleMesh {
+    let row = cells + 1;
+    let (mut points, mut triangles) = (Vec::new(), Vec::new());
+    for (axis, level) in (0..3).flat_map(|axis| [(axis, 0), (axis, cells)]) {
+        let first = points.len() as u32;
+        for (y, x) in (0..row).flat_map(|y| (0..row).map(move |x| (y, x))) {
+            let mut corner = glam::UVec3::splat(level);
+            corner[(axis + 1) % 3] = x;
+            corner[(axis + 2) % 3] = y;
+            points.push(place(corner));
+        }
+        for (y, x) in (0..cells).flat_map(|y| (0..cells).map(move |x| (y, x))) {
+            let a = first + y * row + x;
+            let (b, c, d) = (a + 1, a + row + 1, a + row);
+            triangles.extend(if level == 0 {
+                [[a, c, b], [a, d, c]]
+            } else {
+                [[a, b, c], [a, c, d]]
+            });
+        }
+    }
+    mesh(points, triangles)
+}
+
+/// A mesh of these triangles without those of zero area, each a face of its own.
+pub fn mesh(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> TriangleMesh {
+    triangles.retain(|corner| !has_zero_area(corner.map(|v| positions[v as usize])));
+    let count = triangles.len();
+    TriangleMesh {
+        faces: (0..count as u32).collect(),
+        outline: vec![0b111; count],
+        material: vec![0; count],
+        group: vec![0; count],
+        face_count: count,
+        positions,
+        triangles,
+        ..TriangleMesh::default()
+    }
+}
+
+/// A mesh of one triangle after the other, no vertex shared.
+pub fn soup(corners: &[[Vec3; 3]]) -> TriangleMesh {
+    let triangle = |k: u32| [3 * k, 3 * k + 1, 3 * k + 2];
+    let triangles = (0..corners.len() as u32).map(triangle).collect();
+    mesh(corners.as_flattened().to_vec(), triangles)
+}
+
+/// The mesh with its tree.
+pub fn scene(mesh: TriangleMesh) -> Scene {
+    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+}
+
+mod tests {
+    use super::*;
+    use hitscope_core::mesh::Health;
+
+    #[test]
+    fn closed_shapes_are_closed_and_wound_to_the_outside() {
+        for mesh in [
+            torus(16, 8, Place::UNIT),
+            sphere(6, Place::UNIT),
+            cube(3, Place::UNIT),
+        ] {
+            let health = Health::of(&mesh);
+            let faults = (
+                health.open_edges,
+                health.non_manifold_edges,
+                health.flipped_edges,
+            );
+            assert_eq!(faults, (0, 0, 0));
+            // Six times the volume, positive where normals point to the outside.
+            let six_volumes: f64 = (0..mesh.triangles.len() as u32)
+                .map(|k| mesh.corners(k).map(Vec3::as_dvec3))
+                .map(|[a, b, c]| a.dot(b.cross(c)))
+                .sum();
+            assert!(six_volumes > 1.0, "{six_volumes}");
+        }
+    }
+}

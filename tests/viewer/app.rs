@@ -1,0 +1,417 @@
+//! The real app, driven by label, key and pointer.
+
+use crate::harness::{app, app_scaled, in_picture, wait};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2};
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use glam::{DVec3, Vec3};
+use hitscope::app::App;
+use hitscope_core::camera::UpAxis;
+use hitscope_core::integrator::INTEGRATORS;
+use std::path::PathBuf;
+
+type Window = Harness<'static, App>;
+
+/// The window without its side panel, whose switches have the tool bar's names.
+fn bare() -> Option<Window> {
+    let mut window = app(None)?;
+    press(&mut window, Key::I);
+    window.run_steps(20);
+    assert!(!window.state().settings().shows_panel);
+    Some(window)
+}
+
+fn press(window: &mut Window, key: Key) {
+    window.key_press(key);
+    window.run_steps(2);
+}
+
+fn pointer(window: &Window, pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
+    let event = Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers,
+    };
+    window.event_modifiers(event, modifiers);
+}
+
+/// Drags from the picture's middle by (60, 30) points.
+fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers) {
+    let from = in_picture(window, 0.5, 0.5);
+    window.event(Event::PointerMoved(from));
+    pointer(window, from, button, true, modifiers);
+    window.step();
+    for part in [0.3, 0.6, 1.0] {
+        window.event_modifiers(
+            Event::PointerMoved(from + part * egui::vec2(60.0, 30.0)),
+            modifiers,
+        );
+        window.step();
+    }
+    pointer(
+        window,
+        from + egui::vec2(60.0, 30.0),
+        button,
+        false,
+        modifiers,
+    );
+    window.run_steps(2);
+}
+
+fn click(window: &mut Window, at: Pos2) {
+    window.event(Event::PointerMoved(at));
+    window.step();
+    pointer(window, at, PointerButton::Primary, true, Modifiers::NONE);
+    window.step();
+    pointer(window, at, PointerButton::Primary, false, Modifiers::NONE);
+    window.run_steps(2);
+}
+
+fn write(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+#[test]
+fn a_file_opens_and_a_bad_one_leaves_it_in_place() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let good = write(&folder, "good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let bad = write(&folder, "bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
+    let Some(mut window) = app(Some(good)) else {
+        return;
+    };
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "good.obj"
+    });
+    assert_eq!(
+        window
+            .state()
+            .document()
+            .loaded
+            .scene
+            .mesh()
+            .triangles
+            .len(),
+        1
+    );
+    for (path, message) in [
+        (
+            bad,
+            "bad.obj:4: vertex index 9 is out of range: there are 3",
+        ),
+        (folder.path().join("none.obj"), "none.obj: "),
+        (folder.path().to_owned(), "this is a directory"),
+        (
+            write(&folder, "empty.obj", ""),
+            "empty.obj: no vertices and no faces",
+        ),
+        (
+            write(&folder, "page.obj", "<html></html>"),
+            "page.obj: this is an HTML page",
+        ),
+        (
+            write(&folder, "dots.obj", "v 0 0 0\n"),
+            "dots.obj: 1 vertices, but no face",
+        ),
+    ] {
+        drop_file(&mut window, path);
+        wait(&mut window, message, |app| {
+            app.notice().is_some_and(|n| n.contains(message))
+        });
+        assert_eq!(window.state().document().name(), "good.obj");
+        press(&mut window, Key::Escape);
+        assert_eq!(window.state().notice(), None);
+    }
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &std::path::Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        std::fs::read(&self.0).map_err(|error| error.to_string())
+    }
+}
+
+fn drop_file(window: &mut Window, path: PathBuf) {
+    window
+        .input_mut()
+        .dropped_files
+        .push(std::sync::Arc::new(Dropped(path)));
+    window.step();
+    window.input_mut().dropped_files.clear();
+}
+
+#[test]
+fn the_dialog_falls_back_to_a_path_that_is_typed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write(&folder, "typed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
+    let Some(mut window) = bare() else { return };
+    window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    // A machine with a portal shows its dialog instead, which nobody answers here.
+    for _ in 0..200 {
+        window.step();
+        if window.query_by_label("Path").is_some() {
+            break;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    if window.query_by_label("Path").is_none() {
+        eprintln!("SKIPPED: this machine has a file dialog");
+        return;
+    }
+    let path = file.to_str().expect("UTF-8").to_owned();
+    window
+        .get_by_role(egui::accesskit::Role::TextInput)
+        .type_text(&path);
+    window.step();
+    window.get_by_label("Load").click();
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "typed.obj"
+    });
+}
+
+#[test]
+fn every_switch_of_the_tool_bar_switches_and_so_does_its_key() {
+    let Some(mut window) = bare() else { return };
+    type State = fn(&App) -> bool;
+    let switches: [(&str, Key, State); 5] = [
+        ("Smooth", Key::S, |app| app.settings().is_smooth),
+        ("Wire", Key::W, |app| app.settings().shows_wireframe),
+        ("Normals", Key::N, |app| app.settings().shows_normals),
+        ("Ortho", Key::Num5, |app| app.turntable().is_orthographic),
+        ("Pause", Key::P, App::is_paused),
+    ];
+    for (label, key, is_on) in switches {
+        assert!(!is_on(window.state()), "{label}");
+        window.get_by_label(label).click();
+        window.run_steps(2);
+        assert!(is_on(window.state()), "{label} by its button");
+        press(&mut window, key);
+        assert!(!is_on(window.state()), "{label} by its key");
+    }
+}
+
+#[test]
+fn every_view_changes_the_picture() {
+    let Some(mut window) = bare() else { return };
+    let mut seen: Vec<Vec<[u8; 4]>> = Vec::new();
+    for view in INTEGRATORS {
+        window.get_by_role(egui::accesskit::Role::ComboBox).click();
+        window.run_steps(2);
+        window
+            .get_all_by_label(view.title)
+            .last()
+            .expect("in the menu")
+            .click();
+        window.run_steps(2);
+        wait(&mut window, view.name, |app| {
+            app.settings().view == view.name && app.film().samples() >= 1
+        });
+        let pixels = window.state().film().pixels().to_vec();
+        assert!(
+            !seen.contains(&pixels),
+            "{} looks like another view",
+            view.name
+        );
+        seen.push(pixels);
+    }
+}
+
+#[test]
+fn drags_orbit_and_pan_and_the_wheel_zooms() {
+    let Some(mut window) = bare() else { return };
+    let start = *window.state().turntable();
+    drag(&mut window, PointerButton::Primary, Modifiers::NONE);
+    let orbited = *window.state().turntable();
+    assert_ne!(orbited.yaw_radians, start.yaw_radians);
+    assert!(
+        orbited.pitch_radians > start.pitch_radians,
+        "dragging down looks from higher up"
+    );
+    assert_eq!(orbited.pivot, start.pivot);
+    for (button, modifiers) in [
+        (PointerButton::Primary, Modifiers::SHIFT),
+        (PointerButton::Middle, Modifiers::NONE),
+        (PointerButton::Secondary, Modifiers::NONE),
+    ] {
+        let before = *window.state().turntable();
+        drag(&mut window, button, modifiers);
+        let after = window.state().turntable();
+        assert_ne!(after.pivot, before.pivot, "{button:?}");
+        assert_eq!(after.yaw_radians, before.yaw_radians, "{button:?}");
+    }
+    let before = *window.state().turntable();
+    let at = in_picture(&window, 0.3, 0.6);
+    window.event(Event::PointerMoved(at));
+    window.event(Event::MouseWheel {
+        unit: MouseWheelUnit::Line,
+        source: egui::MouseWheelSource::Unknown,
+        delta: egui::vec2(0.0, 2.0),
+        phase: egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    window.run_steps(30);
+    assert!(window.state().turntable().distance < before.distance);
+    press(&mut window, Key::Home);
+    assert_eq!(window.state().turntable().pivot, start.pivot);
+}
+
+#[test]
+fn number_keys_look_along_the_axes() {
+    let Some(mut window) = bare() else { return };
+    assert_eq!(window.state().turntable().up_axis, UpAxis::Y);
+    for (key, modifiers, back) in [
+        (Key::Num1, Modifiers::NONE, DVec3::Z),
+        (Key::Num1, Modifiers::COMMAND, DVec3::NEG_Z),
+        (Key::Num3, Modifiers::NONE, DVec3::X),
+        (Key::Num3, Modifiers::COMMAND, DVec3::NEG_X),
+        (Key::Num7, Modifiers::NONE, DVec3::Y),
+        (Key::Num7, Modifiers::COMMAND, DVec3::NEG_Y),
+    ] {
+        window.key_press_modifiers(modifiers, key);
+        window.run_steps(2);
+        let camera = window.state().turntable().camera(glam::UVec2::new(8, 8));
+        assert!(
+            (camera.back() - back).length() < 1e-12,
+            "{key:?} {modifiers:?}"
+        );
+    }
+}
+
+#[test]
+fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
+    for scale in [1.0, 1.5, 2.0] {
+        let Some(mut window) = app_scaled(None, scale) else {
+            return;
+        };
+        let middle = in_picture(&window, 0.5, 0.5);
+        click(&mut window, middle);
+        let film = window.state().film().size();
+        let found = window.state().inspection().expect("a pick").clone();
+        let expected = film / 2;
+        let pixel = glam::UVec2::from_array(found.pixel);
+        let off = pixel.max(expected) - pixel.min(expected);
+        assert!(
+            off.max_element() <= 1,
+            "pixel {:?} of {film} at {scale}",
+            found.pixel
+        );
+        let hit = found.hit.expect("the scene is in the middle");
+        // What the panel says is what the kernels say, and exact arithmetic agrees.
+        let exact = found.exact.expect("it is hit");
+        assert_eq!(hit.triangle, exact.triangle);
+        assert!((f64::from(hit.t) - exact.t).abs() < 1e-5 * exact.t);
+        window.get_by_label("Copy as JSON");
+        window.get_by_label("Kernels against exact arithmetic");
+
+        click(&mut window, middle);
+        click(&mut window, middle);
+        let pivot = window.state().turntable().pivot;
+        let target = DVec3::from_array(hit.position);
+        assert!((pivot - target).length() < 1e-3, "{pivot} {target}");
+    }
+}
+
+#[test]
+fn a_miss_is_inspected_too_and_escape_clears_it() {
+    let Some(mut window) = app(None) else { return };
+    let corner = in_picture(&window, 0.01, 0.01);
+    click(&mut window, corner);
+    let found = window.state().inspection().expect("a pick");
+    assert!(found.hit.is_none() && found.exact.is_none());
+    press(&mut window, Key::Escape);
+    assert!(window.state().inspection().is_none());
+}
+
+#[test]
+fn help_names_every_key() {
+    let Some(mut window) = bare() else { return };
+    press(&mut window, Key::H);
+    for binding in hitscope::bindings::KEYS {
+        window.get_by_label(binding.about);
+    }
+    press(&mut window, Key::Escape);
+    assert!(
+        window
+            .query_by_label(hitscope::bindings::KEYS[0].about)
+            .is_none()
+    );
+    press(&mut window, Key::Questionmark);
+    window.get_by_label(hitscope::bindings::KEYS[0].about);
+}
+
+#[test]
+fn every_tab_can_be_read() {
+    let Some(mut window) = app(None) else { return };
+    for (tab, sign) in [
+        ("Mesh", "Health"),
+        ("Inspect", "Click a pixel to see what its ray hits."),
+        ("View", "Theme"),
+    ] {
+        window.get_by_label(tab).click();
+        window.run_steps(3);
+        window.get_by_label(sign);
+    }
+    window.get_by_label("Light").click();
+    window.run_steps(3);
+    assert_eq!(
+        window.state().settings().theme,
+        egui::ThemePreference::Light
+    );
+}
+
+#[test]
+fn another_kernel_traces_once_it_is_packed() {
+    let Some(mut window) = app(None) else { return };
+    assert_eq!(
+        window.state().document().intersector().kernel().name,
+        "watertight"
+    );
+    window.get_by_label("Watertight (Woop et al.)");
+    let combo = window
+        .get_all_by_role(egui::accesskit::Role::ComboBox)
+        .last()
+        .expect("of kernels");
+    combo.click();
+    window.run_steps(2);
+    window.get_by_label("Möller–Trumbore").click();
+    wait(&mut window, "the other kernel", |app| {
+        app.document().intersector().kernel().name == "moller-trumbore"
+    });
+}
+
+#[test]
+fn the_picture_converges_and_pause_holds_it() {
+    let Some(mut window) = bare() else { return };
+    press(&mut window, Key::P);
+    wait(&mut window, "the pause", App::is_paused);
+    window.run_steps(30);
+    let held = window.state().film().pixels().to_vec();
+    std::thread::sleep(std::time::Duration::from_millis(100));
+    window.run_steps(5);
+    assert_eq!(window.state().film().pixels(), held, "paused");
+    assert!(!window.state().is_settled());
+    press(&mut window, Key::P);
+    wait(&mut window, "all samples", App::is_settled);
+    assert_eq!(
+        window.state().film().samples(),
+        window.state().settings().samples
+    );
+}
+
+#[test]
+fn a_window_of_one_pixel_lives() {
+    let Some(mut window) = app(None) else { return };
+    window.set_size(egui::vec2(1.0, 1.0));
+    window.run_steps(5);
+    window.set_size(egui::vec2(800.0, 600.0));
+    wait(&mut window, "the picture", |app| app.film().samples() > 0);
+    assert!(window.state().document().loaded.scene.bounds().extent() != Vec3::ZERO);
+}

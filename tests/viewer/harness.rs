@@ -1,0 +1,75 @@
+//! The app in a harness, and the gate for tests that need a GPU.
+
+use egui_kittest::Harness;
+use egui_kittest::kittest::Queryable as _;
+use hitscope::app::{App, StartOptions};
+use hitscope::offscreen;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// Whether a test that needs something may run. With `HITSCOPE_REQUIRE_GPU=1` it must; without, the
+/// test is skipped, and says so.
+pub fn require(what: &str, is_there: bool) -> bool {
+    if !is_there {
+        let is_required = std::env::var_os("HITSCOPE_REQUIRE_GPU").is_some_and(|v| v == "1");
+        assert!(
+            !is_required,
+            "HITSCOPE_REQUIRE_GPU=1, but there is no {what}"
+        );
+        eprintln!("SKIPPED: this test needs {what}");
+    }
+    is_there
+}
+
+/// A device, or `None` where the test is to be skipped.
+pub fn gpu() -> Option<(wgpu::Device, wgpu::Queue)> {
+    let device = offscreen::device();
+    require(
+        "a graphics adapter (Mesa's software Vulkan will do)",
+        device.is_ok(),
+    );
+    device.ok()
+}
+
+/// The app in a window of 800 × 600 points, once its first picture is there.
+pub fn app(file: Option<PathBuf>) -> Option<Harness<'static, App>> {
+    app_scaled(file, 1.0)
+}
+
+/// The same at another scale of the window.
+pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harness<'static, App>> {
+    gpu()?;
+    let start = StartOptions {
+        file,
+        ..StartOptions::default()
+    };
+    let mut harness = Harness::builder()
+        .with_size(egui::vec2(800.0, 600.0))
+        .with_pixels_per_point(pixels_per_point)
+        .wgpu()
+        .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
+    wait(&mut harness, "the first picture", |app| {
+        app.film().passes_done() > 0
+    });
+    Some(harness)
+}
+
+/// Draws frames until something is the case; panics if it isn't within a minute.
+pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> bool) {
+    let start = Instant::now();
+    harness.step();
+    while !is_so(harness.state()) {
+        assert!(
+            start.elapsed() < Duration::from_secs(60),
+            "waited in vain for {what}"
+        );
+        std::thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+}
+
+/// A point of the picture, from its top left (0, 0) to its bottom right (1, 1).
+pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> egui::Pos2 {
+    let rect = harness.get_by_label("Picture").rect();
+    rect.lerp_inside(egui::vec2(x, y))
+}
