@@ -70,6 +70,6 @@ pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> 
 
 /// A point of the picture, from its top left (0, 0) to its bottom right (1, 1).
 pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> egui::Pos2 {
-    let rect = harness.get_by_label("Picture").rect();
+    let rect = harness.get_by_label("Rendered picture").rect();
     rect.lerp_inside(egui::vec2(x, y))
 }

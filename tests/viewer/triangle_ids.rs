@@ -17,7 +17,7 @@ use hitscope_core::progress::Progress;
 use std::path::Path;
 use wgpu::util::DeviceExt as _;
 
-const SIZE: UVec2 = UVec2::new(320, 200);
+const SIZE: UVec2 = UVec2::new(768, 480);
 /// Vertices snap to 1/256 of a pixel in each axis; twice that moves an edge, and f32 adds a little.
 const ON_EDGE_PX: f64 = 4.0 / 256.0;
 

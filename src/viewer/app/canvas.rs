@@ -50,7 +50,9 @@ impl App {
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let canvas = Canvas::new(ui.available_rect_before_wrap(), ui.ctx().pixels_per_point());
             let response = ui.allocate_rect(canvas.rect, Sense::click_and_drag());
-            response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, "Picture"));
+            response.widget_info(|| {
+                egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
+            });
             self.resolution = canvas.resolution;
             if self.is_unframed {
                 let bounds = self.document.loaded.scene.bounds();

@@ -58,7 +58,9 @@ impl App {
                     ui.selectable_value(&mut self.settings.view, name, choice.title)
                         .on_hover_text(choice.about);
                 }
-            });
+            })
+            .response
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Colours"));
         let settings = &self.settings;
         let switches = [
             (

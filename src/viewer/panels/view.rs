@@ -88,7 +88,7 @@ fn cost_legend_ui(ui: &mut egui::Ui) {
 }
 
 fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
-    ui.label(RichText::new("Kernel").strong());
+    let heading = ui.label(RichText::new("Kernel").strong());
     let current = &settings.kernel().info;
     egui::ComboBox::from_id_salt("kernel")
         .selected_text(current.title)
@@ -98,7 +98,9 @@ fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
                 let name = kernel.info.name.to_owned();
                 ui.selectable_value(&mut settings.kernel, name, kernel.info.title);
             }
-        });
+        })
+        .response
+        .labelled_by(heading.id);
     ui.label(RichText::new(settings.kernel().info.summary).weak());
 }
 
