@@ -104,6 +104,8 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
             wgpu_setup: WgpuSetup::CreateNew(wgpu_setup()),
             ..WgpuConfiguration::default()
         },
+        // The picture's bytes are to reach the screen as they are.
+        dithering: false,
         persist_window: cli.screenshot.is_none(),
         ..eframe::NativeOptions::default()
     };

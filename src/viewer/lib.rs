@@ -7,8 +7,8 @@
 //! | [`app`] | what is in the window, and what does a frame do? |
 //! | [`bindings`] | which key does what? |
 //! | [`document`], [`opening`] | what is open, and how does a file get there? |
-//! | [`tracer`], [`picture`] | what is being traced, and how does it get on the screen? |
-//! | [`overlay`], [`gpu`] | what is drawn over it, and how? |
+//! | [`tracer`] | what is being traced? |
+//! | [`overlay`], [`gpu`] | how does the picture get on the screen, and what is drawn over it? |
 //! | [`panels`], [`settings`] | what can be read and chosen at the side? |
 //! | [`offscreen`], [`screenshot`] | how do pictures get into files? |
 
@@ -21,7 +21,6 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
-pub mod picture;
 pub mod screenshot;
 pub mod settings;
 pub mod task;

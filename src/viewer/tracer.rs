@@ -13,7 +13,7 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// What tracing the first pass may take. With what is left of 33 ms the window draws itself.
-const FIRST_PASS: Duration = Duration::from_millis(17);
+const FIRST_PASS: Duration = Duration::from_millis(13);
 /// What the window spends on collecting tiles in one go.
 const COLLECTING: Duration = Duration::from_millis(6);
 /// Views that follow each other within this time are frames of a movement.

@@ -46,6 +46,8 @@ pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harnes
     let mut harness = Harness::builder()
         .with_size(egui::vec2(800.0, 600.0))
         .with_pixels_per_point(pixels_per_point)
+        // As on a screen: a double click is two clicks within 0.3 s.
+        .with_step_dt(1.0 / 60.0)
         .wgpu()
         .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
     wait(&mut harness, "the first picture", |app| {

@@ -58,6 +58,8 @@ pub struct Camera {
     world_from_camera: DMat3,
     projection: Projection,
     resolution: UVec2,
+    /// Half the picture's width and height, at distance 1 in perspective.
+    half_extent: DVec2,
 }
 
 impl Camera {
@@ -114,11 +116,17 @@ impl Camera {
         if !eye.is_finite() {
             return Err(CameraError::NotFinite);
         }
+        let half_height = match projection {
+            Projection::Perspective { fov_y_radians } => (0.5 * fov_y_radians).tan(),
+            Projection::Orthographic { height } => 0.5 * height,
+        };
+        let aspect = f64::from(resolution.x) / f64::from(resolution.y);
         Ok(Self {
             eye,
             world_from_camera,
             projection,
             resolution,
+            half_extent: DVec2::new(half_height * aspect, half_height),
         })
     }
 
@@ -162,7 +170,7 @@ impl Camera {
             return None;
         }
         let size = self.resolution.as_dvec2();
-        let clip = in_camera.truncate() / depth / self.half_extent();
+        let clip = in_camera.truncate() / depth / self.half_extent;
         Some((clip * DVec2::new(0.5, -0.5) + 0.5) * size)
     }
 
@@ -171,7 +179,7 @@ impl Camera {
     /// Depth is 1 at `near` and falls with distance: to 0 at infinity in perspective, which loses no
     /// precision far away, and to 0 at `far` in an orthographic picture.
     pub fn clip_from_eye(&self, near: f64, far: f64) -> DMat4 {
-        let half = self.half_extent();
+        let half = self.half_extent;
         let clip_from_camera = match self.projection {
             Projection::Perspective { .. } => DMat4::from_cols(
                 DVec4::new(1.0 / half.x, 0.0, 0.0, 0.0),
@@ -225,22 +233,12 @@ impl Camera {
             Projection::Perspective { .. } => depth,
             Projection::Orthographic { .. } => 1.0,
         };
-        2.0 * self.half_extent().y * scale / f64::from(self.resolution.y)
-    }
-
-    /// Half the picture's width and height at distance 1 (perspective) or anywhere (orthographic).
-    fn half_extent(&self) -> DVec2 {
-        let half_height = match self.projection {
-            Projection::Perspective { fov_y_radians } => (0.5 * fov_y_radians).tan(),
-            Projection::Orthographic { height } => 0.5 * height,
-        };
-        let size = self.resolution.as_dvec2();
-        DVec2::new(half_height * size.x / size.y, half_height)
+        2.0 * self.half_extent.y * scale / f64::from(self.resolution.y)
     }
 
     fn plane_from_pixel(&self, at: DVec2) -> DVec2 {
         let size = self.resolution.as_dvec2();
-        (at / size - 0.5) * DVec2::new(2.0, -2.0) * self.half_extent()
+        (at / size - 0.5) * DVec2::new(2.0, -2.0) * self.half_extent
     }
 }
 

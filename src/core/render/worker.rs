@@ -3,12 +3,15 @@
 use super::job::{Job, RenderPanic, TileResult};
 use super::plan::Unit;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
-use std::sync::mpsc::{Receiver, SyncSender, sync_channel};
+use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
 
-/// Tiles that wait to be shown before the threads wait, too.
-const CHANNEL_TILES: usize = 64;
+/// Tiles that wait to be collected before the threads wait, too: a pass over 1280 × 720 and more.
+const CHANNEL_TILES: usize = 512;
+/// Between two calls of `wake` within a pass.
+const WAKE_INTERVAL: Duration = Duration::from_millis(30);
 
 /// What a thread sends.
 #[derive(Debug)]
@@ -24,9 +27,22 @@ struct Posted {
     job: Job,
     generation: u64,
     next_unit: AtomicUsize,
+    sent: AtomicUsize,
 }
 
 impl Posted {
+    /// Counts a message, and tells whether it is time to wake whoever collects them: a pass is
+    /// complete, or some time has gone by after the first one, of which a part is of no use.
+    fn is_time_to_wake(&self, last_wake: &mut Instant) -> bool {
+        let sent = self.sent.fetch_add(1, Relaxed) + 1;
+        let tiles = self.job.plan.tile_count();
+        let is_time = sent % tiles == 0 || (sent > tiles && last_wake.elapsed() > WAKE_INTERVAL);
+        if is_time {
+            *last_wake = Instant::now();
+        }
+        is_time
+    }
+
     fn is_in_later_pass(&self) -> bool {
         self.next_unit.load(Relaxed) >= self.job.plan.tile_count()
     }
@@ -63,7 +79,8 @@ pub struct Renderer {
 }
 
 impl Renderer {
-    /// Starts `threads` threads, at least one; `wake` is called after each message.
+    /// Starts `threads` threads, at least one. `wake` is called when messages are worth collecting:
+    /// after each pass, now and then after the first one, and whenever the channel is full.
     pub fn new(threads: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared {
             state: Mutex::default(),
@@ -102,6 +119,7 @@ impl Renderer {
             job,
             generation: self.generation,
             next_unit: AtomicUsize::new(0),
+            sent: AtomicUsize::new(0),
         }));
         self.shared.generation.store(self.generation, Relaxed);
         self.shared.changed.notify_all();
@@ -153,6 +171,7 @@ impl Drop for Renderer {
 
 fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() + Send + Sync)) {
     let mut done = 0;
+    let mut last_wake = Instant::now();
     while let Some(posted) = wait_for_work(shared, done) {
         let generation = posted.generation;
         let index = posted.next_unit.fetch_add(1, Relaxed);
@@ -167,10 +186,20 @@ fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() +
             Ok(None) => continue,
             Err(panic) => Message::Panicked(unit, panic),
         };
-        if sender.send((generation, message)).is_err() {
+        let sent = sender.try_send((generation, message));
+        let sent = sent.or_else(|error| match error {
+            TrySendError::Full(message) => {
+                wake();
+                sender.send(message).map_err(|_| ())
+            }
+            TrySendError::Disconnected(_) => Err(()),
+        });
+        if sent.is_err() {
             return;
         }
-        wake();
+        if posted.is_time_to_wake(&mut last_wake) {
+            wake();
+        }
     }
 }
 

@@ -158,25 +158,22 @@ impl App {
         if let Some((film, changed)) = self.tracer.take_changes() {
             self.picture.upload(film, changed);
         }
-        let painter = ui.painter_at(canvas.rect);
-        let whole = Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0));
-        if let Some(id) = self.picture.id() {
-            painter.image(id, canvas.rect, whole, Color32::WHITE);
-        }
         // Everything over the picture is for the camera that the picture was taken with.
         let Some(camera) = self.tracer.shown_camera().copied() else {
             return;
         };
         let options = self.overlay_options(canvas.pixels_per_point);
         let scene = &self.document.loaded.scene;
-        match self.overlay.draw(scene, &camera, &options, ui.ctx()) {
-            Ok(Some(id)) => _ = painter.image(id, canvas.rect, whole, Color32::WHITE),
-            Ok(None) => {}
-            Err(error) => {
-                self.settings.shows_wireframe = false;
-                self.settings.shows_normals = false;
-                self.error(error);
-            }
+        let (overlay, error) = match self.overlay.draw(scene, &camera, &options, ui.ctx()) {
+            Ok(texture) => (texture, None),
+            Err(error) => (None, Some(error)),
+        };
+        let painter = ui.painter_at(canvas.rect);
+        painter.extend(self.picture.shape(canvas.rect, overlay));
+        if let Some(error) = error {
+            self.settings.shows_wireframe = false;
+            self.settings.shows_normals = false;
+            self.error(error);
         }
         self.marker(&painter, &camera, canvas);
     }

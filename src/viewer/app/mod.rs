@@ -14,9 +14,9 @@ mod chrome;
 pub use chrome::grouped;
 
 use crate::document::Document;
+use crate::gpu::picture::Picture;
 use crate::opening::{Loading, OpenDialog};
 use crate::overlay::OverlayLayer;
-use crate::picture::Picture;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::tracer::Tracer;
@@ -106,7 +106,7 @@ impl App {
             open_dialog: OpenDialog::default(),
             tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
-            picture: Picture::new(render_state.clone()),
+            picture: Picture::new(&render_state),
             overlay: OverlayLayer::new(render_state),
             pick: None,
             notice: None,

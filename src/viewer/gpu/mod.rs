@@ -1,4 +1,5 @@
-//! What the GPU draws over the traced picture: lines, hidden where triangles lie before them.
+//! What the GPU draws: the traced picture ([`picture`]), and over it lines, hidden where triangles lie
+//! before them.
 //!
 //! [`Overlay`] owns a colour and a depth target of its own, so that the result doesn't depend on the
 //! window's: depth first ([`depth`]), then lines ([`lines`]), both for the same [`view`]. Depth is
@@ -6,6 +7,7 @@
 
 pub mod depth;
 pub mod lines;
+pub mod picture;
 pub mod view;
 
 use depth::{DepthMesh, DepthPipeline};

@@ -9,7 +9,6 @@ use crate::gpu::depth::DepthMesh;
 use crate::gpu::lines::{Line, LineSet, StyleUniform, Visibility};
 use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
-use crate::picture::register;
 use crate::task::{Broken, Task};
 use eframe::egui_wgpu::RenderState;
 use hitscope_core::scene::Shading;
@@ -127,7 +126,7 @@ pub struct OverlayLayer {
     normals: Lines<Shading>,
     /// The picked triangle, faint where it is hidden and strong where it isn't.
     picked: Option<(u32, [LineSet; 2])>,
-    texture: Option<(wgpu::Texture, egui::TextureId)>,
+    texture: Option<wgpu::Texture>,
     /// What the texture shows.
     drawn: Option<(ViewUniform, Options)>,
 }
@@ -159,7 +158,7 @@ impl OverlayLayer {
         camera: &Camera,
         options: &Options,
         ctx: &egui::Context,
-    ) -> Result<Option<egui::TextureId>, OverlayError> {
+    ) -> Result<Option<&wgpu::Texture>, OverlayError> {
         if options.wireframe.is_none() && options.normals.is_none() && options.picked.is_none() {
             return Ok(None);
         }
@@ -170,7 +169,7 @@ impl OverlayLayer {
             self.redraw(&view, options);
             self.drawn = Some((view, *options));
         }
-        Ok(self.texture.as_ref().map(|(_, id)| *id))
+        Ok(self.texture.as_ref())
     }
 
     /// Starts anew for another scene.
@@ -250,10 +249,6 @@ impl OverlayLayer {
         }
         let Some(mesh) = &self.mesh else { return };
         let texture = self.overlay.draw(device, queue, view, mesh, &sets);
-        if self.texture.as_ref().is_none_or(|(old, _)| old != texture) {
-            let old = self.texture.as_ref().map(|(_, id)| *id);
-            let id = register(&self.render_state, texture, old);
-            self.texture = Some((texture.clone(), id));
-        }
+        self.texture = Some(texture.clone());
     }
 }

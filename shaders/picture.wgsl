@@ -1,0 +1,37 @@
+// The traced picture with the overlay on it, pixel for pixel.
+
+@group(0) @binding(0) var picture: texture_2d<f32>;
+// Of the picture's size with alpha multiplied in. Not read without HAS_OVERLAY.
+@group(0) @binding(1) var overlay: texture_2d<f32>;
+
+override HAS_OVERLAY: bool;
+
+struct Fragment {
+    @builtin(position) position: vec4f,
+    // From (0, 0) at the top left to (1, 1) at the bottom right.
+    @location(0) at: vec2f,
+};
+
+// One triangle that covers the viewport.
+@vertex
+fn vs_main(@builtin(vertex_index) vertex: u32) -> Fragment {
+    let at = 2.0 * vec2f(f32(vertex & 1u), f32(vertex >> 1u));
+    return Fragment(vec4f(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y, 0.0, 1.0), at);
+}
+
+// The nearest pixel: while the window is resized, the old picture is stretched.
+fn pixel(texture: texture_2d<f32>, at: vec2f) -> vec4f {
+    let size = vec2i(textureDimensions(texture));
+    return textureLoad(texture, min(vec2i(at * vec2f(size)), size - 1), 0);
+}
+
+// Both textures hold sRGB-encoded bytes, and so does the window.
+@fragment
+fn fs_main(fragment: Fragment) -> @location(0) vec4f {
+    let under = pixel(picture, fragment.at);
+    if !HAS_OVERLAY {
+        return under;
+    }
+    let over = pixel(overlay, fragment.at);
+    return vec4f(over.rgb + (1.0 - over.a) * under.rgb, 1.0);
+}
