@@ -249,7 +249,7 @@ fn rasterized_triangles_are_those_that_rays_hit() {
                     );
                 }
             }
-            println!("{name}, view {view}: {different} of {covered} covered pixels differ");
+            eprintln!("{name}, view {view}: {different} of {covered} covered pixels differ");
             assert!(
                 covered > SIZE.element_product() / 10,
                 "{name}, view {view}: {covered}"

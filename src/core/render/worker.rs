@@ -36,7 +36,8 @@ impl Posted {
     fn is_time_to_wake(&self, last_wake: &mut Instant) -> bool {
         let sent = self.sent.fetch_add(1, Relaxed) + 1;
         let tiles = self.job.plan.tile_count();
-        let is_time = sent % tiles == 0 || (sent > tiles && last_wake.elapsed() > WAKE_INTERVAL);
+        let is_time =
+            sent.is_multiple_of(tiles) || (sent > tiles && last_wake.elapsed() > WAKE_INTERVAL);
         if is_time {
             *last_wake = Instant::now();
         }

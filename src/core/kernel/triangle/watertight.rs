@@ -101,7 +101,7 @@ impl Kernel for Watertight {
         let depth = a[2] + (l2 * (b[2] - a[2]) + l3 * (c[2] - a[2]));
         let t = depth * ray.shear[2];
         let mask = inside & zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
-        mask.any().then(|| LaneHit {
+        mask.any().then_some(LaneHit {
             mask,
             t,
             u: l2,
