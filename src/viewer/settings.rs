@@ -61,7 +61,7 @@ impl Default for Settings {
             shows_diagonals: false,
             wire_colour: [12, 14, 18],
             shows_normals: false,
-            normal_length: 0.05,
+            normal_length: 0.03,
             samples: 64,
             is_z_up: false,
             shows_panel: true,

@@ -48,7 +48,11 @@ impl Canvas {
 impl App {
     pub(super) fn canvas_ui(&mut self, ui: &mut egui::Ui) {
         egui::CentralPanel::no_frame().show(ui, |ui| {
-            let canvas = Canvas::new(ui.available_rect_before_wrap(), ui.ctx().pixels_per_point());
+            let available = ui.available_rect_before_wrap();
+            // What is left over beside whole pixels.
+            ui.painter()
+                .rect_filled(available, 0.0, ui.visuals().panel_fill);
+            let canvas = Canvas::new(available, ui.ctx().pixels_per_point());
             let response = ui.allocate_rect(canvas.rect, Sense::click_and_drag());
             response.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")

@@ -42,7 +42,7 @@ impl Options {
     pub(crate) fn normal_style(&self) -> StyleUniform {
         StyleUniform {
             stretch: self.normal_length,
-            ..style([0.16, 0.55, 0.95, 0.95], self.line_width_px, 1.0)
+            ..style([0.16, 0.55, 0.95, 0.8], self.line_width_px, 1.0)
         }
     }
 

@@ -64,11 +64,19 @@ fn surface_ui(ui: &mut egui::Ui, hit: &HitReport) {
     });
 }
 
-/// One column a kernel beside the exact answer, so that their numbers can be compared.
+/// One row a kernel below the exact answer, so that their numbers can be compared.
 fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
+    const COLUMNS: [&str; 8] = [
+        "",
+        "t",
+        "off by",
+        "weights off",
+        "triangle",
+        "l1",
+        "l2",
+        "l3",
+    ];
     ui.label(RichText::new("Kernels against exact arithmetic").strong());
-    let small =
-        |text: String| egui::Label::new(RichText::new(text).monospace().size(11.0)).extend();
     egui::ScrollArea::horizontal()
         .id_salt("kernels")
         .show(ui, |ui| {
@@ -77,64 +85,76 @@ fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelR
                 .spacing([10.0, 2.0])
                 .striped(true)
                 .show(ui, |ui| {
-                    ui.label("");
-                    ui.label(RichText::new("exact").size(11.5));
-                    for kernel in kernels {
-                        ui.label(RichText::new(kernel.name).size(11.5));
+                    for column in COLUMNS {
+                        ui.label(RichText::new(column).size(11.5));
                     }
                     ui.end_row();
-                    let mut row =
-                        |name: &str,
-                         exact: Option<String>,
-                         value: &dyn Fn(&KernelRow) -> Option<String>| {
-                            ui.label(name);
-                            for text in [exact].into_iter().chain(kernels.iter().map(value)) {
-                                ui.add(small(text.unwrap_or("–".to_owned())));
-                            }
-                            ui.end_row();
-                        };
-                    let miss = || Some("miss".to_owned());
-                    row(
-                        "t",
-                        exact.map_or_else(miss, |e| Some(format!("{:.12}", e.t))),
-                        &|k| k.t.map_or_else(miss, |t| Some(t.to_string())),
-                    );
-                    row("off by", None, &|k| {
-                        k.t_error_ulps.map(|e| format!("{e:.3} ulp"))
-                    });
-                    for i in 0..3 {
-                        let weight = exact.map(|e| format!("{:.12}", e.barycentric[i]));
-                        row(["l1", "l2", "l3"][i], weight, &|k| {
-                            k.barycentric.map(|b| b[i].to_string())
-                        });
+                    cells_ui(ui, exact_cells(exact));
+                    for kernel in kernels {
+                        cells_ui(ui, kernel_cells(kernel));
                     }
-                    row("off by", None, &|k| {
-                        k.barycentric_error.map(|e| format!("{e:.1e}"))
-                    });
-                    row("triangle", exact.map(triangles), &|k| {
-                        k.triangle.map(|t| t.to_string())
-                    });
-                    row("place", exact.map(place), &|_| None);
                 });
         });
+    if let Some(exact) = exact {
+        let also = exact
+            .also
+            .iter()
+            .map(|t| format!(", and at the same t triangle {t}"));
+        let place = if exact.is_on_boundary {
+            "on the boundary"
+        } else {
+            "inside"
+        };
+        let text = format!(
+            "The exact hit is {place} of its triangle{}.",
+            also.collect::<String>()
+        );
+        ui.label(RichText::new(text).weak().size(11.5));
+    }
     ui.add_space(4.0);
 }
 
-/// The nearest triangle, and those at exactly the same distance.
-fn triangles(exact: &ExactReport) -> String {
-    let also = exact.also.iter().map(|t| format!(" {t}"));
-    std::iter::once(exact.triangle.to_string())
-        .chain(also)
-        .collect()
+fn cells_ui(ui: &mut egui::Ui, cells: [Option<String>; 8]) {
+    for cell in cells {
+        let text = cell.unwrap_or("–".to_owned());
+        let text = RichText::new(text).monospace().size(11.0);
+        ui.add(egui::Label::new(text).extend());
+    }
+    ui.end_row();
 }
 
-fn place(exact: &ExactReport) -> String {
-    let place = if exact.is_on_boundary {
-        "boundary"
-    } else {
-        "inside"
-    };
-    place.to_owned()
+fn exact_cells(exact: Option<&ExactReport>) -> [Option<String>; 8] {
+    let weight = |k: usize| exact.map(|e| format!("{:.10}", e.barycentric[k]));
+    [
+        Some("exact".to_owned()),
+        Some(exact.map_or("miss".to_owned(), |e| significant(e.t))),
+        None,
+        None,
+        exact.map(|e| e.triangle.to_string()),
+        weight(0),
+        weight(1),
+        weight(2),
+    ]
+}
+
+fn kernel_cells(kernel: &KernelRow) -> [Option<String>; 8] {
+    let weight = |k: usize| kernel.barycentric.map(|b| b[k].to_string());
+    [
+        Some(kernel.name.to_owned()),
+        Some(kernel.t.map_or("miss".to_owned(), |t| t.to_string())),
+        kernel.t_error_ulps.map(|e| format!("{e:.2} ulp")),
+        kernel.barycentric_error.map(|e| format!("{e:.1e}")),
+        kernel.triangle.map(|t| t.to_string()),
+        weight(0),
+        weight(1),
+        weight(2),
+    ]
+}
+
+/// With eleven significant digits: two more than f32 ever needs.
+fn significant(x: f64) -> String {
+    let before_point = x.abs().log10().floor().clamp(-20.0, 10.0) as i32;
+    format!("{x:.*}", (10 - before_point).max(0) as usize)
 }
 
 /// Three numbers, each on a line of its own.
