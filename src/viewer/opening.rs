@@ -151,8 +151,9 @@ impl Loading {
         self.progress.cancel();
     }
 
-    /// Phase, bytes, and a button that cancels.
-    pub fn progress_ui(&self, ui: &mut egui::Ui) {
+    /// Phase, bytes, and a button that cancels; whether it was pressed.
+    #[must_use]
+    pub fn progress_ui(&self, ui: &mut egui::Ui) -> bool {
         const MB: f64 = 1e6;
         let (read, total) = self.progress.bytes();
         let phase = self.progress.phase().label();
@@ -161,14 +162,13 @@ impl Loading {
             read as f64 / MB,
             total as f64 / MB
         );
-        ui.horizontal(|ui| {
-            let part = read as f32 / total.max(1) as f32;
-            ui.add(egui::ProgressBar::new(part).desired_width(260.0).text(text));
-            if ui.button("Cancel").clicked() {
-                self.cancel();
-            }
-        });
         // The bar moves although no event comes.
         ui.ctx().request_repaint_after(Duration::from_millis(50));
+        let row = ui.horizontal(|ui| {
+            let part = read as f32 / total.max(1) as f32;
+            ui.add(egui::ProgressBar::new(part).desired_width(260.0).text(text));
+            ui.button("Cancel").clicked()
+        });
+        row.inner
     }
 }

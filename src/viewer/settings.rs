@@ -41,7 +41,8 @@ pub struct Settings {
     pub normal_length: f32,
     /// Samples a pixel in the end; a power of two.
     pub samples: u32,
-    /// Whether the mesh's z axis points up.
+    /// Whether the mesh's z axis points up. A matter of the file, so it isn't kept.
+    #[serde(skip)]
     pub is_z_up: bool,
     /// The side panel.
     pub shows_panel: bool,

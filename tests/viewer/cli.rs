@@ -5,8 +5,8 @@ use std::path::Path;
 use std::process::{Command, Output};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-const TETRAHEDRON: &str =
-    "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1
+f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n";
 
 /// Runs the program in a folder, with no display.
 fn hitscope(folder: &Path, args: &[&str]) -> Output {
@@ -119,7 +119,7 @@ fn a_wireframe_is_drawn_over_a_render() {
         return;
     }
     let folder = folder();
-    std::fs::write(folder.path().join("solid.obj"), TETRAHEDRON).expect("written");
+    std::fs::write(folder.path().join("solid.obj"), OCTAHEDRON).expect("written");
     let render = |extra: &[&str]| {
         let args = [
             "render",

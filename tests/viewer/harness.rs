@@ -1,11 +1,15 @@
 //! The app in a harness, and the gate for tests that need a GPU.
 
+use egui::Key;
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
 use hitscope::offscreen;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
+
+/// The app, and what it would be given by a window.
+pub type Window = Harness<'static, App>;
 
 /// Whether a test that needs something may run. With `HITSCOPE_REQUIRE_GPU=1` it must; without, the
 /// test is skipped, and says so.
@@ -74,4 +78,19 @@ pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> 
 pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> egui::Pos2 {
     let rect = harness.get_by_label("Rendered picture").rect();
     rect.lerp_inside(egui::vec2(x, y))
+}
+
+/// The window without its side panel, whose switches have the tool bar's names.
+pub fn bare() -> Option<Window> {
+    let mut window = app(None)?;
+    press(&mut window, Key::I);
+    window.run_steps(20);
+    assert!(!window.state().settings().shows_panel);
+    Some(window)
+}
+
+/// Presses and releases a key.
+pub fn press(window: &mut Window, key: Key) {
+    window.key_press(key);
+    window.run_steps(2);
 }

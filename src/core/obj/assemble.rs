@@ -1,8 +1,8 @@
 //! From tobj's numbers to a mesh.
 
 use super::error::{Problem, Warning};
+use super::facts::Facts;
 use super::polygon::{Cut, Triangulator};
-use super::reader::Facts;
 use super::{Library, Loaded, Recentre, mtl};
 use crate::mesh::{Dropped, Material, NO_NORMAL, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};

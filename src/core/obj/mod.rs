@@ -1,11 +1,12 @@
 //! What does this OBJ file hold?
 //!
-//! Three steps: [`reader`] sees every line, checks faces, notes groups and materials and passes on
-//! plain `v`, `vn` and `f` statements; tobj reads their numbers, in f64; [`assemble`] recentres the
+//! Three steps: `reader` sees every line, checks faces, notes groups and materials and passes on
+//! plain `v`, `vn` and `f` statements; tobj reads their numbers, in f64; `assemble` recentres the
 //! vertices, triangulates the polygons and drops what no ray can hit.
 
 mod assemble;
 mod error;
+mod facts;
 mod mtl;
 mod polygon;
 mod reader;

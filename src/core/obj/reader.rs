@@ -5,90 +5,13 @@
 //! `f a//n …` only. So tobj sees one model, keeps each vertex once, and never meets the input that
 //! makes it panic or change geometry without a word.
 
-use super::error::{Problem, Warning};
-use crate::progress::Progress;
-use std::collections::BTreeMap;
-use std::io::{self, BufRead, Read};
+use super::error::Problem;
+use super::facts::{Facts, shortened};
+use crate::progress::{Phase, Progress};
+use std::io::{self, BufRead, Read, Write as _};
 
 /// Read in pieces of this size, between which a cancel is noticed.
 const CHUNK: usize = 1 << 18;
-
-/// What the reader learnt on the way.
-#[derive(Debug, Default)]
-pub(super) struct Facts {
-    pub vertex_count: usize,
-    pub face_count: usize,
-    normal_count: usize,
-    /// Whether a face has a normal at each corner.
-    pub face_has_normals: Vec<bool>,
-    /// Runs of faces: the first one, and what it and those after it use.
-    pub face_materials: Vec<(usize, String)>,
-    pub face_groups: Vec<(usize, String)>,
-    /// Names of material libraries, with the line.
-    pub libraries: Vec<(usize, String)>,
-    face_lines: LineRuns,
-    /// Line and text of the statement that was passed on last.
-    current: (usize, String),
-    /// The highest index of a vertex and a normal, and the line of the face that has it.
-    highest: [(usize, usize); 2],
-    /// Statements that were left out: first line and count, by keyword.
-    ignored: BTreeMap<String, (usize, usize)>,
-}
-
-impl Facts {
-    /// The line, counted from 1, of an `f` statement, counted from 0.
-    pub(super) fn face_line(&self, face: usize) -> usize {
-        self.face_lines.line(face)
-    }
-
-    /// What was left out, a warning a keyword.
-    pub(super) fn ignored_statements(&self) -> impl Iterator<Item = Warning> {
-        self.ignored.iter().map(|(keyword, (line, count))| Warning {
-            line: Some(*line),
-            message: format!("{count} “{keyword}” statement(s) ignored"),
-        })
-    }
-
-    /// What tobj objected to: the numbers on the line that it read last.
-    pub(super) fn unexplained(&self, error: &tobj::LoadError) -> Problem {
-        let (line, text) = &self.current;
-        let words: Vec<&str> = text.split_whitespace().skip(1).collect();
-        let message = match words.iter().find(|word| word.parse::<f64>().is_err()) {
-            Some(word) => format!("“{}” is not a number", shortened(word)),
-            None if words.len() < 3 => {
-                format!("three coordinates are needed, here are {}", words.len())
-            }
-            None => error.to_string(),
-        };
-        Problem::Line(*line, message)
-    }
-}
-
-/// Line numbers of statements, kept as runs of statements on consecutive lines.
-#[derive(Debug, Default)]
-struct LineRuns {
-    runs: Vec<(usize, usize)>,
-    count: usize,
-    next_line: usize,
-}
-
-impl LineRuns {
-    fn push(&mut self, line: usize) {
-        if line != self.next_line || self.runs.is_empty() {
-            self.runs.push((self.count, line));
-        }
-        self.count += 1;
-        self.next_line = line + 1;
-    }
-
-    fn line(&self, statement: usize) -> usize {
-        let run = self.runs.partition_point(|(first, _)| *first <= statement);
-        match run.checked_sub(1).map(|run| self.runs[run]) {
-            Some((first, line)) => line + statement - first,
-            None => 0,
-        }
-    }
-}
 
 /// See the [module](self). Give it to tobj as a `BufRead`, then ask [`finish`](Self::finish).
 pub(super) struct NormalisingReader<'p, R> {
@@ -220,6 +143,10 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
         };
         self.buffer.truncate(before + count);
         self.is_at_end = count == 0;
+        if self.is_at_end {
+            // What is left to do is to number vertices and to triangulate.
+            self.progress.enter(Phase::Checking);
+        }
         self.progress.add_read(count as u64);
         Ok(())
     }
@@ -278,11 +205,11 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
         let has_normals = corners.iter().all(|(_, normal)| normal.is_some());
         self.out.extend(b"f");
         for (vertex, normal) in corners {
-            let word = match normal {
-                Some(normal) if has_normals => format!(" {vertex}//{normal}"),
-                _ => format!(" {vertex}"),
+            let written = match normal {
+                Some(normal) if has_normals => write!(self.out, " {vertex}//{normal}"),
+                _ => write!(self.out, " {vertex}"),
             };
-            self.out.extend(word.bytes());
+            written.map_err(Problem::Read)?;
         }
         self.out.push(b'\n');
         self.facts.face_count += 1;
@@ -397,15 +324,5 @@ fn not_an_obj(first_line: &[u8]) -> Option<&'static str> {
         Some("this is a binary file, not an OBJ file")
     } else {
         None
-    }
-}
-
-/// A word fit for a message.
-fn shortened(word: &str) -> String {
-    const LENGTH: usize = 40;
-    if word.chars().count() <= LENGTH {
-        word.to_owned()
-    } else {
-        word.chars().take(LENGTH).chain(['…']).collect()
     }
 }

@@ -146,13 +146,14 @@ impl App {
     pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {
         let status = self.tracer.status();
         let scene = &self.document.loaded.scene;
-        let refined = match (status.samples, self.tracer.is_paused()) {
-            (_, true) => format!("paused at {} samples", status.samples),
-            (0, _) => format!("pass {} of {}", status.passes, status.pass_count),
-            (samples, _) => format!("{samples} of {} samples", self.settings.samples),
+        let paused = if self.tracer.is_paused() {
+            ", paused"
+        } else {
+            ""
         };
         let mut parts = vec![
-            refined,
+            format!("pass {} of {}{paused}", status.passes, status.pass_count),
+            format!("{} of {} samples", status.samples, self.settings.samples),
             format!("{:.1} Mrays/s", status.rays_per_s / 1e6),
             format!("{} triangles", grouped(scene.mesh().triangles.len())),
             format!("tree {:.0} ms", scene.build_time().as_secs_f64() * 1e3),
@@ -202,7 +203,7 @@ impl App {
         if self.loading.is_none() && self.notice.is_none() {
             return;
         }
-        let mut is_closed = false;
+        let (mut is_closed, mut is_cancelled) = (false, false);
         egui::Area::new(egui::Id::unique("notices"))
             .anchor(egui::Align2::LEFT_TOP, egui::vec2(10.0, 42.0))
             .show(ctx, |ui| {
@@ -210,7 +211,7 @@ impl App {
                 if let Some(loading) = &self.loading {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         ui.label(format!("Loading {}", loading.path.display()));
-                        loading.progress_ui(ui);
+                        is_cancelled = loading.progress_ui(ui);
                     });
                 }
                 if let Some(notice) = &self.notice {
@@ -233,6 +234,10 @@ impl App {
             });
         if is_closed {
             self.notice = None;
+        }
+        if is_cancelled && let Some(loading) = self.loading.take() {
+            // Its thread ends by itself; the window has already gone on.
+            loading.cancel();
         }
     }
 

@@ -3,9 +3,9 @@
 //! | file | part |
 //! |---|---|
 //! | this one | state, and the order of a frame |
-//! | [`actions`] | what keys and buttons do |
-//! | [`canvas`] | the picture, and the pointer on it |
-//! | [`chrome`] | tool bar, status line, messages, help |
+//! | `actions` | what keys and buttons do |
+//! | `canvas` | the picture, and the pointer on it |
+//! | `chrome` | tool bar, status line, messages, help |
 
 mod actions;
 mod canvas;
@@ -186,17 +186,13 @@ impl App {
         let Some(loading) = &self.loading else { return };
         let result = match loading.poll() {
             Ok(None) => return,
-            Ok(Some(result)) => result.map_err(|error| match error {
-                hitscope_core::obj::LoadError::Cancelled { .. } => None,
-                error => Some(error.to_string()),
-            }),
-            Err(broken) => Err(Some(format!("{}: {broken}", loading.path.display()))),
+            Ok(Some(result)) => result.map_err(|error| error.to_string()),
+            Err(broken) => Err(format!("{}: {broken}", loading.path.display())),
         };
         self.loading = None;
         match result {
             Ok(document) => self.show(document, ctx),
-            Err(Some(message)) => self.error(message),
-            Err(None) => {}
+            Err(message) => self.error(message),
         }
     }
 
