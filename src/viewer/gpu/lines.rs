@@ -36,6 +36,17 @@ pub struct StyleUniform {
     pub padding: f32,
 }
 
+impl StyleUniform {
+    /// Where its members lie, for the test that compares them with WGSL's.
+    #[cfg(test)]
+    pub(super) const OFFSETS: [usize; 4] = [
+        std::mem::offset_of!(Self, colour),
+        std::mem::offset_of!(Self, half_width_px),
+        std::mem::offset_of!(Self, stretch),
+        std::mem::offset_of!(Self, fade),
+    ];
+}
+
 /// Whether the mesh hides lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Visibility {

@@ -250,3 +250,34 @@ fn shader(device: &wgpu::Device, label: &str, source: &str) -> wgpu::ShaderModul
         source: wgpu::ShaderSource::Wgsl(format!("{}\n{source}", view::SHADER).into()),
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use super::lines::{self, StyleUniform};
+    use super::view::{self, ViewUniform};
+
+    /// Size of a structure in WGSL, and the offsets of its members.
+    fn layout(source: &str, name: &str) -> (usize, Vec<usize>) {
+        let module = naga::front::wgsl::parse_str(source).expect("a test validates the shaders");
+        let mut types = module.types.iter();
+        let (_, found) = types
+            .find(|(_, ty)| ty.name.as_deref() == Some(name))
+            .expect(name);
+        let naga::TypeInner::Struct { members, span } = &found.inner else {
+            panic!("{name} is no structure");
+        };
+        let offsets = members.iter().map(|member| member.offset as usize);
+        (*span as usize, offsets.collect())
+    }
+
+    #[test]
+    fn uniforms_are_laid_out_as_their_twins_in_wgsl() {
+        let (size, offsets) = layout(view::SHADER, "View");
+        assert_eq!(size, size_of::<ViewUniform>());
+        assert_eq!(offsets, ViewUniform::OFFSETS);
+        let lines = format!("{}\n{}", view::SHADER, lines::SHADER);
+        let (size, offsets) = layout(&lines, "Style");
+        assert_eq!(size, size_of::<StyleUniform>());
+        assert_eq!(offsets, StyleUniform::OFFSETS);
+    }
+}

@@ -21,6 +21,15 @@ pub struct ViewUniform {
 }
 
 impl ViewUniform {
+    /// Where its members lie, for the test that compares them with WGSL's.
+    #[cfg(test)]
+    pub(super) const OFFSETS: [usize; 4] = [
+        std::mem::offset_of!(Self, clip_from_eye),
+        std::mem::offset_of!(Self, eye),
+        std::mem::offset_of!(Self, near_w),
+        std::mem::offset_of!(Self, viewport),
+    ];
+
     /// The view of a camera on a scene with these bounds.
     pub fn new(camera: &Camera, bounds: &Aabb) -> Self {
         let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
