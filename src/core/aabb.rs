@@ -1,6 +1,6 @@
 //! Axis-aligned bounding boxes.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A closed box, `min ≤ p ≤ max` in each axis. Empty while `min > max`.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -18,7 +18,8 @@ impl Aabb {
         max: Vec3::NEG_INFINITY,
     };
 
-    /// The smallest box around the points; [`Aabb::EMPTY`] for none.
+    /// The smallest box around the points; [`Aabb::EMPTY`] for none. Of points with a NaN it is anyone's
+    /// guess: leave them out.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, p| Self {
             min: b.min.min(p),
@@ -45,20 +46,20 @@ impl Aabb {
         0.5 * self.min + 0.5 * self.max
     }
 
-    /// Its edges' lengths; zero if it is empty.
-    pub fn extent(&self) -> Vec3 {
-        (self.max - self.min).max(Vec3::ZERO)
+    /// Its edges' lengths; zero if it is empty. In f64, where those of the largest box are finite.
+    pub fn extent(&self) -> DVec3 {
+        (self.max.as_dvec3() - self.min.as_dvec3()).max(DVec3::ZERO)
     }
 
     /// Half its surface, what the surface-area heuristic weighs by; zero if it is empty.
-    pub fn half_area(&self) -> f32 {
+    pub fn half_area(&self) -> f64 {
         let e = self.extent();
         e.x * (e.y + e.z) + e.y * e.z
     }
 
     /// The radius of the sphere about [`centre`](Self::centre) through the corners; zero if it is empty.
     pub fn radius(&self) -> f64 {
-        0.5 * self.extent().as_dvec3().length()
+        0.5 * self.extent().length()
     }
 }
 
@@ -84,8 +85,9 @@ mod tests {
     }
 
     #[test]
-    fn the_centre_of_the_largest_box_is_finite() {
-        let b = Aabb::around([Vec3::splat(f32::MAX), Vec3::splat(f32::MAX)]);
-        assert!(b.centre().is_finite());
+    fn the_measures_of_the_largest_box_are_finite() {
+        let b = Aabb::around([Vec3::splat(f32::MIN), Vec3::splat(f32::MAX)]);
+        assert_eq!(b.centre(), Vec3::ZERO);
+        assert!(b.radius().is_finite() && b.half_area().is_finite());
     }
 }

@@ -22,7 +22,8 @@ pub struct Cost {
 
 /// Answers rays for one scene with one kernel.
 ///
-/// Rays come from [`Ray::new`], so they hold no NaN. Of hits at equal t the lowest primitive counts.
+/// Rays come from [`Ray::new`] or a [`Camera`](crate::Camera), so they hold no NaN. Of hits at equal t
+/// the lowest primitive counts.
 pub trait Intersector: Send + Sync {
     /// The kernel that it was made with.
     fn kernel(&self) -> &'static KernelInfo;
@@ -121,13 +122,10 @@ impl<K: Kernel> MeshIntersector<K> {
                         v: v[lane],
                         primitive: block.primitives[lane],
                     };
-                    match found(hit) {
-                        ControlFlow::Continue(nearer) => limit = nearer,
-                        ControlFlow::Break(()) => limit = f32::NEG_INFINITY,
-                    }
+                    limit = found(hit)?;
                 }
             }
-            limit
+            ControlFlow::Continue(limit)
         };
         self.bvh.traverse(ray, visit, || boxes += 1);
         cost.add(boxes, triangles);
@@ -186,7 +184,7 @@ impl<K: Kernel> Intersector for MeshIntersector<K> {
         let mut found = Vec::new();
         let visit = |leaf: usize| {
             found.extend_from_slice(self.bvh.leaf(leaf));
-            ray.t_max
+            ControlFlow::Continue(ray.t_max)
         };
         self.bvh.traverse(ray, visit, || ());
         found

@@ -1,7 +1,8 @@
-//! What a kernel needs from a number, be it one f32 or f64 or a SIMD vector of f32.
+//! What a kernel needs from a number, be it one f32 or a SIMD vector of them.
 //!
 //! Kernels are written once over [`Lane`]; a scalar and a vector then do the same operations in the
-//! same order, so that they give the same bits. There is no fused multiply-add here: it would make
+//! same order, so that they give the same bits, but for NaN in [`Lane::lesser`] and
+//! [`Lane::greater`], which a kernel must reject by other means. There is no fused multiply-add here: it would make
 //! results depend on the CPU, and break the watertight kernel's proof.
 
 use fearless_simd::{Simd, f32x4, mask32x4, prelude::*};
@@ -24,7 +25,7 @@ pub trait Lane:
     /// What comparing two of them gives.
     type Mask: LaneMask;
 
-    /// The same number in all lanes; exact, also when widened to f64.
+    /// The same number in all lanes.
     fn splat(token: Self::Token, x: f32) -> Self;
     /// The token this was made with.
     fn token(self) -> Self::Token;
@@ -59,58 +60,52 @@ impl LaneMask for bool {
     }
 }
 
-macro_rules! scalar_lane {
-    ($float:ty) => {
-        impl Lane for $float {
-            type Token = ();
-            type Mask = bool;
-            #[inline(always)]
-            fn splat(_: (), x: f32) -> Self {
-                <$float>::from(x)
-            }
-            #[inline(always)]
-            fn token(self) {}
-            #[inline(always)]
-            fn abs(self) -> Self {
-                <$float>::abs(self)
-            }
-            #[inline(always)]
-            fn flip(self, sign: Self) -> Self {
-                if sign.is_sign_negative() { -self } else { self }
-            }
-            #[inline(always)]
-            fn lesser(self, other: Self) -> Self {
-                if self < other { self } else { other }
-            }
-            #[inline(always)]
-            fn greater(self, other: Self) -> Self {
-                if self > other { self } else { other }
-            }
-            #[inline(always)]
-            fn lt(self, other: Self) -> bool {
-                self < other
-            }
-            #[inline(always)]
-            fn le(self, other: Self) -> bool {
-                self <= other
-            }
-            #[inline(always)]
-            fn eq(self, other: Self) -> bool {
-                self == other
-            }
-            #[inline(always)]
-            fn select(mask: bool, a: Self, b: Self) -> Self {
-                if mask { a } else { b }
-            }
-            #[inline(always)]
-            fn map4_in_f64(args: [Self; 4], f: impl Fn([f64; 4]) -> f64) -> Self {
-                f(args.map(f64::from)) as $float
-            }
-        }
-    };
+impl Lane for f32 {
+    type Token = ();
+    type Mask = bool;
+    #[inline(always)]
+    fn splat(_: (), x: f32) -> Self {
+        x
+    }
+    #[inline(always)]
+    fn token(self) {}
+    #[inline(always)]
+    fn abs(self) -> Self {
+        f32::abs(self)
+    }
+    #[inline(always)]
+    fn flip(self, sign: Self) -> Self {
+        if sign.is_sign_negative() { -self } else { self }
+    }
+    #[inline(always)]
+    fn lesser(self, other: Self) -> Self {
+        if self < other { self } else { other }
+    }
+    #[inline(always)]
+    fn greater(self, other: Self) -> Self {
+        if self > other { self } else { other }
+    }
+    #[inline(always)]
+    fn lt(self, other: Self) -> bool {
+        self < other
+    }
+    #[inline(always)]
+    fn le(self, other: Self) -> bool {
+        self <= other
+    }
+    #[inline(always)]
+    fn eq(self, other: Self) -> bool {
+        self == other
+    }
+    #[inline(always)]
+    fn select(mask: bool, a: Self, b: Self) -> Self {
+        if mask { a } else { b }
+    }
+    #[inline(always)]
+    fn map4_in_f64(args: [Self; 4], f: impl Fn([f64; 4]) -> f64) -> Self {
+        f(args.map(f64::from)) as f32
+    }
 }
-scalar_lane!(f32);
-scalar_lane!(f64);
 
 impl<S: Simd> LaneMask for mask32x4<S> {
     #[inline(always)]

@@ -15,6 +15,7 @@
 //! | [`integrator`] | which colour does a ray bring back? |
 //! | [`film`] | what does the picture look like so far? |
 //! | [`render`] | which pixel is traced when, and by which thread? |
+//! | [`ray`], [`aabb`], `lane`, [`sampler`], [`progress`] | what the others speak in |
 //!
 //! The question is always put in f32: a mesh of f32 positions about an f64 origin, and f32 rays.
 //! Nothing here depends on a scene's size, place or units.
@@ -27,7 +28,7 @@ pub mod integrator;
 pub mod interaction;
 pub mod intersector;
 pub mod kernel;
-pub mod lane;
+mod lane;
 pub mod mesh;
 pub mod obj;
 pub mod progress;

@@ -30,6 +30,9 @@ pub enum RayError {
     /// The direction is (0, 0, 0).
     #[error("the direction is zero")]
     DirectionZero,
+    /// The direction is so short that its inverse leaves f32's range.
+    #[error("the direction is too short: its longest coordinate is below 1.2e-38")]
+    DirectionTooShort,
     /// `t_min` or `t_max` is NaN, or `t_min` isn't below `t_max`.
     #[error("the interval from tmin to tmax is empty")]
     IntervalEmpty,
@@ -60,6 +63,8 @@ impl Ray {
             Err(RayError::DirectionNotFinite)
         } else if dir == Vec3::ZERO {
             Err(RayError::DirectionZero)
+        } else if dir.abs().max_element() < f32::MIN_POSITIVE {
+            Err(RayError::DirectionTooShort)
         } else if t_min < t_max {
             Ok(Self {
                 origin,
@@ -70,11 +75,6 @@ impl Ray {
         } else {
             Err(RayError::IntervalEmpty)
         }
-    }
-
-    /// The point at `t`, rounded to f32.
-    pub fn at(&self, t: f32) -> Vec3 {
-        self.origin + t * self.dir
     }
 }
 
@@ -107,6 +107,10 @@ mod tests {
         let (o, d) = (Vec3::ZERO, Vec3::X);
         assert!(Ray::new(o, d).is_ok());
         assert_eq!(Ray::new(o, -Vec3::ZERO), Err(RayError::DirectionZero));
+        assert_eq!(
+            Ray::new(o, Vec3::X * 1e-40),
+            Err(RayError::DirectionTooShort)
+        );
         assert_eq!(
             Ray::new(Vec3::new(0.0, f32::NAN, 0.0), d),
             Err(RayError::OriginNotFinite)

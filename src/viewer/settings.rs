@@ -3,8 +3,7 @@
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
-use hitscope_core::kernel::triangle::default_triangle_kernel;
-use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
+use hitscope_core::kernel::{TriangleKernel, default_triangle_kernel, triangle_kernel};
 use hitscope_core::scene::Shading;
 use serde::{Deserialize, Serialize};
 

@@ -13,7 +13,7 @@ use crate::shapes::{Place, scene, torus};
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::{Context, INTEGRATORS, integrator};
-use hitscope_core::kernel::triangle::default_triangle_kernel;
+use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::render::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;

@@ -1,4 +1,4 @@
-//! Does a ray meet a box? Never a false no.
+//! Does a ray meet a box? Never a false no, as long as distances and inverses are normal numbers.
 //!
 //! The slab test: the ray is inside a box while it is between the two planes of all three axes at
 //! once. Of `(plane − origin)·(1/d)` each of the three operations rounds, so that a far plane may
@@ -6,16 +6,20 @@
 //!
 //! Sources: Kay, Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; Ize, "Robust BVH Ray
 //! Traversal", JCGT 2(2), 2013. Differs from the latter: the padding is in the inverse direction of
-//! the far planes, where it costs nothing a box, and is 3 ulp wide instead of 2; far planes behind
-//! the origin are padded, too, for rays whose interval begins there.
+//! the far planes, where it costs nothing a box, and is wider, as hits mustn't be missed that a kernel
+//! accepts beside the box; far planes behind the origin are padded, too, for rays whose interval
+//! begins there.
 
 use crate::aabb::Aabb;
 use crate::ray::Ray;
 
-/// 1 + 3·2⁻²³: what a far distance ahead is lengthened by. Ize derives 1 + 2·2⁻²³.
-const AHEAD: f32 = 1.0 + 3.0 * f32::EPSILON;
-/// 1 − 3·2⁻²³: a far distance behind the origin is negative, and made nearer to it.
-const BEHIND: f32 = 1.0 - 3.0 * f32::EPSILON;
+/// 1 + 12u with u = 2⁻²⁴: what a far distance ahead is lengthened by. Three roundings each on the near
+/// and the far side are 6u; the watertight kernel may find a corner some 4u of its distance away
+/// from where it is (one rounding of the difference, three of the shear); 1u is for rounding the
+/// product with this.
+const AHEAD: f32 = 1.0 + 6.0 * f32::EPSILON;
+/// 1 − 12u: a far distance behind the origin is negative, and made nearer to it.
+const BEHIND: f32 = 1.0 - 6.0 * f32::EPSILON;
 
 /// A ray made ready for many boxes.
 #[derive(Clone, Copy)]
@@ -29,7 +33,8 @@ pub(super) struct SlabRay {
 }
 
 impl SlabRay {
-    pub(super) fn new(ray: &Ray) -> Self {
+    /// Boxes are met from `t_min` on, which may be a little before `ray.t_min`.
+    pub(super) fn new(ray: &Ray, t_min: f32) -> Self {
         let inverse = ray.dir.to_array().map(finite_inverse);
         Self {
             origin: ray.origin.to_array(),
@@ -37,7 +42,7 @@ impl SlabRay {
             inv_far: inverse.map(|x| x * AHEAD),
             inv_far_behind: inverse.map(|x| x * BEHIND),
             is_negative: inverse.map(f32::is_sign_negative),
-            t_min: ray.t_min,
+            t_min,
         }
     }
 
@@ -83,7 +88,9 @@ mod tests {
 
     fn enters(origin: Vec3, dir: Vec3, bounds: Aabb) -> bool {
         let ray = Ray::new(origin, dir).expect("a ray");
-        SlabRay::new(&ray).enter(&bounds, f32::INFINITY).is_some()
+        SlabRay::new(&ray, 0.0)
+            .enter(&bounds, f32::INFINITY)
+            .is_some()
     }
 
     #[test]
@@ -139,7 +146,8 @@ mod tests {
         let bounds = Aabb::around([Vec3::splat(1.0), Vec3::splat(2.0)]);
         assert!(!enters(Vec3::splat(3.0), Vec3::ONE, bounds));
         let ray = Ray::new(Vec3::ZERO, Vec3::ONE).expect("a ray");
-        assert_eq!(SlabRay::new(&ray).enter(&bounds, 0.5), None);
-        assert_eq!(SlabRay::new(&ray).enter(&bounds, 5.0), Some(1.0));
+        let slabs = SlabRay::new(&ray, 0.0);
+        assert_eq!(slabs.enter(&bounds, 0.5), None);
+        assert_eq!(slabs.enter(&bounds, 5.0), Some(1.0));
     }
 }

@@ -1,11 +1,11 @@
-//! Where does a ray meet a primitive? One algorithm, one file, written once over [`Lane`].
+//! Where does a ray meet a primitive? One algorithm, one file, written once over a lane type.
 //!
-//! Triangles: [`triangle::moller_trumbore`], [`triangle::watertight`]; the table is
-//! [`TRIANGLE_KERNELS`]. A new kernel is its file and one line there.
+//! A new triangle kernel is its file in `triangle/` and its two lines in `triangle/mod.rs`: the module,
+//! and the row of [`TRIANGLE_KERNELS`].
 
-pub mod triangle;
+mod triangle;
 
-pub use triangle::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
+pub use triangle::{TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, triangle_kernel};
 
 use crate::lane::Lane;
 use crate::ray::Ray;
@@ -49,7 +49,7 @@ pub struct KernelInfo {
 
 /// What a test found: which lanes hit, and there t, u and v. Other lanes hold rubbish.
 #[derive(Clone, Copy)]
-pub struct LaneHit<L: Lane> {
+pub(crate) struct LaneHit<L: Lane> {
     /// The lanes that hit.
     pub mask: L::Mask,
     /// Distance in lengths of the direction.
@@ -62,9 +62,9 @@ pub struct LaneHit<L: Lane> {
 
 /// Triangles side by side, one a lane.
 ///
-/// A kernel asks for the coordinates that it wants: to permute the axes costs it an address, where
-/// permuting loaded vectors cost 14 ns a test.
-pub trait Corners<L: Lane> {
+/// A kernel asks for the coordinates that it wants: to permute the axes then costs it an address, no
+/// shuffle of loaded vectors.
+pub(crate) trait Corners<L: Lane> {
     /// A coordinate (x, y, z: 0, 1, 2) of a corner (A, B, C: 0, 1, 2).
     fn coordinate(&self, corner: usize, axis: usize) -> L;
 }
@@ -77,7 +77,7 @@ impl<L: Lane<Token = ()> + From<f32>> Corners<L> for [Vec3; 3] {
 }
 
 /// One algorithm.
-pub trait Kernel: Send + Sync + 'static {
+pub(crate) trait Kernel: Send + Sync + 'static {
     /// What it says of itself.
     const INFO: KernelInfo;
     /// A ray made ready for many tests.

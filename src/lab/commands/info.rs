@@ -2,8 +2,7 @@
 
 use super::{CommandError, load};
 use clap::Args;
-use hitscope_core::kernel::triangle::default_triangle_kernel;
-use hitscope_core::kernel::{KernelInfo, Tier};
+use hitscope_core::kernel::{KernelInfo, Tier, default_triangle_kernel};
 use hitscope_core::mesh::{Health, SLIVER_ASPECT};
 use hitscope_core::obj::Recentre;
 use hitscope_core::scene::LoadedScene;

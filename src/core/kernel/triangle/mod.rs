@@ -1,7 +1,7 @@
 //! Ray–triangle kernels, and the table of them.
 
-pub mod moller_trumbore;
-pub mod watertight;
+mod moller_trumbore;
+mod watertight;
 
 use super::{Kernel, KernelInfo};
 use crate::bvh::Bvh;

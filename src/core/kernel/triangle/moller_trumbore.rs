@@ -12,11 +12,11 @@ use crate::lane::{Lane, LaneMask};
 use crate::ray::Ray;
 
 /// See the [module](self).
-pub struct MollerTrumbore;
+pub(super) struct MollerTrumbore;
 
 /// The ray as it is, in every lane.
 #[derive(Clone, Copy)]
-pub struct Prepared<L> {
+pub(crate) struct Prepared<L> {
     origin: [L; 3],
     dir: [L; 3],
 }

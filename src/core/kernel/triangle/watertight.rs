@@ -4,9 +4,10 @@
 //! Differs from it: no back-face culling; only the edge value that came out 0 is decided again in
 //!   f64, lane by lane, so that a lane's answer doesn't depend on its neighbours; the weights are
 //!   divided before they meet the depths, which are interpolated from A's.
-//! Promises: watertight over shared edges and vertices, at any offset, for lengths from 1e-18 to
-//!   1e18: beyond, the product of two leaves f32's range.
-//! Doesn't promise: an answer for triangles of zero area (they are dropped at load); the right
+//! Promises: watertight over shared edges and vertices, at any offset, for edges and distances
+//!   from 1e-18 to 1e17: beyond, the product of two leaves f32's range.
+//! Doesn't promise: accurate t and weights at the lower end of that, where the products are nearly
+//!   subnormal; an answer for triangles of zero area (they are dropped at load); the right
 //!   triangle of two where rounding the sheared vertices moves an edge across the ray.
 //!
 //! Why no ray slips through: a vertex is moved to 2D by the same operations whichever triangle it
@@ -24,16 +25,16 @@ use crate::lane::{Lane, LaneMask};
 use crate::ray::Ray;
 
 /// See the [module](self).
-pub struct Watertight;
+pub(super) struct Watertight;
 
 /// The ray moved to the z axis by a permutation and a shear.
 #[derive(Clone, Copy)]
-pub struct Prepared<L> {
+pub(crate) struct Prepared<L> {
     /// Which coordinate becomes x, y and z; z is the direction's longest.
     axes: [usize; 3],
     /// The origin, its coordinates permuted.
     origin: [L; 3],
-    /// d_x/d_z, d_y/d_z, 1/d_z.
+    /// d_x/d_z, d_y/d_z, d_z.
     shear: [L; 3],
 }
 
@@ -56,7 +57,7 @@ impl Kernel for Watertight {
         Prepared {
             axes,
             origin: axes.map(|axis| lane(ray.origin[axis])),
-            shear: [dx / dz, dy / dz, lane(1.0) / dz],
+            shear: [dx / dz, dy / dz, dz],
         }
     }
 
@@ -99,7 +100,7 @@ impl Kernel for Watertight {
         // Weights before depths: a product of three lengths would leave f32's range at 1e±13.
         let (l2, l3) = (v / det, w / det);
         let depth = a[2] + (l2 * (b[2] - a[2]) + l3 * (c[2] - a[2]));
-        let t = depth * ray.shear[2];
+        let t = depth / ray.shear[2];
         let mask = inside & zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
         mask.any().then_some(LaneHit {
             mask,
