@@ -7,10 +7,6 @@ use glam::Vec3;
 /// A hit, and what the mesh says of that place.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceInteraction {
-    /// The hit.
-    pub hit: Hit,
-    /// l1·A + l2·B + l3·C, in the mesh's coordinates: nearer to the surface than `o + t·d`.
-    pub position: Vec3,
     /// Unit length, by the right-hand rule over A, B, C, whichever side is seen.
     pub geometric_normal: Vec3,
     /// Unit length; equal to the geometric one in flat shading and where no other is known.
@@ -36,8 +32,6 @@ impl SurfaceInteraction {
             }
         };
         Self {
-            hit,
-            position: weighted(weights, mesh.corners(hit.primitive)),
             geometric_normal,
             shading_normal,
             material: mesh

@@ -57,7 +57,8 @@ impl Progress {
         }
     }
 
-    /// Asks the loading thread to stop. It does so within some 50 ms.
+    /// Asks the loading thread to stop. It looks every few thousand steps, but not while tobj numbers
+    /// the vertices at the end of the file: there it may take a second for a million triangles.
     pub fn cancel(&self) {
         self.cancelled.store(true, Relaxed);
     }

@@ -46,7 +46,7 @@ mod tests {
     }
 
     #[test]
-    fn sixteen_samples_fill_a_four_by_four_grid_evenly() {
+    fn samples_fill_the_pixel_evenly() {
         let mut cells = [0; 16];
         for sample in 1..=64 {
             let p = sample_position(UVec2::new(3, 5), sample);

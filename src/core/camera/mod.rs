@@ -25,11 +25,11 @@ pub enum Projection {
     },
 }
 
-/// Why a camera can't be.
+/// Why a camera is refused.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
-    /// A position isn't finite, or too large for f32.
-    #[error("the camera's position or target isn't finite in f32")]
+    /// A position or the orthographic height isn't finite, or too large for f32.
+    #[error("the camera's position, target or height isn't finite in f32")]
     NotFinite,
     /// Eye and target are the same point.
     #[error("the camera's eye and target are the same point")]
@@ -112,21 +112,23 @@ impl Camera {
         if resolution.min_element() == 0 {
             return Err(CameraError::NoPixels);
         }
-        let eye = eye.as_vec3();
-        if !eye.is_finite() {
-            return Err(CameraError::NotFinite);
-        }
         let half_height = match projection {
             Projection::Perspective { fov_y_radians } => (0.5 * fov_y_radians).tan(),
             Projection::Orthographic { height } => 0.5 * height,
         };
         let aspect = f64::from(resolution.x) / f64::from(resolution.y);
+        let half_extent = DVec2::new(half_height * aspect, half_height);
+        // Parallel rays start up to the half extent beside the eye.
+        let eye = eye.as_vec3();
+        if !(eye.abs().max_element() + half_extent.as_vec2().max_element()).is_finite() {
+            return Err(CameraError::NotFinite);
+        }
         Ok(Self {
             eye,
             world_from_camera,
             projection,
             resolution,
-            half_extent: DVec2::new(half_height * aspect, half_height),
+            half_extent,
         })
     }
 
@@ -159,14 +161,15 @@ impl Camera {
         }
     }
 
-    /// Where a point appears, in pixels from the top left corner; `None` if it isn't in front.
+    /// Where a point appears, in pixels from the top left corner; `None` if it isn't in front or not
+    /// finite.
     pub fn pixel_of(&self, point: DVec3) -> Option<DVec2> {
         let in_camera = self.world_from_camera.transpose() * (point - self.eye.as_dvec3());
         let depth = match self.projection {
             Projection::Perspective { .. } => -in_camera.z,
             Projection::Orthographic { .. } => 1.0,
         };
-        if depth <= 0.0 || in_camera.z > 0.0 {
+        if !(depth > 0.0 && in_camera.z <= 0.0 && in_camera.is_finite()) {
             return None;
         }
         let size = self.resolution.as_dvec2();

@@ -41,7 +41,7 @@ pub struct Turntable {
     pub pivot: DVec3,
     /// From the pivot to the eye.
     pub distance: f64,
-    /// Angle about the up axis; 0 looks from the front.
+    /// Angle about the up axis, from 0 to 2π; 0 looks from the front.
     pub yaw_radians: f64,
     /// Angle above the horizon, from −π/2 to π/2.
     pub pitch_radians: f64,
@@ -89,7 +89,7 @@ impl Turntable {
     pub fn frame(&mut self, bounds: Aabb, resolution: UVec2) {
         /// Room between the box and the picture's edge.
         const MARGIN: f64 = 1.06;
-        (self.centre, self.radius) = sphere(bounds);
+        self.set_scene(bounds);
         self.pivot = self.centre;
         let aspect = f64::from(resolution.x.max(1)) / f64::from(resolution.y.max(1));
         let half_height = (0.5 * self.fov_y_radians).tan();
@@ -100,6 +100,11 @@ impl Turntable {
             p.z.max(0.0) + MARGIN * (p.x.abs() / half_width).max(p.y.abs() / half_height)
         });
         self.distance = needed.fold(self.radius, f64::max);
+    }
+
+    /// Goes on from where it stands, with another scene.
+    pub fn set_scene(&mut self, bounds: Aabb) {
+        (self.centre, self.radius) = sphere(bounds);
     }
 
     /// Turns by a drag, in pixels to the right and down.
@@ -116,11 +121,12 @@ impl Turntable {
         self.pivot += (axes.y_axis * drag_px.y - axes.x_axis * drag_px.x) * per_pixel;
     }
 
-    /// Scales the distance by `factor` about `anchor`, which keeps its place in the picture.
+    /// Scales the distance by `factor` about `anchor`, which keeps its place in the picture. Not beyond
+    /// the limits, nor by a factor or about an anchor that isn't finite.
     pub fn zoom(&mut self, factor: f64, anchor: DVec3) {
         let nearest = Self::NEAREST * (self.radius + (self.pivot - self.centre).length());
         let distance = (self.distance * factor).clamp(nearest, Self::FARTHEST * self.radius);
-        if distance.is_finite() {
+        if distance.is_finite() && anchor.is_finite() {
             let scale = distance / self.distance;
             self.pivot = anchor + (self.pivot - anchor) * scale;
             self.distance = distance;
@@ -160,7 +166,8 @@ impl Turntable {
     pub fn camera(&self, resolution: UVec2) -> Camera {
         let axes = self.world_from_camera();
         let (projection, distance) = if self.is_orthographic {
-            let height = self.height_at_pivot();
+            // Also the widest picture's rays then start where f32 can hold it.
+            let height = self.height_at_pivot().min(f64::from(f32::MAX) / 1e5);
             let outside = 2.0 * self.radius + (self.pivot - self.centre).length();
             (
                 Projection::Orthographic { height },
@@ -170,7 +177,7 @@ impl Turntable {
             let fov_y_radians = self.fov_y_radians;
             (Projection::Perspective { fov_y_radians }, self.distance)
         };
-        let limit = DVec3::splat(f64::from(f32::MAX));
+        let limit = DVec3::splat(f64::from(f32::MAX) / 2.0);
         let eye = (self.pivot + axes.z_axis * distance).clamp(-limit, limit);
         Camera::from_axes(eye, axes, projection, resolution.max(UVec2::ONE))
             .expect("the eye is finite, the projection within its limits")
@@ -296,6 +303,21 @@ mod tests {
                 let ray = turntable.camera(SIZE).ray_through(DVec2::ZERO);
                 assert!(ray.origin.is_finite() && ray.dir.is_normalized());
             }
+        }
+    }
+
+    #[test]
+    fn the_largest_scene_that_f32_holds_can_be_looked_at() {
+        let scene = Aabb::around([Vec3::splat(-3e38), Vec3::splat(3e38)]);
+        let mut turntable = Turntable::framing(scene, SIZE);
+        for is_orthographic in [false, true] {
+            turntable.is_orthographic = is_orthographic;
+            turntable.pan(DVec2::new(1e3, 1e3), SIZE);
+            turntable.zoom(1.1, turntable.pivot);
+            let ray = turntable
+                .camera(UVec2::new(3000, 1))
+                .ray_through(DVec2::ZERO);
+            assert!(ray.origin.is_finite() && ray.dir.is_normalized(), "{ray:?}");
         }
     }
 

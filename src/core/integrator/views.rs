@@ -2,6 +2,7 @@
 
 use super::Context;
 use super::palette::{cost_colour, from_display, id_colour};
+use crate::camera::Projection;
 use crate::interaction::SurfaceInteraction;
 use crate::ray::Ray;
 use glam::Vec3;
@@ -31,8 +32,13 @@ pub(super) fn depth(context: &Context, ray: &Ray) -> Vec3 {
         .closest_hit(ray)
         .map_or(context.background, |hit| {
             let bounds = context.scene.bounds();
-            // Distance along the ray from its start to the scene's sphere, front and back.
-            let middle = (bounds.centre() - ray.origin).as_dvec3().length();
+            // From the eye, or from its plane, to the scene's sphere, front and back.
+            let camera = &context.camera;
+            let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
+            let middle = match camera.projection() {
+                Projection::Perspective { .. } => from_eye.length(),
+                Projection::Orthographic { .. } => -from_eye.dot(camera.back()),
+            };
             let nearest = (middle - bounds.radius()).max(0.0);
             let distance = f64::from(hit.t) * ray.dir.as_dvec3().length();
             let part = (distance - nearest) / (middle + bounds.radius() - nearest);

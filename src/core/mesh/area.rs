@@ -2,7 +2,7 @@
 
 use glam::Vec3;
 
-/// Whether the corners lie on one line, exactly. Not finite corners: no.
+/// Whether the corners lie on one line, exactly. `false` if a corner isn't finite.
 ///
 /// They do if and only if their three projections along the axes do; each projection is an
 /// orientation test, whose terms are products of two f32 and so exact in f64.
@@ -22,7 +22,8 @@ fn is_flat([a, b, c]: [[f64; 2]; 3]) -> bool {
         c[0] * a[1],
         -(c[1] * a[0]),
     ];
-    // Six terms, five roundings: an error of at most 5·2⁻⁵³·Σ|term|, and a little for its own sake.
+    // Six terms, five roundings: an error of at most 5·2⁻⁵³·Σ|term|; 8ε = 16·2⁻⁵³ also covers the
+    // rounding of the sum of sizes.
     let sum: f64 = terms.iter().sum();
     let size: f64 = terms.iter().map(|x| x.abs()).sum();
     if sum.abs() > 8.0 * f64::EPSILON * size {

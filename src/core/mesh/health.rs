@@ -1,11 +1,11 @@
 //! Is a mesh healthy: closed, manifold, consistently wound, free of slivers?
 
-use super::TriangleMesh;
+use super::{TriangleMesh, place};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// A triangle whose longest edge is more than this many times its height is counted as a sliver.
-/// From aspect 1e3 on, f32 kernels decide some 0.05 % of the rays wrongly; the counts are a warning.
+/// A triangle whose longest edge is more than this many times its height is counted as a sliver: from
+/// there on f32 kernels decide some rays wrongly, so the count is a warning.
 pub const SLIVER_ASPECT: f64 = 1e3;
 
 /// What is unusual about a mesh.
@@ -52,7 +52,6 @@ struct EdgeUse {
 }
 
 fn edge_uses(mesh: &TriangleMesh) -> HashMap<[[u32; 3]; 2], EdgeUse> {
-    let place = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
     let mut edges: HashMap<_, EdgeUse> = HashMap::with_capacity(mesh.triangles.len() * 3 / 2);
     for triangle in 0..mesh.triangles.len() as u32 {
         let corners = mesh.corners(triangle).map(place);

@@ -14,6 +14,11 @@ pub use normals::VertexNormals;
 use crate::aabb::Aabb;
 use glam::{DVec3, Vec3};
 
+/// A place as bits that can be compared and hashed; −0 is the same place as 0.
+fn place(p: Vec3) -> [u32; 3] {
+    (p + Vec3::ZERO).to_array().map(f32::to_bits)
+}
+
 /// Marks a corner without a normal in [`TriangleMesh::corner_normals`].
 pub const NO_NORMAL: u32 = u32::MAX;
 
@@ -79,6 +84,11 @@ impl TriangleMesh {
     pub fn bounds(&self) -> Aabb {
         let used = self.triangles.iter().flatten();
         Aabb::around(used.map(|&v| self.positions[v as usize]))
+    }
+
+    /// A point of the mesh in the file's coordinates.
+    pub fn in_file(&self, p: DVec3) -> DVec3 {
+        p + self.origin
     }
 
     /// The unit normal by the right-hand rule over A, B, C, rounded to f32.

@@ -1,6 +1,6 @@
 //! Normals at vertices, for smooth shading and to be shown.
 
-use super::{NO_NORMAL, TriangleMesh};
+use super::{NO_NORMAL, TriangleMesh, place};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
@@ -29,7 +29,11 @@ impl VertexNormals {
         } else {
             computed(mesh)
         };
-        let from_file = |index: u32| mesh.normals[index as usize].normalize_or_zero();
+        // In f64, where the length of an f32 vector neither under- nor overflows.
+        let from_file = |index: u32| {
+            let normal = mesh.normals[index as usize].as_dvec3();
+            normal.normalize_or_zero().as_vec3()
+        };
         let corners = mesh.triangles.iter().enumerate().map(|(triangle, corner)| {
             if has_normal(triangle) {
                 mesh.corner_normals[triangle].map(from_file)
@@ -64,12 +68,11 @@ fn computed(mesh: &TriangleMesh) -> Vec<Vec3> {
     place.iter().map(normal).collect()
 }
 
-/// For each vertex the first one at the same place. −0 is the same place as 0.
+/// For each vertex the first one at the same place.
 fn places(positions: &[Vec3]) -> Vec<u32> {
     let mut first = HashMap::with_capacity(positions.len());
-    let bits = |p: Vec3| (p + Vec3::ZERO).to_array().map(f32::to_bits);
-    let place = |(vertex, &p): (usize, &Vec3)| *first.entry(bits(p)).or_insert(vertex as u32);
-    positions.iter().enumerate().map(place).collect()
+    let first = |(vertex, &p): (usize, &Vec3)| *first.entry(place(p)).or_insert(vertex as u32);
+    positions.iter().enumerate().map(first).collect()
 }
 
 #[cfg(test)]

@@ -40,7 +40,7 @@ pub(super) fn assemble(
         mesh.material.push(face_material.of(face as usize));
         mesh.group.push(face_group.of(face as usize));
     }
-    require_content(&mesh, facts, parsed)?;
+    require_content(&mesh, facts)?;
     Ok(Loaded {
         max_rounding: max_rounding(&mesh, &exact),
         mesh,
@@ -230,7 +230,7 @@ fn materials(
     library: Library,
     warnings: &mut Vec<Warning>,
 ) -> (Vec<Material>, Runs) {
-    let mut known = Vec::new();
+    let mut known: Vec<Material> = Vec::new();
     for (line, name) in &facts.libraries {
         match library(name) {
             Ok(bytes) => known.extend(mtl::parse(&bytes)),
@@ -241,6 +241,17 @@ fn materials(
         }
     }
     let (names, runs) = named_runs(&facts.face_materials, "");
+    let is_unknown = |name: &&String| !name.is_empty() && known.iter().all(|m| m.name != **name);
+    let unknown: Vec<&String> = names.iter().filter(is_unknown).collect();
+    if let Some(first) = unknown.first() {
+        warnings.push(Warning {
+            line: None,
+            message: format!(
+                "{} material(s) without a definition, “{first}” first",
+                unknown.len()
+            ),
+        });
+    }
     let materials = names.into_iter().map(|name| Material {
         diffuse: known
             .iter()
@@ -252,25 +263,19 @@ fn materials(
 }
 
 /// A mesh without triangles is an error that says why.
-fn require_content(mesh: &TriangleMesh, facts: &Facts, parsed: &tobj::Mesh) -> Result<(), Problem> {
+fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
     if !mesh.triangles.is_empty() {
         return Ok(());
     }
-    let message = if mesh.dropped.non_finite > 0 {
-        let bad = parsed.positions.iter().position(|x| !x.is_finite());
-        let line = facts.face_line(0);
-        let what = if bad.is_some() {
-            "NaN or infinite"
-        } else {
-            "too large for f32"
-        };
-        let message = format!("no triangle is left: every face uses a vertex that is {what}");
-        return Err(Problem::Line(line, message));
-    } else if mesh.dropped.zero_area > 0 {
-        format!(
-            "no triangle is left: all {} have zero area",
-            mesh.dropped.zero_area
-        )
+    let Dropped {
+        zero_area,
+        non_finite,
+    } = mesh.dropped;
+    let message = if zero_area + non_finite > 0 {
+        let message = format!(
+            "no triangle is left: {zero_area} have zero area, {non_finite} a corner that is NaN, infinite or too large for f32"
+        );
+        return Err(Problem::Line(facts.face_line(0), message));
     } else if facts.vertex_count > 0 {
         format!(
             "{} vertices, but no face: there is nothing to show",

@@ -39,7 +39,7 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
     /// `v` statements in the file.
     pub vertex_count: usize,
-    /// The largest distance, in a coordinate, between the file's decimals and what is traced.
+    /// The largest distance, in a coordinate, between the file's numbers in f64 and what is traced.
     pub max_rounding: f64,
 }
 
@@ -64,8 +64,19 @@ pub fn load(path: &Path, recentre: Recentre, progress: &Progress) -> Result<Load
     progress.set_total(info.len());
     let file = File::open(path).map_err(unreadable)?;
     let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let library = |name: &str| std::fs::read(folder.join(name.replace('\\', "/")));
+    let library = |name: &str| read_library(&folder.join(name.replace('\\', "/")));
     parse(file, path, recentre, &library, progress)
+}
+
+/// A material library; only a regular file of sensible size, so that loading ends.
+fn read_library(path: &Path) -> io::Result<Vec<u8>> {
+    /// A thousand times the largest one seen.
+    const LARGEST: u64 = 64 << 20;
+    let info = std::fs::metadata(path)?;
+    if !info.is_file() || info.len() > LARGEST {
+        return Err(io::Error::other("not a file of at most 64 MB"));
+    }
+    std::fs::read(path)
 }
 
 /// Parses an OBJ from bytes; `path` is what errors call it.

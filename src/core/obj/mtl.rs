@@ -1,5 +1,6 @@
 //! Materials from a library: their names and diffuse colours, which is all that shading asks for.
 
+use super::reader::statement_of;
 use crate::mesh::Material;
 use glam::Vec3;
 
@@ -8,11 +9,11 @@ use glam::Vec3;
 /// tobj sees only `newmtl` and a `Kd` of three numbers: it panics on the legal `Kd 0.5` and drops
 /// the whole library for statements that it doesn't know. A colour that can't be read is left out.
 pub(super) fn parse(bytes: &[u8]) -> Vec<Material> {
-    let text = String::from_utf8_lossy(bytes);
+    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
     let mut plain = String::new();
-    for line in text.lines() {
-        let (keyword, rest) = line
-            .trim()
+    for line in bytes.split(|b| matches!(b, b'\n' | b'\r')) {
+        let statement = statement_of(line);
+        let (keyword, rest) = statement
             .split_once(char::is_whitespace)
             .unwrap_or_default();
         let rest = rest.trim();
@@ -54,10 +55,10 @@ mod tests {
 
     #[test]
     fn odd_statements_do_not_cost_the_other_materials() {
-        let text = "newmtl a b\nKd 0.5\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\n";
+        let text = "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\n";
         let materials = parse(text.as_bytes());
         let names: Vec<&str> = materials.iter().map(|m| m.name.as_str()).collect();
-        assert_eq!(names, ["a b", "c", "d"]);
+        assert_eq!(names, ["a #1", "c", "d"]);
         assert_eq!(materials[0].diffuse, Some(Vec3::splat(0.5)));
         assert_eq!(materials[1].diffuse, Some(Vec3::X));
         assert_eq!(materials[2].diffuse, None);

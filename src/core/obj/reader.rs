@@ -90,8 +90,7 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
         Ok(())
     }
 
-    /// The next line without comment, byte order mark and line end. Lines end in LF, CR or CRLF;
-    /// bytes that aren't UTF-8 are read as Latin-1.
+    /// The next line's statement, without a byte order mark. Lines end in LF, CR or CRLF.
     fn next_line(&mut self, text: &mut String) -> Result<bool, Problem> {
         let mut searched = 0;
         let (end, next) = loop {
@@ -119,12 +118,7 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
                 return Err(Problem::Content(message.to_owned()));
             }
         }
-        let bytes = bytes.split(|&b| b == b'#').next().unwrap_or_default();
-        text.clear();
-        match str::from_utf8(bytes) {
-            Ok(valid) => text.push_str(valid.trim()),
-            Err(_) => text.extend(bytes.iter().map(|&b| char::from(b))),
-        }
+        *text = statement_of(bytes);
         self.start += next;
         Ok(true)
     }
@@ -265,7 +259,8 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
         } else {
             index
         };
-        if resolved <= 0 {
+        // More than u32 holds no file can have, and tobj multiplies them unchecked.
+        if resolved <= 0 || resolved > i64::from(u32::MAX) {
             return Err(out_of_range(what, index, count));
         }
         let resolved = resolved as usize;
@@ -309,6 +304,22 @@ fn out_of_range(what: &str, index: i64, count: usize) -> String {
         0 => format!("{what} index 0; indices start at 1"),
         _ => format!("{what} index {index} is out of range: there are {count}"),
     }
+}
+
+/// A line without blanks around it and without a comment. Names keep their `#`, as exporters write
+/// `usemtl Material #27`. Bytes that aren't UTF-8 are read as Latin-1.
+pub(super) fn statement_of(line: &[u8]) -> String {
+    let text = match str::from_utf8(line) {
+        Ok(text) => text.to_owned(),
+        Err(_) => line.iter().map(|&b| char::from(b)).collect(),
+    };
+    let keyword = text.split_whitespace().next().unwrap_or_default();
+    let is_name = ["o", "g", "usemtl", "mtllib", "newmtl"].contains(&keyword);
+    let statement = match text.split_once('#') {
+        Some((before, _)) if !is_name => before,
+        _ => &text,
+    };
+    statement.trim().to_owned()
 }
 
 /// What a file is, if its first line shows that it is no OBJ.

@@ -30,7 +30,7 @@ fn odd_spelling_is_read() {
         b"v 0 0 0\r\nv 1 0 0\r\nv 0 1 0\r\nf 1 2 3",
         b"v 0 0 0\rv 1 0 0\rv 0 1 0\rf 1 2 3\r",
         b"v 0 0 0 # first\nv +1 .0 0e-3\nv\t0 1 0\t\nf 1 2 \\\n 3\n",
-        b"# Latin-1: \xe9\no caf\xe9\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n",
+        b"# Latin-1: \xe9\n  o caf\xe9  \nv 0 0 0\nv 1 0 0\nv 0 1 0\nf -3 -2 -1\n",
         b"v 0 0 0 1\nv 1 0 0 0.5 0.5 0.5\nv 0 1 0 1 1 1 1\nf 1 2 3\n",
         b"f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n",
         b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1/1 2/2 3/3\n",
@@ -46,6 +46,14 @@ fn odd_spelling_is_read() {
 #[test]
 fn errors_name_the_line_and_the_word() {
     let cases = [
+        (
+            "f 1 2 6148914691236517206",
+            "x.obj:4: vertex index 6148914691236517206 is out of range: there are 3",
+        ),
+        (
+            "vn 0 0 1\nf 1//6148914691236517206 2//1 3//1",
+            "x.obj:5: normal index 6148914691236517206 is out of range: there are 1",
+        ),
         (
             "f 1 2 4",
             "x.obj:4: vertex index 4 is out of range: there are 3",
@@ -85,11 +93,11 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1 1 2",
-            "x.obj: no triangle is left: all 1 have zero area",
+            "x.obj:4: no triangle is left: 1 have zero area, 0 a corner that is NaN, infinite or too large for f32",
         ),
         (
             "v nan 0 0\nf 1 2 4",
-            "x.obj:5: no triangle is left: every face uses a vertex that is NaN or infinite",
+            "x.obj:5: no triangle is left: 0 have zero area, 1 a corner that is NaN, infinite or too large for f32",
         ),
     ];
     for (statement, expected) in cases {
@@ -191,7 +199,7 @@ fn polygons_keep_their_id_and_hide_their_diagonals() {
 #[test]
 fn names_normals_and_materials_go_to_their_faces() {
     let text = format!(
-        "mtllib a b.mtl\nmtllib missing.mtl\n{TRIANGLE}vn 0 0 2\nf 1 2 3\ng left side\nusemtl red\nf 1//1 2//1 3//1\nusemtl blue\nf 1//1 2 3//1\nl 1 2\nl 2 3\ncurv 1\n"
+        "mtllib a b.mtl\nmtllib missing.mtl\n{TRIANGLE}vn 0 0 2\nf 1 2 3\ng left side #2\nusemtl red\nf 1//1 2//1 3//1\nusemtl blue\nf 1//1 2 3//1\nl 1 2\nl 2 3\ncurv 1\n"
     );
     let loaded = load_text(&text).expect("good");
     let mesh = &loaded.mesh;
@@ -202,12 +210,16 @@ fn names_normals_and_materials_go_to_their_faces() {
     );
     assert_eq!(material(1).diffuse, Some(Vec3::X));
     assert_eq!(material(2).diffuse, None);
-    assert_eq!(mesh.groups[mesh.group[1] as usize], "left side");
+    assert_eq!(mesh.groups[mesh.group[1] as usize], "left side #2");
     assert_eq!(mesh.corner_normals, [[u32::MAX; 3], [0; 3], [u32::MAX; 3]]);
     let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    assert_eq!(warnings.len(), 4, "{warnings:?}");
     assert_eq!(warnings[0], "line 15: 1 “curv” statement(s) ignored");
     assert_eq!(warnings[1], "line 13: 2 “l” statement(s) ignored");
+    assert_eq!(
+        warnings[3],
+        "1 material(s) without a definition, “blue” first"
+    );
     assert!(warnings[2].starts_with("line 2: material library “missing.mtl”: "));
 }
 

@@ -2,9 +2,10 @@
 
 use super::plan::{Plan, Unit};
 use super::worker::{Message, Renderer};
+use crate::camera::Projection;
 use crate::film::{Film, FixedRgb, TileSamples, fixed};
 use crate::integrator::{Context, Integrator};
-use glam::UVec2;
+use glam::{DVec3, UVec2};
 use std::any::Any;
 use std::cell::Cell;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -38,7 +39,7 @@ pub struct TileResult {
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "rendering failed at pixel {},{}, sample {sample}, kernel {kernel}: {message}; \
-     to see that ray alone: hitscope inspect FILE --pixel {},{} --kernel {kernel}",
+     to see that pixel's first ray: hitscope inspect FILE --pixel {},{} --kernel {kernel} {camera}",
     pixel.x, pixel.y, pixel.x, pixel.y
 )]
 pub struct RenderPanic {
@@ -50,6 +51,8 @@ pub struct RenderPanic {
     pub kernel: &'static str,
     /// What the panic said.
     pub message: String,
+    /// The camera, as arguments of a command.
+    pub camera: String,
 }
 
 impl Job {
@@ -66,6 +69,7 @@ impl Job {
             sample: at.get().1,
             kernel: self.context.intersector.kernel().name,
             message: message_of(&*panic),
+            camera: camera_arguments(&self.context),
         })
     }
 
@@ -126,6 +130,28 @@ pub fn render(job: Job, threads: usize) -> Result<Film, RenderPanic> {
         }
     }
     Ok(film)
+}
+
+/// The camera as the command line takes it, in the file's coordinates.
+fn camera_arguments(context: &Context) -> String {
+    let camera = &context.camera;
+    let list = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);
+    let eye = context.scene.mesh().in_file(camera.eye().as_dvec3());
+    let size = camera.resolution();
+    let projection = match camera.projection() {
+        Projection::Perspective { fov_y_radians } => {
+            format!("--fov {}", fov_y_radians.to_degrees())
+        }
+        Projection::Orthographic { height } => format!("--ortho {height}"),
+    };
+    format!(
+        "--size {}x{} --eye {} --target {} --up {} {projection}",
+        size.x,
+        size.y,
+        list(eye),
+        list(eye - camera.back()),
+        list(camera.up())
+    )
 }
 
 fn message_of(panic: &(dyn Any + Send)) -> String {
