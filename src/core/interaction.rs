@@ -60,6 +60,43 @@ fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::TriangleMesh;
+    use crate::progress::Progress;
+
+    /// A triangle in z = 0 whose corners have normals of their own.
+    fn scene() -> Scene {
+        let mesh = TriangleMesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
+            triangles: vec![[0, 1, 2]],
+            normals: vec![Vec3::X, Vec3::Y, Vec3::Z],
+            corner_normals: vec![[0, 1, 2]],
+            ..TriangleMesh::default()
+        };
+        Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+    }
+
+    #[test]
+    fn the_normal_of_the_nearest_corner_weighs_most_and_faces_the_viewer() {
+        let scene = scene();
+        let hit = Hit {
+            t: 1.0,
+            u: 0.125,
+            v: 0.625,
+            primitive: 0,
+        };
+        let flat = SurfaceInteraction::new(&scene, hit, Shading::Flat);
+        assert_eq!(
+            (flat.geometric_normal, flat.shading_normal),
+            (Vec3::Z, Vec3::Z)
+        );
+        let smooth = SurfaceInteraction::new(&scene, hit, Shading::Smooth);
+        let expected = Vec3::new(0.25, 0.125, 0.625).normalize();
+        assert!((smooth.shading_normal - expected).length() < 1e-6);
+        for (dir, side) in [(Vec3::NEG_Z, 1.0), (Vec3::Z, -1.0)] {
+            let ray = Ray::new(Vec3::ZERO, dir).expect("a ray");
+            assert_eq!(smooth.facing_normal(&ray), side * smooth.shading_normal);
+        }
+    }
 
     #[test]
     fn the_weights_go_to_the_right_corners() {

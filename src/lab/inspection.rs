@@ -1,7 +1,7 @@
 //! What happens to this ray? The hit, the exact answer, and every kernel beside it.
 
 use crate::oracle::{self, ExactHit, Fraction};
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{UVec2, Vec2, Vec3};
 use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Cost;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
@@ -96,7 +96,7 @@ pub struct KernelRow {
     /// Weights of the three corners.
     pub barycentric: Option<[f32; 3]>,
     /// |t − exact t| in units in the last place of f32, against the same triangle's exact answer;
-    /// none if exactly the triangle isn't hit.
+    /// `None` if exact arithmetic says that the ray misses it.
     pub t_error_ulps: Option<f64>,
     /// The largest error of a weight, likewise.
     pub barycentric_error: Option<f64>,
@@ -232,13 +232,40 @@ fn errors(hit: &Hit, exact: &ExactHit) -> (f64, f64) {
 
 /// A point of the mesh in the file's coordinates.
 fn in_file(mesh: &TriangleMesh, p: Vec3) -> [f64; 3] {
-    (p.as_dvec3() + mesh.origin).to_array()
+    mesh.in_file(p.as_dvec3()).to_array()
 }
 
 /// Where a hit lies, in the file's coordinates, from its weights in f64.
 pub fn position_in_file(mesh: &TriangleMesh, hit: &Hit) -> [f64; 3] {
     let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-    let p: DVec3 = a + u * (b - a) + v * (c - a);
-    (p + mesh.origin).to_array()
+    mesh.in_file(a + u * (b - a) + v * (c - a)).to_array()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn errors_are_counted_in_units_of_the_exact_values_last_place() {
+        let corners = [
+            Vec3::ZERO,
+            Vec3::new(4.0, 0.0, 0.0),
+            Vec3::new(0.0, 4.0, 0.0),
+        ];
+        let ray = Ray::new(Vec3::new(1.0, 2.0, 3.0), Vec3::NEG_Z).expect("a ray");
+        let exact = oracle::intersect(&ray, corners).expect("inside");
+        let hit = |t: f32, u: f32| Hit {
+            t,
+            u,
+            v: 0.5,
+            primitive: 0,
+        };
+        assert_eq!(errors(&hit(3.0, 0.25), &exact), (0.0, 0.0));
+        let off = errors(&hit(3.0f32.next_up().next_up(), 0.25), &exact);
+        assert_eq!(off, (2.0, 0.0));
+        // u a little too large makes the first weight as much too small.
+        let (t, weights) = errors(&hit(3.0, 0.25 + 0.03125), &exact);
+        assert_eq!((t, weights), (0.0, 0.03125));
+    }
 }

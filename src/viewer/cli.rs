@@ -2,12 +2,14 @@
 
 use crate::app::{App, StartOptions};
 use crate::document::embedded_scene;
+use crate::gpu::GpuError;
 use crate::offscreen;
+use crate::overlay::wireframe::Edges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use hitscope_lab::commands::{
-    CommandError, InfoArgs, InspectArgs, RenderArgs, TraceArgs, load, write_png,
+    CommandError, InfoArgs, InspectArgs, PictureArgs, RenderArgs, TraceArgs, load, write_png,
 };
 use std::io::{BufWriter, ErrorKind, Write, stdout};
 use std::path::{Path, PathBuf};
@@ -74,11 +76,19 @@ impl Command {
 }
 
 fn render(args: &RenderArgs) -> Result<(), CommandError> {
+    let failed = |error: GpuError| CommandError::Other(error.to_string());
+    // Before the long work: without an adapter there is none to be done.
+    let needs_gpu = args.wireframe || args.normals;
+    let gpu = needs_gpu
+        .then(offscreen::device)
+        .transpose()
+        .map_err(failed)?;
     let rendered = args.trace()?;
     let mut pixels = rendered.film.pixels().to_vec();
-    if args.wireframe || args.normals {
-        offscreen::draw_over(&mut pixels, &rendered, args.wireframe, args.normals)
-            .map_err(|error| CommandError::Other(error.to_string()))?;
+    if let Some(gpu) = &gpu {
+        let edges = args.wireframe.then_some(Edges::Polygons);
+        let normals = args.normals.then_some(rendered.shading);
+        offscreen::draw_over(gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
     }
     write_png(&args.output, rendered.film.size(), &pixels)
 }
@@ -133,14 +143,13 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
 fn render_instead(file: Option<&Path>) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
     let input = file.unwrap_or(Path::new("the built-in scene"));
-    let args = ["render", "-o", OUTPUT, "--"].map(Into::into).into_iter();
-    let args = args.chain([input.as_os_str().to_owned()]);
-    let args = <RenderCommand as Parser>::parse_from(args).args;
     let loaded = match file {
         Some(path) => load(path, hitscope_core::obj::Recentre::Auto)?,
         None => embedded_scene(),
     };
-    let rendered = args.trace_scene(loaded)?;
+    let rendered = PictureDefaults::parse_from(["hitscope"])
+        .picture
+        .trace(loaded)?;
     write_png(
         Path::new(OUTPUT),
         rendered.film.size(),
@@ -155,11 +164,11 @@ fn render_instead(file: Option<&Path>) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// `render` by itself, for its defaults.
+/// A picture of which nothing is said.
 #[derive(Parser)]
-struct RenderCommand {
+struct PictureDefaults {
     #[command(flatten)]
-    args: RenderArgs,
+    picture: PictureArgs,
 }
 
 /// As eframe has it, but for the largest buffers that the adapter grants: a mesh may need them.

@@ -88,10 +88,15 @@ impl Document {
         if let Some((name, task)) = &self.packing
             && *name == kernel.info.name
         {
-            if let Some(intersector) = task.poll()? {
-                self.intersector = Arc::from(intersector);
-                self.packing = None;
+            match task.poll() {
+                Ok(None) => return Ok(()),
+                Ok(Some(intersector)) => self.intersector = Arc::from(intersector),
+                Err(broken) => {
+                    self.packing = None;
+                    return Err(broken);
+                }
             }
+            self.packing = None;
         } else if self.intersector.kernel().name != kernel.info.name {
             let scene = Arc::clone(&self.loaded.scene);
             let pack = move || scene.intersector(kernel);

@@ -8,6 +8,7 @@
 //! | [`bindings`] | which key does what? |
 //! | [`document`], [`opening`] | what is open, and how does a file get there? |
 //! | [`tracer`] | what is being traced? |
+//! | [`task`] | what runs in the background? |
 //! | [`overlay`], [`gpu`] | how does the picture get on the screen, and what is drawn over it? |
 //! | [`panels`], [`settings`] | what can be read and chosen at the side? |
 //! | [`offscreen`], [`screenshot`] | how do pictures get into files? |

@@ -6,6 +6,8 @@ use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
 use crate::overlay::wireframe::{self, Edges};
 use crate::overlay::{Options, normals};
+use glam::UVec2;
+use hitscope_core::scene::Shading;
 use hitscope_lab::commands::Rendered;
 
 /// Draws edges and normals over a rendered picture.
@@ -13,29 +15,30 @@ use hitscope_lab::commands::Rendered;
 /// # Errors
 /// See [`GpuError`]: without an adapter there is nothing to draw with.
 pub fn draw_over(
+    (device, queue): &(wgpu::Device, wgpu::Queue),
     pixels: &mut [[u8; 4]],
     rendered: &Rendered,
-    wireframe: bool,
-    normals: bool,
+    wireframe: Option<Edges>,
+    normals: Option<Shading>,
 ) -> Result<(), GpuError> {
-    let (device, queue) = device()?;
+    require_size(device, rendered.film.size())?;
     let scene = &rendered.loaded.scene;
     let options = Options {
-        wireframe: wireframe.then_some(Edges::Polygons),
+        wireframe,
         wire_colour: crate::settings::Settings::default().wire_colour,
-        normals: normals.then_some(rendered.shading),
+        normals,
         normal_length: crate::settings::Settings::default().normal_length,
         picked: None,
         line_width_px: 1.0,
     };
-    let mut overlay = Overlay::new(&device);
+    let mut overlay = Overlay::new(device);
     let mut sets = Vec::new();
     if let Some(edges) = options.wireframe {
         let lines = wireframe::lines(scene.mesh(), edges);
         sets.push(
             overlay
                 .lines()
-                .upload(&device, &queue, &lines, &options.wire_style())?,
+                .upload(device, queue, &lines, &options.wire_style())?,
         );
     }
     if let Some(shading) = options.normals {
@@ -43,18 +46,38 @@ pub fn draw_over(
         sets.push(
             overlay
                 .lines()
-                .upload(&device, &queue, &lines, &options.normal_style())?,
+                .upload(device, queue, &lines, &options.normal_style())?,
         );
     }
     let sets: Vec<_> = sets.iter().map(|set| (set, Visibility::Hidden)).collect();
-    let mesh = DepthMesh::new(&device, scene.mesh())?;
+    let mesh = DepthMesh::new(device, scene.mesh())?;
     let view = ViewUniform::new(&rendered.camera, &scene.bounds());
-    let texture = overlay.draw(&device, &queue, &view, &mesh, &sets);
-    let drawn = read_back(&device, &queue, texture)?;
+    let texture = overlay.draw(device, queue, &view, &mesh, &sets);
+    let drawn = read_back(device, queue, texture)?;
     for (under, over) in pixels.iter_mut().zip(drawn) {
         *under = blend(*under, over);
     }
     Ok(())
+}
+
+/// Whether the device takes a picture of this size, and gives it back.
+fn require_size(device: &wgpu::Device, size: UVec2) -> Result<(), GpuError> {
+    let (limits, side) = (device.limits(), size.max_element());
+    let bytes = row_bytes(size.x) * u64::from(size.y);
+    if side > limits.max_texture_dimension_2d || bytes > limits.max_buffer_size {
+        return Err(GpuError::PictureTooLarge {
+            width: size.x,
+            height: size.y,
+            side: limits.max_texture_dimension_2d,
+            bytes: limits.max_buffer_size,
+        });
+    }
+    Ok(())
+}
+
+/// Bytes of a row in a buffer that a texture is copied to.
+fn row_bytes(width: u32) -> u64 {
+    (4 * u64::from(width)).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT.into())
 }
 
 /// A device with the largest buffers that the adapter grants.
@@ -92,10 +115,10 @@ pub fn read_back(
     texture: &wgpu::Texture,
 ) -> Result<Vec<[u8; 4]>, GpuError> {
     let (width, height) = (texture.width(), texture.height());
-    let row = (4 * width).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT);
+    let row = row_bytes(width);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),
-        size: u64::from(row) * u64::from(height),
+        size: row * u64::from(height),
         usage: wgpu::BufferUsages::COPY_DST | wgpu::BufferUsages::MAP_READ,
         mapped_at_creation: false,
     });
@@ -106,7 +129,7 @@ pub fn read_back(
             buffer: &buffer,
             layout: wgpu::TexelCopyBufferLayout {
                 offset: 0,
-                bytes_per_row: Some(row),
+                bytes_per_row: Some(row as u32),
                 rows_per_image: None,
             },
         },

@@ -37,6 +37,17 @@ impl Screenshot {
         }
     }
 
+    /// Closes the window: there is nothing to take a picture of.
+    pub fn fail(&self, ctx: &egui::Context, message: String) {
+        let mut outcome = self
+            .options
+            .outcome
+            .lock()
+            .unwrap_or_else(PoisonError::into_inner);
+        *outcome = Some(Err(message));
+        ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+    }
+
     /// Takes the picture when it is time, and closes the window when it is written.
     pub fn step(&mut self, ctx: &egui::Context, is_settled: bool) {
         if self.is_requested {

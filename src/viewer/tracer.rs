@@ -8,7 +8,7 @@ use hitscope_core::film::PixelRect;
 use hitscope_core::integrator::{Context, Integrator};
 use hitscope_core::render::plan::{Plan, STEPS};
 use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
-use hitscope_core::{Camera, Film};
+use hitscope_core::{Camera, Film, Scene};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -75,8 +75,8 @@ pub struct Tracer {
     renderer: Renderer,
     film: Film,
     posted: Option<Posted>,
-    /// Of the picture that is shown: the newest one whose first pass is done.
-    shown: Option<Camera>,
+    /// What the shown picture is of: the newest one whose first pass is done.
+    shown: Option<(Arc<Scene>, Camera)>,
     shown_at: Option<Instant>,
     frame_interval: Option<Duration>,
     changed: Option<PixelRect>,
@@ -91,7 +91,7 @@ pub struct Tracer {
 }
 
 impl Tracer {
-    /// Starts the threads, one a core.
+    /// Starts so many threads.
     pub fn new(threads: usize, ctx: &egui::Context) -> Self {
         let ctx = ctx.clone();
         Self {
@@ -131,25 +131,28 @@ impl Tracer {
         self.end_hold(ctx);
         if self.film.passes_done() > 0
             && let Some(posted) = &self.posted
-            && self.shown != Some(posted.request.context.camera)
+            && !self.is_shown(&posted.request.context)
         {
             let now = Instant::now();
             // After a rest it isn't a frame of a movement.
             self.frame_interval = self.shown_at.map(|last| now - last).filter(|i| *i < MOVING);
             self.shown_at = Some(now);
-            self.shown = Some(posted.request.context.camera);
+            let Context { scene, camera, .. } = &posted.request.context;
+            self.shown = Some((Arc::clone(scene), *camera));
         }
         panics
     }
 
     /// Lets refinement begin once the view has been at rest.
     fn end_hold(&mut self, ctx: &egui::Context) {
+        if !self.is_held {
+            return;
+        }
         let since = self
             .posted
             .as_ref()
             .map_or(REST, |posted| posted.at.elapsed());
-        if !self.is_held {
-        } else if since < REST {
+        if since < REST {
             ctx.request_repaint_after(REST - since);
         } else {
             self.is_held = false;
@@ -191,6 +194,7 @@ impl Tracer {
             self.film = Film::new(plan.clone(), background);
             self.changed = None;
         }
+        self.non_finite = 0;
         self.is_held = true;
         self.apply_pause();
         self.renderer.post(Job {
@@ -233,14 +237,22 @@ impl Tracer {
         Some((&self.film, changed))
     }
 
-    /// From where the shown picture was taken; `None` before the first one.
-    pub fn shown_camera(&self) -> Option<&Camera> {
+    fn is_shown(&self, context: &Context) -> bool {
+        let is_same = |(scene, camera): &(Arc<Scene>, Camera)| {
+            Arc::ptr_eq(scene, &context.scene) && *camera == context.camera
+        };
+        self.shown.as_ref().is_some_and(is_same)
+    }
+
+    /// What the shown picture is of, and from where it was taken; `None` before the first one.
+    pub fn shown(&self) -> Option<&(Arc<Scene>, Camera)> {
         self.shown.as_ref()
     }
 
-    /// Whether the picture of the last request is there with all its samples.
-    pub fn is_complete(&self) -> bool {
-        self.posted.is_some() && self.film.is_complete()
+    /// Whether a scene's picture is there with all its samples.
+    pub fn is_complete(&self, scene: &Arc<Scene>) -> bool {
+        let is_of_scene = |posted: &Posted| Arc::ptr_eq(&posted.request.context.scene, scene);
+        self.posted.as_ref().is_some_and(is_of_scene) && self.film.is_complete()
     }
 
     /// The picture as far as it is.
@@ -248,7 +260,7 @@ impl Tracer {
         &self.film
     }
 
-    /// Samples whose colour wasn't finite so far.
+    /// Samples of this picture whose colour wasn't finite.
     pub fn non_finite(&self) -> u64 {
         self.non_finite
     }

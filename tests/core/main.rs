@@ -19,6 +19,8 @@ mod watertight;
 
 // What holds for any triangle and ray: scaling, permuting, reversing.
 mod properties;
+// Any bytes are a mesh or an error, never a panic.
+mod obj;
 
 // 64×64 pictures, compared exactly.
 mod golden;

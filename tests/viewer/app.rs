@@ -1,9 +1,9 @@
 //! The real app, driven by label and key.
 
-use crate::harness::{Window, app, bare, press, wait};
+use crate::harness::{Window, app, bare, press, say, wait};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 use hitscope::app::App;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::INTEGRATORS;
@@ -104,7 +104,7 @@ fn the_dialog_falls_back_to_a_path_that_is_typed() {
         std::thread::sleep(std::time::Duration::from_millis(5));
     }
     if window.query_by_label("Path").is_none() {
-        eprintln!("SKIPPED: this machine has a file dialog");
+        say("SKIPPED: this machine has a file dialog");
         return;
     }
     let path = file.to_str().expect("UTF-8").to_owned();
@@ -269,5 +269,5 @@ fn a_window_of_one_pixel_lives() {
     window.run_steps(5);
     window.set_size(egui::vec2(800.0, 600.0));
     wait(&mut window, "the picture", |app| app.film().samples() > 0);
-    assert!(window.state().document().loaded.scene.bounds().extent() != Vec3::ZERO);
+    assert!(window.state().document().loaded.scene.bounds().extent() != DVec3::ZERO);
 }

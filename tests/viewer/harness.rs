@@ -5,6 +5,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
 use hitscope::offscreen;
+use std::io::Write as _;
 use std::path::PathBuf;
 use std::time::{Duration, Instant};
 
@@ -20,9 +21,14 @@ pub fn require(what: &str, is_there: bool) -> bool {
             !is_required,
             "HITSCOPE_REQUIRE_GPU=1, but there is no {what}"
         );
-        eprintln!("SKIPPED: this test needs {what}");
+        say(&format!("SKIPPED: this test needs {what}"));
     }
     is_there
+}
+
+/// To the terminal itself: the test runner hides what passing tests print.
+pub fn say(text: &str) {
+    _ = writeln!(std::io::stderr(), "{text}");
 }
 
 /// A device, or `None` where the test is to be skipped.

@@ -4,9 +4,10 @@
 //! renderer's rays hit. The two may differ only where a pixel's centre lies on an edge: GPUs place
 //! vertices on a grid of 1/256 pixel, rays don't.
 
-use crate::harness::gpu;
+use crate::harness::{gpu, say};
 use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
 use hitscope::document::embedded_scene;
+use hitscope::gpu::texture;
 use hitscope::gpu::view::{self, ViewBinding, ViewUniform};
 use hitscope::offscreen::read_back;
 use hitscope_core::Scene;
@@ -100,20 +101,8 @@ fn rasterized(
     let view = ViewBinding::new(device);
     view.upload(queue, &ViewUniform::new(camera, &scene.bounds()));
     let target = |format, usage| {
-        device.create_texture(&wgpu::TextureDescriptor {
-            label: None,
-            size: wgpu::Extent3d {
-                width: SIZE.x,
-                height: SIZE.y,
-                depth_or_array_layers: 1,
-            },
-            mip_level_count: 1,
-            sample_count: 1,
-            dimension: wgpu::TextureDimension::D2,
-            format,
-            usage: usage | wgpu::TextureUsages::RENDER_ATTACHMENT,
-            view_formats: &[],
-        })
+        let usage = usage | wgpu::TextureUsages::RENDER_ATTACHMENT;
+        texture(device, "ids", SIZE, format, usage)
     };
     let ids = target(wgpu::TextureFormat::R32Uint, wgpu::TextureUsages::COPY_SRC);
     let depth = target(
@@ -249,7 +238,9 @@ fn rasterized_triangles_are_those_that_rays_hit() {
                     );
                 }
             }
-            eprintln!("{name}, view {view}: {different} of {covered} covered pixels differ");
+            say(&format!(
+                "{name}, view {view}: {different} of {covered} covered pixels differ"
+            ));
             assert!(
                 covered > SIZE.element_product() / 10,
                 "{name}, view {view}: {covered}"

@@ -25,7 +25,7 @@ pub struct CameraArgs {
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub up: Option<DVec3>,
     /// Vertical field of view [default: 40]
-    #[arg(long, value_name = "DEGREES", conflicts_with = "ortho")]
+    #[arg(long, value_name = "DEGREES", conflicts_with = "ortho", value_parser = parse_fov)]
     pub fov: Option<f64>,
     /// Parallel rays, and the height of the picture in the file's units
     #[arg(long, value_name = "HEIGHT")]
@@ -123,6 +123,14 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
     }
 }
 
+/// `40`.
+fn parse_fov(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
+        _ => Err("expected degrees between 0 and 180".to_owned()),
+    }
+}
+
 /// `1,-2.5,3e4`.
 fn parse_vector(text: &str) -> Result<DVec3, String> {
     let numbers: Vec<f64> = text
@@ -149,6 +157,10 @@ mod tests {
         assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
         for bad in ["640", "0x5", "5x99999", "ax5", ""] {
             assert!(parse_size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_fov("40"), Ok(40.0));
+        for bad in ["0", "180", "200", "nan", "-1", ""] {
+            assert!(parse_fov(bad).is_err(), "{bad}");
         }
         assert_eq!(parse_vector("1,-2.5,3e4"), Ok(DVec3::new(1.0, -2.5, 3e4)));
         for bad in ["1,2", "1,2,3,4", "1,2,x", "1,2,nan", ""] {

@@ -89,7 +89,7 @@ impl Info {
         let scene = &loaded.scene;
         let mesh = scene.mesh();
         let bounds = scene.bounds();
-        let in_file = |p: glam::Vec3| (p.as_dvec3() + mesh.origin).to_array();
+        let in_file = |p: glam::Vec3| mesh.in_file(p.as_dvec3()).to_array();
         let intersector = scene.intersector(default_triangle_kernel());
         let mut bytes = BTreeMap::from(mesh.bytes());
         bytes.insert("tree", scene.bvh().bytes());

@@ -6,10 +6,12 @@ mod inspect;
 mod render;
 mod trace;
 
-pub use args::{CameraArgs, KernelArg, ViewArg};
+pub use args::CameraArgs;
 pub use info::InfoArgs;
 pub use inspect::InspectArgs;
-pub use render::{RenderArgs, Rendered, default_thread_count, write_png};
+pub use render::{
+    DARK_BACKGROUND, PictureArgs, RenderArgs, Rendered, default_thread_count, write_png,
+};
 pub use trace::TraceArgs;
 
 use hitscope_core::camera::CameraError;

@@ -22,6 +22,20 @@ pub struct RenderArgs {
     /// The PNG file to write
     #[arg(short, long, value_name = "OUT.png")]
     pub output: PathBuf,
+    /// Picture
+    #[command(flatten)]
+    pub picture: PictureArgs,
+    /// Draw the polygons' edges over it (needs a GPU, or software that acts as one)
+    #[arg(long)]
+    pub wireframe: bool,
+    /// Draw normals over it (likewise)
+    #[arg(long)]
+    pub normals: bool,
+}
+
+/// What a traced picture shows
+#[derive(Args, Clone, Debug)]
+pub struct PictureArgs {
     /// Camera
     #[command(flatten)]
     pub camera: CameraArgs,
@@ -34,12 +48,6 @@ pub struct RenderArgs {
     /// View
     #[command(flatten)]
     pub view: ViewArg,
-    /// Draw the polygons' edges over it (needs a GPU, or software that acts as one)
-    #[arg(long)]
-    pub wireframe: bool,
-    /// Draw normals over it (likewise)
-    #[arg(long)]
-    pub normals: bool,
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
@@ -78,10 +86,8 @@ pub struct Rendered {
     pub shading: Shading,
 }
 
-/// What pictures without a window have behind the mesh, in linear RGB.
-fn background() -> Vec3 {
-    from_display(Vec3::new(0.13, 0.14, 0.16))
-}
+/// What is behind the mesh, in sRGB: the dark theme's, and that of pictures without a window.
+pub const DARK_BACKGROUND: Vec3 = Vec3::new(0.13, 0.14, 0.16);
 
 /// One a core.
 pub fn default_thread_count() -> usize {
@@ -94,15 +100,16 @@ impl RenderArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn trace(&self) -> Result<Rendered, CommandError> {
-        let loaded = load(&self.file, Recentre::Auto)?;
-        self.trace_scene(loaded)
+        self.picture.trace(load(&self.file, Recentre::Auto)?)
     }
+}
 
-    /// The same for a scene that is there already; the file's name isn't looked at.
+impl PictureArgs {
+    /// Traces the picture of a scene.
     ///
     /// # Errors
     /// See [`CommandError`].
-    pub fn trace_scene(&self, loaded: LoadedScene) -> Result<Rendered, CommandError> {
+    pub fn trace(&self, loaded: LoadedScene) -> Result<Rendered, CommandError> {
         let camera = self.camera.camera(&loaded.scene)?;
         let shading = self.shading.into();
         let context = Context {
@@ -110,7 +117,7 @@ impl RenderArgs {
             scene: Arc::clone(&loaded.scene),
             camera,
             shading,
-            background: background(),
+            background: from_display(DARK_BACKGROUND),
         };
         let job = Job {
             context,

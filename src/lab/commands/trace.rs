@@ -14,6 +14,7 @@ use serde_json::json;
 use std::fs::File;
 use std::io::{self, BufRead, BufReader, Write};
 use std::path::{Path, PathBuf};
+use std::thread::ScopedJoinHandle;
 use std::time::{Duration, Instant};
 
 /// Rays that are read, traced and printed at a time.
@@ -68,9 +69,14 @@ enum Question {
 type Line = Option<Result<Ray, String>>;
 
 #[derive(Serialize)]
+struct ClosestLine {
+    hit: bool,
+    #[serde(flatten)]
+    line: HitLine,
+}
+
+#[derive(Serialize)]
 struct HitLine {
-    #[serde(skip_serializing_if = "Option::is_none")]
-    hit: Option<bool>,
     t: f32,
     barycentric: [f32; 3],
     triangle: u32,
@@ -180,12 +186,19 @@ impl Tracer<'_> {
         let start = Instant::now();
         let per_thread = lines.len().div_ceil(self.threads).max(1);
         let parts: Vec<(String, u64)> = std::thread::scope(|scope| {
-            let part = |lines| scope.spawn(move || self.answer_all(lines));
-            let threads: Vec<_> = lines.chunks(per_thread).map(part).collect();
-            let finished = threads.into_iter().map(|thread| thread.join());
-            finished
-                .map(|part| part.expect("tracing doesn't panic"))
-                .collect()
+            let start = |lines| {
+                let answer = move || self.answer_all(lines);
+                let thread = std::thread::Builder::new().spawn_scoped(scope, answer);
+                (lines, thread.ok())
+            };
+            let parts: Vec<_> = lines.chunks(per_thread).map(start).collect();
+            let finish = |(lines, thread): (&[Line], Option<ScopedJoinHandle<'_, _>>)| match thread
+            {
+                Some(thread) => thread.join().expect("tracing doesn't panic"),
+                // Where the system grants no more threads, this one does the work.
+                None => self.answer_all(lines),
+            };
+            parts.into_iter().map(finish).collect()
         });
         totals.tracing += start.elapsed();
         totals.rays += lines.iter().flatten().filter(|line| line.is_ok()).count() as u64;
@@ -236,11 +249,10 @@ impl Tracer<'_> {
             }
             Question::Closest => self.intersector.closest_hit(ray).map_or_else(miss, |hit| {
                 *hits += 1;
-                let line = HitLine {
-                    hit: Some(true),
-                    ..HitLine::new(mesh, &hit, None)
-                };
-                to_json(&line)
+                to_json(&ClosestLine {
+                    hit: true,
+                    line: HitLine::new(mesh, &hit, None),
+                })
             }),
             Question::All => {
                 let found = self.intersector.all_hits(ray);
@@ -284,7 +296,6 @@ impl Tracer<'_> {
 impl HitLine {
     fn new(mesh: &TriangleMesh, hit: &Hit, also: Option<Vec<u32>>) -> Self {
         Self {
-            hit: None,
             t: hit.t,
             barycentric: hit.barycentric(),
             triangle: hit.primitive,

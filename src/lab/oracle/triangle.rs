@@ -127,7 +127,7 @@ mod tests {
     }
 
     #[test]
-    fn known_cases() {
+    fn hits_inside_and_at_a_corner_are_exact_and_the_rest_are_misses() {
         let inside = hit(Vec3::new(1.0, 2.0, 6.0), Vec3::new(0.0, 0.0, -4.0)).expect("inside");
         assert_eq!(answer(&inside), ["3/2", "1/4", "1/4", "1/2"]);
         assert!(!inside.is_on_boundary);

@@ -39,12 +39,10 @@ impl App {
 
     /// Closes the topmost thing that can be closed.
     fn dismiss(&mut self) {
-        if self.shows_help {
-            self.shows_help = false;
-        } else if self.open_dialog.dismiss() {
-        } else if self.notice.is_some() {
-            self.notice = None;
-        } else {
+        let is_closed = std::mem::take(&mut self.shows_help)
+            || self.open_dialog.dismiss()
+            || self.notice.take().is_some();
+        if !is_closed {
             self.pick = None;
         }
     }

@@ -10,6 +10,7 @@ use glam::{DVec2, DVec3, UVec2, Vec3};
 use hitscope_core::Camera;
 use hitscope_core::integrator::Context;
 use hitscope_core::integrator::palette::from_display;
+use hitscope_lab::commands::DARK_BACKGROUND;
 use hitscope_lab::inspection::Inspection;
 use std::sync::Arc;
 
@@ -58,15 +59,11 @@ impl App {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
             });
             self.resolution = canvas.resolution;
-            if self.is_unframed {
-                let bounds = self.document.loaded.scene.bounds();
-                let is_orthographic = self.turntable.is_orthographic;
-                self.turntable =
-                    hitscope_core::camera::Turntable::framing(bounds, canvas.resolution);
-                self.turntable.is_orthographic = is_orthographic;
-                self.is_unframed = false;
-            }
             self.turntable.up_axis = self.settings.up_axis();
+            if std::mem::take(&mut self.is_unframed) {
+                let bounds = self.document.loaded.scene.bounds();
+                self.turntable.frame(bounds, canvas.resolution);
+            }
             self.pointer(ui, &response, canvas);
             self.paint(ui, canvas);
             self.tracer
@@ -77,7 +74,7 @@ impl App {
     /// What is to be traced for the window as it is.
     fn wanted(&self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let background = match ctx.theme() {
-            egui::Theme::Dark => Vec3::new(0.13, 0.14, 0.16),
+            egui::Theme::Dark => DARK_BACKGROUND,
             egui::Theme::Light => Vec3::new(0.90, 0.91, 0.92),
         };
         Request {
@@ -162,13 +159,15 @@ impl App {
         if let Some((film, changed)) = self.tracer.take_changes() {
             self.picture.upload(film, changed);
         }
-        // Everything over the picture is for the camera that the picture was taken with.
-        let Some(camera) = self.tracer.shown_camera().copied() else {
+        // Everything over the picture is for the scene and the camera that it was taken with.
+        let Some((scene, camera)) = self.tracer.shown().cloned() else {
             return;
         };
-        let options = self.overlay_options(canvas.pixels_per_point);
-        let scene = &self.document.loaded.scene;
-        let (overlay, error) = match self.overlay.draw(scene, &camera, &options, ui.ctx()) {
+        let mut options = self.overlay_options(canvas.pixels_per_point);
+        if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
+            options.picked = None;
+        }
+        let (overlay, error) = match self.overlay.draw(&scene, &camera, &options, ui.ctx()) {
             Ok(texture) => (texture, None),
             Err(error) => (None, Some(error)),
         };

@@ -125,7 +125,7 @@ impl App {
 
     /// Whether the picture has all its samples and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
-        self.loading.is_none() && self.tracer.is_complete()
+        self.loading.is_none() && self.tracer.is_complete(&self.document.loaded.scene)
     }
 
     /// Whether refinement stands still by the user's wish.
@@ -192,7 +192,12 @@ impl App {
         self.loading = None;
         match result {
             Ok(document) => self.show(document, ctx),
-            Err(message) => self.error(message),
+            Err(message) => {
+                if let Some(screenshot) = &self.screenshot {
+                    screenshot.fail(ctx, message.clone());
+                }
+                self.error(message);
+            }
         }
     }
 
@@ -200,7 +205,12 @@ impl App {
         let is_same_file = self.document.path == document.path;
         self.document = document;
         self.pick = None;
-        self.is_unframed |= !is_same_file;
+        if is_same_file {
+            self.turntable
+                .set_scene(self.document.loaded.scene.bounds());
+        } else {
+            self.is_unframed = true;
+        }
         let title = format!("{} – hitscope", self.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
         let warnings = &self.document.loaded.warnings;

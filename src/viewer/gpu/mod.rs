@@ -34,6 +34,20 @@ pub enum GpuError {
         /// Bytes granted.
         granted: u64,
     },
+    /// The picture is larger than the GPU's textures or buffers.
+    #[error(
+        "a picture of {width}x{height} is too large to be drawn over: this GPU grants {side} pixels a side and {bytes} bytes"
+    )]
+    PictureTooLarge {
+        /// Of the picture.
+        width: u32,
+        /// Of the picture.
+        height: u32,
+        /// Pixels granted.
+        side: u32,
+        /// Bytes granted.
+        bytes: u64,
+    },
     /// The picture couldn't be read back.
     #[error("the overlay couldn't be read back: {0}")]
     ReadBack(String),
@@ -115,25 +129,11 @@ impl Overlay {
 
 impl Targets {
     fn new(device: &wgpu::Device, size: UVec2) -> Self {
-        let texture = |label, format, usage| {
-            device.create_texture(&wgpu::TextureDescriptor {
-                label: Some(label),
-                size: wgpu::Extent3d {
-                    width: size.x,
-                    height: size.y,
-                    depth_or_array_layers: 1,
-                },
-                mip_level_count: 1,
-                sample_count: 1,
-                dimension: wgpu::TextureDimension::D2,
-                format,
-                usage: usage | wgpu::TextureUsages::RENDER_ATTACHMENT,
-                view_formats: &[],
-            })
-        };
-        let colour_usage = wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_SRC;
-        let colour = texture("overlay colour", COLOUR_FORMAT, colour_usage);
-        let depth = texture("overlay depth", DEPTH_FORMAT, wgpu::TextureUsages::empty());
+        use wgpu::TextureUsages as Usage;
+        let colour_usage = Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
+        let colour = texture(device, "overlay colour", size, COLOUR_FORMAT, colour_usage);
+        let depth_usage = Usage::RENDER_ATTACHMENT;
+        let depth = texture(device, "overlay depth", size, DEPTH_FORMAT, depth_usage);
         let view =
             |texture: &wgpu::Texture| texture.create_view(&wgpu::TextureViewDescriptor::default());
         Self {
@@ -178,6 +178,34 @@ impl Targets {
             }),
             stencil_ops: None,
         }
+    }
+}
+
+/// A plain texture: one level, one sample.
+pub fn texture(
+    device: &wgpu::Device,
+    label: &str,
+    size: UVec2,
+    format: wgpu::TextureFormat,
+    usage: wgpu::TextureUsages,
+) -> wgpu::Texture {
+    device.create_texture(&wgpu::TextureDescriptor {
+        label: Some(label),
+        size: extent(size),
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format,
+        usage,
+        view_formats: &[],
+    })
+}
+
+fn extent(size: UVec2) -> wgpu::Extent3d {
+    wgpu::Extent3d {
+        width: size.x,
+        height: size.y,
+        depth_or_array_layers: 1,
     }
 }
 

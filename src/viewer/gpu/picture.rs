@@ -4,6 +4,7 @@
 //! the rays do: while the camera moved, frames came every 156 ms with it and every 97 ms with this one
 //! (bunny, 1280 × 800, 2 cores, lavapipe, 2026-11).
 
+use super::{extent, texture};
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState};
 use egui::{PaintCallbackInfo, Rect, Shape};
 use glam::UVec2;
@@ -15,6 +16,10 @@ pub const SHADER: &str = include_str!("../../../shaders/picture.wgsl");
 
 /// sRGB-encoded bytes that no one decodes: what the film holds, and what egui's target takes.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Written by the CPU, read by the shader.
+const USAGE: wgpu::TextureUsages =
+    wgpu::TextureUsages::TEXTURE_BINDING.union(wgpu::TextureUsages::COPY_DST);
 
 /// A texture that holds the picture, and the pipeline that shows it.
 pub struct Picture {
@@ -36,11 +41,10 @@ impl Picture {
         let device = render_state.device.clone();
         let layout = layout(&device);
         Self {
-            pipelines: [false, true].map(|has_overlay| {
-                pipeline(&device, &layout, render_state.target_format, has_overlay)
-            }),
+            pipelines: [Layers::Picture, Layers::PictureAndOverlay]
+                .map(|layers| pipeline(&device, &layout, render_state.target_format, layers)),
             // wgpu clears what is never written: one transparent pixel.
-            nothing: texture(&device, UVec2::ONE),
+            nothing: texture(&device, "nothing", UVec2::ONE, FORMAT, USAGE),
             queue: render_state.queue.clone(),
             layout,
             picture: None,
@@ -63,11 +67,10 @@ impl Picture {
                     max: size,
                 };
                 self.bound = None;
-                texture(&self.device, size)
+                texture(&self.device, "picture", size, FORMAT, USAGE)
             }
         };
         let first = (rect.min.y * size.x + rect.min.x) as usize;
-        let extent = rect.max - rect.min;
         self.queue.write_texture(
             wgpu::TexelCopyTextureInfo {
                 texture: &texture,
@@ -85,11 +88,7 @@ impl Picture {
                 bytes_per_row: Some(4 * size.x),
                 rows_per_image: None,
             },
-            wgpu::Extent3d {
-                width: extent.x,
-                height: extent.y,
-                depth_or_array_layers: 1,
-            },
+            extent(rect.max - rect.min),
         );
         self.picture = Some(texture);
     }
@@ -116,6 +115,13 @@ impl Picture {
     }
 }
 
+/// What a pipeline draws. The number is what the shader knows it by.
+#[derive(Clone, Copy)]
+enum Layers {
+    Picture = 0,
+    PictureAndOverlay = 1,
+}
+
 /// Handles of what a frame needs.
 struct Draw {
     pipeline: wgpu::RenderPipeline,
@@ -133,23 +139,6 @@ impl CallbackTrait for Draw {
         pass.set_bind_group(0, &self.group, &[]);
         pass.draw(0..3, 0..1);
     }
-}
-
-fn texture(device: &wgpu::Device, size: UVec2) -> wgpu::Texture {
-    device.create_texture(&wgpu::TextureDescriptor {
-        label: Some("picture"),
-        size: wgpu::Extent3d {
-            width: size.x,
-            height: size.y,
-            depth_or_array_layers: 1,
-        },
-        mip_level_count: 1,
-        sample_count: 1,
-        dimension: wgpu::TextureDimension::D2,
-        format: FORMAT,
-        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
-        view_formats: &[],
-    })
 }
 
 fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
@@ -191,7 +180,7 @@ fn pipeline(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     target: wgpu::TextureFormat,
-    has_overlay: bool,
+    layers: Layers,
 ) -> wgpu::RenderPipeline {
     let module = device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some("picture"),
@@ -218,7 +207,7 @@ fn pipeline(
             module: &module,
             entry_point: Some("fs_main"),
             compilation_options: wgpu::PipelineCompilationOptions {
-                constants: &[("HAS_OVERLAY", f64::from(u8::from(has_overlay)))],
+                constants: &[("HAS_OVERLAY", f64::from(layers as u8))],
                 ..wgpu::PipelineCompilationOptions::default()
             },
             targets: &[Some(target.into())],

@@ -90,11 +90,13 @@ impl<K: Copy + PartialEq + Send + 'static> Lines<K> {
         }
         match &self.gathering {
             Some((gathering, task)) if *gathering == kind => {
-                let Some(lines) = task.poll()? else {
-                    return Ok(false);
+                let lines = match task.poll() {
+                    Ok(None) => return Ok(false),
+                    Ok(Some(lines)) => Ok(lines),
+                    Err(broken) => Err(broken),
                 };
                 self.gathering = None;
-                self.ready = Some((kind, upload(&lines)?));
+                self.ready = Some((kind, upload(&lines?)?));
                 Ok(true)
             }
             _ => {
@@ -163,6 +165,9 @@ impl OverlayLayer {
             return Ok(None);
         }
         self.use_scene(scene)?;
+        if self.mesh.is_none() {
+            return Ok(None);
+        }
         let is_new = self.prepare(scene, options, ctx)?;
         let view = ViewUniform::new(camera, &scene.bounds());
         if is_new || self.drawn != Some((view, *options)) {
@@ -181,13 +186,15 @@ impl OverlayLayer {
         {
             return Ok(());
         }
+        // Should the mesh be refused, this isn't tried again.
+        self.scene = Some(Arc::clone(scene));
         self.mesh = None;
+        self.texture = None;
         self.wireframe = Lines::default();
         self.normals = Lines::default();
         self.picked = None;
         self.drawn = None;
         self.mesh = Some(DepthMesh::new(&self.render_state.device, scene.mesh())?);
-        self.scene = Some(Arc::clone(scene));
         Ok(())
     }
 

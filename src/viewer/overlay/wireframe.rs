@@ -32,7 +32,9 @@ pub fn lines(mesh: &TriangleMesh, edges: Edges) -> Vec<Line> {
         let each = uses
             .iter()
             .map(|&(_, triangle, k)| edge(mesh, triangle, k.into()));
-        each.min_by(|a, b| a.gap.length_squared().total_cmp(&b.gap.length_squared()))
+        // In f64, where squares of f32 numbers neither under- nor overflow.
+        let length = |line: &Line| line.gap.as_dvec3().length_squared();
+        each.min_by(|a, b| length(a).total_cmp(&length(b)))
     };
     same_edge.filter_map(line).collect()
 }
@@ -46,9 +48,8 @@ pub fn triangle_lines(mesh: &TriangleMesh, triangle: u32) -> [Line; 3] {
 fn edge(mesh: &TriangleMesh, triangle: u32, k: usize) -> Line {
     let corners = mesh.corners(triangle);
     let (start, end, opposite) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);
-    // In f64, where squares of f32 numbers neither under- nor overflow.
-    let along = (end - start).as_dvec3();
-    let height = (opposite - start).as_dvec3().reject_from(along);
+    let [a, b, c] = [start, end, opposite].map(Vec3::as_dvec3);
+    let height = (c - a).reject_from(b - a);
     let gap = if height.is_finite() {
         height.as_vec3()
     } else {

@@ -1,9 +1,8 @@
 //! The picked pixel: what its ray hit, and what every kernel says of it.
 
-use super::{ROW_HEIGHT, row_ui, section_ui};
+use super::{ROW_HEIGHT, lines, row_ui, section_ui};
 use egui::RichText;
 use hitscope_lab::inspection::{ExactReport, HitReport, Inspection, KernelRow};
-use std::fmt::Display;
 
 /// What is known of the clicked pixel, or how to get to know something.
 pub fn inspect_ui(ui: &mut egui::Ui, inspection: Option<&Inspection>) {
@@ -155,11 +154,6 @@ fn kernel_cells(kernel: &KernelRow) -> [Option<String>; 8] {
 fn significant(x: f64) -> String {
     let before_point = x.abs().log10().floor().clamp(-20.0, 10.0) as i32;
     format!("{x:.*}", (10 - before_point).max(0) as usize)
-}
-
-/// Three numbers, each on a line of its own.
-fn lines(v: [impl Display; 3]) -> String {
-    v.map(|x| x.to_string()).join("\n")
 }
 
 fn or_dash(name: &str) -> &str {

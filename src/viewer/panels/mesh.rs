@@ -1,6 +1,6 @@
 //! What is in the file.
 
-use super::{row_ui, section_ui};
+use super::{lines, row_ui, section_ui};
 use crate::app::grouped;
 use crate::document::Document;
 use egui::RichText;
@@ -29,8 +29,7 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
     });
     section_ui(ui, "Place", |ui| {
         let bounds = scene.bounds();
-        let corner = |p: glam::Vec3| (p.as_dvec3() + mesh.origin).to_array();
-        let lines = |v: [f64; 3]| v.map(|x| x.to_string()).join("\n");
+        let corner = |p: glam::Vec3| mesh.in_file(p.as_dvec3()).to_array();
         row_ui(ui, "lowest", lines(corner(bounds.min)));
         row_ui(ui, "highest", lines(corner(bounds.max)));
         row_ui(ui, "origin", lines(mesh.origin.to_array()));

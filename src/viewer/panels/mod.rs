@@ -5,6 +5,7 @@ pub mod mesh;
 pub mod view;
 
 use egui::RichText;
+use std::fmt::Display;
 
 /// Height of a line of values, in points: lower than a button's, so that more fits.
 const ROW_HEIGHT: f32 = 14.0;
@@ -30,4 +31,9 @@ fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) 
             .show(ui, rows);
     });
     ui.add_space(4.0);
+}
+
+/// Three numbers, each on a line of its own.
+fn lines(v: [impl Display; 3]) -> String {
+    v.map(|x| x.to_string()).join("\n")
 }

@@ -101,7 +101,9 @@ fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         })
         .response
         .labelled_by(heading.id);
-    ui.label(RichText::new(settings.kernel().info.summary).weak());
+    let info = &settings.kernel().info;
+    ui.label(RichText::new(info.summary).weak())
+        .on_hover_text(info.source);
 }
 
 fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
