@@ -22,13 +22,13 @@ pub struct Ray {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RayError {
     /// The origin holds a NaN or an infinity.
-    #[error("the origin isn't finite")]
+    #[error("the origin isn't finite in f32")]
     OriginNotFinite,
     /// The direction holds a NaN or an infinity.
-    #[error("the direction isn't finite")]
+    #[error("the direction isn't finite in f32")]
     DirectionNotFinite,
     /// The direction is (0, 0, 0).
-    #[error("the direction is zero")]
+    #[error("the direction is zero in f32")]
     DirectionZero,
     /// The direction is so short that its inverse leaves f32's range.
     #[error("the direction is too short: its longest coordinate is below 1.2e-38")]
@@ -94,7 +94,8 @@ pub struct Hit {
 impl Hit {
     /// The weights of the three vertices, in their order.
     pub fn barycentric(&self) -> [f32; 3] {
-        [1.0 - self.u - self.v, self.u, self.v]
+        // Plus zero: no −0.
+        [1.0 - self.u - self.v, self.u + 0.0, self.v + 0.0]
     }
 }
 

@@ -141,6 +141,12 @@ pub static POINTER: &[(&str, &str)] = &[
     ("Drop a file", "Open it"),
 ];
 
+/// What egui itself does.
+pub static SYSTEM: &[(&str, &str)] = &[
+    ("Ctrl+Plus, Minus, 0", "Larger, smaller, normal text"),
+    ("Ctrl+Q", "Quit"),
+];
+
 impl Binding {
     /// The keys in words, as `Ctrl+O`.
     pub fn key_text(&self, ctx: &egui::Context) -> String {

@@ -109,7 +109,7 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
             .with_app_id("hitscope")
             .with_title("hitscope")
             .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([320.0, 200.0]),
+            .with_min_inner_size([560.0, 320.0]),
         wgpu_options: WgpuConfiguration {
             wgpu_setup: WgpuSetup::CreateNew(wgpu_setup()),
             ..WgpuConfiguration::default()
@@ -131,11 +131,19 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
                 .unwrap_or_else(closed)
                 .map_err(CommandError::Other)
         }
-        (Err(error), Some(_)) => Err(CommandError::Other(format!("no window: {error}"))),
+        (Err(error), Some(_)) => Err(CommandError::Other(no_window(&error))),
         (Err(error), None) => {
-            eprintln!("hitscope: no window: {error}");
+            eprintln!("hitscope: {}", no_window(&error));
             render_instead(cli.file.as_deref())
         }
+    }
+}
+
+/// Why there is no window, without the places in source code that winit's error names.
+fn no_window(error: &eframe::Error) -> String {
+    match error {
+        eframe::Error::WinitEventLoop(_) => "no window: there is no display".to_owned(),
+        error => format!("no window: {error}"),
     }
 }
 

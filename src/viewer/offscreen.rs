@@ -86,8 +86,10 @@ fn row_bytes(width: u32) -> u64 {
 /// [`GpuError::NoAdapter`].
 pub fn device() -> Result<(wgpu::Device, wgpu::Queue), GpuError> {
     let no_adapter = |error: String| GpuError::NoAdapter(error);
-    let instance =
-        wgpu::Instance::new(wgpu::InstanceDescriptor::new_without_display_handle_from_env());
+    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+    // OpenGL would look for a display, and complain.
+    descriptor.backends &= wgpu::Backends::PRIMARY;
+    let instance = wgpu::Instance::new(descriptor);
     let adapter =
         pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
             .map_err(|error| no_adapter(error.to_string()))?;

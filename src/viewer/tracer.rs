@@ -87,6 +87,8 @@ pub struct Tracer {
     is_paused: bool,
     /// Until the view has been at rest.
     is_held: bool,
+    /// Whether tiles are shown before their pass is done.
+    shows_parts: bool,
     non_finite: u64,
 }
 
@@ -106,6 +108,7 @@ impl Tracer {
             busy_secs: 0.0,
             is_paused: false,
             is_held: false,
+            shows_parts: false,
             non_finite: 0,
         }
     }
@@ -181,18 +184,29 @@ impl Tracer {
             .posted
             .as_ref()
             .is_none_or(|posted| posted.request != request);
-        let is_waiting = self.posted.is_some() && self.film.passes_done() == 0;
+        // A view of another scene doesn't wait: the old picture is of no use any more.
+        let is_same_scene = self.is_shown_scene(&request.context.scene);
+        let is_waiting = self.posted.is_some() && self.film.passes_done() == 0 && is_same_scene;
         if !is_news || is_waiting {
             return;
         }
         let size = request.context.camera.resolution();
         let plan = Plan::new(size, self.first_step(size), request.samples);
         let background = request.context.background;
-        if self.film.size() == size {
+        // The old picture stays until the new one's first pass is there, unless it is of another scene.
+        if self.film.size() == size && is_same_scene {
             self.film.restart(plan.clone(), background);
         } else {
             self.film = Film::new(plan.clone(), background);
             self.changed = None;
+        }
+        if !is_same_scene {
+            self.changed = Some(PixelRect {
+                min: UVec2::ZERO,
+                max: size,
+            });
+            self.shown = Some((Arc::clone(&request.context.scene), request.context.camera));
+            self.shows_parts = true;
         }
         self.non_finite = 0;
         self.is_held = true;
@@ -227,12 +241,13 @@ impl Tracer {
         speed * self.renderer.thread_count() as f64
     }
 
-    /// The picture, once its first pass is done, and which of its pixels changed since the last
-    /// call.
+    /// The picture, and which of its pixels changed since the last call; only once its first pass is
+    /// done, unless it is the first one of its scene.
     pub fn take_changes(&mut self) -> Option<(&Film, PixelRect)> {
-        if self.film.passes_done() == 0 {
+        if self.film.passes_done() == 0 && !self.shows_parts {
             return None;
         }
+        self.shows_parts &= self.film.passes_done() == 0;
         let changed = self.changed.take()?;
         Some((&self.film, changed))
     }
@@ -242,6 +257,17 @@ impl Tracer {
             Arc::ptr_eq(scene, &context.scene) && *camera == context.camera
         };
         self.shown.as_ref().is_some_and(is_same)
+    }
+
+    fn is_shown_scene(&self, scene: &Arc<Scene>) -> bool {
+        self.shown
+            .as_ref()
+            .is_some_and(|(shown, _)| Arc::ptr_eq(shown, scene))
+    }
+
+    /// Whether the view changed so lately that it may be moving.
+    pub fn is_moving(&self) -> bool {
+        self.is_held
     }
 
     /// What the shown picture is of, and from where it was taken; `None` before the first one.

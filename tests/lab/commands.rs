@@ -84,7 +84,7 @@ fn trace_answers_each_ray_in_order() {
         .sum();
     assert_eq!(weights, 1.0);
     assert_eq!(answers[1], serde_json::json!({ "hit": false }));
-    assert_eq!(answers[2]["error"], "the direction is zero");
+    assert_eq!(answers[2]["error"], "the direction is zero in f32");
     assert_eq!(answers[3]["error"], "a ray has 6 or 8 numbers, here are 3");
     assert_eq!(answers[4]["error"], "“x” is not a number");
 }

@@ -54,7 +54,7 @@ fn a_file_opens_and_a_bad_one_leaves_it_in_place() {
         ),
         (
             write(&folder, "dots.obj", "v 0 0 0\n"),
-            "dots.obj: 1 vertices, but no face",
+            "dots.obj: there are vertices (1), but no faces",
         ),
     ] {
         drop_file(&mut window, path);

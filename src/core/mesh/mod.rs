@@ -19,6 +19,10 @@ fn place(p: Vec3) -> [u32; 3] {
     (p + Vec3::ZERO).to_array().map(f32::to_bits)
 }
 
+/// Sizes of a mesh for which f32 kernels are at their best: seen from ten times as far, the products of
+/// two lengths then stay well inside f32's range.
+pub const SAFE_SIZE: std::ops::RangeInclusive<f64> = 1e-15..=1e16;
+
 /// Marks a corner without a normal in [`TriangleMesh::corner_normals`].
 pub const NO_NORMAL: u32 = u32::MAX;
 

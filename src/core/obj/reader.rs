@@ -12,6 +12,8 @@ use std::io::{self, BufRead, Read, Write as _};
 
 /// Read in pieces of this size, between which a cancel is noticed.
 const CHUNK: usize = 1 << 18;
+/// A longer line isn't read to its end: a polygon of ten million corners would fit.
+const LONGEST_LINE: usize = 128 << 20;
 
 /// See the [module](self). Give it to tobj as a `BufRead`, then ask [`finish`](Self::finish).
 pub(super) struct NormalisingReader<'p, R> {
@@ -128,6 +130,10 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
         self.buffer.drain(..self.start);
         self.start = 0;
         let before = self.buffer.len();
+        if before > LONGEST_LINE {
+            let message = format!("a line of more than {} MB", LONGEST_LINE >> 20);
+            return Err(Problem::Line(self.line + 1, message));
+        }
         self.buffer.resize(before + CHUNK, 0);
         let count = loop {
             match self.source.read(&mut self.buffer[before..]) {
@@ -142,6 +148,9 @@ impl<'p, R: Read> NormalisingReader<'p, R> {
             self.progress.enter(Phase::Checking);
         }
         self.progress.add_read(count as u64);
+        if self.line == 0 && self.buffer.contains(&0) {
+            return Err(Problem::Content(BINARY.to_owned()));
+        }
         Ok(())
     }
 
@@ -322,6 +331,8 @@ pub(super) fn statement_of(line: &[u8]) -> String {
     statement.trim().to_owned()
 }
 
+const BINARY: &str = "this is a binary file, not an OBJ file";
+
 /// What a file is, if its first line shows that it is no OBJ.
 fn not_an_obj(first_line: &[u8]) -> Option<&'static str> {
     let start = first_line.trim_ascii_start();
@@ -332,7 +343,7 @@ fn not_an_obj(first_line: &[u8]) -> Option<&'static str> {
     } else if begins(b"<?xml") {
         Some("this is an XML file, not an OBJ file")
     } else if first_line.contains(&0) {
-        Some("this is a binary file, not an OBJ file")
+        Some(BINARY)
     } else {
         None
     }

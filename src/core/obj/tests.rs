@@ -89,7 +89,7 @@ fn errors_name_the_line_and_the_word() {
         ("vn a b c", "x.obj:4: “a” is not a number"),
         (
             "",
-            "x.obj: 3 vertices, but no face: there is nothing to show",
+            "x.obj: there are vertices (3), but no faces: nothing to show",
         ),
         (
             "f 1 1 2",
@@ -236,4 +236,49 @@ fn a_cancelled_load_says_so() {
         &progress,
     );
     assert!(matches!(result, Err(LoadError::Cancelled { .. })));
+}
+
+#[test]
+fn a_mesh_too_large_or_too_small_for_f32_kernels_is_warned_of() {
+    for (scale, is_warned) in [
+        ("1e-20", true),
+        ("1e-3", false),
+        ("1e9", false),
+        ("1e30", true),
+    ] {
+        let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
+        let warnings = load_text(&text).expect("good").warnings;
+        assert_eq!(
+            warnings.len(),
+            usize::from(is_warned),
+            "{scale}: {warnings:?}"
+        );
+    }
+}
+
+#[test]
+fn an_endless_line_is_given_up() {
+    let endless = io::repeat(b'1');
+    let library = |_: &str| Err(io::ErrorKind::NotFound.into());
+    let progress = Progress::default();
+    let result = parse(
+        endless,
+        Path::new("x.obj"),
+        Recentre::Auto,
+        &library,
+        &progress,
+    );
+    let error = result.expect_err("endless").to_string();
+    assert!(
+        error.starts_with("x.obj:1: a line of more than "),
+        "{error}"
+    );
+    let zeros = parse(
+        io::repeat(0),
+        Path::new("x.obj"),
+        Recentre::Auto,
+        &library,
+        &progress,
+    );
+    assert!(zeros.expect_err("zeros").to_string().contains("binary"));
 }

@@ -12,6 +12,8 @@ use std::time::{Duration, Instant};
 const CHANNEL_TILES: usize = 512;
 /// Between two calls of `wake` within a pass.
 const WAKE_INTERVAL: Duration = Duration::from_millis(30);
+/// The same in the first pass: if it takes so long, a part of it is better than nothing.
+const FIRST_PASS_WAKE_INTERVAL: Duration = Duration::from_millis(100);
 
 /// What a thread sends.
 #[derive(Debug)]
@@ -32,12 +34,16 @@ struct Posted {
 
 impl Posted {
     /// Counts a message, and tells whether it is time to wake whoever collects them: a pass is
-    /// complete, or some time has gone by after the first one, of which a part is of no use.
+    /// complete, or some time has gone by.
     fn is_time_to_wake(&self, last_wake: &mut Instant) -> bool {
         let sent = self.sent.fetch_add(1, Relaxed) + 1;
         let tiles = self.job.plan.tile_count();
-        let is_time =
-            sent.is_multiple_of(tiles) || (sent > tiles && last_wake.elapsed() > WAKE_INTERVAL);
+        let interval = if sent > tiles {
+            WAKE_INTERVAL
+        } else {
+            FIRST_PASS_WAKE_INTERVAL
+        };
+        let is_time = sent.is_multiple_of(tiles) || last_wake.elapsed() > interval;
         if is_time {
             *last_wake = Instant::now();
         }
@@ -70,7 +76,7 @@ impl Shared {
     }
 }
 
-/// Threads that render the job posted last. Dropping it ends them within a row of pixels.
+/// Threads that render the job posted last. Dropping it ends them within a pixel.
 pub struct Renderer {
     shared: Arc<Shared>,
     /// `None` only while it is dropped.
@@ -81,7 +87,7 @@ pub struct Renderer {
 
 impl Renderer {
     /// Starts `threads` threads, at least one. `wake` is called when messages are worth collecting:
-    /// after each pass, now and then after the first one, and whenever the channel is full.
+    /// after each pass, now and then within one, and whenever the channel is full.
     pub fn new(threads: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
         let shared = Arc::new(Shared {
             state: Mutex::default(),
@@ -171,10 +177,13 @@ impl Drop for Renderer {
 }
 
 fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() + Send + Sync)) {
-    let mut done = 0;
+    let (mut done, mut current) = (0, 0);
     let mut last_wake = Instant::now();
     while let Some(posted) = wait_for_work(shared, done) {
         let generation = posted.generation;
+        if current != generation {
+            (current, last_wake) = (generation, Instant::now());
+        }
         let index = posted.next_unit.fetch_add(1, Relaxed);
         if index >= posted.job.plan.unit_count() {
             done = generation;

@@ -20,7 +20,7 @@ pub struct RenderArgs {
     /// The OBJ file
     pub file: PathBuf,
     /// The PNG file to write
-    #[arg(short, long, value_name = "OUT.png")]
+    #[arg(short, long, value_name = "OUT.png", value_parser = parse_png)]
     pub output: PathBuf,
     /// Picture
     #[command(flatten)]
@@ -131,6 +131,17 @@ impl PictureArgs {
             loaded,
             shading,
         })
+    }
+}
+
+/// A path that says what will be in the file.
+fn parse_png(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    let extension = path.extension().unwrap_or_default();
+    if extension.eq_ignore_ascii_case("png") {
+        Ok(path)
+    } else {
+        Err("only PNG files are written: the name must end in .png".to_owned())
     }
 }
 

@@ -271,6 +271,7 @@ impl Tracer<'_> {
     }
 
     fn parse(&self, line: &str) -> Line {
+        let line = line.trim_start_matches('\u{feff}');
         let statement = line.split('#').next().unwrap_or_default().trim();
         (!statement.is_empty()).then(|| self.ray(statement))
     }

@@ -59,6 +59,7 @@ impl App {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
             });
             self.resolution = canvas.resolution;
+            self.canvas_rect = canvas.rect;
             self.turntable.up_axis = self.settings.up_axis();
             if std::mem::take(&mut self.is_unframed) {
                 let bounds = self.document.loaded.scene.bounds();
@@ -166,6 +167,9 @@ impl App {
         let mut options = self.overlay_options(canvas.pixels_per_point);
         if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
             options.picked = None;
+        }
+        if self.overlay.rests_while_moving() && self.tracer.is_moving() {
+            options = Options::NOTHING;
         }
         let (overlay, error) = match self.overlay.draw(&scene, &camera, &options, ui.ctx()) {
             Ok(texture) => (texture, None),

@@ -1,7 +1,7 @@
 //! What is around the picture: tool bar, side panel, status line, messages, help.
 
 use super::App;
-use crate::bindings::{Action, KEYS, POINTER};
+use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
 use crate::panels;
 use crate::settings::Tab;
 use egui::{Align, Layout, RichText};
@@ -108,8 +108,8 @@ impl App {
     pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let mut is_expanded = self.settings.shows_panel;
         egui::Panel::right("panel")
-            .default_size(300.0)
-            .size_range(240.0..=420.0)
+            .default_size(350.0)
+            .size_range(240.0..=460.0)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 ui.add_space(4.0);
                 ui.horizontal(|ui| {
@@ -205,9 +205,10 @@ impl App {
         }
         let (mut is_closed, mut is_cancelled) = (false, false);
         egui::Area::new(egui::Id::unique("notices"))
-            .anchor(egui::Align2::LEFT_TOP, egui::vec2(10.0, 42.0))
+            .fixed_pos(self.canvas_rect.min + egui::vec2(10.0, 10.0))
             .show(ctx, |ui| {
-                ui.set_max_width((ui.ctx().content_rect().width() - 20.0).min(560.0));
+                // Beside the panel, not over it.
+                ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(120.0, 560.0));
                 if let Some(loading) = &self.loading {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         ui.label(format!("Loading {}", loading.path.display()));
@@ -251,6 +252,7 @@ impl App {
             let height = ui.ctx().content_rect().height() - 120.0;
             egui::ScrollArea::vertical()
                 .max_height(height)
+                .min_scrolled_height(height)
                 .show(ui, |ui| {
                     let row = |ui: &mut egui::Ui, keys: &str, about: &str| {
                         ui.label(RichText::new(keys).strong());
@@ -266,6 +268,9 @@ impl App {
                             }
                             for binding in KEYS {
                                 row(ui, &binding.key_text(ctx), binding.about);
+                            }
+                            for (keys, about) in SYSTEM {
+                                row(ui, keys, about);
                             }
                         });
                 });

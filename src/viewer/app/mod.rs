@@ -70,7 +70,8 @@ pub struct App {
     pick: Option<Pick>,
     notice: Option<Notice>,
     shows_help: bool,
-    /// Size of the picture in physical pixels, as it was last laid out.
+    /// The picture as it was last laid out: where, in points, and its size in physical pixels.
+    canvas_rect: egui::Rect,
     resolution: UVec2,
     /// Whether the camera still has to be set up for the scene: only the layout knows the size.
     is_unframed: bool,
@@ -111,6 +112,7 @@ impl App {
             pick: None,
             notice: None,
             shows_help: false,
+            canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
             is_unframed: true,
             screenshot: start.screenshot.map(Screenshot::new),

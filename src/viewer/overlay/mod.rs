@@ -34,6 +34,16 @@ pub struct Options {
 }
 
 impl Options {
+    /// No lines at all.
+    pub const NOTHING: Self = Self {
+        wireframe: None,
+        wire_colour: [0; 3],
+        normals: None,
+        normal_length: 0.0,
+        picked: None,
+        line_width_px: 1.0,
+    };
+
     pub(crate) fn wire_style(&self) -> StyleUniform {
         let [r, g, b] = self.wire_colour.map(|c| f32::from(c) / 255.0);
         style([r, g, b, 0.85], self.line_width_px, 1.0)
@@ -121,6 +131,8 @@ pub enum OverlayError {
 /// The overlay of the window's picture.
 pub struct OverlayLayer {
     render_state: RenderState,
+    /// Whether the adapter is software: drawing lines then takes longer than tracing.
+    is_software: bool,
     overlay: Overlay,
     scene: Option<Arc<Scene>>,
     mesh: Option<DepthMesh>,
@@ -138,6 +150,7 @@ impl OverlayLayer {
     pub fn new(render_state: RenderState) -> Self {
         Self {
             overlay: Overlay::new(&render_state.device),
+            is_software: render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu,
             render_state,
             scene: None,
             mesh: None,
@@ -175,6 +188,11 @@ impl OverlayLayer {
             self.drawn = Some((view, *options));
         }
         Ok(self.texture.as_ref())
+    }
+
+    /// Whether lines are to be left out while the camera moves, for the picture to follow it.
+    pub fn rests_while_moving(&self) -> bool {
+        self.is_software
     }
 
     /// Starts anew for another scene.

@@ -63,36 +63,29 @@ fn surface_ui(ui: &mut egui::Ui, hit: &HitReport) {
     });
 }
 
-/// One row a kernel below the exact answer, so that their numbers can be compared.
+/// One row a kernel below the exact answer, so that their numbers can be compared: distances first,
+/// then weights, which would not fit beside them.
 fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
-    const COLUMNS: [&str; 8] = [
-        "",
-        "t",
-        "off by",
-        "weights off",
-        "triangle",
-        "l1",
-        "l2",
-        "l3",
-    ];
     ui.label(RichText::new("Kernels against exact arithmetic").strong());
     egui::ScrollArea::horizontal()
         .id_salt("kernels")
         .show(ui, |ui| {
             ui.spacing_mut().interact_size.y = ROW_HEIGHT;
-            egui::Grid::new("kernels")
-                .spacing([10.0, 2.0])
-                .striped(true)
-                .show(ui, |ui| {
-                    for column in COLUMNS {
-                        ui.label(RichText::new(column).size(11.5));
-                    }
-                    ui.end_row();
-                    cells_ui(ui, exact_cells(exact));
-                    for kernel in kernels {
-                        cells_ui(ui, kernel_cells(kernel));
-                    }
-                });
+            let columns = ["", "t", "ulps off", "l off", "triangle"];
+            table_ui(
+                ui,
+                columns,
+                exact_distance(exact),
+                kernels.iter().map(kernel_distance),
+            );
+            ui.add_space(4.0);
+            let columns = ["", "l1", "l2", "l3"];
+            table_ui(
+                ui,
+                columns,
+                exact_weights(exact),
+                kernels.iter().map(kernel_weights),
+            );
         });
     if let Some(exact) = exact {
         let also = exact
@@ -113,41 +106,68 @@ fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelR
     ui.add_space(4.0);
 }
 
-fn cells_ui(ui: &mut egui::Ui, cells: [Option<String>; 8]) {
-    for cell in cells {
-        let text = cell.unwrap_or("–".to_owned());
-        let text = RichText::new(text).monospace().size(11.0);
-        ui.add(egui::Label::new(text).extend());
-    }
-    ui.end_row();
+fn table_ui<const N: usize>(
+    ui: &mut egui::Ui,
+    columns: [&str; N],
+    exact: [String; N],
+    kernels: impl Iterator<Item = [String; N]>,
+) {
+    egui::Grid::new(columns)
+        .spacing([8.0, 2.0])
+        .striped(true)
+        .show(ui, |ui| {
+            for column in columns {
+                ui.label(RichText::new(column).size(11.5));
+            }
+            ui.end_row();
+            for cells in std::iter::once(exact).chain(kernels) {
+                for cell in cells {
+                    let text = RichText::new(cell).monospace().size(10.5);
+                    ui.add(egui::Label::new(text).extend());
+                }
+                ui.end_row();
+            }
+        });
 }
 
-fn exact_cells(exact: Option<&ExactReport>) -> [Option<String>; 8] {
-    let weight = |k: usize| exact.map(|e| format!("{:.10}", e.barycentric[k]));
+fn exact_distance(exact: Option<&ExactReport>) -> [String; 5] {
     [
-        Some("exact".to_owned()),
-        Some(exact.map_or("miss".to_owned(), |e| significant(e.t))),
-        None,
-        None,
-        exact.map(|e| e.triangle.to_string()),
-        weight(0),
-        weight(1),
-        weight(2),
+        "exact".to_owned(),
+        exact.map_or("miss".to_owned(), |e| significant(e.t)),
+        dash(),
+        dash(),
+        exact.map_or_else(dash, |e| e.triangle.to_string()),
     ]
 }
 
-fn kernel_cells(kernel: &KernelRow) -> [Option<String>; 8] {
-    let weight = |k: usize| kernel.barycentric.map(|b| b[k].to_string());
+fn kernel_distance(kernel: &KernelRow) -> [String; 5] {
     [
-        Some(kernel.name.to_owned()),
-        Some(kernel.t.map_or("miss".to_owned(), |t| t.to_string())),
-        kernel.t_error_ulps.map(|e| format!("{e:.2} ulp")),
-        kernel.barycentric_error.map(|e| format!("{e:.1e}")),
-        kernel.triangle.map(|t| t.to_string()),
-        weight(0),
-        weight(1),
-        weight(2),
+        kernel.name.to_owned(),
+        kernel.t.map_or("miss".to_owned(), |t| t.to_string()),
+        kernel.t_error_ulps.map_or_else(dash, |e| format!("{e:.2}")),
+        kernel
+            .barycentric_error
+            .map_or_else(dash, |e| format!("{e:.1e}")),
+        kernel.triangle.map_or_else(dash, |t| t.to_string()),
     ]
+}
+
+fn exact_weights(exact: Option<&ExactReport>) -> [String; 4] {
+    let weight = |k: usize| exact.map_or_else(dash, |e| format!("{:.9}", e.barycentric[k]));
+    ["exact".to_owned(), weight(0), weight(1), weight(2)]
+}
+
+fn kernel_weights(kernel: &KernelRow) -> [String; 4] {
+    let weight = |k: usize| {
+        kernel
+            .barycentric
+            .map_or_else(dash, |b| format!("{:.9}", b[k]))
+    };
+    [kernel.name.to_owned(), weight(0), weight(1), weight(2)]
+}
+
+fn dash() -> String {
+    "–".to_owned()
 }
 
 /// With eleven significant digits: two more than f32 ever needs.

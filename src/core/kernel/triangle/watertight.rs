@@ -44,7 +44,7 @@ impl Kernel for Watertight {
         title: "Watertight (Woop et al.)",
         tier: Some(Tier::Watertight),
         source: "Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013",
-        summary: "No ray slips through a closed mesh, at any scale and offset.",
+        summary: "No ray slips through a closed mesh, at any offset, from 1e-15 to 1e16 in size.",
         is_watertight: true,
     };
     type Prepared<L: Lane> = Prepared<L>;
