@@ -9,15 +9,22 @@ use hitscope_core::integrator::{Context, Integrator};
 use hitscope_core::render::plan::{Plan, STEPS};
 use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
 use hitscope_core::{Camera, Film, Scene};
+use std::collections::VecDeque;
+use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What tracing the first pass may take. With what is left of 33 ms the window draws itself.
-const FIRST_PASS: Duration = Duration::from_millis(13);
+/// What a frame of a movement is to take. The window may miss one in a few, so it is less than 33 ms.
+const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(30);
+/// What tracing the first pass may take of it: the window itself takes next to nothing with a GPU, and
+/// half of it without one.
+const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration::from_millis(20);
 /// What the window spends on collecting tiles in one go.
 const COLLECTING: Duration = Duration::from_millis(6);
 /// Views that follow each other within this time are frames of a movement.
 const MOVING: Duration = Duration::from_millis(500);
+/// Views over which their interval is averaged.
+const FRAMES: usize = 31;
 /// Refinement begins when the view has been at rest for this long; until then the processor is left
 /// to drawing the window, which takes most of it where there is no GPU.
 const REST: Duration = Duration::from_millis(80);
@@ -66,7 +73,7 @@ pub struct Status {
     pub rays_per_s: f64,
     /// Since the view changed, until the newest tile.
     pub lasted: Duration,
-    /// Between the last two views that were shown, if the camera moved.
+    /// Median time between the views of the last movement.
     pub frame_interval: Option<Duration>,
 }
 
@@ -78,7 +85,10 @@ pub struct Tracer {
     /// What the shown picture is of: the newest one whose first pass is done.
     shown: Option<(Arc<Scene>, Camera)>,
     shown_at: Option<Instant>,
-    frame_interval: Option<Duration>,
+    /// Between views of a movement, the newest last.
+    frame_intervals: VecDeque<Duration>,
+    /// What the first pass may take, so that frames take what they are to take.
+    first_pass: Duration,
     changed: Option<PixelRect>,
     /// Rays traced, and seconds that threads spent on them, fading over time.
     rays: f64,
@@ -102,7 +112,8 @@ impl Tracer {
             posted: None,
             shown: None,
             shown_at: None,
-            frame_interval: None,
+            frame_intervals: VecDeque::new(),
+            first_pass: Duration::from_millis(12),
             changed: None,
             rays: 0.0,
             busy_secs: 0.0,
@@ -136,14 +147,42 @@ impl Tracer {
             && let Some(posted) = &self.posted
             && !self.is_shown(&posted.request.context)
         {
-            let now = Instant::now();
-            // After a rest it isn't a frame of a movement.
-            self.frame_interval = self.shown_at.map(|last| now - last).filter(|i| *i < MOVING);
-            self.shown_at = Some(now);
             let Context { scene, camera, .. } = &posted.request.context;
             self.shown = Some((Arc::clone(scene), *camera));
+            self.count_frame();
         }
         panics
+    }
+
+    /// Notes how long the view took that is shown from now on.
+    fn count_frame(&mut self) {
+        let now = Instant::now();
+        let interval = self.shown_at.map(|last| now - last);
+        self.shown_at = Some(now);
+        match interval {
+            Some(interval) if interval < MOVING => {
+                self.frame_intervals.push_back(interval);
+                if self.frame_intervals.len() > FRAMES {
+                    self.frame_intervals.pop_front();
+                }
+                self.adapt(interval);
+            }
+            // After a rest another movement begins.
+            _ => self.frame_intervals.clear(),
+        }
+    }
+
+    /// Gives the first pass more or less time, by what a frame took with the present one.
+    fn adapt(&mut self, interval: Duration) {
+        let factor = if interval > FRAME.end {
+            0.9
+        } else if interval < FRAME.start {
+            1.05
+        } else {
+            return;
+        };
+        let wanted = self.first_pass.mul_f64(factor);
+        self.first_pass = wanted.clamp(*FIRST_PASS.start(), *FIRST_PASS.end());
     }
 
     /// Lets refinement begin once the view has been at rest.
@@ -225,7 +264,7 @@ impl Tracer {
 
     /// The smallest blocks with which the first pass is quick enough.
     fn first_step(&self, size: UVec2) -> u32 {
-        let affordable = self.rays_per_s() * FIRST_PASS.as_secs_f64();
+        let affordable = self.rays_per_s() * self.first_pass.as_secs_f64();
         let pixels = f64::from(size.x) * f64::from(size.y);
         let is_affordable = |step: &u32| pixels / f64::from(step * step) <= affordable;
         let coarsest = STEPS[STEPS.len() - 1];
@@ -306,7 +345,7 @@ impl Tracer {
                 .posted
                 .as_ref()
                 .map_or(Duration::ZERO, |posted| posted.lasted),
-            frame_interval: self.frame_interval,
+            frame_interval: median(&self.frame_intervals),
         }
     }
 
@@ -328,4 +367,10 @@ impl Tracer {
             self.renderer.resume();
         }
     }
+}
+
+fn median(times: &VecDeque<Duration>) -> Option<Duration> {
+    let mut sorted: Vec<Duration> = times.iter().copied().collect();
+    sorted.sort_unstable();
+    sorted.get(sorted.len() / 2).copied()
 }

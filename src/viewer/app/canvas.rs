@@ -34,6 +34,29 @@ impl Canvas {
         }
     }
 
+    /// The strips beside whole pixels; what the picture covers needn't be filled first.
+    fn rest_of(&self, available: Rect) -> [Rect; 4] {
+        let (min, max) = (self.rect.min, self.rect.max);
+        [
+            Rect {
+                max: Pos2::new(min.x, available.max.y),
+                ..available
+            },
+            Rect {
+                max: Pos2::new(available.max.x, min.y),
+                ..available
+            },
+            Rect {
+                min: Pos2::new(max.x, available.min.y),
+                ..available
+            },
+            Rect {
+                min: Pos2::new(available.min.x, max.y),
+                ..available
+            },
+        ]
+    }
+
     /// In physical pixels from the picture's top left corner.
     fn pixel_of(&self, pos: Pos2) -> DVec2 {
         let offset = (pos - self.rect.min) * self.pixels_per_point;
@@ -50,10 +73,10 @@ impl App {
     pub(super) fn canvas_ui(&mut self, ui: &mut egui::Ui) {
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let available = ui.available_rect_before_wrap();
-            // What is left over beside whole pixels.
-            ui.painter()
-                .rect_filled(available, 0.0, ui.visuals().panel_fill);
             let canvas = Canvas::new(available, ui.ctx().pixels_per_point());
+            for rest in canvas.rest_of(available) {
+                ui.painter().rect_filled(rest, 0.0, ui.visuals().panel_fill);
+            }
             let response = ui.allocate_rect(canvas.rect, Sense::click_and_drag());
             response.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
@@ -93,6 +116,7 @@ impl App {
 
     /// Drags, wheel and clicks.
     fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
+        self.is_dragging = response.dragged();
         let drag = response.drag_delta() * canvas.pixels_per_point;
         let drag = DVec2::new(drag.x.into(), drag.y.into());
         let is_shift = ui.input(|input| input.modifiers.shift);
@@ -168,7 +192,8 @@ impl App {
         if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
             options.picked = None;
         }
-        if self.overlay.rests_while_moving() && self.tracer.is_moving() {
+        let is_moving = self.is_dragging || self.tracer.is_moving();
+        if is_moving && self.overlay.rests_while_moving() {
             options = Options::NOTHING;
         }
         let (overlay, error) = match self.overlay.draw(&scene, &camera, &options, ui.ctx()) {

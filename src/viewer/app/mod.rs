@@ -73,6 +73,8 @@ pub struct App {
     /// The picture as it was last laid out: where, in points, and its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
+    /// Whether the pointer holds the picture.
+    is_dragging: bool,
     /// Whether the camera still has to be set up for the scene: only the layout knows the size.
     is_unframed: bool,
     /// Uncaught errors of the GPU, from whatever thread they come.
@@ -114,6 +116,7 @@ impl App {
             shows_help: false,
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
+            is_dragging: false,
             is_unframed: true,
             screenshot: start.screenshot.map(Screenshot::new),
             settings,
