@@ -349,6 +349,11 @@ impl Tracer {
         }
     }
 
+    /// Ends the work on the present picture for good.
+    pub fn stop(&mut self) {
+        self.renderer.cancel();
+    }
+
     /// Whether refinement stands still.
     pub fn is_paused(&self) -> bool {
         self.is_paused

@@ -132,6 +132,13 @@ impl Renderer {
         self.shared.changed.notify_all();
     }
 
+    /// Drops the job: what is being traced is given up within a pixel.
+    pub fn cancel(&mut self) {
+        self.generation += 1;
+        self.shared.state().posted = None;
+        self.shared.generation.store(self.generation, Relaxed);
+    }
+
     /// Stops after the first, coarse pass, or after the tiles that are being traced. No work is
     /// lost, and jobs posted while paused still get their first pass: the picture follows the camera.
     pub fn pause(&mut self) {

@@ -206,6 +206,14 @@ impl App {
         }
     }
 
+    /// Leaves the processor to what closing the window takes.
+    fn stop_work(&mut self) {
+        if let Some(loading) = self.loading.take() {
+            loading.cancel();
+        }
+        self.tracer.stop();
+    }
+
     fn show(&mut self, document: Document, ctx: &egui::Context) {
         let is_same_file = self.document.path == document.path;
         self.document = document;
@@ -250,6 +258,9 @@ const SETTINGS_KEY: &str = "settings";
 impl eframe::App for App {
     /// Runs also while the window is hidden, so that nothing piles up.
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        if ctx.input(|input| input.viewport().close_requested()) {
+            self.stop_work();
+        }
         self.poll_loading(ctx);
         self.poll_gpu_errors();
         if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
