@@ -137,11 +137,10 @@ fn add_triangles(
             mesh.faces.push(face as u32);
             mesh.outline.push(outline(local, count));
             if has_normals {
-                mesh.corner_normals.push(if facts.face_has_normals[face] {
-                    local.map(|k| parsed.normal_indices[corners.start + k])
-                } else {
-                    [NO_NORMAL; 3]
-                });
+                let normals = &parsed.normal_indices[corners.clone()];
+                let has_normal = facts.face_has_normals[face];
+                let of_corner = |k: usize| if has_normal { normals[k] } else { NO_NORMAL };
+                mesh.corner_normals.push(local.map(of_corner));
             }
         });
         mesh.face_count += usize::from(mesh.triangles.len() > before);

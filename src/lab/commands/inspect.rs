@@ -3,7 +3,7 @@
 use super::args::{CameraArgs, KernelArg};
 use super::render::ShadingArg;
 use super::{CommandError, load};
-use crate::inspection::Inspection;
+use crate::inspection::{HitReport, Inspection};
 use clap::Args;
 use glam::UVec2;
 use hitscope_core::obj::Recentre;
@@ -83,6 +83,30 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         "cost       {} boxes, {} triangles",
         cost.boxes, cost.triangles
     )?;
+    print_hit(kernel, hit.as_ref(), out)?;
+    match exact {
+        None => writeln!(out, "exactly: no hit")?,
+        Some(exact) => {
+            writeln!(out, "exactly: triangle {}", exact.triangle)?;
+            writeln!(out, "  t            {} = {}", exact.t, exact.t_fraction)?;
+            writeln!(out, "  barycentric  {:?}", exact.barycentric)?;
+        }
+    }
+    writeln!(
+        out,
+        "{:<18} {:>14} {:>12} {:>12}",
+        "kernel", "t", "ulps off", "weights off"
+    )?;
+    let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
+    for row in kernels {
+        let t = row.t.map_or("miss".to_owned(), |t| t.to_string());
+        let (ulps, weights) = (number(row.t_error_ulps), number(row.barycentric_error));
+        writeln!(out, "{:<18} {t:>14} {ulps:>12} {weights:>12}", row.name)?;
+    }
+    Ok(())
+}
+
+fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std::io::Result<()> {
     match hit {
         None => writeln!(out, "{kernel}: no hit")?,
         Some(hit) => {
@@ -105,25 +129,6 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
                 hit.material, hit.group
             )?;
         }
-    }
-    match exact {
-        None => writeln!(out, "exactly: no hit")?,
-        Some(exact) => {
-            writeln!(out, "exactly: triangle {}", exact.triangle)?;
-            writeln!(out, "  t            {} = {}", exact.t, exact.t_fraction)?;
-            writeln!(out, "  barycentric  {:?}", exact.barycentric)?;
-        }
-    }
-    writeln!(
-        out,
-        "{:<18} {:>14} {:>12} {:>12}",
-        "kernel", "t", "ulps off", "weights off"
-    )?;
-    let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
-    for row in kernels {
-        let t = row.t.map_or("miss".to_owned(), |t| t.to_string());
-        let (ulps, weights) = (number(row.t_error_ulps), number(row.barycentric_error));
-        writeln!(out, "{:<18} {t:>14} {ulps:>12} {weights:>12}", row.name)?;
     }
     Ok(())
 }

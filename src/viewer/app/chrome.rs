@@ -48,6 +48,11 @@ impl App {
         {
             actions.push(Action::Frame);
         }
+        self.view_menu_ui(ui);
+        self.switches_ui(ui, actions);
+    }
+
+    fn view_menu_ui(&mut self, ui: &mut egui::Ui) {
         let view = self.settings.integrator();
         egui::ComboBox::from_id_salt("view")
             .selected_text(view.title)
@@ -61,6 +66,9 @@ impl App {
             })
             .response
             .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Colours"));
+    }
+
+    fn switches_ui(&self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let settings = &self.settings;
         let switches = [
             (

@@ -5,6 +5,7 @@ use crate::app::grouped;
 use crate::document::Document;
 use egui::RichText;
 use hitscope_core::mesh::SLIVER_ASPECT;
+use hitscope_core::scene::LoadedScene;
 
 /// Counts, place, memory, health, warnings.
 pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
@@ -27,29 +28,9 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
         row_ui(ui, "materials", mesh.named_material_count());
         row_ui(ui, "groups", mesh.named_group_count());
     });
-    section_ui(ui, "Place", |ui| {
-        let bounds = scene.bounds();
-        let corner = |p: glam::Vec3| mesh.in_file(p.as_dvec3()).to_array();
-        row_ui(ui, "lowest", lines(corner(bounds.min)));
-        row_ui(ui, "highest", lines(corner(bounds.max)));
-        row_ui(ui, "origin", lines(mesh.origin.to_array()));
-        row_ui(
-            ui,
-            "rounded by",
-            format!("{:.1e} at most", loaded.max_rounding),
-        );
-    });
-    section_ui(ui, "Time and memory", |ui| {
-        let ms = |time: std::time::Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
-        row_ui(ui, "load", ms(loaded.load_time));
-        row_ui(ui, "tree", ms(scene.build_time()));
-        let kb = |bytes: usize| format!("{:.0} kB", bytes as f64 / 1e3);
-        for (part, bytes) in mesh.bytes() {
-            row_ui(ui, part, kb(bytes));
-        }
-        row_ui(ui, "tree", kb(scene.bvh().bytes()));
-        row_ui(ui, "packed", kb(document.intersector().bytes()));
-    });
+    place_ui(ui, loaded);
+    cost_ui(ui, document);
+    let mesh = document.loaded.scene.mesh();
     section_ui(ui, "Health", |ui| {
         row_ui(
             ui,
@@ -70,10 +51,42 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
             ));
         }
     });
-    if !loaded.warnings.is_empty() {
+    if !document.loaded.warnings.is_empty() {
         ui.label(RichText::new("Warnings").strong());
-        for warning in &loaded.warnings {
+        for warning in &document.loaded.warnings {
             ui.label(warning.to_string());
         }
     }
+}
+
+fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
+    let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
+    section_ui(ui, "Place", |ui| {
+        let bounds = scene.bounds();
+        let corner = |p: glam::Vec3| mesh.in_file(p.as_dvec3()).to_array();
+        row_ui(ui, "lowest", lines(corner(bounds.min)));
+        row_ui(ui, "highest", lines(corner(bounds.max)));
+        row_ui(ui, "origin", lines(mesh.origin.to_array()));
+        row_ui(
+            ui,
+            "rounded by",
+            format!("{:.1e} at most", loaded.max_rounding),
+        );
+    });
+}
+
+fn cost_ui(ui: &mut egui::Ui, document: &Document) {
+    let loaded = &document.loaded;
+    let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
+    section_ui(ui, "Time and memory", |ui| {
+        let ms = |time: std::time::Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
+        row_ui(ui, "load", ms(loaded.load_time));
+        row_ui(ui, "tree", ms(scene.build_time()));
+        let kb = |bytes: usize| format!("{:.0} kB", bytes as f64 / 1e3);
+        for (part, bytes) in mesh.bytes() {
+            row_ui(ui, part, kb(bytes));
+        }
+        row_ui(ui, "tree", kb(scene.bvh().bytes()));
+        row_ui(ui, "packed", kb(document.intersector().bytes()));
+    });
 }
