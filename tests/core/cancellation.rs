@@ -21,7 +21,7 @@ use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// How long a test may wait: far longer than a row of pixels takes.
+/// How long a test may wait: far longer than a pixel takes.
 const PATIENCE: Duration = Duration::from_secs(10);
 
 /// Runs `f` on another thread, and fails if it isn't done in time.
@@ -79,7 +79,7 @@ fn with_before(mut job: Job, before: impl Fn(&Ray) + Send + Sync + 'static) -> J
     job
 }
 
-/// A job that takes 48·8 ms a row and 18 s a tile, and says when it has begun.
+/// A job that takes 8 ms a pixel and 18 s a tile, and says when it has begun.
 fn slow_picture(started: Sender<()>) -> Job {
     with_before(
         picture("shaded", Plan::new(UVec2::splat(480), 1, 1)),
@@ -90,8 +90,8 @@ fn slow_picture(started: Sender<()>) -> Job {
     )
 }
 
-/// Takes messages until the picture is complete; each piece of work must come once, and fit. Asks by
-/// turns without waiting and waiting.
+/// Takes messages until the picture is complete; each piece of work must come once, and fit. Polls
+/// first, then waits.
 fn complete(renderer: &Renderer, job: &Job) -> Film {
     let mut film = Film::new(job.plan.clone(), job.context.background);
     let mut seen: Vec<Unit> = Vec::new();
@@ -108,6 +108,21 @@ fn complete(renderer: &Renderer, job: &Job) -> Film {
         film.add(&tile.samples);
     }
     film
+}
+
+#[test]
+fn after_a_cancel_nothing_arrives_until_another_job_is_posted() {
+    let job = picture("normal", Plan::new(UVec2::new(97, 61), 4, 4));
+    in_time("the job after the cancel", move || {
+        let mut renderer = Renderer::new(2, || ());
+        renderer.post(job.clone());
+        _ = renderer.wait_next();
+        renderer.cancel();
+        thread::sleep(Duration::from_millis(50));
+        assert!(renderer.try_next().is_none());
+        renderer.post(job.clone());
+        complete(&renderer, &job);
+    });
 }
 
 #[test]

@@ -2,7 +2,8 @@
 
 use crate::harness::{gpu, require};
 use std::io::{BufRead as _, BufReader};
-use std::process::{Child, Command, Stdio};
+use std::process::{Child, Command, Output, Stdio};
+use tempfile::TempDir;
 
 /// A display of its own; gone when dropped.
 struct Xvfb {
@@ -37,6 +38,19 @@ impl Xvfb {
             display: format!(":{}", number.trim()),
         })
     }
+
+    /// Runs the program on this display until it ends by itself.
+    fn hitscope(&self, folder: &TempDir, args: &[&str]) -> Output {
+        Command::new(env!("CARGO_BIN_EXE_hitscope"))
+            .args(args)
+            .current_dir(folder.path())
+            .env("DISPLAY", &self.display)
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_RUNTIME_DIR", folder.path())
+            .env("XDG_DATA_HOME", folder.path())
+            .output()
+            .expect("the program runs")
+    }
 }
 
 impl Drop for Xvfb {
@@ -54,15 +68,7 @@ fn the_window_opens_and_its_screenshot_shows_the_scene() {
     let Some(xvfb) = Xvfb::start() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     let output = folder.path().join("window.png");
-    let ran = Command::new(env!("CARGO_BIN_EXE_hitscope"))
-        .args(["--after", "2", "--screenshot"])
-        .arg(&output)
-        .env("DISPLAY", &xvfb.display)
-        .env_remove("WAYLAND_DISPLAY")
-        .env("XDG_RUNTIME_DIR", folder.path())
-        .env("XDG_DATA_HOME", folder.path())
-        .output()
-        .expect("the program runs");
+    let ran = xvfb.hitscope(&folder, &["--after", "2", "--screenshot", "window.png"]);
     assert!(
         ran.status.success(),
         "{}",
@@ -80,4 +86,18 @@ fn the_window_opens_and_its_screenshot_shows_the_scene() {
         orange > 5000 && blue > 2000,
         "{orange} orange and {blue} blue pixels"
     );
+}
+
+#[test]
+fn a_screenshot_of_what_can_not_be_loaded_fails_and_says_why() {
+    if gpu().is_none() {
+        return;
+    }
+    let Some(xvfb) = Xvfb::start() else { return };
+    let folder = tempfile::tempdir().expect("a folder");
+    let ran = xvfb.hitscope(&folder, &["none.obj", "--screenshot", "window.png"]);
+    assert_eq!(ran.status.code(), Some(1));
+    let said = String::from_utf8_lossy(&ran.stderr);
+    assert!(said.contains("hitscope: none.obj: "), "{said}");
+    assert!(!folder.path().join("window.png").exists());
 }

@@ -102,8 +102,7 @@ fn add_triangles(
 ) -> Result<(), Problem> {
     let has_normals = facts.face_has_normals.contains(&true);
     let mut triangulator = Triangulator::new();
-    let mut dropped = Dropped::default();
-    let mut first = FirstFaces::default();
+    let (mut dropped, mut first) = (Dropped::default(), FirstFaces::default());
     let mut polygon: Vec<DVec3> = Vec::new();
     let mut start = 0;
     for face in 0..facts.face_count {
