@@ -2,8 +2,8 @@
 //!
 //! Kernels are written once over [`Lane`]; a scalar and a vector then do the same operations in the
 //! same order, so that they give the same bits, but for NaN in [`Lane::lesser`] and
-//! [`Lane::greater`], which a kernel must reject by other means. There is no fused multiply-add here: it would make
-//! results depend on the CPU, and break the watertight kernel's proof.
+//! [`Lane::greater`], which a kernel must reject by other means. There is no fused multiply-add here:
+//! it would make results depend on the CPU, and break the watertight kernel's proof.
 
 use fearless_simd::{Simd, f32x4, mask32x4, prelude::*};
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Sub};

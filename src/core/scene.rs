@@ -4,7 +4,7 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::Intersector;
 use crate::kernel::TriangleKernel;
-use crate::mesh::{TriangleMesh, VertexNormals};
+use crate::mesh::{SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, Loaded, Recentre, Warning};
 use crate::progress::{Cancelled, Phase, Progress};
 use std::path::Path;
@@ -117,12 +117,55 @@ impl LoadedScene {
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn of(loaded: Loaded, start: Instant, progress: &Progress) -> Result<Self, Cancelled> {
         let load_time = start.elapsed();
+        let scene = Scene::new(loaded.mesh, progress)?;
+        let mut warnings = loaded.warnings;
+        warnings.extend(size_warning(scene.bounds()));
         Ok(Self {
-            scene: Arc::new(Scene::new(loaded.mesh, progress)?),
-            warnings: loaded.warnings,
+            scene: Arc::new(scene),
+            warnings,
             vertex_count: loaded.vertex_count,
             max_rounding: loaded.max_rounding,
             load_time,
         })
+    }
+}
+
+/// What there is to say of a mesh that is too large or too small for f32 kernels.
+fn size_warning(bounds: Aabb) -> Option<Warning> {
+    let size = 2.0 * bounds.radius();
+    let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
+    (!SAFE_SIZE.contains(&size)).then(|| Warning {
+        line: None,
+        message: format!(
+            "the mesh is {size:.1e} units large: outside of {least:e} to {most:e} hits may be missed or inaccurate; scale it"
+        ),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io;
+
+    #[test]
+    fn a_mesh_too_large_or_too_small_for_f32_kernels_is_warned_of() {
+        let library = |_: &str| Err(io::ErrorKind::NotFound.into());
+        let (path, progress) = (Path::new("x.obj"), Progress::default());
+        for (scale, is_warned) in [
+            ("1e-20", true),
+            ("1e-3", false),
+            ("1e9", false),
+            ("1e30", true),
+        ] {
+            let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
+            let loaded = obj::parse(text.as_bytes(), path, Recentre::Auto, &library, &progress);
+            let loaded = LoadedScene::of(loaded.expect("good"), Instant::now(), &progress);
+            let warnings = loaded.expect("nobody cancels").warnings;
+            assert_eq!(
+                warnings.len(),
+                usize::from(is_warned),
+                "{scale}: {warnings:?}"
+            );
+        }
     }
 }

@@ -1,6 +1,6 @@
 //! What is open: a scene, its file, and the intersector that traces it.
 
-use crate::task::{Broken, Task};
+use crate::task::{Broken, Task, Wanted};
 use hitscope_core::Intersector;
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::Health;
@@ -23,7 +23,7 @@ pub struct Document {
     pub loaded: LoadedScene,
     intersector: Arc<dyn Intersector>,
     /// For another kernel, while it is being made.
-    packing: Option<(&'static str, Task<Box<dyn Intersector>>)>,
+    packing: Wanted<&'static str, Box<dyn Intersector>>,
     health: HealthState,
 }
 
@@ -58,7 +58,7 @@ impl Document {
             path,
             intersector: Arc::from(loaded.scene.intersector(kernel)),
             loaded,
-            packing: None,
+            packing: Wanted::default(),
             health: HealthState::Unasked,
         }
     }
@@ -85,22 +85,13 @@ impl Document {
         kernel: &'static TriangleKernel,
         ctx: &egui::Context,
     ) -> Result<(), Broken> {
-        if let Some((name, task)) = &self.packing
-            && *name == kernel.info.name
-        {
-            match task.poll() {
-                Ok(None) => return Ok(()),
-                Ok(Some(intersector)) => self.intersector = Arc::from(intersector),
-                Err(broken) => {
-                    self.packing = None;
-                    return Err(broken);
-                }
-            }
-            self.packing = None;
-        } else if self.intersector.kernel().name != kernel.info.name {
-            let scene = Arc::clone(&self.loaded.scene);
-            let pack = move || scene.intersector(kernel);
-            self.packing = Some((kernel.info.name, Task::spawn("pack", ctx, pack)));
+        if self.intersector.kernel().name == kernel.info.name {
+            return Ok(());
+        }
+        let scene = Arc::clone(&self.loaded.scene);
+        let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
+        if let Some(intersector) = self.packing.get(kernel.info.name, pack)? {
+            self.intersector = Arc::from(intersector);
         }
         Ok(())
     }

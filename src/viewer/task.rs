@@ -45,6 +45,38 @@ impl<T: Send + 'static> Task<T> {
     }
 }
 
+/// Work on one of several things that could be wanted.
+pub struct Wanted<K, T>(Option<(K, Task<T>)>);
+
+impl<K, T> Default for Wanted<K, T> {
+    fn default() -> Self {
+        Self(None)
+    }
+}
+
+impl<K: PartialEq, T: Send + 'static> Wanted<K, T> {
+    /// The result for `key`, once it is there. Starts the work unless it is under way; work for
+    /// another key is then forgotten.
+    ///
+    /// # Errors
+    /// [`Broken`] if it will never be; the next call starts anew.
+    pub fn get(&mut self, key: K, start: impl FnOnce() -> Task<T>) -> Result<Option<T>, Broken> {
+        match &self.0 {
+            Some((wanted, task)) if *wanted == key => {
+                let result = task.poll();
+                if !matches!(result, Ok(None)) {
+                    self.0 = None;
+                }
+                result
+            }
+            _ => {
+                self.0 = Some((key, start()));
+                Ok(None)
+            }
+        }
+    }
+}
+
 struct RepaintOnDrop(egui::Context);
 
 impl Drop for RepaintOnDrop {

@@ -102,6 +102,11 @@ fn assert_same_for_rays(
     }
 }
 
+fn assert_closest_is_the_first(intersector: &dyn Intersector, ray: &Ray) {
+    let closest = intersector.closest_hit(ray).map(|hit| hit.primitive);
+    assert_eq!(closest, Some(0), "{}", intersector.kernel().name);
+}
+
 #[test]
 fn simd_lanes_give_the_bits_of_the_scalar_kernel() {
     // One triangle a scene: the tree is one box, and a lane of the block is all there is.
@@ -229,13 +234,7 @@ fn of_equal_distances_the_lowest_triangle_counts() {
     });
     for kernel in TRIANGLE_KERNELS {
         let ray = Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
-        let hit = copies.intersector(kernel).closest_hit(&ray);
-        assert_eq!(
-            hit.map(|hit| hit.primitive),
-            Some(0),
-            "{}",
-            kernel.info.name
-        );
+        assert_closest_is_the_first(&*copies.intersector(kernel), &ray);
     }
 }
 
@@ -268,13 +267,7 @@ fn of_equal_distances_behind_the_origin_the_lowest_triangle_counts() {
         let ray = Ray::with_interval(origin, dir, -10.0, 10.0).expect("a ray");
         let intersector = copies.intersector(kernel);
         assert_eq!(intersector.all_hits(&ray).len(), 40, "{}", kernel.info.name);
-        let hit = intersector.closest_hit(&ray);
-        assert_eq!(
-            hit.map(|hit| hit.primitive),
-            Some(0),
-            "{}",
-            kernel.info.name
-        );
+        assert_closest_is_the_first(&*intersector, &ray);
     }
 }
 

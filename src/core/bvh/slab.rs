@@ -62,6 +62,8 @@ impl SlabRay {
             };
             let enter = (first - self.origin[axis]) * self.inv_near[axis];
             let rest = last - self.origin[axis];
+            // To skip the second product where t_min ≥ 0 gained nothing (bunny, 1e6 random rays, five
+            // alternating runs, 2026-11).
             let (ahead, behind) = (rest * self.inv_far[axis], rest * self.inv_far_behind[axis]);
             let leave = if behind > ahead { behind } else { ahead };
             near = if enter > near { enter } else { near };

@@ -11,7 +11,6 @@ pub use area::has_zero_area;
 pub use health::{Health, SLIVER_ASPECT};
 pub use normals::VertexNormals;
 
-use crate::aabb::Aabb;
 use glam::{DVec3, Vec3};
 
 /// A place as bits that can be compared and hashed; −0 is the same place as 0.
@@ -82,12 +81,6 @@ impl TriangleMesh {
     /// The corners of a triangle.
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
-    }
-
-    /// The box around the triangles; vertices that no triangle uses don't count.
-    pub fn bounds(&self) -> Aabb {
-        let used = self.triangles.iter().flatten();
-        Aabb::around(used.map(|&v| self.positions[v as usize]))
     }
 
     /// A point of the mesh in the file's coordinates.

@@ -4,7 +4,7 @@ use super::error::{Problem, Warning};
 use super::facts::Facts;
 use super::polygon::{Cut, Triangulator};
 use super::{Library, Loaded, Recentre, mtl};
-use crate::mesh::{Dropped, Material, NO_NORMAL, SAFE_SIZE, TriangleMesh, has_zero_area};
+use crate::mesh::{Dropped, Material, NO_NORMAL, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
 use glam::{DVec3, Vec3};
 
@@ -41,16 +41,6 @@ pub(super) fn assemble(
         mesh.group.push(face_group.of(face as usize));
     }
     require_content(&mesh, facts)?;
-    let size = 2.0 * mesh.bounds().radius();
-    if !SAFE_SIZE.contains(&size) {
-        let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
-        warnings.push(Warning {
-            line: None,
-            message: format!(
-                "the mesh is {size:.1e} units large: outside of {least:e} to {most:e} hits may be missed or inaccurate; scale it"
-            ),
-        });
-    }
     Ok(Loaded {
         max_rounding: max_rounding(&mesh, &exact),
         mesh,

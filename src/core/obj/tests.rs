@@ -239,24 +239,6 @@ fn a_cancelled_load_says_so() {
 }
 
 #[test]
-fn a_mesh_too_large_or_too_small_for_f32_kernels_is_warned_of() {
-    for (scale, is_warned) in [
-        ("1e-20", true),
-        ("1e-3", false),
-        ("1e9", false),
-        ("1e30", true),
-    ] {
-        let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
-        let warnings = load_text(&text).expect("good").warnings;
-        assert_eq!(
-            warnings.len(),
-            usize::from(is_warned),
-            "{scale}: {warnings:?}"
-        );
-    }
-}
-
-#[test]
 fn an_endless_line_is_given_up() {
     let endless = io::repeat(b'1');
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());

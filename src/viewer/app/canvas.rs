@@ -89,7 +89,7 @@ impl App {
                 self.turntable.frame(bounds, canvas.resolution);
             }
             self.pointer(ui, &response, canvas);
-            self.paint(ui, canvas);
+            self.paint(ui, canvas, response.dragged());
             self.tracer
                 .request(self.wanted(ui.ctx(), canvas.resolution));
         });
@@ -116,7 +116,6 @@ impl App {
 
     /// Drags, wheel and clicks.
     fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
-        self.is_dragging = response.dragged();
         let drag = response.drag_delta() * canvas.pixels_per_point;
         let drag = DVec2::new(drag.x.into(), drag.y.into());
         let is_shift = ui.input(|input| input.modifiers.shift);
@@ -180,7 +179,7 @@ impl App {
     }
 
     /// Traced picture, overlay, marker.
-    fn paint(&mut self, ui: &egui::Ui, canvas: Canvas) {
+    fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
         if let Some((film, changed)) = self.tracer.take_changes() {
             self.picture.upload(film, changed);
         }
@@ -192,7 +191,7 @@ impl App {
         if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
             options.picked = None;
         }
-        let is_moving = self.is_dragging || self.tracer.is_moving();
+        let is_moving = is_dragging || self.tracer.is_moving();
         if is_moving && self.overlay.rests_while_moving() {
             options = Options::NOTHING;
         }

@@ -73,8 +73,6 @@ pub struct App {
     /// The picture as it was last laid out: where, in points, and its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
-    /// Whether the pointer holds the picture.
-    is_dragging: bool,
     /// Whether the camera still has to be set up for the scene: only the layout knows the size.
     is_unframed: bool,
     /// Uncaught errors of the GPU, from whatever thread they come.
@@ -116,7 +114,6 @@ impl App {
             shows_help: false,
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
-            is_dragging: false,
             is_unframed: true,
             screenshot: start.screenshot.map(Screenshot::new),
             settings,
@@ -161,11 +158,6 @@ impl App {
     /// What the user is told, until it is closed.
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_ref().map(|notice| notice.text.as_str())
-    }
-
-    /// What came of the picture of the window, if one was asked for.
-    pub fn screenshot(&self) -> Option<&Screenshot> {
-        self.screenshot.as_ref()
     }
 
     fn error(&mut self, text: impl ToString) {

@@ -9,7 +9,7 @@ use crate::gpu::depth::DepthMesh;
 use crate::gpu::lines::{Line, LineSet, StyleUniform, Visibility};
 use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
-use crate::task::{Broken, Task};
+use crate::task::{Broken, Task, Wanted};
 use eframe::egui_wgpu::RenderState;
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Scene};
@@ -74,14 +74,14 @@ fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
 /// A set of lines of one kind: which it is, once it is on the GPU, and on the way there.
 struct Lines<K> {
     ready: Option<(K, LineSet)>,
-    gathering: Option<(K, Task<Vec<Line>>)>,
+    gathering: Wanted<K, Vec<Line>>,
 }
 
 impl<K> Default for Lines<K> {
     fn default() -> Self {
         Self {
             ready: None,
-            gathering: None,
+            gathering: Wanted::default(),
         }
     }
 }
@@ -98,22 +98,12 @@ impl<K: Copy + PartialEq + Send + 'static> Lines<K> {
         if self.ready.as_ref().is_some_and(|(ready, _)| *ready == kind) {
             return Ok(false);
         }
-        match &self.gathering {
-            Some((gathering, task)) if *gathering == kind => {
-                let lines = match task.poll() {
-                    Ok(None) => return Ok(false),
-                    Ok(Some(lines)) => Ok(lines),
-                    Err(broken) => Err(broken),
-                };
-                self.gathering = None;
-                self.ready = Some((kind, upload(&lines?)?));
-                Ok(true)
-            }
-            _ => {
-                self.gathering = Some((kind, Task::spawn("lines", ctx, gather)));
-                Ok(false)
-            }
-        }
+        let start = || Task::spawn("lines", ctx, gather);
+        let Some(lines) = self.gathering.get(kind, start)? else {
+            return Ok(false);
+        };
+        self.ready = Some((kind, upload(&lines)?));
+        Ok(true)
     }
 }
 
