@@ -16,6 +16,8 @@ pub struct Ray {
     pub t_min: f32,
     /// Hits at or behind this are not reported.
     pub t_max: f32,
+    /// The triangle that it starts on, which it therefore can't hit.
+    pub exclude: Option<u32>,
 }
 
 /// Why a ray has no answer.
@@ -71,6 +73,7 @@ impl Ray {
                 dir,
                 t_min,
                 t_max,
+                exclude: None,
             })
         } else {
             Err(RayError::IntervalEmpty)

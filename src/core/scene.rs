@@ -51,6 +51,21 @@ impl Scene {
         })
     }
 
+    /// Only some of a mesh's triangles, in their order, without what is known of their faces.
+    pub fn of_triangles(mesh: &TriangleMesh, triangles: &[u32]) -> Self {
+        let corners = triangles
+            .iter()
+            .flat_map(|&triangle| mesh.corners(triangle));
+        let mesh = TriangleMesh {
+            positions: corners.collect(),
+            triangles: (0..triangles.len() as u32)
+                .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
+                .collect(),
+            ..TriangleMesh::default()
+        };
+        Self::new(mesh, &Progress::default()).expect("nobody cancels")
+    }
+
     /// The triangles.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh

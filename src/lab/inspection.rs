@@ -109,6 +109,21 @@ pub struct CostReport {
     pub boxes: u32,
     /// Triangles tested.
     pub triangles: u32,
+    /// Decisions that the exact kernel took in f64; 0 for the others.
+    pub in_f64: u32,
+    /// Of these, those that it took in integers.
+    pub in_integers: u32,
+}
+
+impl From<Cost> for CostReport {
+    fn from(cost: Cost) -> Self {
+        Self {
+            boxes: cost.boxes,
+            triangles: cost.triangles,
+            in_f64: cost.in_f64,
+            in_integers: cost.in_integers,
+        }
+    }
 }
 
 impl Inspection {
@@ -121,11 +136,12 @@ impl Inspection {
         pixel: UVec2,
     ) -> Self {
         let ray = camera.ray(pixel, Vec2::splat(0.5));
-        let (hit, Cost { boxes, triangles }) = intersector.closest_hit_with_cost(&ray);
+        let (hit, cost) = intersector.closest_hit_with_cost(&ray);
         let mesh = scene.mesh();
         // Sorted, so that the first of equals is the lowest.
         let mut candidates = intersector.candidates(&ray);
         candidates.sort_unstable();
+        let asked = Scene::of_triangles(mesh, &candidates);
         Self {
             pixel: pixel.to_array(),
             ray: RayReport {
@@ -137,9 +153,9 @@ impl Inspection {
             exact: ExactReport::nearest(mesh, &ray, &candidates),
             kernels: TRIANGLE_KERNELS
                 .iter()
-                .map(|kernel| KernelRow::new(kernel, mesh, &ray, &candidates))
+                .map(|kernel| KernelRow::new(kernel, &asked, &ray, &candidates))
                 .collect(),
-            cost: CostReport { boxes, triangles },
+            cost: cost.into(),
         }
     }
 }
@@ -188,25 +204,16 @@ impl ExactReport {
 }
 
 impl KernelRow {
-    /// Asks the kernel about every candidate, in scalar f32, which has the bits of the SIMD lanes.
-    fn new(kernel: &TriangleKernel, mesh: &TriangleMesh, ray: &Ray, candidates: &[u32]) -> Self {
-        let test = |&triangle: &u32| {
-            let hit = kernel.intersect(ray, mesh.corners(triangle))?;
-            Some(Hit {
-                primitive: triangle,
-                ..hit
-            })
-        };
-        let nearest = candidates
-            .iter()
-            .filter_map(test)
-            .min_by(|a, b| a.t.total_cmp(&b.t));
-        let exact = nearest.and_then(|hit| oracle::intersect(ray, mesh.corners(hit.primitive)));
+    /// Asks the kernel about the candidates, which are the scene's triangles.
+    fn new(kernel: &TriangleKernel, asked: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
+        let nearest = asked.intersector(kernel).closest_hit(ray);
+        let corners = |hit: Hit| asked.mesh().corners(hit.primitive);
+        let exact = nearest.and_then(|hit| oracle::intersect(ray, corners(hit)));
         let errors = nearest.zip(exact).map(|(hit, exact)| errors(&hit, &exact));
         Self {
             name: kernel.info.name,
             hit: nearest.is_some(),
-            triangle: nearest.map(|hit| hit.primitive),
+            triangle: nearest.map(|hit| candidates[hit.primitive as usize]),
             t: nearest.map(|hit| hit.t),
             barycentric: nearest.map(|hit| hit.barycentric()),
             t_error_ulps: errors.map(|(t, _)| t),

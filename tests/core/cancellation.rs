@@ -6,7 +6,7 @@ use crate::golden::job;
 use crate::shapes::{Place, torus};
 use glam::UVec2;
 use hitscope_core::camera::Projection;
-use hitscope_core::intersector::Cost;
+use hitscope_core::intersector::{Cost, Crossing};
 use hitscope_core::kernel::KernelInfo;
 use hitscope_core::obj::{self, LoadError, Recentre};
 use hitscope_core::progress::Progress;
@@ -61,7 +61,7 @@ impl<F: Fn(&Ray) + Send + Sync> Intersector for Before<F> {
         (self.before)(ray);
         self.inner.any_hit(ray)
     }
-    fn all_hits(&self, ray: &Ray) -> Vec<Hit> {
+    fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
         (self.before)(ray);
         self.inner.all_hits(ray)
     }

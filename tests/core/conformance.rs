@@ -5,7 +5,7 @@
 use crate::random::Random;
 use crate::shapes::{scene, soup};
 use glam::{DVec3, Vec3, Vec3Swizzles};
-use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::obj::{self, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::ray::RayError;
@@ -141,6 +141,9 @@ fn easy_hits_are_found_at_any_usual_scale() {
 #[test]
 fn an_offset_that_leaves_the_numbers_exact_changes_no_bit() {
     in_every_pose(|kernel, corners, weights| {
+        if !kernel.info.promises.is_translation_invariant {
+            return;
+        }
         // CORNERS are multiples of 1/4, so that up to 2²¹ nothing is rounded away.
         let origin = Vec3::splat(0.25);
         let dir = (blend(weights, corners) - origin.as_dvec3()).as_vec3();
@@ -215,8 +218,13 @@ fn the_interval_is_open_at_both_ends() {
             let ray = Ray::with_interval(Vec3::ZERO, dir, t_min, t_max).expect("a ray");
             kernel.intersect(&ray, corners).map(|hit| hit.t)
         };
-        assert_eq!(hit(t, 9.0), None);
-        assert_eq!(hit(0.0, t), None);
+        // What computes in more digits compares them before it rounds.
+        if kernel.info.precision == Precision::F32 {
+            assert_eq!(hit(t, 9.0), None);
+            assert_eq!(hit(0.0, t), None);
+        }
+        assert_eq!(hit(t.next_up(), 9.0), None);
+        assert_eq!(hit(0.0, t.next_down()), None);
         assert_eq!(hit(t.next_down(), t.next_up()), Some(t));
         assert_eq!(hit(-1.0, 9.0), Some(t));
     });
@@ -317,8 +325,10 @@ fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
         };
         for (kernel, hits) in TRIANGLE_KERNELS.iter().zip(&mut hits) {
             if let Some(Hit { t, u, v, .. }) = kernel.intersect(&ray, corners) {
+                // More digits than f32's may have been above 0.
+                let is_ahead = t > 0.0 || kernel.info.precision != Precision::F32 && t == 0.0;
                 let is_good =
-                    t > 0.0 && t < f32::INFINITY && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0;
+                    is_ahead && t < f32::INFINITY && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0;
                 assert!(
                     is_good,
                     "{} t {t} u {u} v {v}: {ray:?} {corners:?}",
@@ -339,7 +349,7 @@ fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
         for _ in 0..2000 {
             if let Ok(ray) = Ray::new(any(), any()) {
                 let hit = intersector.closest_hit(&ray);
-                assert!(hit.is_none_or(|hit| hit.t > 0.0 && hit.t < f32::INFINITY));
+                assert!(hit.is_none_or(|hit| hit.t >= 0.0 && hit.t < f32::INFINITY));
             }
         }
     }

@@ -6,7 +6,8 @@
 use crate::random::Random;
 use crate::shapes::{Place, flat_grid, in_torus, scene, soup, sphere, torus};
 use glam::Vec3;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::intersector::Crossing;
+use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::{Hit, Intersector, Ray, Scene, TriangleMesh};
 
 /// The bits of an answer: equal floats may differ in them, NaN may not.
@@ -42,23 +43,47 @@ fn assert_same(
     ray: &Ray,
 ) -> bool {
     let name = kernel.info.name;
-    let expected = one_by_one(kernel, corners, ray);
-    let closest = intersector.closest_hit(ray);
-    assert_eq!(
-        bits(closest),
-        bits(expected.first().copied()),
-        "{name} {ray:?}"
-    );
+    let mut expected = one_by_one(kernel, corners, ray);
     let all = intersector.all_hits(ray);
-    let all: Vec<_> = all.into_iter().map(|hit| bits(Some(hit))).collect();
-    let expected: Vec<_> = expected.into_iter().map(|hit| bits(Some(hit))).collect();
-    assert_eq!(all, expected, "{name} {ray:?}");
+    let mut met: Vec<u32> = all.iter().flat_map(in_crossing).collect();
+    if kernel.info.precision != Precision::F32 {
+        // Ordered by more digits than a hit's t has: what f32 can't tell apart may stand either way.
+        met.sort_unstable();
+        expected.sort_by_key(|hit| hit.primitive);
+        assert!(
+            all.is_sorted_by_key(|crossing| crossing.hit.t),
+            "{name} {ray:?}"
+        );
+    }
+    let primitives: Vec<u32> = expected.iter().map(|hit| hit.primitive).collect();
+    assert_eq!(met, primitives, "{name} {ray:?}");
+    for crossing in &all {
+        let alone = expected
+            .iter()
+            .find(|hit| hit.primitive == crossing.hit.primitive);
+        assert_eq!(
+            bits(Some(crossing.hit)),
+            bits(alone.copied()),
+            "{name} {ray:?}"
+        );
+    }
+
+    let closest = intersector.closest_hit(ray);
+    let first = all.first().map(|crossing| crossing.hit);
+    assert_eq!(bits(closest), bits(first), "{name} {ray:?}");
     assert_eq!(
         intersector.any_hit(ray),
         closest.is_some(),
         "{name} {ray:?}"
     );
     closest.is_some()
+}
+
+/// The triangles that meet at a crossing.
+fn in_crossing(crossing: &Crossing) -> impl Iterator<Item = u32> {
+    [crossing.hit.primitive]
+        .into_iter()
+        .chain(crossing.also.clone())
 }
 
 /// Which kernels a case is for.
@@ -72,7 +97,7 @@ impl Ask {
     fn kernels(self) -> impl Iterator<Item = &'static TriangleKernel> {
         let is_asked = move |kernel: &&TriangleKernel| match self {
             Self::Every => true,
-            Self::Watertight => kernel.info.is_watertight,
+            Self::Watertight => kernel.info.promises.is_watertight,
         };
         TRIANGLE_KERNELS.iter().filter(is_asked)
     }
@@ -183,7 +208,9 @@ fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
 fn an_interval_that_ends_at_a_hit_leaves_it_out() {
     let mut random = Random::new(12);
     let scene = scene(sphere(6, Place::UNIT));
-    for intersector in TRIANGLE_KERNELS.iter().map(|k| scene.intersector(k)) {
+    let in_f32 = |kernel: &&TriangleKernel| kernel.info.precision == Precision::F32;
+    for kernel in TRIANGLE_KERNELS.iter().filter(in_f32) {
+        let intersector = scene.intersector(kernel);
         for _ in 0..500 {
             let (origin, dir) = (0.3 * random.in_cube_f32(), random.in_cube_f32());
             let whole = Ray::new(origin, dir).expect("a ray");
@@ -192,7 +219,7 @@ fn an_interval_that_ends_at_a_hit_leaves_it_out() {
                 let ray = Ray::with_interval(origin, dir, t_min, t_max).expect("a ray");
                 let closest = intersector.closest_hit(&ray).map(|hit| hit.t);
                 assert_eq!(intersector.any_hit(&ray), closest.is_some());
-                assert_eq!(intersector.all_hits(&ray).first().map(|h| h.t), closest);
+                assert_eq!(intersector.all_hits(&ray).first().map(|c| c.hit.t), closest);
                 closest
             };
             assert_eq!(hit_in(0.0, t), None);
@@ -266,7 +293,9 @@ fn of_equal_distances_behind_the_origin_the_lowest_triangle_counts() {
         let (origin, dir) = (Vec3::new(0.0, 0.0, 3.0), Vec3::Z);
         let ray = Ray::with_interval(origin, dir, -10.0, 10.0).expect("a ray");
         let intersector = copies.intersector(kernel);
-        assert_eq!(intersector.all_hits(&ray).len(), 40, "{}", kernel.info.name);
+        let all = intersector.all_hits(&ray);
+        assert_eq!(all.len(), 1, "{}", kernel.info.name);
+        assert_eq!(all[0].also.len(), 39, "{}", kernel.info.name);
         assert_closest_is_the_first(&*intersector, &ray);
     }
 }
@@ -280,8 +309,7 @@ fn a_hit_whose_t_rounds_to_before_its_box_is_not_left_out() {
     let scene = scene(soup(&triangles));
     let origin = Vec3::new(-0.274_436_77, 0.293_592_54, 0.288_934_6);
     let dir = Vec3::new(0.088_818_06, -0.016_551_644, 0.086_065_41);
-    let mut rays = [Ray::new(origin, dir).ok()].into_iter();
-    assert_same_for_rays(Ask::Watertight, &scene, 1, || rays.next().flatten());
+    assert_same_for_rays(Ask::Watertight, &scene, 1, || Ray::new(origin, dir).ok());
 }
 
 #[test]

@@ -110,7 +110,7 @@ proptest! {
         // Edge functions are the same but for their sign. Their sum rounds twice and the quotient
         // once: u and v err by 3u of themselves. 1 − u − v rounds twice more: 5u. Two hits: 10u.
         let tolerance = (10.0 * U) as f32;
-        for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.is_watertight) {
+        for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.promises.is_watertight) {
             let hit = kernel.intersect(&ray, corners);
             for order in ORDERS {
                 let other = kernel.intersect(&ray, order.map(|k| corners[k]));
@@ -134,7 +134,7 @@ proptest! {
 
     #[test]
     fn the_hit_lies_on_the_ray_and_on_the_triangle((corners, ray) in aimed()) {
-        for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.is_watertight) {
+        for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.promises.is_watertight) {
             let Some(hit) = kernel.intersect(&ray, corners) else { continue };
             let on_ray = ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3();
             let off = (on_ray - place(corners, hit)).abs().max_element();

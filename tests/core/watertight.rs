@@ -13,7 +13,7 @@ use std::thread;
 fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
     TRIANGLE_KERNELS
         .iter()
-        .filter(|kernel| kernel.info.is_watertight)
+        .filter(|kernel| kernel.info.promises.is_watertight)
 }
 
 /// Where the rays start and end: somewhere inside, and on the mesh's edges and corners.

@@ -5,19 +5,24 @@
 
 mod triangle;
 
+pub(crate) use triangle::{ShearedRay, exact};
 pub use triangle::{TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, triangle_kernel};
 
-use crate::lane::Lane;
+use crate::lane::{Lane, Number, Stored};
 use crate::ray::Ray;
 use glam::Vec3;
 
 /// The tier that a user chooses by, from fast to exact.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tier {
     /// The quickest; promises nothing beyond what is measured.
     Fast,
     /// No gap between triangles that share an edge or a vertex.
     Watertight,
+    /// The right decision and t to f32's last place, but at the farthest extremes.
+    Precise,
+    /// Hit or miss, and which of two hits is nearer, always as exact arithmetic says.
+    Exact,
 }
 
 impl Tier {
@@ -26,11 +31,59 @@ impl Tier {
         match self {
             Self::Fast => "fast",
             Self::Watertight => "watertight",
+            Self::Precise => "precise",
+            Self::Exact => "exact",
         }
     }
 }
 
-/// What a kernel says of itself. What it promises, the conformance suite tests.
+/// What a kernel computes in.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Precision {
+    /// 24 binary digits.
+    F32,
+    /// 53 binary digits, of the f32 mesh.
+    F64,
+    /// As many as it takes.
+    Adaptive,
+}
+
+impl Precision {
+    /// For tables.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::F32 => "f32",
+            Self::F64 => "f64",
+            Self::Adaptive => "adaptive",
+        }
+    }
+}
+
+/// What a kernel promises beyond the figures that are measured; the conformance suite tests it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Promises {
+    /// No ray slips between triangles of a closed mesh.
+    pub is_watertight: bool,
+    /// t errs by at most 0.7 ulp of f32, and a weight by at most 2⁻²³, through the extremes that the
+    /// laboratory measures.
+    pub is_accurate: bool,
+    /// Hit or miss, and the order of two hits, are as exact arithmetic says.
+    pub is_exact: bool,
+    /// Where moving ray and triangle by the same vector rounds no coordinate, it changes no bit.
+    pub is_translation_invariant: bool,
+}
+
+impl Promises {
+    /// What a kernel keeps that starts from differences of coordinates.
+    pub(crate) const PLAIN: Self = Self {
+        is_watertight: false,
+        is_accurate: false,
+        is_exact: false,
+        is_translation_invariant: true,
+    };
+}
+
+/// What a kernel says of itself.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelInfo {
     /// As `--kernel` takes it.
@@ -39,12 +92,21 @@ pub struct KernelInfo {
     pub title: &'static str,
     /// The tier it serves, if any.
     pub tier: Option<Tier>,
+    /// What it computes in.
+    pub precision: Precision,
     /// Author, title, year.
     pub source: &'static str,
     /// What it is good and bad at, in a sentence.
     pub summary: &'static str,
-    /// Whether a ray can't slip between triangles of a closed mesh.
-    pub is_watertight: bool,
+    /// What the conformance suite holds it to.
+    pub promises: Promises,
+}
+
+impl KernelInfo {
+    /// As a user asks for it: by its tier if it serves one, else by its own name.
+    pub fn short_name(&self) -> &'static str {
+        self.tier.map_or(self.name, Tier::name)
+    }
 }
 
 /// What a test found: which lanes hit, and there t, u and v. Other lanes hold rubbish.
@@ -60,40 +122,86 @@ pub(crate) struct LaneHit<L: Lane> {
     pub v: L,
 }
 
-/// Triangles side by side, one a lane.
+/// What a kernel keeps of triangles side by side, one a lane.
 ///
-/// A kernel asks for the coordinates that it wants: to permute the axes then costs it an address, no
+/// A kernel asks for the values that it wants: to permute the axes then costs it an address, no
 /// shuffle of loaded vectors.
-pub(crate) trait Corners<L: Lane> {
-    /// A coordinate (x, y, z: 0, 1, 2) of a corner (A, B, C: 0, 1, 2).
-    fn coordinate(&self, corner: usize, axis: usize) -> L;
-}
+pub(crate) trait Values<L: Lane> {
+    /// A value, by the index at which the kernel packed it.
+    fn value(&self, index: usize) -> L;
 
-impl<L: Lane<Token = ()> + From<f32>> Corners<L> for [Vec3; 3] {
+    /// Three values in a row.
     #[inline(always)]
-    fn coordinate(&self, corner: usize, axis: usize) -> L {
-        self[corner][axis].into()
+    fn three(&self, first: usize) -> [L; 3] {
+        [
+            self.value(first),
+            self.value(first + 1),
+            self.value(first + 2),
+        ]
     }
 }
 
-/// One algorithm.
+/// The values of one triangle.
+pub(crate) struct OneTriangle<'a, T>(pub &'a [T]);
+
+impl<N: Number, T: Stored<N>> Values<N> for OneTriangle<'_, T> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> N {
+        self.0[index].number()
+    }
+}
+
+/// One algorithm, in f32 and in f64.
 pub(crate) trait Kernel: Send + Sync + 'static {
-    /// What it says of itself.
-    const INFO: KernelInfo;
+    /// What it says of itself in f32.
+    const IN_F32: KernelInfo;
+    /// What it says of itself in f64.
+    const IN_F64: KernelInfo;
+    /// How many numbers it keeps of a triangle.
+    const VALUES: usize;
+    /// What it keeps them as where it works in `N`.
+    type Stored<N: Number>: Stored<N>;
     /// A ray made ready for many tests.
     type Prepared<L: Lane>: Copy;
+
+    /// Makes a triangle ready; done once, into [`VALUES`](Self::VALUES) numbers.
+    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [Self::Stored<N>]);
 
     /// Makes a ray ready; done once a ray.
     fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> Self::Prepared<L>;
 
-    /// Tests a ray against the triangles that the lanes of `corners` hold.
+    /// Tests a ray against the triangles that the lanes hold.
     ///
     /// A hit has `t_min < t ≤ t_max`; a triangle with a NaN is a miss, and so is one of zero area
     /// where the kernel recognises it. `None`: no lane hit.
     fn intersect<L: Lane>(
         ray: &Self::Prepared<L>,
-        corners: &impl Corners<L>,
+        triangles: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>>;
+}
+
+/// Packs the corners as they are: the x, y and z of A, of B, of C.
+pub(crate) fn pack_corners(corners: [Vec3; 3], values: &mut [f32]) {
+    for (corner, kept) in corners.iter().zip(values.chunks_exact_mut(3)) {
+        kept.copy_from_slice(&corner.to_array());
+    }
+}
+
+/// The ray as it is, in every lane.
+#[derive(Clone, Copy)]
+pub(crate) struct PlainRay<L> {
+    pub origin: [L; 3],
+    pub dir: [L; 3],
+}
+
+impl<L: Lane> PlainRay<L> {
+    #[inline(always)]
+    pub fn new(token: L::Token, ray: &Ray) -> Self {
+        Self {
+            origin: ray.origin.to_array().map(|x| L::of(token, x)),
+            dir: ray.dir.to_array().map(|x| L::of(token, x)),
+        }
+    }
 }

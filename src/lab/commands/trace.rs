@@ -257,13 +257,9 @@ impl Tracer<'_> {
             Question::All => {
                 let found = self.intersector.all_hits(ray);
                 *hits += u64::from(!found.is_empty());
-                // Sorted by t: hits at equal t stand together.
                 let crossings: Vec<HitLine> = found
-                    .chunk_by(|a, b| a.t == b.t)
-                    .map(|equal| {
-                        let others = equal[1..].iter().map(|hit| hit.primitive).collect();
-                        HitLine::new(mesh, &equal[0], Some(others))
-                    })
+                    .into_iter()
+                    .map(|crossing| HitLine::new(mesh, &crossing.hit, Some(crossing.also)))
                     .collect();
                 format!("{{\"hits\":{}}}", to_json(&crossings))
             }

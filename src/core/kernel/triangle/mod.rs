@@ -1,30 +1,69 @@
 //! Ray–triangle kernels, and the table of them.
 
+mod baldwin_weber;
+mod dominant_axis;
+mod edge_planes;
+pub(crate) mod exact;
 mod moller_trumbore;
+mod parametric;
+mod plane_projection;
+mod shear;
+
 mod watertight;
 
-use super::{Kernel, KernelInfo};
+pub(crate) use shear::ShearedRay;
+
+use super::{Kernel, KernelInfo, OneTriangle};
 use crate::bvh::Bvh;
-use crate::intersector::{Intersector, MeshIntersector};
+use crate::intersector::Intersector;
+use crate::intersector::exact::ExactIntersector;
+use crate::intersector::mesh::MeshIntersector;
+use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
+use baldwin_weber::BaldwinWeber;
+use edge_planes::EdgePlanes;
 use glam::Vec3;
+use moller_trumbore::MollerTrumbore;
+use parametric::Parametric;
+use plane_projection::PlaneProjection;
 use std::sync::Arc;
+use watertight::Watertight;
 
 /// A row of the table: one kernel, behind functions that don't name its type.
 pub struct TriangleKernel {
     /// What the kernel says of itself.
-    pub info: KernelInfo,
+    pub info: &'static KernelInfo,
     intersector: fn(&TriangleMesh, Arc<Bvh>) -> Box<dyn Intersector>,
-    scalar: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
+    one: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
 }
 
 impl TriangleKernel {
-    const fn of<K: Kernel>() -> Self {
+    const fn in_f32<K: Kernel>() -> Self {
         Self {
-            info: K::INFO,
-            intersector: |mesh, bvh| Box::new(MeshIntersector::<K>::new(mesh, bvh)),
-            scalar: intersect_one::<K>,
+            info: &K::IN_F32,
+            intersector: |mesh, bvh| {
+                Box::new(MeshIntersector::<K, f32>::new(&K::IN_F32, mesh, bvh))
+            },
+            one: intersect_one::<K, f32>,
+        }
+    }
+
+    const fn in_f64<K: Kernel>() -> Self {
+        Self {
+            info: &K::IN_F64,
+            intersector: |mesh, bvh| {
+                Box::new(MeshIntersector::<K, f64>::new(&K::IN_F64, mesh, bvh))
+            },
+            one: intersect_one::<K, f64>,
+        }
+    }
+
+    const fn exact() -> Self {
+        Self {
+            info: &exact::INFO,
+            intersector: |mesh, bvh| Box::new(ExactIntersector::new(mesh, bvh)),
+            one: exact::intersect_one,
         }
     }
 
@@ -33,41 +72,61 @@ impl TriangleKernel {
         (self.intersector)(mesh, bvh)
     }
 
-    /// Tests one triangle in scalar f32, with the bits that the SIMD lanes give. The hit's
+    /// Tests one triangle in scalar arithmetic, with the bits that the SIMD lanes give. The hit's
     /// `primitive` is 0.
     pub fn intersect(&self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
-        (self.scalar)(ray, corners)
+        (self.one)(ray, corners)
     }
 }
 
-/// Every triangle kernel, from fast to accurate.
+/// Every triangle kernel, by algorithm, the tiers last.
 pub static TRIANGLE_KERNELS: &[TriangleKernel] = &[
-    TriangleKernel::of::<moller_trumbore::MollerTrumbore>(),
-    TriangleKernel::of::<watertight::Watertight>(),
+    TriangleKernel::in_f32::<PlaneProjection>(),
+    TriangleKernel::in_f64::<PlaneProjection>(),
+    TriangleKernel::in_f32::<Parametric>(),
+    TriangleKernel::in_f64::<Parametric>(),
+    TriangleKernel::in_f32::<EdgePlanes>(),
+    TriangleKernel::in_f64::<EdgePlanes>(),
+    TriangleKernel::in_f32::<BaldwinWeber>(),
+    TriangleKernel::in_f64::<BaldwinWeber>(),
+    TriangleKernel::in_f32::<MollerTrumbore>(),
+    TriangleKernel::in_f64::<MollerTrumbore>(),
+    TriangleKernel::in_f32::<Watertight>(),
+    TriangleKernel::in_f64::<Watertight>(),
+    TriangleKernel::exact(),
 ];
 
 /// The kernel of this name, or the one that serves the tier of this name.
 pub fn triangle_kernel(name: &str) -> Option<&'static TriangleKernel> {
-    TRIANGLE_KERNELS.iter().find(|kernel| {
-        kernel.info.name == name || kernel.info.tier.is_some_and(|tier| tier.name() == name)
-    })
+    let by_tier = |kernel: &TriangleKernel| kernel.info.tier.is_some_and(|t| t.name() == name);
+    let by_name = |kernel: &TriangleKernel| kernel.info.name == name;
+    TRIANGLE_KERNELS
+        .iter()
+        .find(|kernel| by_name(kernel) || by_tier(kernel))
 }
 
 /// What is used where nobody chose: watertight.
 pub fn default_triangle_kernel() -> &'static TriangleKernel {
-    triangle_kernel(watertight::Watertight::INFO.name).expect("the default is in the table")
+    triangle_kernel(Watertight::IN_F32.name).expect("the default is in the table")
 }
 
-fn intersect_one<K: Kernel>(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
-    let prepared = K::prepare::<f32>((), ray);
-    let hit = K::intersect(&prepared, &corners, ray.t_min, ray.t_max)?;
-    (hit.mask && hit.t < ray.t_max).then_some(Hit {
-        t: hit.t,
-        u: hit.u,
-        v: hit.v,
+fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
+    let mut values = [<K::Stored<N> as Stored<N>>::NO_TRIANGLE; MOST_VALUES];
+    K::pack::<N>(corners, &mut values[..K::VALUES]);
+    let prepared = K::prepare::<N>((), ray);
+    let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);
+    let hit = K::intersect(&prepared, &OneTriangle(&values[..K::VALUES]), t_min, t_max)?;
+    let t = hit.t.to_f32();
+    (hit.mask && hit.t < t_max && t < f32::INFINITY).then_some(Hit {
+        t,
+        u: hit.u.to_f32(),
+        v: hit.v.to_f32(),
         primitive: 0,
     })
 }
+
+/// As many values as any kernel keeps of a triangle.
+const MOST_VALUES: usize = 12;
 
 #[cfg(test)]
 mod tests {

@@ -5,57 +5,64 @@
 //!   only det = 0 is rejected; both sides hit; the divisions come last.
 //! Promises: nothing beyond the figures that are measured.
 //! Doesn't promise: an answer at shared edges and vertices (each neighbour rounds its own way, so
-//!   that both may miss), nor for triangles whose edges are below some 1e-12 (det underflows).
+//!   that both may miss), nor, in f32, for triangles whose edges are below some 1e-12 (det underflows).
 
-use crate::kernel::{Corners, Kernel, KernelInfo, LaneHit, Tier};
-use crate::lane::{Lane, LaneMask};
+use crate::kernel::{
+    Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Tier, Values, pack_corners,
+};
+use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
 use crate::ray::Ray;
+use glam::Vec3;
 
 /// See the [module](self).
 pub(super) struct MollerTrumbore;
 
-/// The ray as it is, in every lane.
-#[derive(Clone, Copy)]
-pub(crate) struct Prepared<L> {
-    origin: [L; 3],
-    dir: [L; 3],
-}
-
 impl Kernel for MollerTrumbore {
-    const INFO: KernelInfo = KernelInfo {
+    const IN_F32: KernelInfo = KernelInfo {
         name: "moller-trumbore",
         title: "Möller–Trumbore",
         tier: Some(Tier::Fast),
+        precision: Precision::F32,
         source: "Möller, Trumbore, Fast, Minimum Storage Ray/Triangle Intersection, 1997",
         summary: "Fast; some rays slip through shared edges and vertices.",
-        is_watertight: false,
+        promises: Promises::PLAIN,
     };
-    type Prepared<L: Lane> = Prepared<L>;
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "moller-trumbore-f64",
+        title: "Möller–Trumbore, f64",
+        tier: None,
+        precision: Precision::F64,
+        summary: "Accurate; a ray aimed exactly at a vertex may still slip through.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = 9;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = PlainRay<L>;
+
+    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
+        pack_corners(corners, values);
+    }
 
     #[inline(always)]
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> Prepared<L> {
-        let splat = |v: [f32; 3]| v.map(|x| L::splat(token, x));
-        Prepared {
-            origin: splat(ray.origin.to_array()),
-            dir: splat(ray.dir.to_array()),
-        }
+    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
+        PlainRay::new(token, ray)
     }
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &Prepared<L>,
-        corners: &impl Corners<L>,
+        ray: &PlainRay<L>,
+        triangles: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
-        let zero = L::splat(t_min.token(), 0.0);
-        let [a, b, c] = [corner(corners, 0), corner(corners, 1), corner(corners, 2)];
-        let (e1, e2) = (sub(&b, &a), sub(&c, &a));
+        let zero = L::of(t_min.token(), 0.0);
+        let [a, b, c] = [triangles.three(0), triangles.three(3), triangles.three(6)];
+        let (e1, e2) = (minus(&b, &a), minus(&c, &a));
 
         // Cramer's rule for o − A = −t·d + u·e1 + v·e2; det = 0: the ray is parallel to the plane.
         let p = cross(&ray.dir, &e2);
         let det = dot(&e1, &p);
-        let s = sub(&ray.origin, &a);
+        let s = minus(&ray.origin, &a);
         let u = dot(&s, &p).flip(det);
         let q = cross(&s, &e1);
         let v = dot(&ray.dir, &q).flip(det);
@@ -76,32 +83,4 @@ impl Kernel for MollerTrumbore {
             v: v / det_abs,
         })
     }
-}
-
-#[inline(always)]
-fn corner<L: Lane>(corners: &impl Corners<L>, corner: usize) -> [L; 3] {
-    [
-        corners.coordinate(corner, 0),
-        corners.coordinate(corner, 1),
-        corners.coordinate(corner, 2),
-    ]
-}
-
-#[inline(always)]
-fn sub<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
-    [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
-}
-
-#[inline(always)]
-fn cross<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
-    [
-        a[1] * b[2] - a[2] * b[1],
-        a[2] * b[0] - a[0] * b[2],
-        a[0] * b[1] - a[1] * b[0],
-    ]
-}
-
-#[inline(always)]
-fn dot<L: Lane>(a: &[L; 3], b: &[L; 3]) -> L {
-    a[0] * b[0] + a[1] * b[1] + a[2] * b[2]
 }

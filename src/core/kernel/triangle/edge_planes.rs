@@ -1,0 +1,88 @@
+//! Ray–triangle test by the three planes through the ray's origin and an edge.
+//!
+//! ```text
+//!            C
+//!           ╱ ╲          The direction lies inside the pyramid over the triangle if it is on the
+//!          ╱ × ╲         same side of all three of its planes; seen from behind, the sides are the
+//!    o ···A─────B        other ones.
+//! ```
+//!
+//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (3).
+//! Differs from the lecture: either side hits; the planes' normals aren't made unit length, which is a
+//!   NaN where the origin lies on the line of an edge; the sign that is tested is that of d·n, as the
+//!   point on the triangle's plane lies in the same direction.
+//! Promises: nothing beyond the figures that are measured.
+//! Doesn't promise: an answer at shared vertices, though none is lost at shared edges, whose normal
+//!   both neighbours round alike; any accuracy far from the triangle: the normals' size follows the
+//!   square of the distance.
+
+use crate::kernel::{
+    Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values, pack_corners,
+};
+use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
+use crate::ray::Ray;
+use glam::Vec3;
+
+/// See the [module](self).
+pub(super) struct EdgePlanes;
+
+impl Kernel for EdgePlanes {
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "edge-planes",
+        title: "Edge planes",
+        tier: None,
+        precision: Precision::F32,
+        source: "Lensch, Basic Geometry, lecture, 2022",
+        summary: "No ray slips through an edge, some through vertices; bad for far origins.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "edge-planes-f64",
+        title: "Edge planes, f64",
+        precision: Precision::F64,
+        summary: "Accurate up to a million times the triangle's size away.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = 9;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = PlainRay<L>;
+
+    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
+        pack_corners(corners, values);
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
+        PlainRay::new(token, ray)
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &PlainRay<L>,
+        triangles: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        let zero = L::of(t_min.token(), 0.0);
+        let [a, b, c] = [0, 3, 6].map(|first| minus(&triangles.three(first), &ray.origin));
+
+        // Sides of the planes over BC, CA and AB; each is a weight times det.
+        let w1 = dot(&ray.dir, &cross(&b, &c));
+        let w2 = dot(&ray.dir, &cross(&c, &a));
+        let w3 = dot(&ray.dir, &cross(&a, &b));
+        let (least, most) = (w1.lesser(w2).lesser(w3), w1.greater(w2).greater(w3));
+        let det = w1 + w2 + w3;
+        let inside = (zero.le(least) | most.le(zero)) & zero.lt(det.abs());
+        if !inside.any() {
+            return None;
+        }
+
+        // The plane, by the triangle's own normal: that of the edges' sum cancels. A NaN or an
+        // infinity fails what follows.
+        let normal = cross(&minus(&b, &a), &minus(&c, &a));
+        let t = dot(&normal, &a) / dot(&normal, &ray.dir);
+        let (u, v) = (w2 / det, w3 / det);
+        let mask = inside & t_min.lt(t) & t.le(t_max) & zero.le(u) & zero.le(v);
+        mask.any().then_some(LaneHit { mask, t, u, v })
+    }
+}

@@ -1,0 +1,240 @@
+//! Decides about hits one by one: from their f32 depths if those don't overlap, else in f64, else in
+//! integers.
+
+use super::super::shear::ShearedRay;
+use super::{VALUES, filter, integer};
+use crate::kernel::{OneTriangle, pack_corners};
+use crate::lane::LaneMask;
+use crate::ray::{Hit, Ray};
+use glam::Vec3;
+use std::cmp::Ordering;
+
+/// f64 results are used if they are off by at most this, relatively: t and weights then err by 2⁻⁶ of
+/// f32's half ulp at most.
+const GOOD: f64 = 1.0 / (1u64 << 31) as f64;
+
+/// How often f32 could not decide.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub(crate) struct Work {
+    /// Decisions about hit, interval or order that needed f64.
+    pub in_f64: u32,
+    /// Of these, those that needed integers.
+    pub in_integers: u32,
+}
+
+/// A triangle that the ray's line meets, and bounds on where.
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct Candidate {
+    pub primitive: u32,
+    /// Where its corners are found.
+    slot: usize,
+    /// |t·d_z| with t's sign is at least this,
+    near: f64,
+    /// and at most that.
+    far: f64,
+    /// Whether the bounds are as narrow as f64 makes them.
+    is_narrow: bool,
+}
+
+impl Candidate {
+    /// A bound on its depth in f32, no less than that in f64.
+    pub fn far_f32(&self) -> f32 {
+        let far = self.far as f32;
+        if f64::from(far) < self.far {
+            far.next_up()
+        } else {
+            far
+        }
+    }
+}
+
+/// The questions about one ray. `corners` finds those of a slot.
+pub(crate) struct Judge<'a, F> {
+    ray: &'a Ray,
+    corners: F,
+    dir_z: f64,
+    pub work: Work,
+}
+
+impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
+    pub fn new(ray: &'a Ray, corners: F) -> Self {
+        Self {
+            ray,
+            corners,
+            dir_z: f64::from(ray.dir.abs().max_element()),
+            work: Work::default(),
+        }
+    }
+
+    /// A bound on t from one on the depth; infinite beyond f32's range.
+    pub fn t_beyond(&self, candidate: &Candidate) -> f32 {
+        (candidate.far / self.dir_z) as f32
+    }
+
+    /// A triangle that isn't a certain miss, if its hit lies in the ray's interval.
+    ///
+    /// `is_certain` and the bounds are the f32 filter's.
+    pub fn candidate(
+        &mut self,
+        primitive: u32,
+        slot: usize,
+        is_certain: bool,
+        near: f32,
+        far: f32,
+    ) -> Option<Candidate> {
+        let mut candidate = Candidate {
+            primitive,
+            slot,
+            near: near.into(),
+            far: far.into(),
+            is_narrow: false,
+        };
+        if !is_certain && !self.narrow(&mut candidate) {
+            return None;
+        }
+        let ray = self.ray;
+        let is_after = self.compare_with(&mut candidate, ray.t_min) == Ordering::Greater;
+        // What is farther than f32's largest number is never hit.
+        let end = ray.t_max.min(f32::MAX);
+        (is_after && self.compare_with(&mut candidate, end) == Ordering::Less).then_some(candidate)
+    }
+
+    /// Whether the first is nearer, or as near and of a lower index.
+    pub fn is_before(&mut self, first: &mut Candidate, second: &mut Candidate) -> bool {
+        match self.compare(first, second) {
+            Ordering::Less => true,
+            Ordering::Equal => first.primitive < second.primitive,
+            Ordering::Greater => false,
+        }
+    }
+
+    /// Which is nearer, exactly.
+    pub fn compare(&mut self, first: &mut Candidate, second: &mut Candidate) -> Ordering {
+        let by_bounds = |first: &Candidate, second: &Candidate| {
+            if first.far < second.near {
+                Some(Ordering::Less)
+            } else if second.far < first.near {
+                Some(Ordering::Greater)
+            } else {
+                None
+            }
+        };
+        if let Some(order) = by_bounds(first, second) {
+            return order;
+        }
+        let (a, b) = ((self.corners)(first.slot), (self.corners)(second.slot));
+        if a == b {
+            return Ordering::Equal;
+        }
+        self.narrow(first);
+        self.narrow(second);
+        by_bounds(first, second).unwrap_or_else(|| {
+            self.work.in_integers += 1;
+            integer::compare(self.ray, a, b)
+        })
+    }
+
+    /// How a hit's t compares with a number, exactly.
+    fn compare_with(&mut self, candidate: &mut Candidate, t: f32) -> Ordering {
+        // Exact: 24 digits by 24.
+        let depth = f64::from(t) * self.dir_z;
+        let by_bounds = |candidate: &Candidate| {
+            if candidate.far < depth {
+                Some(Ordering::Less)
+            } else if candidate.near > depth {
+                Some(Ordering::Greater)
+            } else {
+                None
+            }
+        };
+        if let Some(order) = by_bounds(candidate) {
+            return order;
+        }
+        self.narrow(candidate);
+        by_bounds(candidate).unwrap_or_else(|| {
+            self.work.in_integers += 1;
+            integer::compare_with(self.ray, (self.corners)(candidate.slot), t)
+        })
+    }
+
+    /// Narrows the bounds as far as f64 can. `false`: the triangle is missed.
+    fn narrow(&mut self, candidate: &mut Candidate) -> bool {
+        if candidate.is_narrow {
+            return true;
+        }
+        candidate.is_narrow = true;
+        self.work.in_f64 += 1;
+        let corners = (self.corners)(candidate.slot);
+        match in_f64(self.ray, corners) {
+            Sight::Missed => false,
+            Sight::Certain { near, far, .. } => {
+                (candidate.near, candidate.far) = (near, far);
+                true
+            }
+            Sight::Doubtful => {
+                self.work.in_integers += 1;
+                let is_inside = integer::is_inside(self.ray, corners);
+                if is_inside {
+                    let [t, ..] = integer::rounded(self.ray, corners);
+                    let depth = t * self.dir_z;
+                    // Three roundings, and the digits that were cut off.
+                    let slack = 4.0 * f64::EPSILON * depth.abs();
+                    (candidate.near, candidate.far) = (depth - slack, depth + slack);
+                }
+                is_inside
+            }
+        }
+    }
+
+    /// The hit, rounded.
+    pub fn hit(&self, candidate: Candidate) -> Hit {
+        let corners = (self.corners)(candidate.slot);
+        let [t, u, v] = match in_f64(self.ray, corners) {
+            Sight::Certain {
+                near,
+                far,
+                weights: [u, v],
+                weight_error,
+            } if far - near <= GOOD * near.abs() && weight_error <= GOOD => {
+                [0.5 * (near + far) / self.dir_z, u, v]
+            }
+            _ => integer::rounded(self.ray, corners),
+        };
+        Hit {
+            // Not quite f32's largest number may round to infinity.
+            t: (t as f32).min(f32::MAX),
+            u: u as f32,
+            v: v as f32,
+            primitive: candidate.primitive,
+        }
+    }
+}
+
+/// What f64 knows of a triangle.
+enum Sight {
+    Missed,
+    Doubtful,
+    Certain {
+        near: f64,
+        far: f64,
+        weights: [f64; 2],
+        weight_error: f64,
+    },
+}
+
+// Out of line: it is the rare path, and the common one is the better for it.
+#[inline(never)]
+fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+    let mut values = [0.0; VALUES];
+    pack_corners(corners, &mut values);
+    match filter(&ShearedRay::<f64>::new((), ray), &OneTriangle(&values)) {
+        None => Sight::Missed,
+        Some(filtered) if filtered.certain.any() => Sight::Certain {
+            near: filtered.near,
+            far: filtered.far,
+            weights: filtered.weights,
+            weight_error: filtered.weight_error,
+        },
+        Some(_) => Sight::Doubtful,
+    }
+}

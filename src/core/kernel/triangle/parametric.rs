@@ -1,0 +1,83 @@
+//! Ray–triangle test by the plane first, then the two parameters of the point on it.
+//!
+//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (2).
+//! Differs from the lecture: P = A + α(B − A) + β(C − A), whose A its slide leaves out. How α and β are
+//!   solved for it doesn't say; here by areas: with n the normal, α = n·((P − A)×(C − A))/n·n.
+//! Promises: nothing beyond the figures that are measured.
+//! Doesn't promise: an answer at shared edges and vertices.
+
+use crate::kernel::{
+    Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values, pack_corners,
+};
+use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
+use crate::ray::Ray;
+use glam::Vec3;
+
+/// See the [module](self).
+pub(super) struct Parametric;
+
+impl Kernel for Parametric {
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "parametric",
+        title: "Parametric",
+        tier: None,
+        precision: Precision::F32,
+        source: "Lensch, Basic Geometry, lecture, 2022",
+        summary: "Plane first, then parameters in 3D; rays slip through edges and vertices.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "parametric-f64",
+        title: "Parametric, f64",
+        precision: Precision::F64,
+        ..Self::IN_F32
+    };
+    const VALUES: usize = 9;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = PlainRay<L>;
+
+    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
+        pack_corners(corners, values);
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
+        PlainRay::new(token, ray)
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &PlainRay<L>,
+        triangles: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        let [zero, one] = [0.0, 1.0].map(|x| L::of(t_min.token(), x));
+        let [a, b, c] = [triangles.three(0), triangles.three(3), triangles.three(6)];
+        let (e1, e2) = (minus(&b, &a), minus(&c, &a));
+        let normal = cross(&e1, &e2);
+
+        // The plane: (o + t·d − A)·n = 0. A NaN or an infinity fails what follows.
+        let to_a = minus(&a, &ray.origin);
+        let det = dot(&normal, &ray.dir);
+        let t = dot(&normal, &to_a) / det;
+        let ahead = zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
+        if !ahead.any() {
+            return None;
+        }
+
+        // One of the two normals is scaled to about 1: n·n, the fourth power of a length, would leave
+        // f32's range at 1e±10.
+        let longest = normal[0]
+            .abs()
+            .greater(normal[1].abs())
+            .greater(normal[2].abs());
+        let scaled = normal.map(|n| n / longest);
+        let area = dot(&scaled, &normal);
+        let p = minus(&ray.dir.map(|d| t * d), &to_a);
+        let u = dot(&scaled, &cross(&p, &e2)) / area;
+        let v = dot(&scaled, &cross(&e1, &p)) / area;
+        let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);
+        mask.any().then_some(LaneHit { mask, t, u, v })
+    }
+}

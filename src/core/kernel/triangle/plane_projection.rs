@@ -1,0 +1,81 @@
+//! Ray–triangle test by the plane first, then barycentric coordinates in 2D.
+//!
+//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (1);
+//!   Badouel, "An Efficient Ray-Polygon Intersection", Graphics Gems, 1990. All that belongs to the
+//!   triangle alone is computed once.
+//! Differs from the lecture: the normal's sign and the weights of B and C are as its figures have them,
+//!   not as its program does; the plane's distance is measured from the corner A, not from the world's
+//!   origin, where it cancels; no ε on t; the coordinate that is left out is a 0 in a row.
+//! Promises: nothing beyond the figures that are measured.
+//! Doesn't promise: an answer at shared edges and vertices: the point on the plane is rounded for
+//!   each triangle anew.
+
+use super::dominant_axis::{self, Rows};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values};
+use crate::lane::{Lane, LaneMask, Number, dot, minus};
+use crate::ray::Ray;
+use glam::Vec3;
+
+/// See the [module](self).
+pub(super) struct PlaneProjection;
+
+impl Kernel for PlaneProjection {
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "plane-projection",
+        title: "Plane and projection",
+        tier: None,
+        precision: Precision::F32,
+        source: "Badouel, An Efficient Ray-Polygon Intersection, Graphics Gems 1990",
+        summary: "Plane first, then 2D; rays slip through edges and vertices.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "plane-projection-f64",
+        title: "Plane and projection, f64",
+        precision: Precision::F64,
+        summary: "Plane first, then 2D; twice the memory.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = 12;
+    type Stored<N: Number> = N;
+    type Prepared<L: Lane> = PlainRay<L>;
+
+    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
+        let Rows { u, v, normal, a } = dominant_axis::rows(corners);
+        for (row, kept) in [a, normal, u, v].iter().zip(values.chunks_exact_mut(3)) {
+            kept.copy_from_slice(row);
+        }
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
+        PlainRay::new(token, ray)
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &PlainRay<L>,
+        triangles: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        let [zero, one] = [0.0, 1.0].map(|x| L::of(t_min.token(), x));
+
+        // The plane: (o + t·d − A)·n = 0. A NaN or an infinity fails what follows.
+        let to_a = minus(&triangles.three(0), &ray.origin);
+        let normal = triangles.three(3);
+        let det = dot(&normal, &ray.dir);
+        let t = dot(&normal, &to_a) / det;
+        let ahead = zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
+        if !ahead.any() {
+            return None;
+        }
+
+        // The point on it, relative to A, in 2D.
+        let p = minus(&ray.dir.map(|d| t * d), &to_a);
+        let u = dot(&triangles.three(6), &p);
+        let v = dot(&triangles.three(9), &p);
+        let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);
+        mask.any().then_some(LaneHit { mask, t, u, v })
+    }
+}

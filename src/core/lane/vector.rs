@@ -1,0 +1,93 @@
+//! Four numbers side by side as a lane.
+
+use super::scalar::difference_of_products;
+use super::{Lane, LaneMask};
+use fearless_simd::{Simd, f32x4, f64x4, mask32x4, mask64x4, prelude::*};
+
+macro_rules! vector_lane {
+    ($vector:ident, $mask:ident, $number:ty, $sign_bit:expr, $widened:expr) => {
+        impl<S: Simd> LaneMask for $mask<S> {
+            #[inline(always)]
+            fn any(self) -> bool {
+                self.any_true()
+            }
+            #[inline(always)]
+            fn all(self) -> bool {
+                self.all_true()
+            }
+            #[inline(always)]
+            fn bits(self) -> u32 {
+                self.to_bitmask() as u32
+            }
+        }
+
+        impl<S: Simd> Lane for $vector<S> {
+            type Token = S;
+            type Mask = $mask<S>;
+            type Number = $number;
+            #[inline(always)]
+            fn splat(token: S, x: $number) -> Self {
+                SimdBase::splat(token, x)
+            }
+            #[inline(always)]
+            fn token(self) -> S {
+                ExtractToken::token(&self)
+            }
+            #[inline(always)]
+            fn abs(self) -> Self {
+                SimdBase::abs(self)
+            }
+            #[inline(always)]
+            fn flip(self, sign: Self) -> Self {
+                SimdFloat::from_bits(self.to_bits() ^ (sign.to_bits() & $sign_bit))
+            }
+            #[inline(always)]
+            fn lesser(self, other: Self) -> Self {
+                self.min(other)
+            }
+            #[inline(always)]
+            fn greater(self, other: Self) -> Self {
+                self.max(other)
+            }
+            #[inline(always)]
+            fn lt(self, other: Self) -> Self::Mask {
+                self.simd_lt(other)
+            }
+            #[inline(always)]
+            fn le(self, other: Self) -> Self::Mask {
+                self.simd_le(other)
+            }
+            #[inline(always)]
+            fn eq(self, other: Self) -> Self::Mask {
+                self.simd_eq(other)
+            }
+            #[inline(always)]
+            fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
+                mask.select(a, b)
+            }
+            #[inline(always)]
+            fn widened(self, factors: [Self; 4]) -> Self {
+                $widened(self, factors)
+            }
+        }
+    };
+}
+
+vector_lane!(
+    f32x4,
+    mask32x4,
+    f32,
+    0x8000_0000u32,
+    |x: f32x4<S>, factors: [f32x4<S>; 4]| {
+        let factors = factors.map(|x| x.to_array());
+        let lane = |i: usize| difference_of_products(factors.map(|x| x[i]));
+        SimdBase::load_array(Lane::token(x), std::array::from_fn(lane))
+    }
+);
+vector_lane!(
+    f64x4,
+    mask64x4,
+    f64,
+    0x8000_0000_0000_0000u64,
+    |x: f64x4<S>, _| x
+);
