@@ -13,9 +13,10 @@
 //! | [`intersector`] | where does a ray meet the scene: the tree and one kernel together |
 //! | [`interaction`] | what is the surface like at a hit? |
 //! | [`integrator`] | which colour does a ray bring back? |
+//! | [`spawn`] | where does a ray begin that leaves a surface? |
 //! | [`film`] | what does the picture look like so far? |
 //! | [`render`] | which pixel is traced when, and by which thread? |
-//! | [`ray`], [`aabb`], `lane`, [`sampler`], [`progress`] | what the others speak in |
+//! | [`ray`], [`aabb`], `lane`, [`sampler`], [`random`], [`progress`] | what the others speak in |
 //!
 //! The question is always put in f32: a mesh of f32 positions about an f64 origin, and f32 rays.
 //! Nothing here depends on a scene's size, place or units.
@@ -32,10 +33,12 @@ mod lane;
 pub mod mesh;
 pub mod obj;
 pub mod progress;
+pub mod random;
 pub mod ray;
 pub mod render;
 pub mod sampler;
 pub mod scene;
+pub mod spawn;
 
 pub use aabb::Aabb;
 pub use camera::Camera;

@@ -5,7 +5,7 @@ use glam::Vec3;
 /// A half-line `origin + t·dir`, asked about for `t_min < t < t_max`.
 ///
 /// `dir` needn't be unit length; `t` counts its lengths. Make one with [`Ray::new`], which refuses
-/// what has no answer.
+/// what has no answer, and rescales a direction of an unusual length.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Ray {
     /// Where it starts, in the mesh's coordinates (about [`TriangleMesh::origin`](crate::TriangleMesh)).
@@ -16,6 +16,8 @@ pub struct Ray {
     pub t_min: f32,
     /// Hits at or behind this are not reported.
     pub t_max: f32,
+    /// `dir` is the direction that was given times 2 to this power.
+    pub scale: i32,
     /// The triangle that it starts on, which it therefore can't hit.
     pub exclude: Option<u32>,
 }
@@ -32,13 +34,14 @@ pub enum RayError {
     /// The direction is (0, 0, 0).
     #[error("the direction is zero in f32")]
     DirectionZero,
-    /// The direction is so short that its inverse leaves f32's range.
-    #[error("the direction is too short: its longest coordinate is below 1.2e-38")]
-    DirectionTooShort,
     /// `t_min` or `t_max` is NaN, or `t_min` isn't below `t_max`.
     #[error("the interval from tmin to tmax is empty")]
     IntervalEmpty,
 }
+
+/// Powers of two of the directions that are taken as they are: lengths of 2⁻¹⁶ to 2¹⁶ leave
+/// products of a direction and two distances well inside f32's range.
+const USUAL: std::ops::Range<i32> = -16..16;
 
 impl Ray {
     /// A ray over `0 < t < ∞`.
@@ -51,6 +54,11 @@ impl Ray {
 
     /// A ray over `t_min < t < t_max`. `t_max` may be infinite, `t_min` negative.
     ///
+    /// A direction whose longest coordinate isn't between 2⁻¹⁶ and 2¹⁶ is brought to between 1 and 2 by a
+    /// power of two, where that rounds no coordinate, and the interval with it, whose ends may be rounded
+    /// where they leave f32's normal numbers. t then counts other lengths: see
+    /// [`t_as_given`](Self::t_as_given).
+    ///
     /// # Errors
     /// See [`RayError`].
     pub fn with_interval(
@@ -60,24 +68,52 @@ impl Ray {
         t_max: f32,
     ) -> Result<Self, RayError> {
         if !origin.is_finite() {
-            Err(RayError::OriginNotFinite)
+            return Err(RayError::OriginNotFinite);
         } else if !dir.is_finite() {
-            Err(RayError::DirectionNotFinite)
+            return Err(RayError::DirectionNotFinite);
         } else if dir == Vec3::ZERO {
-            Err(RayError::DirectionZero)
-        } else if dir.abs().max_element() < f32::MIN_POSITIVE {
-            Err(RayError::DirectionTooShort)
-        } else if t_min < t_max {
-            Ok(Self {
-                origin,
-                dir,
-                t_min,
-                t_max,
-                exclude: None,
-            })
+            return Err(RayError::DirectionZero);
+        }
+        let (dir, scale) = rescaled(dir);
+        let ray = Self {
+            origin,
+            dir,
+            t_min: scaled(t_min, -scale),
+            t_max: scaled(t_max, -scale),
+            scale,
+            exclude: None,
+        };
+        if ray.t_min < ray.t_max {
+            Ok(ray)
         } else {
             Err(RayError::IntervalEmpty)
         }
+    }
+
+    /// A distance in lengths of the direction that the ray was made with.
+    pub fn t_as_given(&self, t: f32) -> f64 {
+        f64::from(t) * 2f64.powi(self.scale)
+    }
+}
+
+fn scaled(x: f32, power: i32) -> f32 {
+    (f64::from(x) * 2f64.powi(power)) as f32
+}
+
+/// A direction of a usual length, and the power of two that it was multiplied by. As it is where that
+/// would round one of its coordinates.
+fn rescaled(dir: Vec3) -> (Vec3, i32) {
+    // An f64 holds f32's subnormals as normal numbers: its exponent is that of the size.
+    let exponent = (f64::from(dir.abs().max_element()).to_bits() >> 52) as i32 - 1023;
+    if USUAL.contains(&exponent) {
+        return (dir, 0);
+    }
+    let usual = Vec3::from_array(dir.to_array().map(|x| scaled(x, -exponent)));
+    let back = usual.as_dvec3() * 2f64.powi(exponent);
+    if back == dir.as_dvec3() {
+        (usual, -exponent)
+    } else {
+        (dir, 0)
     }
 }
 
@@ -112,10 +148,6 @@ mod tests {
         assert!(Ray::new(o, d).is_ok());
         assert_eq!(Ray::new(o, -Vec3::ZERO), Err(RayError::DirectionZero));
         assert_eq!(
-            Ray::new(o, Vec3::X * 1e-40),
-            Err(RayError::DirectionTooShort)
-        );
-        assert_eq!(
             Ray::new(Vec3::new(0.0, f32::NAN, 0.0), d),
             Err(RayError::OriginNotFinite)
         );
@@ -129,6 +161,35 @@ mod tests {
                 Err(RayError::IntervalEmpty)
             );
         }
+    }
+
+    #[test]
+    fn a_direction_of_an_unusual_length_is_rescaled_exactly() {
+        for length in [
+            1e-45f32,
+            1e-42,
+            1e-20,
+            1e-10,
+            1.0,
+            1e5,
+            1e10,
+            1e20,
+            f32::MAX,
+        ] {
+            let given = Vec3::new(0.25 * length, 0.0, -length);
+            let ray = Ray::with_interval(Vec3::ZERO, given, 0.0, 2.0).expect("a ray");
+            let factor = 2f64.powi(ray.scale);
+            assert_eq!(ray.dir.as_dvec3(), given.as_dvec3() * factor, "{length}");
+            let longest = ray.dir.abs().max_element();
+            assert!(ray.scale == 0 || (1.0..2.0).contains(&longest), "{length}");
+            if ray.t_max.is_finite() {
+                assert_eq!(ray.t_as_given(ray.t_max), 2.0, "{length}");
+            }
+        }
+        let scale = |dir| Ray::new(Vec3::ZERO, dir).map(|ray| ray.scale);
+        assert_eq!(scale(Vec3::X * 3.0), Ok(0));
+        // Scaled down, the second coordinate would vanish.
+        assert_eq!(scale(Vec3::new(1e30, 1e-20, 0.0)), Ok(0));
     }
 
     #[test]

@@ -5,8 +5,12 @@
 //! |---|---|
 //! | [`oracle`] | what does exact arithmetic say of this ray and this triangle? |
 //! | [`inspection`] | what happens to this ray: every kernel beside the exact answer |
-//! | [`commands`] | what do `render`, `inspect`, `trace` and `info` do? |
+//! | [`measure`] | what does speed cost in accuracy? |
+//! | [`report`] | how is what was measured shown? |
+//! | [`commands`] | what do `render`, `inspect`, `trace`, `info` and `lab` do? |
 
 pub mod commands;
 pub mod inspection;
+pub mod measure;
 pub mod oracle;
+pub mod report;

@@ -9,7 +9,8 @@ use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use hitscope_lab::commands::{
-    CommandError, InfoArgs, InspectArgs, PictureArgs, RenderArgs, TraceArgs, load, write_png,
+    CommandError, InfoArgs, InspectArgs, LabArgs, PictureArgs, RenderArgs, TraceArgs, load,
+    write_png,
 };
 use std::io::{BufWriter, ErrorKind, Write, stdout};
 use std::path::{Path, PathBuf};
@@ -39,6 +40,7 @@ enum Command {
     Inspect(InspectArgs),
     Trace(TraceArgs),
     Info(InfoArgs),
+    Lab(LabArgs),
 }
 
 /// Runs what the command line asks for. 0: done; 1: the input is bad, with one line on stderr; 2:
@@ -70,6 +72,7 @@ impl Command {
             Self::Inspect(args) => args.run(&mut out)?,
             Self::Trace(args) => args.run(&mut out)?,
             Self::Info(args) => args.run(&mut out)?,
+            Self::Lab(args) => args.run(&mut out)?,
         }
         Ok(out.flush()?)
     }

@@ -3,11 +3,11 @@
 //! Whatever could wait for ever runs on a thread of its own, and is given up after ten seconds.
 
 use crate::golden::job;
-use crate::shapes::{Place, torus};
 use glam::UVec2;
 use hitscope_core::camera::Projection;
 use hitscope_core::intersector::{Cost, Crossing};
 use hitscope_core::kernel::KernelInfo;
+use hitscope_core::mesh::shapes::{Place, torus};
 use hitscope_core::obj::{self, LoadError, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::plan::{Pass, Plan, Unit};
@@ -67,6 +67,9 @@ impl<F: Fn(&Ray) + Send + Sync> Intersector for Before<F> {
     }
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         self.inner.candidates(ray)
+    }
+    fn count_hits(&self, ray: &Ray) -> usize {
+        self.inner.count_hits(ray)
     }
     fn bytes(&self) -> usize {
         self.inner.bytes()

@@ -2,12 +2,12 @@
 //!
 //! What only some kernels promise is tested elsewhere, by their `INFO`.
 
-use crate::random::Random;
-use crate::shapes::{scene, soup};
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::mesh::shapes::{scene, soup};
 use hitscope_core::obj::{self, Recentre};
 use hitscope_core::progress::Progress;
+use hitscope_core::random::Random;
 use hitscope_core::ray::RayError;
 use hitscope_core::{Hit, Ray};
 use std::path::Path;
@@ -83,7 +83,8 @@ fn assert_hit_at(
     let name = kernel.info.name;
     let point = blend(weights, corners);
     let dir = ((point - origin.as_dvec3()) * lengths).as_vec3();
-    let hit = kernel.intersect(&ray(origin, dir), corners);
+    let ray = ray(origin, dir);
+    let hit = kernel.intersect(&ray, corners);
     let hit = hit.unwrap_or_else(|| panic!("{name} misses {corners:?} from {origin}"));
 
     let size = corners.map(|p| f64::from(p.abs().max_element()));
@@ -95,7 +96,7 @@ fn assert_hit_at(
             "{name}: {found:?}, not {weights:?}"
         );
     }
-    let (t, expected) = (f64::from(hit.t), 1.0 / lengths);
+    let (t, expected) = (ray.t_as_given(hit.t), 1.0 / lengths);
     assert!(
         (t - expected).abs() <= 1000.0 * U * expected,
         "{name}: t {t}, not {expected}"

@@ -9,11 +9,11 @@
 //! On a difference the actual picture is kept in the system's temporary folder, and the message says
 //! where. Pixels are flat shaded unless a name says smooth.
 
-use crate::shapes::{Place, scene, torus};
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::{Context, INTEGRATORS, integrator};
 use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::mesh::shapes::{Place, scene, torus};
 use hitscope_core::render::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;

@@ -3,11 +3,11 @@
 //! For rays at edges, corners and flat boxes only of kernels that promise to be watertight: the
 //! others' t may err by more than boxes are padded, so that the tree leaves such a hit out.
 
-use crate::random::Random;
-use crate::shapes::{Place, flat_grid, in_torus, scene, soup, sphere, torus};
 use glam::Vec3;
 use hitscope_core::intersector::Crossing;
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::mesh::shapes::{Place, flat_grid, in_torus, scene, soup, sphere, torus};
+use hitscope_core::random::Random;
 use hitscope_core::{Hit, Intersector, Ray, Scene, TriangleMesh};
 
 /// The bits of an answer: equal floats may differ in them, NaN may not.

@@ -2,12 +2,6 @@
 //!
 //! Every kernel in the table is tested here without being named, by what its `INFO` promises.
 
-// Makers of meshes, the same bits on every machine.
-mod shapes;
-
-// Numbers that look random and never change.
-mod random;
-
 // Every kernel: the easy cases, one triangle at a time.
 mod conformance;
 

@@ -1,8 +1,8 @@
 //! Any bytes are a mesh or an error, never a panic.
 
-use crate::random::Random;
 use hitscope_core::obj::{Recentre, parse};
 use hitscope_core::progress::Progress;
+use hitscope_core::random::Random;
 use std::io;
 use std::path::Path;
 

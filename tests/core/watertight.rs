@@ -2,11 +2,11 @@
 //!
 //! More than a million rays for each kernel, 0 may leave; with 0 of n the rate is below 3/n at 95 %.
 
-use crate::random::Random;
-use crate::shapes::{Place, cube, flat_grid, in_torus, scene, sphere, torus};
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::Health;
+use hitscope_core::mesh::shapes::{Place, cube, flat_grid, in_torus, scene, sphere, torus};
+use hitscope_core::random::Random;
 use hitscope_core::{Intersector, Ray, TriangleMesh};
 use std::thread;
 

@@ -158,6 +158,7 @@ impl Camera {
             dir,
             t_min: 0.0,
             t_max: f32::INFINITY,
+            scale: 0,
             exclude: None,
         }
     }

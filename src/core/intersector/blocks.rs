@@ -118,6 +118,11 @@ impl<T: Copy + Default> Blocks<T> {
         found
     }
 
+    /// How many blocks there are.
+    pub fn len(&self) -> usize {
+        self.leaves.len()
+    }
+
     pub fn bytes(&self) -> usize {
         size_of_val(&self.values[..]) + size_of_val(&self.leaves[..])
     }

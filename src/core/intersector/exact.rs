@@ -15,6 +15,8 @@ use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
+type Vector<S> = <f32 as Number>::Lanes<S>;
+
 /// Triangles for the exact kernel.
 pub(crate) struct ExactIntersector {
     blocks: Blocks<f32>,
@@ -46,46 +48,19 @@ impl ExactIntersector {
         mut found: impl FnMut(&mut Judge<'_, F>, Candidate) -> ControlFlow<(), Option<Candidate>>,
         tally: &mut impl Tally,
     ) {
-        type L<S> = <f32 as Number>::Lanes<S>;
-        let sheared = ShearedRay::<L<S>>::new(token, ray);
+        let sheared = ShearedRay::new(token, ray);
         let (mut t_max, mut farthest) = (ray.t_max, f32::INFINITY);
-        let mut triangles = 0;
-        let mut boxes = 0;
+        let (mut triangles, mut boxes) = (0, 0);
         let visit = |index: usize| {
-            let leaf = self.blocks.leaf(index);
-            triangles += leaf.count;
-            let values = self.blocks.values::<f32, S>(token, index, VALUES);
-            let Some(filtered) = filter(&sheared, &values) else {
-                return ControlFlow::Continue(t_max);
-            };
-            let Filtered {
-                certain,
-                missed,
-                near,
-                far,
-                ..
-            } = filtered;
-            // Certain hits that certainly lie farther than the nearest so far.
-            let is_farther = certain & L::<S>::splat(token, farthest).lt(near);
-            let certain = certain.bits();
-            let mut lanes = !(missed | is_farther).bits() & ((1 << leaf.count) - 1);
-            let (near, far) = (f32::store(near), f32::store(far));
-            while lanes != 0 {
-                let lane = lanes.trailing_zeros() as usize % LEAF_SIZE;
-                lanes &= lanes - 1;
-                let primitive = leaf.primitives[lane];
-                if Some(primitive) == ray.exclude {
-                    continue;
-                }
-                let (is_certain, slot) = (certain >> lane & 1 == 1, index * LEAF_SIZE + lane);
-                if let Some(hit) =
-                    judge.candidate(primitive, slot, is_certain, near[lane], far[lane])
-                    && let Some(nearest) = found(judge, hit)?
-                {
+            triangles += self.blocks.leaf(index).count;
+            let limit = farthest;
+            self.test(&sheared, index, limit, judge, |judge, hit| {
+                if let Some(nearest) = found(judge, hit)? {
                     t_max = judge.t_beyond(&nearest).min(ray.t_max);
                     farthest = nearest.far_f32();
                 }
-            }
+                ControlFlow::Continue(())
+            })?;
             ControlFlow::Continue(t_max)
         };
         self.blocks.bvh.traverse(ray, visit, || boxes += 1);
@@ -95,6 +70,65 @@ impl ExactIntersector {
             in_f64: judge.work.in_f64,
             in_integers: judge.work.in_integers,
         });
+    }
+
+    /// Tests a leaf: hands each triangle in it that the ray hits, and that doesn't certainly lie farther
+    /// than `farthest`, to `found`.
+    #[inline(always)]
+    fn test<S: Simd, F: Fn(usize) -> [Vec3; 3]>(
+        &self,
+        sheared: &ShearedRay<Vector<S>>,
+        index: usize,
+        farthest: f32,
+        judge: &mut Judge<'_, F>,
+        mut found: impl FnMut(&mut Judge<'_, F>, Candidate) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let token = sheared.dir_z().token();
+        let leaf = self.blocks.leaf(index);
+        let values = self.blocks.values::<f32, S>(token, index, VALUES);
+        let Some(filtered) = filter(sheared, &values) else {
+            return ControlFlow::Continue(());
+        };
+        let Filtered {
+            certain,
+            missed,
+            near,
+            far,
+            ..
+        } = filtered;
+        let is_farther = certain & Vector::<S>::splat(token, farthest).lt(near);
+        let certain = certain.bits();
+        let mut lanes = !(missed | is_farther).bits() & ((1 << leaf.count) - 1);
+        let (near, far) = (f32::store(near), f32::store(far));
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % LEAF_SIZE;
+            lanes &= lanes - 1;
+            let primitive = leaf.primitives[lane];
+            if Some(primitive) == judge.ray().exclude {
+                continue;
+            }
+            let (is_certain, slot) = (certain >> lane & 1 == 1, index * LEAF_SIZE + lane);
+            let candidate = judge.candidate(primitive, slot, is_certain, near[lane], far[lane]);
+            if let Some(candidate) = candidate {
+                found(judge, candidate)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    #[inline(always)]
+    fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
+        let sheared = ShearedRay::new(token, ray);
+        let mut judge = Judge::new(ray, |slot| self.corners(slot));
+        let mut count = 0;
+        for index in 0..self.blocks.len() {
+            let found = |_: &mut Judge<'_, _>, _| {
+                count += 1;
+                ControlFlow::Continue(())
+            };
+            _ = self.test(&sheared, index, f32::INFINITY, &mut judge, found);
+        }
+        count
     }
 
     #[inline(always)]
@@ -171,6 +205,10 @@ impl Intersector for ExactIntersector {
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         self.blocks.candidates(ray)
+    }
+
+    fn count_hits(&self, ray: &Ray) -> usize {
+        dispatch!(self.level, token => self.count(token, ray))
     }
 
     fn bytes(&self) -> usize {

@@ -94,6 +94,21 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
     }
 
     #[inline(always)]
+    fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
+        let prepared = K::prepare::<N::Lanes<S>>(token, ray);
+        let (t_min, t_max) = (Lane::of(token, ray.t_min), Lane::of(token, ray.t_max));
+        let mut count = 0;
+        // A plain loop: what an iterator calls may lose the CPU's features.
+        for index in 0..self.blocks.len() {
+            let values = self.blocks.values::<N, S>(token, index, K::VALUES);
+            if let Some(hit) = K::intersect(&prepared, &values, t_min, t_max) {
+                count += LaneMask::bits(hit.mask).count_ones() as usize;
+            }
+        }
+        count
+    }
+
+    #[inline(always)]
     fn closest(&self, ray: &Ray, tally: &mut impl Tally) -> Option<Hit> {
         let end = N::from(ray.t_max);
         let mut best: Option<Found<N>> = None;
@@ -156,6 +171,10 @@ impl<K: Kernel, N: Number> Intersector for MeshIntersector<K, N> {
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         self.blocks.candidates(ray)
+    }
+
+    fn count_hits(&self, ray: &Ray) -> usize {
+        dispatch!(self.level, token => self.count(token, ray))
     }
 
     fn bytes(&self) -> usize {

@@ -58,8 +58,20 @@ pub trait Intersector: Send + Sync {
     /// could hit, whatever the kernel says.
     fn candidates(&self, ray: &Ray) -> Vec<u32>;
 
+    /// Tests the ray against every triangle, the tree aside, and counts the hits: for measurements.
+    fn count_hits(&self, ray: &Ray) -> usize;
+
     /// Bytes that the packed triangles take, the tree not counted.
     fn bytes(&self) -> usize;
+}
+
+/// The SIMD instructions that intersectors use on this machine, as tables call them.
+pub fn simd_level_name() -> String {
+    format!("{:?}", fearless_simd::Level::new())
+        .split('(')
+        .next()
+        .unwrap_or_default()
+        .to_owned()
 }
 
 /// Counts, or doesn't: the compiler drops the counting where nobody asks.

@@ -85,6 +85,8 @@ pub trait Number:
     const U: Self;
     /// The least normal number.
     const LEAST_NORMAL: Self;
+    /// Whether it holds the product of two f32 exactly.
+    const HOLDS_PRODUCTS: bool;
     /// Rounded; infinite where f32 has no such number.
     fn to_f32(self) -> f32;
     /// Four f32.
@@ -126,6 +128,18 @@ pub fn dot<L: Lane>(a: &[L; 3], b: &[L; 3]) -> L {
 #[inline(always)]
 pub fn minus<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+}
+
+/// `s · v`. Written out, like the others: what an array's `map` calls may lose the CPU's features.
+#[inline(always)]
+pub fn times<L: Lane>(s: L, v: &[L; 3]) -> [L; 3] {
+    [s * v[0], s * v[1], s * v[2]]
+}
+
+/// `a + b`.
+#[inline(always)]
+pub fn plus<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
+    [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
 /// The axis along which a vector is longest; of several the first.

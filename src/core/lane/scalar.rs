@@ -90,6 +90,7 @@ impl Number for f32 {
     type Lanes<S: Simd> = f32x4<S>;
     const U: Self = f32::EPSILON / 2.0;
     const LEAST_NORMAL: Self = f32::MIN_POSITIVE;
+    const HOLDS_PRODUCTS: bool = false;
     #[inline(always)]
     fn to_f32(self) -> f32 {
         self
@@ -108,6 +109,7 @@ impl Number for f64 {
     type Lanes<S: Simd> = f64x4<S>;
     const U: Self = f64::EPSILON / 2.0;
     const LEAST_NORMAL: Self = f64::MIN_POSITIVE;
+    const HOLDS_PRODUCTS: bool = true;
     #[inline(always)]
     fn to_f32(self) -> f32 {
         self as f32

@@ -6,6 +6,7 @@
 mod area;
 mod health;
 mod normals;
+pub mod shapes;
 
 pub use area::has_zero_area;
 pub use health::{Health, SLIVER_ASPECT};
@@ -81,6 +82,12 @@ impl TriangleMesh {
     /// The corners of a triangle.
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// The corners of every triangle.
+    pub fn corner_list(&self) -> Vec<[Vec3; 3]> {
+        let count = self.triangles.len() as u32;
+        (0..count).map(|triangle| self.corners(triangle)).collect()
     }
 
     /// A point of the mesh in the file's coordinates.

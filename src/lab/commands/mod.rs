@@ -3,12 +3,14 @@
 mod args;
 mod info;
 mod inspect;
+mod lab;
 mod render;
 mod trace;
 
 pub use args::CameraArgs;
 pub use info::InfoArgs;
 pub use inspect::InspectArgs;
+pub use lab::LabArgs;
 pub use render::{
     DARK_BACKGROUND, PictureArgs, RenderArgs, Rendered, default_thread_count, write_png,
 };

@@ -68,6 +68,14 @@ enum Question {
 /// A line of input: nothing, a ray, or what is wrong with it.
 type Line = Option<Result<Ray, String>>;
 
+/// t in lengths of the direction as given, with no more digits than it has.
+#[derive(Serialize)]
+#[serde(untagged)]
+enum Distance {
+    InF32(f32),
+    InF64(f64),
+}
+
 #[derive(Serialize)]
 struct ClosestLine {
     hit: bool,
@@ -77,7 +85,7 @@ struct ClosestLine {
 
 #[derive(Serialize)]
 struct HitLine {
-    t: f32,
+    t: Distance,
     barycentric: [f32; 3],
     triangle: u32,
     face: u32,
@@ -251,7 +259,7 @@ impl Tracer<'_> {
                 *hits += 1;
                 to_json(&ClosestLine {
                     hit: true,
-                    line: HitLine::new(mesh, &hit, None),
+                    line: HitLine::new(mesh, ray, &hit, None),
                 })
             }),
             Question::All => {
@@ -259,7 +267,7 @@ impl Tracer<'_> {
                 *hits += u64::from(!found.is_empty());
                 let crossings: Vec<HitLine> = found
                     .into_iter()
-                    .map(|crossing| HitLine::new(mesh, &crossing.hit, Some(crossing.also)))
+                    .map(|crossing| HitLine::new(mesh, ray, &crossing.hit, Some(crossing.also)))
                     .collect();
                 format!("{{\"hits\":{}}}", to_json(&crossings))
             }
@@ -291,9 +299,14 @@ impl Tracer<'_> {
 }
 
 impl HitLine {
-    fn new(mesh: &TriangleMesh, hit: &Hit, also: Option<Vec<u32>>) -> Self {
+    fn new(mesh: &TriangleMesh, ray: &Ray, hit: &Hit, also: Option<Vec<u32>>) -> Self {
+        let t = ray.t_as_given(hit.t);
         Self {
-            t: hit.t,
+            t: if f64::from(t as f32) == t {
+                Distance::InF32(t as f32)
+            } else {
+                Distance::InF64(t)
+            },
             barycentric: hit.barycentric(),
             triangle: hit.primitive,
             face: mesh.faces[hit.primitive as usize],

@@ -12,7 +12,7 @@
 use super::fraction::{Fraction, decode};
 use dashu_int::IBig;
 use glam::Vec3;
-use hitscope_core::Ray;
+use hitscope_core::{Ray, TriangleMesh};
 use std::cmp::Ordering;
 
 /// The exact answer for a ray and a triangle that it hits.
@@ -70,6 +70,14 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
         barycentric: [fraction(&w[0])?, fraction(&w[1])?, fraction(&w[2])?],
         is_on_boundary: w.contains(&IBig::ZERO),
     })
+}
+
+/// The nearest of some triangles' hits, and its triangle; of several at the same t the first.
+pub fn nearest(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Option<(u32, ExactHit)> {
+    triangles
+        .iter()
+        .filter_map(|&triangle| Some((triangle, intersect(ray, mesh.corners(triangle))?)))
+        .min_by(|a, b| a.1.t.cmp(&b.1.t))
 }
 
 /// The vectors as integers times a common power of two, whose exponent comes second.

@@ -10,7 +10,7 @@
 
 use super::dominant_axis::{self, Rows};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values};
-use crate::lane::{Lane, LaneMask, Number, dot};
+use crate::lane::{Lane, LaneMask, Number, dot, plus, times};
 use crate::ray::Ray;
 use glam::Vec3;
 
@@ -61,21 +61,25 @@ impl Kernel for BaldwinWeber {
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
-        let [zero, one] = [0.0, 1.0].map(|x| L::of(t_min.token(), x));
-        let moved =
-            |row: usize, p: &[L; 3]| dot(&triangles.three(row), p) + triangles.value(row + 3);
+        let (zero, one) = (L::of(t_min.token(), 0.0), L::of(t_min.token(), 1.0));
 
         // In the triangle's space its plane is z = 0. A NaN or an infinity fails what follows.
         let det = dot(&triangles.three(0), &ray.dir);
-        let t = -moved(0, &ray.origin) / det;
+        let t = -moved(triangles, 0, &ray.origin) / det;
         let ahead = zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
         if !ahead.any() {
             return None;
         }
 
-        let p = [0, 1, 2].map(|k: usize| ray.origin[k] + t * ray.dir[k]);
-        let (u, v) = (moved(4, &p), moved(8, &p));
+        let p = plus(&ray.origin, &times(t, &ray.dir));
+        let (u, v) = (moved(triangles, 4, &p), moved(triangles, 8, &p));
         let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);
         mask.any().then_some(LaneHit { mask, t, u, v })
     }
+}
+
+/// A row of the map, times a point.
+#[inline(always)]
+fn moved<L: Lane>(triangles: &impl Values<L>, row: usize, p: &[L; 3]) -> L {
+    dot(&triangles.three(row), p) + triangles.value(row + 3)
 }

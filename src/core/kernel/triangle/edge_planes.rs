@@ -64,7 +64,11 @@ impl Kernel for EdgePlanes {
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let zero = L::of(t_min.token(), 0.0);
-        let [a, b, c] = [0, 3, 6].map(|first| minus(&triangles.three(first), &ray.origin));
+        let [a, b, c] = [
+            minus(&triangles.three(0), &ray.origin),
+            minus(&triangles.three(3), &ray.origin),
+            minus(&triangles.three(6), &ray.origin),
+        ];
 
         // Sides of the planes over BC, CA and AB; each is a weight times det.
         let w1 = dot(&ray.dir, &cross(&b, &c));

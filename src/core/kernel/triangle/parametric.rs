@@ -9,7 +9,7 @@
 use crate::kernel::{
     Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values, pack_corners,
 };
-use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
+use crate::lane::{Lane, LaneMask, Number, cross, dot, minus, times};
 use crate::ray::Ray;
 use glam::Vec3;
 
@@ -52,7 +52,7 @@ impl Kernel for Parametric {
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
-        let [zero, one] = [0.0, 1.0].map(|x| L::of(t_min.token(), x));
+        let (zero, one) = (L::of(t_min.token(), 0.0), L::of(t_min.token(), 1.0));
         let [a, b, c] = [triangles.three(0), triangles.three(3), triangles.three(6)];
         let (e1, e2) = (minus(&b, &a), minus(&c, &a));
         let normal = cross(&e1, &e2);
@@ -72,9 +72,9 @@ impl Kernel for Parametric {
             .abs()
             .greater(normal[1].abs())
             .greater(normal[2].abs());
-        let scaled = normal.map(|n| n / longest);
+        let scaled = times(one / longest, &normal);
         let area = dot(&scaled, &normal);
-        let p = minus(&ray.dir.map(|d| t * d), &to_a);
+        let p = minus(&times(t, &ray.dir), &to_a);
         let u = dot(&scaled, &cross(&p, &e2)) / area;
         let v = dot(&scaled, &cross(&e1, &p)) / area;
         let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);

@@ -12,7 +12,7 @@
 
 use super::dominant_axis::{self, Rows};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values};
-use crate::lane::{Lane, LaneMask, Number, dot, minus};
+use crate::lane::{Lane, LaneMask, Number, dot, minus, times};
 use crate::ray::Ray;
 use glam::Vec3;
 
@@ -59,7 +59,7 @@ impl Kernel for PlaneProjection {
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
-        let [zero, one] = [0.0, 1.0].map(|x| L::of(t_min.token(), x));
+        let (zero, one) = (L::of(t_min.token(), 0.0), L::of(t_min.token(), 1.0));
 
         // The plane: (o + t·d − A)·n = 0. A NaN or an infinity fails what follows.
         let to_a = minus(&triangles.three(0), &ray.origin);
@@ -72,7 +72,7 @@ impl Kernel for PlaneProjection {
         }
 
         // The point on it, relative to A, in 2D.
-        let p = minus(&ray.dir.map(|d| t * d), &to_a);
+        let p = minus(&times(t, &ray.dir), &to_a);
         let u = dot(&triangles.three(6), &p);
         let v = dot(&triangles.three(9), &p);
         let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);

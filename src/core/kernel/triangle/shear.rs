@@ -3,7 +3,7 @@
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
 use crate::kernel::Values;
-use crate::lane::{Lane, longest_axis};
+use crate::lane::{Lane, Number, longest_axis};
 use crate::ray::Ray;
 
 /// A ray made ready to shear triangles.
@@ -13,8 +13,13 @@ pub(crate) struct ShearedRay<L> {
     axes: [usize; 3],
     /// The origin, its coordinates permuted.
     origin: [L; 3],
-    /// d_x/d_z, d_y/d_z, d_z.
-    shear: [L; 3],
+    /// What x and y are multiplied by: d_z where products of f32 are exact, so that no slope is
+    /// rounded, else 1.
+    unit: L,
+    /// d_x/d_z and d_y/d_z, times the unit.
+    slope: [L; 2],
+    /// The direction's longest coordinate.
+    dir_z: L,
 }
 
 impl<L: Lane> ShearedRay<L> {
@@ -23,17 +28,30 @@ impl<L: Lane> ShearedRay<L> {
         let axes = axes_of(ray.dir.to_array());
         let lane = |x: f32| L::of(token, x);
         let [dx, dy, dz] = axes.map(|axis| lane(ray.dir[axis]));
+        let (unit, slope) = if L::Number::HOLDS_PRODUCTS {
+            (dz, [dx, dy])
+        } else {
+            (lane(1.0), [dx / dz, dy / dz])
+        };
         Self {
             axes,
             origin: axes.map(|axis| lane(ray.origin[axis])),
-            shear: [dx / dz, dy / dz, dz],
+            unit,
+            slope,
+            dir_z: dz,
         }
     }
 
     /// The direction's longest coordinate: a depth is t times this.
     #[inline(always)]
     pub fn dir_z(&self) -> L {
-        self.shear[2]
+        self.dir_z
+    }
+
+    /// What x and y of sheared corners are multiplied by; depths aren't.
+    #[inline(always)]
+    pub fn unit(&self) -> L {
+        self.unit
     }
 
     /// The three corners, relative to the ray: x and y across it, z along its longest coordinate.
@@ -41,15 +59,26 @@ impl<L: Lane> ShearedRay<L> {
     /// A corner is moved by the same operations whichever triangle it belongs to.
     #[inline(always)]
     pub fn sheared(&self, triangles: &impl Values<L>) -> [[L; 3]; 3] {
-        [0, 1, 2].map(
-            #[inline(always)]
-            |corner| {
-                let relative =
-                    |k: usize| triangles.value(3 * corner + self.axes[k]) - self.origin[k];
-                let [x, y, z] = [relative(0), relative(1), relative(2)];
-                [x - self.shear[0] * z, y - self.shear[1] * z, z]
-            },
-        )
+        [
+            self.sheared_corner(triangles, 0),
+            self.sheared_corner(triangles, 3),
+            self.sheared_corner(triangles, 6),
+        ]
+    }
+
+    #[inline(always)]
+    fn sheared_corner(&self, triangles: &impl Values<L>, first: usize) -> [L; 3] {
+        let [x, y, z] = [
+            triangles.value(first + self.axes[0]) - self.origin[0],
+            triangles.value(first + self.axes[1]) - self.origin[1],
+            triangles.value(first + self.axes[2]) - self.origin[2],
+        ];
+        if L::Number::HOLDS_PRODUCTS {
+            let [dx, dy] = self.slope;
+            [x * self.unit - dx * z, y * self.unit - dy * z, z]
+        } else {
+            [x - self.slope[0] * z, y - self.slope[1] * z, z]
+        }
     }
 }
 

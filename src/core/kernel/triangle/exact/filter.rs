@@ -5,19 +5,21 @@
 //! themselves; `LEAST_NORMAL` pays for underflow in f32. In f64 nothing derived from f32 numbers
 //! under- or overflows.
 //!
-//! **Shear.** x = A_x − (d_x/d_z)·A_z with |d_x/d_z| ≤ 1, A relative to the origin, z = A_z. The
+//! **Shear.** With A relative to the origin, z = A_z, and |d_x| ≤ |d_z|: x = A_x − (d_x/d_z)·A_z in f32. The
 //! difference A_x errs by u|A_x|, the slope, A_z and their product by 3u|A_z|, the last difference by
-//! u|x|. As |A_x| ≤ |x| + |A_z|:
+//! u|x|; |A_x| ≤ |x| + |A_z|. In f64 all is multiplied by d_z: x = A_x·d_z − d_x·A_z. The differences and
+//! products err by 2u(|A_x·d_z| + |d_x·A_z|), the last difference by u|x|. Both are within
 //!
 //! ```text
-//! |δx| ≤ 4u·Z + 2u·X        X, Y, Z: the largest |x|, |y|, |z| of the three corners
+//! |δx| ≤ 4u·Q + 3u·X        X, Y, Z: the largest |x|, |y|, |z| of the three corners,
+//!                           Q = Z in f32, |d_z|·Z in f64
 //! ```
 //!
 //! **Edges.** E = x₁y₂ − x₂y₁ errs by that of its four factors and by three roundings of its own:
 //!
 //! ```text
-//! |δE| ≤ 2(X·|δy| + Y·|δx|) + 2|δx||δy| + 4u·XY ≤ 8u·Z(X + Y) + 12u·XY + 32u²Z²
-//!      ≤ u(s + 4uZ)(8Z + 3s)                       s = X + Y, for XY ≤ s²/4
+//! |δE| ≤ 2(X·|δy| + Y·|δx|) + 2|δx||δy| + 4u·XY ≤ 8u·Q(X + Y) + 16u·XY + 32u²Q²
+//!      ≤ u(s + 4uQ)(8Q + 4s)                       s = X + Y, for XY ≤ s²/4
 //! ```
 //!
 //! The right side overflows before any edge product does, and a bound that isn't finite certifies
@@ -63,7 +65,7 @@ pub(crate) fn filter<L: Lane>(
 ) -> Option<Filtered<L>> {
     let token = ray.dir_z().token();
     let u = L::splat(token, L::Number::U);
-    let [k3, k4, k6, k8] = [3.0625, 4.0, 6.5, 8.0625].map(|x| L::of(token, x));
+    let constant = |x: f32| L::of(token, x);
 
     let [a, b, c] = ray.sheared(triangles);
     let edge = [
@@ -76,8 +78,10 @@ pub(crate) fn filter<L: Lane>(
 
     let largest = |k: usize| a[k].abs().greater(b[k].abs()).greater(c[k].abs());
     let (s, z) = (largest(0) + largest(1), largest(2));
+    let q = z * ray.unit().abs();
     let least_normal = L::splat(token, L::Number::LEAST_NORMAL);
-    let error = (s + k4 * u * z) * (k8 * z + k3 * s) * u + least_normal;
+    let error = (s + constant(4.0) * u * q) * (constant(8.0625) * q + constant(4.0625) * s) * u
+        + least_normal;
 
     // `lesser` and `greater` may lose a NaN; a NaN edge comes only with an error that is infinite or NaN.
     let missed = error.lt(most) & least.lt(-error);
@@ -92,8 +96,9 @@ pub(crate) fn filter<L: Lane>(
     let (to_b, to_c) = (b[2] - a[2], c[2] - a[2]);
     let depth = a[2] + (weights[0] * to_b + weights[1] * to_c);
     let range = a[2].greater(b[2]).greater(c[2]) - a[2].lesser(b[2]).lesser(c[2]);
-    let weight_error = k4 * error / size;
-    let slack = weight_error * range + (k6 * range + L::of(token, 4.25) * z) * u + least_normal;
+    let weight_error = constant(4.0) * error / size;
+    let slack =
+        weight_error * range + (constant(6.5) * range + constant(4.25) * z) * u + least_normal;
     let ahead = depth.flip(ray.dir_z());
     Some(Filtered {
         certain,

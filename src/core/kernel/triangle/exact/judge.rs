@@ -66,6 +66,10 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         }
     }
 
+    pub fn ray(&self) -> &'a Ray {
+        self.ray
+    }
+
     /// A bound on t from one on the depth; infinite beyond f32's range.
     pub fn t_beyond(&self, candidate: &Candidate) -> f32 {
         (candidate.far / self.dir_z) as f32

@@ -1,9 +1,10 @@
-//! Makers of meshes, the same bits on every machine: only sums, products, quotients and roots.
+//! Meshes by formula, for tests and measurements; the same bits on every machine: only sums, products,
+//! quotients and roots.
 
+use super::{TriangleMesh, has_zero_area};
+use crate::progress::Progress;
+use crate::scene::Scene;
 use glam::{DVec2, DVec3, Vec3};
-use hitscope_core::mesh::has_zero_area;
-use hitscope_core::progress::Progress;
-use hitscope_core::{Scene, TriangleMesh};
 
 /// Where a shape of size 1 about the origin is put.
 #[derive(Clone, Copy, Debug)]
@@ -153,9 +154,10 @@ pub fn scene(mesh: TriangleMesh) -> Scene {
     Scene::new(mesh, &Progress::default()).expect("nobody cancels")
 }
 
+#[cfg(test)]
 mod tests {
     use super::*;
-    use hitscope_core::mesh::Health;
+    use crate::mesh::Health;
 
     #[test]
     fn closed_shapes_are_closed_and_wound_to_the_outside() {

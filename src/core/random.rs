@@ -1,7 +1,7 @@
 //! Numbers that look random and never change.
 
+use crate::sampler::mix;
 use glam::{DVec3, Vec3};
-use hitscope_core::sampler::mix;
 
 /// A sequence that its seed determines.
 ///

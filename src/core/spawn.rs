@@ -1,0 +1,231 @@
+//! Where does a ray begin that leaves a surface? Not so low that it meets the surface again, and not so
+//! high that it misses what touches it.
+//!
+//! A hit's place is rounded: about half of all places lie below their triangle, and a ray that leaves
+//! from there meets it again. The policies differ in what they do about it; the table is
+//! [`SPAWN_POLICIES`]. `hitscope lab` measures for each how often it fails and how high it begins.
+
+use crate::ray::{Hit, Ray, RayError};
+use glam::{DVec3, Vec3};
+
+/// A surface that a ray has met and another one leaves.
+#[derive(Clone, Copy, Debug)]
+pub struct Departure<'a> {
+    /// The ray that arrived.
+    pub arrived_by: &'a Ray,
+    /// Where it hit.
+    pub hit: &'a Hit,
+    /// The corners of the triangle that it hit.
+    pub corners: [Vec3; 3],
+    /// Where the new ray goes.
+    pub dir: Vec3,
+}
+
+/// One way to begin.
+pub struct SpawnPolicy {
+    /// As the laboratory's tables call it.
+    pub name: &'static str,
+    /// For menus.
+    pub title: &'static str,
+    /// Author, title, year.
+    pub source: &'static str,
+    /// What it is good and bad at, in a sentence.
+    pub summary: &'static str,
+    begin: fn(&Departure<'_>) -> Beginning,
+}
+
+/// Where a ray begins, and what it can't hit.
+struct Beginning {
+    origin: Vec3,
+    t_min: f32,
+    exclude: Option<u32>,
+}
+
+impl SpawnPolicy {
+    /// The ray that leaves.
+    ///
+    /// # Errors
+    /// See [`RayError`].
+    pub fn spawn(&self, departure: &Departure<'_>) -> Result<Ray, RayError> {
+        let Beginning {
+            origin,
+            t_min,
+            exclude,
+        } = (self.begin)(departure);
+        let ray = Ray::with_interval(origin, departure.dir, t_min, f32::INFINITY)?;
+        Ok(Ray { exclude, ..ray })
+    }
+}
+
+/// Every policy; the last one is the default.
+pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
+    SpawnPolicy {
+        name: "fixed-epsilon",
+        title: "Fixed ε",
+        source: "Lensch, Basic Geometry, lecture, 2022",
+        summary: "Hits with t < 1e-6 don't count, whatever the scene's size: fails in most scenes.",
+        begin: |departure| Beginning {
+            origin: departure.point_along_ray(),
+            t_min: LECTURES_EPSILON,
+            exclude: None,
+        },
+    },
+    SpawnPolicy {
+        name: "scaled-epsilon",
+        title: "Scaled ε",
+        source: "Jakob et al., Mitsuba 3, 2022",
+        summary: "Lifted by 1500 half ulps of the largest coordinate: far too high away from the origin.",
+        begin: |departure| {
+            let p = departure.point_by_weights();
+            let height = (1.0 + p.abs().max_element()) * MITSUBAS_EPSILON;
+            Beginning::at(p + height * departure.facing_normal())
+        },
+    },
+    SpawnPolicy {
+        name: "wachter-binder",
+        title: "Wächter–Binder",
+        source: "Wächter, Binder, A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing Gems 2019",
+        summary: "Lifted by up to 256 ulps of each coordinate: simple, and too high away from the origin.",
+        begin: |departure| {
+            Beginning::at(wachter_binder(
+                departure.point_by_weights(),
+                departure.facing_normal(),
+            ))
+        },
+    },
+    SpawnPolicy {
+        name: "nvidia",
+        title: "NVIDIA",
+        source: "NVIDIA, Self Intersection Avoidance, 2023",
+        summary: "Lifted by a bound on the error of A + u(B − A) + v(C − A): the lowest without exclusion.",
+        begin: |departure| Beginning::at(nvidia(departure)),
+    },
+    SpawnPolicy {
+        name: "error-bounded",
+        title: "Error-bounded",
+        source: "Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, 6.8.6",
+        summary: "Lifted by a bound on the error of the weighted corners, then rounded away from the surface.",
+        begin: |departure| Beginning::at(error_bounded(departure)),
+    },
+    SpawnPolicy {
+        name: "exclusion",
+        title: "Exclusion",
+        source: "Folklore",
+        summary: "Not lifted, but the triangle that it leaves can't be hit; its neighbours can.",
+        begin: |departure| Beginning {
+            exclude: Some(departure.hit.primitive),
+            ..Beginning::at(departure.point_by_weights())
+        },
+    },
+    SpawnPolicy {
+        name: "combined",
+        title: "Error-bounded and exclusion",
+        source: "Both of the above",
+        summary: "The bound keeps clear of neighbours, the exclusion of the triangle itself.",
+        begin: |departure| Beginning {
+            exclude: Some(departure.hit.primitive),
+            ..Beginning::at(error_bounded(departure))
+        },
+    },
+];
+
+/// What is used where nobody chose.
+pub fn default_spawn_policy() -> &'static SpawnPolicy {
+    SPAWN_POLICIES.last().expect("the table isn't empty")
+}
+
+/// The lecture's, in lengths of the direction.
+const LECTURES_EPSILON: f32 = 1e-6;
+/// Mitsuba's `RayEpsilon`, 1500 half ulps of 1.
+const MITSUBAS_EPSILON: f32 = 1500.0 * U;
+/// Half an ulp of 1.
+const U: f32 = f32::EPSILON / 2.0;
+
+impl Beginning {
+    fn at(origin: Vec3) -> Self {
+        Self {
+            origin,
+            t_min: 0.0,
+            exclude: None,
+        }
+    }
+}
+
+impl Departure<'_> {
+    /// o + t·d. Errs by ulps of t·d as well as of the point.
+    fn point_along_ray(&self) -> Vec3 {
+        self.arrived_by.origin + self.hit.t * self.arrived_by.dir
+    }
+
+    /// l1·A + l2·B + l3·C. Errs by ulps of the corners.
+    fn point_by_weights(&self) -> Vec3 {
+        self.weighted_corners().into_iter().sum()
+    }
+
+    fn weighted_corners(&self) -> [Vec3; 3] {
+        let [a, b, c] = self.corners;
+        let [l1, l2, l3] = self.hit.barycentric();
+        [l1 * a, l2 * b, l3 * c]
+    }
+
+    /// The triangle's unit normal on the side to which the new ray goes.
+    fn facing_normal(&self) -> Vec3 {
+        let [a, b, c] = self.corners.map(Vec3::as_dvec3);
+        let normal: DVec3 = (b - a).cross(c - a).normalize_or_zero();
+        let side = normal.dot(self.dir.as_dvec3());
+        (if side < 0.0 { -normal } else { normal }).as_vec3()
+    }
+}
+
+/// Each coordinate moved by up to 256 ulps, or by the normal over 65536 near 0, where ulps are too small.
+fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
+    const ORIGIN: f32 = 1.0 / 32.0;
+    const FLOAT_SCALE: f32 = 1.0 / 65536.0;
+    const INT_SCALE: f32 = 256.0;
+    let coordinate = |axis: usize| {
+        let (p, n) = (p[axis], normal[axis]);
+        if p.abs() < ORIGIN {
+            p + FLOAT_SCALE * n
+        } else {
+            let ulps = (INT_SCALE * n) as i32;
+            // Away from 0 the bits grow with the size, whatever the sign.
+            let away = if p < 0.0 { -ulps } else { ulps };
+            f32::from_bits(p.to_bits().wrapping_add_signed(away))
+        }
+    };
+    Vec3::from_array(std::array::from_fn(coordinate))
+}
+
+/// Source's constants: u for the corner, 3u for the edges.
+fn nvidia(departure: &Departure<'_>) -> Vec3 {
+    let [a, b, c] = departure.corners;
+    let (e1, e2) = (b - a, c - a);
+    let (u, v) = (departure.hit.u, departure.hit.v);
+    let p = a + (u * e1 + v * e2);
+    let extent = (e1.abs() + e2.abs() + (e1 - e2).abs()).max_element();
+    let error = U * a.abs() + Vec3::splat(3.0 * U * extent);
+    let normal = departure.facing_normal();
+    p + normal * error.dot(normal.abs())
+}
+
+/// Bound on the weighted corners' error: γ(7) of the sum of their sizes.
+fn error_bounded(departure: &Departure<'_>) -> Vec3 {
+    const GAMMA_7: f32 = 7.0 * U / (1.0 - 7.0 * U);
+    let corners = departure.weighted_corners();
+    let size: Vec3 = corners.iter().map(|p| p.abs()).sum();
+    let p: Vec3 = corners.into_iter().sum();
+    let normal = departure.facing_normal();
+    let offset = normal * (GAMMA_7 * size).dot(normal.abs());
+    // The sum is rounded away from the surface.
+    let coordinate = |axis: usize| {
+        let (x, offset) = (p[axis] + offset[axis], offset[axis]);
+        if offset > 0.0 {
+            x.next_up()
+        } else if offset < 0.0 {
+            x.next_down()
+        } else {
+            x
+        }
+    };
+    Vec3::from_array(std::array::from_fn(coordinate))
+}

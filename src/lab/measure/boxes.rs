@@ -1,0 +1,238 @@
+//! Do boxes lose what the ray hits? The tree's leaves against the oracle, whatever the kernel.
+
+use super::statistics::{bound_per_million, per_million};
+use crate::oracle;
+use glam::{DVec3, Vec3};
+use hitscope_core::Ray;
+use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::mesh::shapes::{Place, cube, flat_grid, scene, soup};
+use hitscope_core::random::Random;
+use serde::Serialize;
+
+/// Boxes of a kind, and rays that touch them.
+pub struct BoxCase {
+    /// As `--case` takes it.
+    pub name: &'static str,
+    /// For tables.
+    pub title: &'static str,
+    /// What is difficult about it.
+    pub about: &'static str,
+    mesh: fn(&mut Random) -> TriangleMesh,
+    ray: fn(&TriangleMesh, &mut Random) -> Option<Ray>,
+    /// How many rays a mesh is good for.
+    rays_per_mesh: u64,
+}
+
+/// One case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct BoxCell {
+    /// The case.
+    pub case: &'static str,
+    /// Triangles that rays hit, exactly, each a box that must be met.
+    pub n: u64,
+    /// Those in leaves that the ray didn't meet.
+    pub lost: u64,
+    /// The same, a million.
+    pub lost_per_million: f64,
+    /// What a zero means with a confidence of 95 %, a million.
+    pub bound_per_million: f64,
+}
+
+/// Every case.
+pub static BOX_CASES: &[BoxCase] = &[
+    BoxCase {
+        name: "box-unit",
+        title: "size 1",
+        about: "Rays at corners and edges of triangles of size 1.",
+        mesh: |random| triangles(random, DVec3::ONE, 0.0),
+        ray: |mesh, random| aimed(mesh, random, 3.0),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-offset-1e5",
+        title: "offset 1e5",
+        about: "The same, 1e5 sizes from the world's origin.",
+        mesh: |random| triangles(random, DVec3::ONE, 1e5),
+        ray: |mesh, random| aimed(mesh, random, 3.0),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-far-1e5",
+        title: "far 1e5",
+        about: "The same, the rays from 1e5 sizes away.",
+        mesh: |random| triangles(random, DVec3::ONE, 0.0),
+        ray: |mesh, random| aimed(mesh, random, 1e5),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-thin-1e-7",
+        title: "thin, 1e-7",
+        about: "Boxes 1e-7 thick.",
+        mesh: |random| triangles(random, DVec3::new(1.0, 1.0, 1e-7), 0.0),
+        ray: |mesh, random| aimed(mesh, random, 3.0),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-flat",
+        title: "flat",
+        about: "Boxes without thickness.",
+        mesh: |random| triangles(random, DVec3::new(1.0, 1.0, 0.0), 0.0),
+        ray: |mesh, random| aimed(mesh, random, 3.0),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-thin-offset-far",
+        title: "thin, offset and far",
+        about: "1e-7 thick, 1e5 from the world's origin, seen from 1e4 away.",
+        mesh: |random| triangles(random, DVec3::new(1.0, 1.0, 1e-7), 1e5),
+        ray: |mesh, random| aimed(mesh, random, 1e4),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-flat-border",
+        title: "a flat grid's border",
+        about: "Axis-aligned rays, zeros of either sign, at a flat grid's edges and corners.",
+        mesh: |random| grid(random),
+        ray: |mesh, random| at_border(mesh, random),
+        rays_per_mesh: 64,
+    },
+    BoxCase {
+        name: "box-in-plane",
+        title: "in a face's plane",
+        about: "Axis-aligned rays in the planes of a cube's faces: they hit its neighbours.",
+        mesh: |_| cube(2, Place::UNIT),
+        ray: |mesh, random| in_face(mesh, random),
+        rays_per_mesh: 4096,
+    },
+    BoxCase {
+        name: "box-lattice",
+        title: "whole numbers",
+        about: "Rays between points of a lattice at the vertices of a cube on it.",
+        mesh: |_| cube(4, Place::UNIT),
+        ray: |mesh, random| on_lattice(mesh, random),
+        rays_per_mesh: 4096,
+    },
+    BoxCase {
+        name: "box-tiny-slope",
+        title: "a slope of 1e-42",
+        about: "Directions with a coordinate whose inverse is infinite, at a flat grid's border.",
+        mesh: |random| grid(random),
+        ray: |mesh, random| {
+            let ray = at_border(mesh, random)?;
+            let steepest = ray.dir.abs().max_element();
+            let slope = |x: f32| {
+                if x.abs() == steepest {
+                    x
+                } else {
+                    1e-42f32.copysign(x)
+                }
+            };
+            let dir = Vec3::from_array(ray.dir.to_array().map(slope));
+            Ray::new(ray.origin, dir).ok()
+        },
+        rays_per_mesh: 64,
+    },
+];
+
+impl BoxCase {
+    /// Traces rays until the oracle has found `n` hits, or has looked at four times as many.
+    pub fn measure(&self, n: u64, seed: u64) -> BoxCell {
+        let mut random = Random::new(seed);
+        let (mut met, mut lost, mut rays) = (0, 0, 0);
+        while met < n && rays < 4 * n {
+            let scene = scene((self.mesh)(&mut random));
+            let intersector = scene.intersector(default_triangle_kernel());
+            let corners = scene.mesh().corner_list();
+            for _ in 0..self.rays_per_mesh.min(n - met) {
+                rays += 1;
+                let Some(ray) = (self.ray)(scene.mesh(), &mut random) else {
+                    continue;
+                };
+                let candidates = intersector.candidates(&ray);
+                let is_hit = |k: &usize| oracle::intersect(&ray, corners[*k]).is_some();
+                for k in (0..corners.len()).filter(is_hit) {
+                    met += 1;
+                    lost += u64::from(!candidates.contains(&(k as u32)));
+                }
+            }
+        }
+        BoxCell {
+            case: self.name,
+            n: met,
+            lost,
+            lost_per_million: per_million(lost, met),
+            bound_per_million: bound_per_million(met),
+        }
+    }
+}
+
+/// A few triangles within a box of this extent, moved.
+fn triangles(random: &mut Random, extent: DVec3, offset: f64) -> TriangleMesh {
+    let place = DVec3::new(offset, -offset, offset);
+    let mut corner = || (place + extent * random.in_cube()).as_vec3();
+    let corners: Vec<[Vec3; 3]> = (0..3).map(|_| [corner(), corner(), corner()]).collect();
+    soup(&corners)
+}
+
+/// A ray from so many sizes away to a corner or a point on an edge of a triangle.
+fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray> {
+    if mesh.triangles.is_empty() {
+        return None;
+    }
+    let [a, b, _] = mesh.corners(random.index(mesh.triangles.len()) as u32);
+    let target = a.lerp(b, [0.0, 1.0, 0.5, random.unit() as f32][random.index(4)]);
+    let origin = target + (distance * random.in_cube()).as_vec3();
+    Ray::new(origin, target - origin).ok()
+}
+
+/// A grid across one of the axes, somewhere.
+fn grid(random: &mut Random) -> TriangleMesh {
+    let place = Place::new(1.0, [0.0, 0.5, 4096.0][random.index(3)]);
+    let mut mesh = flat_grid(2, place);
+    let turn = random.index(3);
+    for p in &mut mesh.positions {
+        *p = Vec3::new(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]);
+    }
+    mesh
+}
+
+/// Straight at the edge or a corner of a grid, zeros of either sign in the other coordinates.
+fn at_border(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
+    let count = mesh.positions.len();
+    let [a, b] = [(); 2].map(|()| mesh.positions[random.index(count)]);
+    let target = if random.index(2) == 0 {
+        a
+    } else {
+        0.5 * (a + b)
+    };
+    let first = mesh.positions[0];
+    let is_flat = |&axis: &usize| mesh.positions.iter().all(|p| p[axis] == first[axis]);
+    let axis = (0..3).find(is_flat)?;
+    let mut sign = || if random.index(2) == 0 { 1.0 } else { -1.0 };
+    let mut dir = Vec3::new(sign() * 0.0, sign() * 0.0, sign() * 0.0);
+    dir[axis] = 64.0 * sign();
+    Ray::new(target - dir, dir).ok()
+}
+
+/// Along an axis, in the plane of a face of the cube from 0 to 2.
+fn in_face(_: &TriangleMesh, random: &mut Random) -> Option<Ray> {
+    let axis = random.index(3);
+    let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
+    let mut origin = Vec3::ZERO;
+    origin[x] = [0.0, 2.0][random.index(2)];
+    origin[y] = 0.25 * random.index(9) as f32;
+    let is_up = random.index(2) == 0;
+    origin[axis] = if is_up { -1.0 } else { 3.0 };
+    let mut dir = Vec3::from_array([(); 3].map(|()| if random.index(2) == 0 { 0.0 } else { -0.0 }));
+    dir[axis] = if is_up { 1.0 } else { -1.0 };
+    Ray::new(origin, dir).ok()
+}
+
+/// From a half-whole point to a vertex of the cube's surface.
+fn on_lattice(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
+    let mut half = || 0.5 * (random.index(25) as f32 - 8.0);
+    let origin = Vec3::new(half(), half(), half());
+    let target = mesh.positions[random.index(mesh.positions.len())];
+    Ray::new(origin, target - origin).ok()
+}

@@ -1,0 +1,376 @@
+//! The extremes: rays and single triangles, case by case.
+//!
+//! Every case is a recipe for a ray's origin and a triangle. The ray is then aimed over the triangle
+//! and a little beyond, or at its edges and corners to the last bit. Only sums, products, quotients and
+//! roots, so that the numbers are the same on every machine.
+
+use glam::{DVec3, Vec3};
+use hitscope_core::Ray;
+use hitscope_core::random::Random;
+
+/// A row of the matrix.
+pub struct Case {
+    /// As `--case` takes it.
+    pub name: String,
+    /// For tables.
+    pub title: String,
+    /// What is extreme about it.
+    pub about: &'static str,
+    aim: Aim,
+    /// How long directions are made; as long as the way to the triangle if `None`.
+    dir_length: Option<f64>,
+    recipe: Recipe,
+}
+
+/// Makes an origin and a triangle.
+type Recipe = Box<dyn Fn(&mut Random) -> (Vec3, [Vec3; 3]) + Send + Sync>;
+
+/// Where the ray goes.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Aim {
+    /// Over the triangle and a tenth beyond.
+    Spread,
+    /// To edges and corners, exactly as f32 aims, one ulp beside, and a little inside and outside.
+    Edges,
+}
+
+impl Case {
+    /// A ray and a triangle; tries again where the numbers leave f32 or the direction is zero.
+    pub fn sample(&self, random: &mut Random) -> (Ray, [Vec3; 3]) {
+        loop {
+            let (origin, corners) = (self.recipe)(random);
+            let dir = self.direction(origin, corners, random);
+            if corners.iter().all(|p| p.is_finite())
+                && let Ok(ray) = Ray::new(origin, dir)
+            {
+                return (ray, corners);
+            }
+        }
+    }
+
+    fn direction(&self, origin: Vec3, corners: [Vec3; 3], random: &mut Random) -> Vec3 {
+        let (weights, ulps) = match self.aim {
+            Aim::Spread => (spread_weights(random), 0),
+            Aim::Edges => edge_weights(random),
+        };
+        let origin = origin.as_dvec3();
+        let relative = corners.map(|p| p.as_dvec3() - origin);
+        let to: DVec3 = (0..3).map(|k| weights[k] * relative[k]).sum();
+        let mut dir = match self.dir_length {
+            Some(length) => (to / to.length() * length).as_vec3(),
+            None => to.as_vec3(),
+        };
+        if ulps != 0 {
+            let axis = random.index(3);
+            dir[axis] = if ulps > 0 {
+                dir[axis].next_up()
+            } else {
+                dir[axis].next_down()
+            };
+        }
+        dir
+    }
+}
+
+/// Weights over the triangle, blown up by 1.2 about its middle.
+fn spread_weights(random: &mut Random) -> [f64; 3] {
+    let (mut u, mut v) = (random.unit(), random.unit());
+    if u + v > 1.0 {
+        (u, v) = (1.0 - u, 1.0 - v);
+    }
+    let blown = |x: f64| (x - 1.0 / 3.0) * 1.2 + 1.0 / 3.0;
+    let (u, v) = (blown(u), blown(v));
+    [1.0 - u - v, u, v]
+}
+
+/// Weights on an edge, at a corner or near an edge, and by how many ulps the aim is to be off.
+fn edge_weights(random: &mut Random) -> ([f64; 3], i32) {
+    let start = random.index(3);
+    let [a, b, c] = [start, (start + 1) % 3, (start + 2) % 3];
+    let part = random.unit();
+    let mut weights = [0.0; 3];
+    let kind = random.index(5);
+    match kind {
+        0 | 1 => (weights[a], weights[b]) = (part, 1.0 - part),
+        2 | 3 => weights[a] = 1.0,
+        _ => {
+            // From a thousandth down to f64's last place, inside or outside.
+            let size = 2f64.powi(-10 - random.index(43) as i32);
+            let beside = if random.index(2) == 0 { size } else { -size };
+            weights[a] = part * (1.0 - beside);
+            weights[b] = (1.0 - part) * (1.0 - beside);
+            weights[c] = beside;
+        }
+    }
+    let ulps = match kind {
+        1 | 3 if random.index(2) == 0 => 1,
+        1 | 3 => -1,
+        _ => 0,
+    };
+    (weights, ulps)
+}
+
+/// Every case, those aimed at edges after those that aren't.
+pub fn triangle_cases() -> Vec<Case> {
+    [Aim::Spread, Aim::Edges]
+        .into_iter()
+        .flat_map(|aim| recipes().into_iter().map(move |recipe| recipe.case(aim)))
+        .collect()
+}
+
+struct Named {
+    name: String,
+    about: &'static str,
+    dir_length: Option<f64>,
+    recipe: Recipe,
+}
+
+impl Named {
+    fn case(self, aim: Aim) -> Case {
+        let (name, title) = match aim {
+            Aim::Spread => (self.name.clone(), self.name),
+            Aim::Edges => (
+                format!("{} edges", self.name),
+                format!("{}, at edges", self.name),
+            ),
+        };
+        Case {
+            name: name.replace(' ', "-"),
+            title,
+            about: self.about,
+            aim,
+            dir_length: self.dir_length,
+            recipe: self.recipe,
+        }
+    }
+}
+
+fn named(
+    name: impl Into<String>,
+    about: &'static str,
+    recipe: impl Fn(&mut Random) -> (Vec3, [Vec3; 3]) + Send + Sync + 'static,
+) -> Named {
+    Named {
+        name: name.into(),
+        about,
+        dir_length: None,
+        recipe: Box::new(recipe),
+    }
+}
+
+/// Three times as far as the triangle is large, both about the origin, times `scale`.
+fn ordinary(random: &mut Random, scale: f64) -> (Vec3, [Vec3; 3]) {
+    let mut point = |size: f64| (size * scale * random.in_cube()).as_vec3();
+    (point(3.0), [point(1.0), point(1.0), point(1.0)])
+}
+
+fn recipes() -> Vec<Named> {
+    let mut all = Vec::new();
+    for offset in [0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7] {
+        let place = DVec3::new(offset, -offset, offset);
+        all.push(named(
+            format!("offset {offset:e}"),
+            "A triangle of size 1 so far from the world's origin; the ray starts three sizes away.",
+            move |random| {
+                let mut point = |size: f64| (place + size * random.in_cube()).as_vec3();
+                (point(3.0), [point(1.0), point(1.0), point(1.0)])
+            },
+        ));
+    }
+    for scale in [
+        1e-42, 1e-30, 1e-18, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e30, 1e38,
+    ] {
+        all.push(named(
+            format!("scale {scale:e}"),
+            "Triangle and ray scaled together.",
+            move |random| ordinary(random, scale),
+        ));
+    }
+    for length in [1e-42, 1e-20, 1e-10, 1e10, 1e20] {
+        let about = "A direction of this length; the ray starts within its reach in f32.";
+        all.push(Named {
+            dir_length: Some(length),
+            ..named(format!("direction {length:e}"), about, |random| {
+                ordinary(random, 1e-6)
+            })
+        });
+    }
+    for aspect in [1e3, 1e5, 1e6, 1e8, 1e10, 1e12] {
+        all.push(named(
+            format!("sliver {aspect:e}"),
+            "So many times longer than high, askew in space.",
+            move |random| sliver(random, aspect),
+        ));
+    }
+    for digit in 1..=8 {
+        let angle = 1.0 / 10f64.powi(digit);
+        all.push(named(
+            format!("grazing 1e-{digit}"),
+            "A ray at this angle, in radians, to the triangle's plane.",
+            move |random| grazing(random, angle),
+        ));
+    }
+    for distance in [1e3, 1e4, 1e5, 1e6, 1e7, 1e9, 1e12] {
+        all.push(named(
+            format!("far {distance:e}"),
+            "A ray that starts so many sizes away.",
+            move |random| {
+                let (_, corners) = ordinary(random, 1.0);
+                ((distance * unit(random)).as_vec3(), corners)
+            },
+        ));
+    }
+    all.extend(special_recipes());
+    all
+}
+
+fn special_recipes() -> Vec<Named> {
+    let mut all = vec![
+        named(
+            "in plane",
+            "A ray in the plane of an axis-aligned triangle, which misses it.",
+            in_plane,
+        ),
+        named(
+            "zero area",
+            "Two corners the same, or all on a line; loaded meshes hold none.",
+            zero_area,
+        ),
+        named("tiny 2e-4", "Edges of 2e-4 at a distance of 3.", |random| {
+            tiny(random, 2e-4)
+        }),
+        named(
+            "tiny 1e-13",
+            "Edges of 1e-13 about the origin, at a distance of 3.",
+            |random| {
+                let (origin, corners) = ordinary(random, 1.0);
+                (origin, corners.map(|p| (p.as_dvec3() * 1e-13).as_vec3()))
+            },
+        ),
+        named(
+            "tiny 1e-40",
+            "Edges that only subnormal numbers hold, at a distance of 1.",
+            |random| {
+                let (origin, corners) = ordinary(random, 1.0);
+                (origin, corners.map(|p| (p.as_dvec3() * 1e-40).as_vec3()))
+            },
+        ),
+        named(
+            "origin on triangle",
+            "A ray that starts at a corner, on an edge or inside, or an ulp beside.",
+            origin_on_triangle,
+        ),
+    ];
+    for side in [4, 64, 4096] {
+        all.push(named(
+            format!("integer grid {side}"),
+            "All coordinates whole numbers up to this: hits on edges and corners are exact.",
+            move |random| {
+                let mut whole = || (random.index(2 * side + 1) as i64 - side as i64) as f32;
+                let mut point = || Vec3::new(whole(), whole(), whole());
+                (point(), [point(), point(), point()])
+            },
+        ));
+    }
+    for range in [20, 60, 126] {
+        all.push(named(
+            format!("mixed exponents {range}"),
+            "Coordinates from 2 to minus this to 2 to this, each its own.",
+            move |random| {
+                let mut number = || {
+                    let exponent = random.index(2 * range + 1) as i32 - range as i32;
+                    (random.signed() * 2f64.powi(exponent)) as f32
+                };
+                let mut point = || Vec3::new(number(), number(), number());
+                (point(), [point(), point(), point()])
+            },
+        ));
+    }
+    all
+}
+
+/// A direction, every one as likely.
+fn unit(random: &mut Random) -> DVec3 {
+    loop {
+        let p = random.in_cube();
+        let squared = p.length_squared();
+        if squared > 1e-4 && squared <= 1.0 {
+            return p / squared.sqrt();
+        }
+    }
+}
+
+fn sliver(random: &mut Random, aspect: f64) -> (Vec3, [Vec3; 3]) {
+    let along = unit(random);
+    let across = along.cross(unit(random)).normalize();
+    let a = (0.3 * random.in_cube()).as_vec3();
+    let part = random.unit();
+    let b = (a.as_dvec3() + along).as_vec3();
+    let c = (a.as_dvec3() + part * along + across / aspect).as_vec3();
+    ((3.0 * random.in_cube()).as_vec3(), [a, b, c])
+}
+
+fn grazing(random: &mut Random, angle: f64) -> (Vec3, [Vec3; 3]) {
+    let x = unit(random);
+    let normal = x.cross(unit(random)).normalize();
+    let y = normal.cross(x);
+    let corners = [(); 3].map(|()| (random.signed() * x + random.signed() * y).as_vec3());
+    let towards = loop {
+        let (s, t) = (random.signed(), random.signed());
+        let size = (s * s + t * t).sqrt();
+        if size > 0.1 {
+            break (s * x + t * y) / size;
+        }
+    };
+    ((3.0 * (towards + angle * normal)).as_vec3(), corners)
+}
+
+fn in_plane(random: &mut Random) -> (Vec3, [Vec3; 3]) {
+    let (level, axis) = (random.signed() as f32, random.index(3));
+    let mut point = |size: f64| {
+        let mut p = (size * random.in_cube()).as_vec3();
+        p[axis] = level;
+        p
+    };
+    (point(3.0), [point(1.0), point(1.0), point(1.0)])
+}
+
+fn zero_area(random: &mut Random) -> (Vec3, [Vec3; 3]) {
+    let (origin, [a, b, _]) = ordinary(random, 1.0);
+    let kind = random.index(3);
+    let mut whole = || (random.index(65) as i64 - 32) as f32;
+    let corners = match kind {
+        0 => [a, a, b],
+        1 => [a; 3],
+        _ => {
+            let (from, step) = (
+                Vec3::new(whole(), whole(), whole()),
+                Vec3::new(whole(), whole(), whole()),
+            );
+            [from, from + step, from + 3.0 * step]
+        }
+    };
+    (origin, corners)
+}
+
+fn tiny(random: &mut Random, size: f64) -> (Vec3, [Vec3; 3]) {
+    let place = random.in_cube();
+    let corners = [(); 3].map(|()| (place + size * random.in_cube()).as_vec3());
+    ((3.0 * random.in_cube()).as_vec3(), corners)
+}
+
+fn origin_on_triangle(random: &mut Random) -> (Vec3, [Vec3; 3]) {
+    let (_, corners) = ordinary(random, 1.0);
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let on = match random.index(3) {
+        0 => a,
+        1 => 0.5 * (a + b),
+        _ => (a + b + c) / 3.0,
+    };
+    let mut origin = on.as_vec3();
+    if random.index(2) == 0 {
+        let axis = random.index(3);
+        origin[axis] = origin[axis].next_up();
+    }
+    (origin, corners)
+}

@@ -1,0 +1,170 @@
+//! Does a ray get out of a closed mesh? Through the tree, aimed at shared edges and vertices.
+
+use super::statistics::{bound_per_million, per_million};
+use glam::DVec3;
+use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::mesh::shapes::{Place, in_torus, scene, sphere, torus};
+use hitscope_core::random::Random;
+use hitscope_core::{Intersector, Ray};
+use serde::Serialize;
+
+/// A closed mesh somewhere, and where rays from its inside go.
+pub struct MeshCase {
+    /// As `--case` takes it.
+    pub name: String,
+    /// For tables.
+    pub title: String,
+    /// What is extreme about it.
+    pub about: &'static str,
+    place: Place,
+    aim: Aim,
+}
+
+#[derive(Clone, Copy)]
+enum Aim {
+    Anywhere,
+    Edges,
+    Vertices,
+}
+
+/// One kernel in one case.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct MeshCell {
+    /// The case.
+    pub case: String,
+    /// The kernel.
+    pub kernel: &'static str,
+    /// Rays, every one of which must hit.
+    pub n: u64,
+    /// Those that didn't.
+    pub missed: u64,
+    /// The same, a million.
+    pub missed_per_million: f64,
+    /// What a zero means with a confidence of 95 %, a million.
+    pub bound_per_million: f64,
+    /// Of every 16th ray, those whose first two crossings lie within 4 ulps of each other: one surface,
+    /// met twice. Scaled up to all.
+    pub doubled: u64,
+    /// The same, a million.
+    pub doubled_per_million: f64,
+    /// Decisions that needed f64, a million rays; `None` for kernels that don't adapt.
+    pub in_f64_per_million: Option<f64>,
+    /// Of these, those that needed integers.
+    pub in_integers_per_million: Option<f64>,
+}
+
+/// Every case.
+pub fn mesh_cases() -> Vec<MeshCase> {
+    let offset = |x: f64| (format!("offset {x:e}"), Place::new(1.0, x));
+    let scale = |x: f64| (format!("scale {x:e}"), Place::new(x, 0.5));
+    let places = [0.0, 1e3, 1.5e5, 1e6].map(offset);
+    let places = places
+        .into_iter()
+        .chain([1e-12, 1e-6, 1e6, 1e12].map(scale));
+    let aims = [
+        (Aim::Edges, "edges"),
+        (Aim::Vertices, "vertices"),
+        (Aim::Anywhere, "anywhere"),
+    ];
+    places
+        .flat_map(|(name, place)| {
+            aims.map(|(aim, target)| MeshCase {
+                name: format!("closed {name} {target}").replace(' ', "-"),
+                title: format!("closed, {name}, {target}"),
+                about: "A sphere and a torus, from inside: every ray must hit.",
+                place,
+                aim,
+            })
+        })
+        .collect()
+}
+
+impl MeshCase {
+    /// Traces `n` rays.
+    pub fn measure(&self, kernel: &TriangleKernel, n: u64, seed: u64) -> MeshCell {
+        let mut random = Random::new(seed);
+        let inside_sphere: fn(&mut Random) -> DVec3 = |random| 0.4 * random.in_cube();
+        let inside_torus: fn(&mut Random) -> DVec3 =
+            |random| in_torus(random.unit(), random.unit(), 0.5 * random.unit());
+        let mut count = Count::default();
+        for (mesh, inside) in [
+            (sphere(6, self.place), inside_sphere),
+            (torus(24, 12, self.place), inside_torus),
+        ] {
+            let scene = scene(mesh);
+            let intersector = scene.intersector(kernel);
+            for k in 0..n / 2 {
+                let ray = self.ray(scene.mesh(), inside, &mut random);
+                count.add(&*intersector, &ray, k % EVERY == 0);
+            }
+        }
+        let adapts = kernel.info.promises.is_exact;
+        let n = n / 2 * 2;
+        let rate = |x: u64| adapts.then(|| per_million(x, n));
+        MeshCell {
+            case: self.name.clone(),
+            kernel: kernel.info.name,
+            n,
+            missed: count.missed,
+            missed_per_million: per_million(count.missed, n),
+            bound_per_million: bound_per_million(n),
+            doubled: count.doubled * EVERY,
+            doubled_per_million: per_million(count.doubled * EVERY, n),
+            in_f64_per_million: rate(count.in_f64 * EVERY),
+            in_integers_per_million: rate(count.in_integers * EVERY),
+        }
+    }
+
+    fn ray(
+        &self,
+        mesh: &TriangleMesh,
+        inside: impl Fn(&mut Random) -> DVec3,
+        random: &mut Random,
+    ) -> Ray {
+        loop {
+            let origin = self.place.of(inside(random));
+            let corners = mesh.corners(random.index(mesh.triangles.len()) as u32);
+            let start = random.index(3);
+            let [a, b] = [corners[start], corners[(start + 1) % 3]].map(|p| p.as_dvec3());
+            let target = match self.aim {
+                Aim::Vertices => a,
+                Aim::Edges => a.lerp(b, random.unit()),
+                Aim::Anywhere => origin.as_dvec3() + random.in_cube() * self.place.scale,
+            };
+            let dir = (target - origin.as_dvec3()).as_vec3();
+            if let Ok(ray) = Ray::new(origin, dir) {
+                return ray;
+            }
+        }
+    }
+}
+
+/// Doubled hits are looked for on one ray of so many: all hits cost more than the nearest.
+const EVERY: u64 = 16;
+
+#[derive(Default)]
+struct Count {
+    missed: u64,
+    doubled: u64,
+    in_f64: u64,
+    in_integers: u64,
+}
+
+impl Count {
+    fn add(&mut self, intersector: &dyn Intersector, ray: &Ray, is_sample: bool) {
+        if !is_sample {
+            self.missed += u64::from(intersector.closest_hit(ray).is_none());
+            return;
+        }
+        let (hit, cost) = intersector.closest_hit_with_cost(ray);
+        self.missed += u64::from(hit.is_none());
+        self.in_f64 += u64::from(cost.in_f64);
+        self.in_integers += u64::from(cost.in_integers);
+        let crossings = intersector.all_hits(ray);
+        if let [first, second, ..] = &crossings[..] {
+            let close = 4.0 * f32::EPSILON * first.hit.t;
+            self.doubled += u64::from(second.hit.t - first.hit.t <= close);
+        }
+    }
+}

@@ -1,0 +1,347 @@
+//! What does speed cost in accuracy? Every kernel, every extreme, against the oracle.
+//!
+//! | module | answers |
+//! |---|---|
+//! | [`cases`], [`triangles`] | how wrong is a kernel about one triangle, by how extreme it is? |
+//! | [`meshes`] | does a ray get out of a closed mesh? |
+//! | [`order`] | is the nearest triangle the nearest? |
+//! | [`boxes`] | do the tree's boxes lose what the ray hits? |
+//! | [`spawning`] | does a ray that leaves a surface meet it again? |
+//! | [`speed`] | how fast is a kernel? |
+//! | [`scene`] | all of that for the user's own scene |
+//! | [`lecture`] | the lecture's programs as they are printed |
+//!
+//! Everything but speed is the same from run to run and machine to machine, for the same seed.
+
+pub mod boxes;
+pub mod cases;
+pub mod contestants;
+pub mod lecture;
+pub mod meshes;
+pub mod order;
+pub mod scene;
+pub mod spawning;
+pub mod speed;
+pub mod statistics;
+pub mod triangles;
+
+use boxes::{BOX_CASES, BoxCell};
+use contestants::{Contestant, contestants};
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::mesh::shapes;
+use hitscope_core::progress::{Cancelled, Progress};
+use hitscope_core::sampler::mix;
+use meshes::{MeshCell, mesh_cases};
+use order::{ORDER_CASES, OrderCell};
+use rayon::prelude::*;
+use spawning::{SpawnCell, spawn_cases};
+use speed::Speed;
+use std::time::{Duration, Instant};
+use triangles::TriangleCell;
+
+/// How much is measured.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Sizes {
+    /// Rays for each case of one triangle.
+    pub triangle_rays: u64,
+    /// Rays for each closed mesh and each kernel that promises to be watertight.
+    pub watertight_rays: u64,
+    /// The same for the other kernels.
+    pub leaking_rays: u64,
+    /// Rays for each case of order.
+    pub order_rays: u64,
+    /// Hits for each case of boxes.
+    pub box_hits: u64,
+    /// Rays for each case of spawning.
+    pub spawn_rays: u64,
+    /// Rays for each workload; none: speed isn't measured.
+    pub speed_rays: usize,
+    /// How often they are traced; the middle counts.
+    pub speed_rounds: usize,
+    /// Quads along an edge of the cube that the sphere for it is blown up from.
+    pub speed_cells: u32,
+}
+
+impl Sizes {
+    /// Ends within a minute on two cores.
+    pub const QUICK: Self = Self {
+        triangle_rays: 4_000,
+        watertight_rays: 40_000,
+        leaking_rays: 10_000,
+        order_rays: 2_000,
+        box_hits: 4_000,
+        spawn_rays: 20_000,
+        speed_rays: 100_000,
+        speed_rounds: 3,
+        speed_cells: 83,
+    };
+
+    /// What the bars ask for: 10⁷ rays against single triangles, 10⁸ from inside closed meshes for each
+    /// kernel that promises to be watertight, 10⁶ for each case of spawning.
+    pub const FULL: Self = Self {
+        triangle_rays: 100_000,
+        watertight_rays: 4_200_000,
+        leaking_rays: 400_000,
+        order_rays: 100_000,
+        box_hits: 200_000,
+        spawn_rays: 1_000_000,
+        speed_rays: 500_000,
+        speed_rounds: 5,
+        speed_cells: 300,
+    };
+}
+
+/// Everything that was measured.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Measurements {
+    /// One triangle.
+    pub triangles: Vec<TriangleCell>,
+    /// Closed meshes.
+    pub meshes: Vec<MeshCell>,
+    /// The nearest triangle.
+    pub order: Vec<OrderCell>,
+    /// Boxes.
+    pub boxes: Vec<BoxCell>,
+    /// Leaving rays.
+    pub spawning: Vec<SpawnCell>,
+    /// One row a kernel.
+    pub speed: Vec<Speed>,
+}
+
+/// What a case is called, and what it is about.
+#[derive(Clone, Debug, PartialEq, serde::Serialize)]
+pub struct CaseInfo {
+    /// As `--case` takes it.
+    pub name: String,
+    /// Which of the measurements it belongs to.
+    pub section: &'static str,
+    /// For tables.
+    pub title: String,
+    /// What is extreme about it.
+    pub about: String,
+}
+
+/// Every case of every section.
+pub fn all_cases() -> Vec<CaseInfo> {
+    let info = |section, name: &str, title: &str, about: &str| CaseInfo {
+        name: name.to_owned(),
+        section,
+        title: title.to_owned(),
+        about: about.to_owned(),
+    };
+    let triangles = cases::triangle_cases();
+    let triangles = triangles
+        .iter()
+        .map(|c| info("triangles", &c.name, &c.title, c.about));
+    let meshes = mesh_cases();
+    let meshes = meshes
+        .iter()
+        .map(|c| info("meshes", &c.name, &c.title, c.about));
+    let order = ORDER_CASES
+        .iter()
+        .map(|c| info("order", c.name, c.title, c.about));
+    let boxes = BOX_CASES
+        .iter()
+        .map(|c| info("boxes", c.name, c.title, c.about));
+    let spawning = spawn_cases();
+    let spawning = spawning
+        .iter()
+        .map(|c| info("spawning", &c.name, &c.title, c.about));
+    triangles
+        .chain(meshes)
+        .chain(order)
+        .chain(boxes)
+        .chain(spawning)
+        .collect()
+}
+
+/// A part of the work, and what it is expected to take, in seconds of one thread.
+struct Task {
+    seconds: f64,
+    run: Box<dyn Fn() -> Measurements + Send + Sync>,
+}
+
+/// How far a run has come.
+#[derive(Clone, Copy, Debug)]
+pub struct Advance {
+    /// Part of the work that is done, 0 to 1.
+    pub done: f64,
+    /// Since the start.
+    pub elapsed: Duration,
+    /// What is left, by what the work done so far took.
+    pub left: Duration,
+}
+
+/// Runs the cases for which `is_wanted` holds; speed only if all are.
+///
+/// # Errors
+/// [`Cancelled`] if `progress` was cancelled.
+pub fn run(
+    sizes: Sizes,
+    seed: u64,
+    is_wanted: &(dyn Fn(&str) -> bool + Sync),
+    progress: &Progress,
+    advanced: &(dyn Fn(Advance) + Sync),
+) -> Result<Measurements, Cancelled> {
+    let tasks = tasks(sizes, seed, is_wanted);
+    let total: f64 = tasks.iter().map(|task| task.seconds).sum();
+    let start = Instant::now();
+    let done = std::sync::Mutex::new(0.0);
+    let parts: Vec<Measurements> = tasks
+        .par_iter()
+        .map(|task| {
+            progress.check()?;
+            let part = (task.run)();
+            let mut done = done.lock().expect("adding doesn't panic");
+            *done += task.seconds / total;
+            let elapsed = start.elapsed();
+            advanced(Advance {
+                done: *done,
+                elapsed,
+                left: elapsed.mul_f64((1.0 - *done).max(0.0) / *done),
+            });
+            Ok(part)
+        })
+        .collect::<Result<_, _>>()?;
+    let mut all = Measurements::default();
+    for part in parts {
+        all.append(part);
+    }
+    if sizes.speed_rays > 0 {
+        all.speed = speed_on_sphere(sizes, seed, progress)?;
+    }
+    Ok(all)
+}
+
+/// What a run will take on so many threads, by what its parts took on one machine (2026-11).
+pub fn expected(
+    sizes: Sizes,
+    is_wanted: &(dyn Fn(&str) -> bool + Sync),
+    threads: usize,
+) -> Duration {
+    let tasks = tasks(sizes, 0, is_wanted);
+    let parallel: f64 = tasks.iter().map(|task| task.seconds).sum();
+    let rays = (sizes.speed_rays * 3 * sizes.speed_rounds * TRIANGLE_KERNELS.len()) as f64;
+    Duration::from_secs_f64(parallel / threads as f64 + 1.2e-6 * rays)
+}
+
+impl Measurements {
+    fn append(&mut self, other: Self) {
+        self.triangles.extend(other.triangles);
+        self.meshes.extend(other.meshes);
+        self.order.extend(other.order);
+        self.boxes.extend(other.boxes);
+        self.spawning.extend(other.spawning);
+    }
+}
+
+fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> Vec<Task> {
+    let mut tasks = Vec::new();
+    let mut add = |n: u64, seconds_each: f64, run: Box<dyn Fn() -> Measurements + Send + Sync>| {
+        tasks.push(Task {
+            seconds: n as f64 * seconds_each,
+            run,
+        });
+    };
+    // A case's seed is its own: what else is measured doesn't change it.
+    let seed_of = |name: &str| {
+        name.bytes()
+            .fold(mix(seed), |seed, byte| mix(seed ^ u64::from(byte)))
+    };
+
+    for case in cases::triangle_cases()
+        .into_iter()
+        .filter(|case| is_wanted(&case.name))
+    {
+        let (n, seed) = (sizes.triangle_rays, seed_of(&case.name));
+        add(
+            n,
+            12e-6,
+            Box::new(move || Measurements {
+                triangles: triangles::measure(&case, &contestants(), n, seed),
+                ..Measurements::default()
+            }),
+        );
+    }
+    for (c, case) in mesh_cases()
+        .iter()
+        .enumerate()
+        .filter(|(_, case)| is_wanted(&case.name))
+    {
+        let seed = seed_of(&case.name);
+        for kernel in TRIANGLE_KERNELS {
+            let n = if kernel.info.promises.is_watertight {
+                sizes.watertight_rays
+            } else {
+                sizes.leaking_rays
+            };
+            add(
+                n,
+                0.6e-6,
+                Box::new(move || Measurements {
+                    meshes: vec![mesh_cases()[c].measure(kernel, n, seed)],
+                    ..Measurements::default()
+                }),
+            );
+        }
+    }
+    for case in ORDER_CASES.iter().filter(|case| is_wanted(case.name)) {
+        let (n, seed) = (sizes.order_rays, seed_of(case.name));
+        add(
+            n,
+            150e-6,
+            Box::new(move || {
+                let kernels: Vec<_> = TRIANGLE_KERNELS.iter().collect();
+                Measurements {
+                    order: case.measure(&kernels, n, seed),
+                    ..Measurements::default()
+                }
+            }),
+        );
+    }
+    for case in BOX_CASES.iter().filter(|case| is_wanted(case.name)) {
+        let (n, seed) = (sizes.box_hits, seed_of(case.name));
+        add(
+            n,
+            60e-6,
+            Box::new(move || Measurements {
+                boxes: vec![case.measure(n, seed)],
+                ..Measurements::default()
+            }),
+        );
+    }
+    for case in spawn_cases()
+        .into_iter()
+        .filter(|case| is_wanted(&case.name))
+    {
+        let (n, seed) = (sizes.spawn_rays, seed_of(&case.name));
+        add(
+            n,
+            6e-6,
+            Box::new(move || Measurements {
+                spawning: case.measure(n, seed),
+                ..Measurements::default()
+            }),
+        );
+    }
+    tasks
+}
+
+fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {
+    let mesh = shapes::sphere(sizes.speed_cells, shapes::Place::UNIT);
+    let name = format!("sphere, {} triangles", mesh.triangles.len());
+    let scene = shapes::scene(mesh);
+    let camera = speed::default_camera(&scene);
+    let workloads = speed::workloads(&scene, &camera, sizes.speed_rays, seed);
+    speed::measure(&scene, &name, &workloads, sizes.speed_rounds, progress)
+}
+
+/// What a contestant's cells come to.
+pub fn cells_of<'a>(
+    cells: &'a [TriangleCell],
+    contestant: Contestant,
+) -> impl Iterator<Item = &'a TriangleCell> {
+    cells
+        .iter()
+        .filter(move |cell| cell.kernel == contestant.name())
+}

@@ -1,0 +1,152 @@
+//! The user's own scene: what each kernel reaches there, and what it gets wrong.
+
+use super::speed::{self, Speed, Workload};
+use super::statistics::{Quantiles, bound_per_million, per_million};
+use super::triangles::ulp_at;
+use crate::oracle::{self, ExactHit};
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::progress::{Cancelled, Progress};
+use hitscope_core::{Camera, Intersector, Ray, Scene};
+use serde::Serialize;
+
+/// How much of a scene is looked at.
+#[derive(Clone, Copy, Debug)]
+pub struct SceneSizes {
+    /// Pixels whose rays are held against the oracle, and as many bounce rays as they have hits.
+    pub checked: usize,
+    /// Rays that are timed for each workload.
+    pub timed: usize,
+    /// How often.
+    pub rounds: usize,
+}
+
+impl SceneSizes {
+    /// For the command.
+    pub const COMMAND: Self = Self {
+        checked: 20_000,
+        timed: 200_000,
+        rounds: 5,
+    };
+    /// For the panel, in the background.
+    pub const PANEL: Self = Self {
+        checked: 4_000,
+        timed: 40_000,
+        rounds: 3,
+    };
+}
+
+/// One kernel in one scene.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct SceneRow {
+    /// The kernel.
+    pub kernel: &'static str,
+    /// Camera and bounce rays that were held against the oracle.
+    pub n: u64,
+    /// Of these, those that hit, exactly.
+    pub hits: u64,
+    /// Hits that it missed.
+    pub missed: u64,
+    /// Hits that aren't.
+    pub false_hits: u64,
+    /// Hits on another triangle than the nearest, or the lowest of those as near.
+    pub other_triangle: u64,
+    /// All wrong decisions, a million.
+    pub wrong_per_million: f64,
+    /// What a zero means with a confidence of 95 %, a million.
+    pub bound_per_million: f64,
+    /// Errors of t on the right triangle, in ulps of f32.
+    pub t_ulps: Option<Quantiles>,
+    /// How fast it is here.
+    pub speed: Speed,
+}
+
+/// Measures every kernel in a scene, as a camera sees it.
+///
+/// # Errors
+/// [`Cancelled`] if `progress` was cancelled.
+pub fn measure(
+    scene: &Scene,
+    camera: &Camera,
+    sizes: SceneSizes,
+    progress: &Progress,
+) -> Result<Vec<SceneRow>, Cancelled> {
+    let workloads = speed::workloads(scene, camera, sizes.timed, 1);
+    let name = format!("{} triangles", scene.mesh().triangles.len());
+    let speeds = speed::measure(scene, &name, &workloads, sizes.rounds, progress)?;
+    let checked = checked_rays(&workloads, sizes.checked);
+    let answers = answers(scene, &checked, progress)?;
+    let mut rows = Vec::with_capacity(speeds.len());
+    for (kernel, speed) in TRIANGLE_KERNELS.iter().zip(speeds) {
+        progress.check()?;
+        rows.push(row(&*scene.intersector(kernel), &answers, speed));
+    }
+    Ok(rows)
+}
+
+/// Of the camera's and the bounce rays so many, evenly.
+fn checked_rays(workloads: &[Workload; 3], count: usize) -> Vec<Ray> {
+    let evenly = |rays: &[Ray]| {
+        let count = count.min(rays.len());
+        let at = |k: usize| rays[k * rays.len() / count];
+        (0..count).map(at).collect::<Vec<_>>()
+    };
+    let mut rays = evenly(&workloads[0].rays);
+    rays.extend(evenly(&workloads[1].rays));
+    rays
+}
+
+/// A ray and the oracle's nearest hit.
+struct Answer {
+    ray: Ray,
+    nearest: Option<(u32, ExactHit)>,
+}
+
+fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answer>, Cancelled> {
+    // Whatever the kernel, the candidates are all that the ray could hit.
+    let intersector = scene.intersector(hitscope_core::kernel::default_triangle_kernel());
+    let mut answers = Vec::with_capacity(rays.len());
+    for ray in rays {
+        progress.check()?;
+        let mut candidates = intersector.candidates(ray);
+        candidates.sort_unstable();
+        answers.push(Answer {
+            ray: *ray,
+            nearest: oracle::nearest(scene.mesh(), ray, &candidates),
+        });
+    }
+    Ok(answers)
+}
+
+fn row(intersector: &dyn Intersector, answers: &[Answer], speed: Speed) -> SceneRow {
+    let [mut hits, mut missed, mut false_hits, mut other_triangle] = [0; 4];
+    let mut t_ulps = Vec::new();
+    for Answer { ray, nearest } in answers {
+        hits += u64::from(nearest.is_some());
+        match (intersector.closest_hit(ray), nearest) {
+            (None, None) => {}
+            (None, Some(_)) => missed += 1,
+            (Some(_), None) => false_hits += 1,
+            (Some(hit), Some((triangle, exact))) => {
+                if hit.primitive == *triangle {
+                    let t = exact.t.to_f64();
+                    t_ulps.push((f64::from(hit.t) - t).abs() / ulp_at(t));
+                } else {
+                    other_triangle += 1;
+                }
+            }
+        }
+    }
+    let n = answers.len() as u64;
+    SceneRow {
+        kernel: intersector.kernel().name,
+        n,
+        hits,
+        missed,
+        false_hits,
+        other_triangle,
+        wrong_per_million: per_million(missed + false_hits + other_triangle, n),
+        bound_per_million: bound_per_million(n),
+        t_ulps: Quantiles::of(t_ulps),
+        speed,
+    }
+}

@@ -1,0 +1,282 @@
+//! How fast is a kernel? In the real traversal, with rays as a renderer has them, and by itself.
+
+use cpu_time::ThreadTime;
+use glam::{DVec3, UVec2, Vec2, Vec3};
+use hitscope_core::camera::Turntable;
+use hitscope_core::intersector::Cost;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel};
+use hitscope_core::mesh::shapes;
+use hitscope_core::progress::{Cancelled, Progress};
+use hitscope_core::random::Random;
+use hitscope_core::spawn::{Departure, default_spawn_policy};
+use hitscope_core::{Camera, Intersector, Ray, Scene};
+use serde::Serialize;
+use std::hint::black_box;
+
+/// Rays of a kind.
+pub struct Workload {
+    /// `primary`, `bounce` or `random`.
+    pub name: &'static str,
+    /// The rays.
+    pub rays: Vec<Ray>,
+}
+
+/// What one kernel reached.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Speed {
+    /// The kernel.
+    #[serde(skip)]
+    pub kernel: &'static str,
+    /// What was traced.
+    pub mesh: String,
+    /// Millions of rays a second of one thread's CPU time.
+    pub mrays_per_s: Rates,
+    /// Time for a ray, the mean over the workloads of its ratio to `fast` in the same round.
+    pub time_relative_to_fast: f64,
+    /// Nanoseconds a triangle, the tree aside.
+    pub ns_per_test: f64,
+    /// Packed triangles and tree.
+    pub bytes_per_triangle: f64,
+    /// Of a million rays, decisions that needed f64 and integers; `None` for kernels that don't adapt.
+    pub adaptive_per_million: Option<[f64; 2]>,
+}
+
+/// One rate a workload.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Rates {
+    /// Camera rays through pixels' centres.
+    pub primary: f64,
+    /// Diffuse rays from where those hit.
+    pub bounce: f64,
+    /// Rays across the scene's sphere.
+    pub random: f64,
+}
+
+/// The three workloads of a scene, some `count` rays each.
+pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> [Workload; 3] {
+    let mut random = Random::new(seed);
+    let intersector = scene.intersector(default_triangle_kernel());
+    let primary = primary_rays(camera, count);
+    let bounce = bounce_rays(scene, &*intersector, &primary, &mut random);
+    let random = random_rays(scene, count, &mut random);
+    let named = |name, rays| Workload { name, rays };
+    [
+        named("primary", primary),
+        named("bounce", bounce),
+        named("random", random),
+    ]
+}
+
+/// Through pixels' centres, evenly over the picture, row by row.
+pub fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
+    let size = camera.resolution();
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    let count = (count as u64).min(pixels);
+    (0..count)
+        .map(|k| {
+            let index = k * pixels / count;
+            let (x, y) = (index % u64::from(size.x), index / u64::from(size.x));
+            camera.ray(UVec2::new(x as u32, y as u32), Vec2::splat(0.5))
+        })
+        .collect()
+}
+
+/// Cosine-distributed about the normal that faces the ray, from each hit.
+pub fn bounce_rays(
+    scene: &Scene,
+    intersector: &dyn Intersector,
+    arriving: &[Ray],
+    random: &mut Random,
+) -> Vec<Ray> {
+    let bounce = |ray: &Ray| {
+        let hit = intersector.closest_hit(ray)?;
+        let mesh = scene.mesh();
+        let normal = mesh.geometric_normal(hit.primitive).as_dvec3();
+        let facing = if normal.dot(ray.dir.as_dvec3()) > 0.0 {
+            -normal
+        } else {
+            normal
+        };
+        let departure = Departure {
+            arrived_by: ray,
+            hit: &hit,
+            corners: mesh.corners(hit.primitive),
+            dir: (facing + on_sphere(random)).normalize_or(facing).as_vec3(),
+        };
+        default_spawn_policy().spawn(&departure).ok()
+    };
+    arriving.iter().filter_map(bounce).collect()
+}
+
+/// From the sphere about the scene, its diagonal in radius, through a point of its box.
+fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
+    let bounds = scene.bounds();
+    let centre = bounds.centre().as_dvec3();
+    let (lower, extent) = (bounds.min.as_dvec3(), bounds.extent());
+    (0..count)
+        .filter_map(|_| {
+            let origin = centre + 2.0 * bounds.radius() * on_sphere(random);
+            let part = 0.5 * (random.in_cube() + DVec3::ONE);
+            let dir = (lower + part * extent - origin).normalize_or_zero();
+            Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
+        })
+        .collect()
+}
+
+fn on_sphere(random: &mut Random) -> DVec3 {
+    loop {
+        let p = random.in_cube();
+        let squared = p.length_squared();
+        if squared > 1e-4 && squared <= 1.0 {
+            return p / squared.sqrt();
+        }
+    }
+}
+
+/// The view that the viewer starts with, 1280×720.
+pub fn default_camera(scene: &Scene) -> Camera {
+    let size = UVec2::new(1280, 720);
+    let mut start = Turntable::framing(scene.bounds(), size);
+    start.frame(scene.bounds(), size);
+    start.camera(size)
+}
+
+/// Measures every kernel, in turn within each round, so that what else the machine does meets all alike.
+///
+/// # Errors
+/// [`Cancelled`] if `progress` was cancelled.
+pub fn measure(
+    scene: &Scene,
+    mesh: &str,
+    workloads: &[Workload; 3],
+    rounds: usize,
+    progress: &Progress,
+) -> Result<Vec<Speed>, Cancelled> {
+    let intersectors: Vec<_> = TRIANGLE_KERNELS
+        .iter()
+        .map(|kernel| scene.intersector(kernel))
+        .collect();
+    // Kernel, workload, round: seconds.
+    let mut seconds = vec![[const { Vec::new() }; 3]; intersectors.len()];
+    for _ in 0..rounds {
+        for (w, workload) in workloads.iter().enumerate() {
+            for (intersector, seconds) in intersectors.iter().zip(&mut seconds) {
+                progress.check()?;
+                seconds[w].push(seconds_for(&**intersector, &workload.rays));
+            }
+        }
+    }
+    let fast = TRIANGLE_KERNELS
+        .iter()
+        .position(|kernel| kernel.info.short_name() == "fast")
+        .expect("the fast tier is in the table");
+    let report = |k: usize| {
+        let rate = |w: usize| {
+            workloads[w].rays.len() as f64 / median(seconds[k][w].clone()).max(1e-9) / 1e6
+        };
+        let relative = |w: usize| {
+            let ratios = seconds[k][w].iter().zip(&seconds[fast][w]);
+            median(ratios.map(|(own, fast)| own / fast).collect())
+        };
+        let triangles = scene.mesh().triangles.len().max(1) as f64;
+        Speed {
+            kernel: TRIANGLE_KERNELS[k].info.name,
+            mesh: mesh.to_owned(),
+            mrays_per_s: Rates {
+                primary: rate(0),
+                bounce: rate(1),
+                random: rate(2),
+            },
+            time_relative_to_fast: (relative(0) + relative(1) + relative(2)) / 3.0,
+            ns_per_test: ns_per_test(&TRIANGLE_KERNELS[k]),
+            bytes_per_triangle: (intersectors[k].bytes() + scene.bvh().bytes()) as f64 / triangles,
+            adaptive_per_million: adaptive(&*intersectors[k], workloads),
+        }
+    };
+    Ok((0..intersectors.len()).map(report).collect())
+}
+
+fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {
+    let start = ThreadTime::now();
+    for ray in rays {
+        black_box(intersector.closest_hit(black_box(ray)));
+    }
+    start.elapsed().as_secs_f64()
+}
+
+/// Of a million rays, decisions in f64 and in integers.
+fn adaptive(intersector: &dyn Intersector, workloads: &[Workload; 3]) -> Option<[f64; 2]> {
+    if !intersector.kernel().promises.is_exact {
+        return None;
+    }
+    let (mut total, mut count) = (Cost::default(), 0);
+    for ray in workloads.iter().flat_map(|workload| &workload.rays) {
+        let (_, cost) = intersector.closest_hit_with_cost(ray);
+        total.in_f64 += cost.in_f64;
+        total.in_integers += cost.in_integers;
+        count += 1;
+    }
+    let rate = |x: u32| f64::from(x) / f64::from(count.max(1)) * 1e6;
+    Some([rate(total.in_f64), rate(total.in_integers)])
+}
+
+/// Time for a triangle where no tree is asked: rays against 4096 triangles of size 0.2 in a cube of
+/// size 2, of which one in some hundreds hits.
+fn ns_per_test(kernel: &TriangleKernel) -> f64 {
+    const TRIANGLES: usize = 4096;
+    const RAYS: usize = 40;
+    let mut random = Random::new(1);
+    let mut near = |p: Vec3| p + 0.1 * random.in_cube_f32();
+    let mut places = Random::new(2);
+    let triangles: Vec<[Vec3; 3]> = (0..TRIANGLES)
+        .map(|_| {
+            let p = places.in_cube_f32();
+            [near(p), near(p), near(p)]
+        })
+        .collect();
+    let scene = shapes::scene(shapes::soup(&triangles));
+    let intersector = scene.intersector(kernel);
+    let rays: Vec<Ray> = (0..RAYS)
+        .filter_map(|_| Ray::new(3.0 * places.in_cube_f32(), places.in_cube_f32()).ok())
+        .collect();
+    let round = || {
+        let start = ThreadTime::now();
+        for ray in &rays {
+            black_box(intersector.count_hits(black_box(ray)));
+        }
+        start.elapsed().as_secs_f64() / (rays.len() * TRIANGLES) as f64 * 1e9
+    };
+    median((0..5).map(|_| round()).collect())
+}
+
+fn median(mut values: Vec<f64>) -> f64 {
+    values.sort_unstable_by(f64::total_cmp);
+    values.get(values.len() / 2).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hitscope_core::camera::Projection;
+    use hitscope_core::mesh::shapes::{Place, scene, sphere};
+
+    #[test]
+    fn the_workloads_are_what_their_names_say() {
+        let scene = scene(sphere(8, Place::UNIT));
+        let projection = Projection::Perspective { fov_y_radians: 0.7 };
+        let size = UVec2::new(32, 16);
+        let eye = DVec3::Z * 4.0;
+        let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
+        let [primary, bounce, random] = workloads(&scene, &camera.expect("a camera"), 512, 1);
+        assert_eq!(primary.rays.len(), 512);
+        let intersector = scene.intersector(default_triangle_kernel());
+        let is_hit = |ray: &&Ray| intersector.any_hit(ray);
+        assert_eq!(
+            primary.rays.iter().filter(is_hit).count(),
+            bounce.rays.len()
+        );
+        // A sphere is convex: what leaves it doesn't come back.
+        assert_eq!(bounce.rays.iter().filter(is_hit).count(), 0);
+        assert!(random.rays.iter().filter(is_hit).count() > 100);
+    }
+}

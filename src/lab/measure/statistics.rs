@@ -1,0 +1,89 @@
+//! What is printed of many measurements.
+
+use serde::Serialize;
+
+/// The middle, the hundredth from the top, and the largest.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Quantiles {
+    /// Half are at most this.
+    pub p50: f64,
+    /// 99 of a hundred are at most this.
+    pub p99: f64,
+    /// The largest.
+    pub max: f64,
+}
+
+impl Quantiles {
+    /// Of finite numbers; `None` of none.
+    pub fn of(mut values: Vec<f64>) -> Option<Self> {
+        values.sort_unstable_by(f64::total_cmp);
+        let at = |part: f64| values[((values.len() - 1) as f64 * part).ceil() as usize];
+        (!values.is_empty()).then(|| Self {
+            p50: at(0.5),
+            p99: at(0.99),
+            max: at(1.0),
+        })
+    }
+}
+
+/// So many of n, a million.
+pub fn per_million(count: u64, n: u64) -> f64 {
+    count as f64 / (n.max(1) as f64) * 1e6
+}
+
+/// Where none of n failed, the rate a million is below this with a confidence of 95 %: 3/n.
+///
+/// Source: Hanley, Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249(13), 1983.
+pub fn bound_per_million(n: u64) -> f64 {
+    per_million(3, n)
+}
+
+/// `0 (< 30)` or `12`: a rate a million, with its bound where it is zero.
+pub fn rate_text(count: u64, n: u64) -> String {
+    if count == 0 {
+        format!("0 (<{})", short(bound_per_million(n)))
+    } else {
+        short(per_million(count, n))
+    }
+}
+
+/// Three digits: `0`, `12.3`, `4570`, `1.2e5`.
+pub fn short(x: f64) -> String {
+    let size = x.abs();
+    if x == 0.0 {
+        "0".to_owned()
+    } else if size >= 99_999.5 || size < 0.01 {
+        format!("{x:.1e}")
+    } else if size >= 99.95 {
+        format!("{x:.0}")
+    } else if size >= 9.995 {
+        format!("{x:.1}")
+    } else {
+        format!("{x:.2}")
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_among_the_values() {
+        let values: Vec<f64> = (0..=100).rev().map(f64::from).collect();
+        let quantiles = Quantiles::of(values).expect("not empty");
+        assert_eq!(
+            (quantiles.p50, quantiles.p99, quantiles.max),
+            (50.0, 99.0, 100.0)
+        );
+        assert_eq!(Quantiles::of(vec![]), None);
+        let one = Quantiles::of(vec![2.0]).expect("not empty");
+        assert_eq!((one.p50, one.max), (2.0, 2.0));
+    }
+
+    #[test]
+    fn a_zero_comes_with_its_bound() {
+        assert_eq!(rate_text(0, 1_000_000), "0 (<3.00)");
+        assert_eq!(rate_text(5, 1_000_000), "5.00");
+        assert_eq!(rate_text(250_000, 1_000_000), "2.5e5");
+    }
+}

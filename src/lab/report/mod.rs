@@ -1,0 +1,168 @@
+//! The laboratory's results: as JSON, as a page, as tables of text.
+
+mod text;
+
+pub use text::{accuracy_table, print};
+
+use crate::measure::contestants::{Contestant, contestants};
+use crate::measure::speed::Speed;
+use crate::measure::statistics::{bound_per_million, per_million};
+use crate::measure::triangles::TriangleCell;
+use crate::measure::{CaseInfo, Measurements, all_cases, cells_of};
+use hitscope_core::spawn::SPAWN_POLICIES;
+use serde_json::{Value, json};
+
+/// The page, which draws itself from the JSON that is put into it.
+const PAGE: &str = include_str!("page.html");
+/// Where.
+const PLACEHOLDER: &str = "/*LAB_JSON*/";
+
+/// How and where it was measured.
+#[derive(Clone, Debug, serde::Serialize)]
+pub struct About {
+    /// hitscope's.
+    pub version: &'static str,
+    /// What was typed.
+    pub command: String,
+    /// CPU, threads, SIMD level.
+    pub machine: String,
+    /// UTC, in seconds, ISO 8601.
+    pub started: String,
+    /// How long it took.
+    pub seconds: f64,
+    /// What random numbers began with.
+    pub seed: u64,
+    /// `quick` or `full`.
+    pub size: &'static str,
+}
+
+/// All results, as `lab.json` holds them.
+pub fn to_json(about: &About, all: &Measurements) -> Value {
+    let cases: Vec<CaseInfo> = all_cases()
+        .into_iter()
+        .filter(|case| has_case(all, &case.name))
+        .collect();
+    let kernels: Vec<Value> = contestants()
+        .into_iter()
+        .map(|contestant| kernel_json(contestant, all))
+        .collect();
+    let policies: Vec<Value> = SPAWN_POLICIES
+        .iter()
+        .map(
+            |p| json!({"name": p.name, "title": p.title, "source": p.source, "summary": p.summary}),
+        )
+        .collect();
+    json!({
+        "about": about,
+        "kernels": kernels,
+        "cases": cases,
+        "triangles": all.triangles.iter().map(triangle_json).collect::<Vec<_>>(),
+        "meshes": all.meshes,
+        "order": all.order,
+        "boxes": all.boxes,
+        "policies": policies,
+        "spawning": all.spawning,
+    })
+}
+
+/// The same as a page that needs nothing else.
+pub fn to_page(json: &Value) -> String {
+    // Text in a script element ends at the first `</`.
+    PAGE.replace(PLACEHOLDER, &json.to_string().replace("</", "<\\/"))
+}
+
+fn has_case(all: &Measurements, name: &str) -> bool {
+    all.triangles.iter().any(|cell| cell.case == name)
+        || all.meshes.iter().any(|cell| cell.case == name)
+        || all.order.iter().any(|cell| cell.case == name)
+        || all.boxes.iter().any(|cell| cell.case == name)
+        || all.spawning.iter().any(|cell| cell.case == name)
+}
+
+fn kernel_json(contestant: Contestant, all: &Measurements) -> Value {
+    let speed = all
+        .speed
+        .iter()
+        .find(|speed| speed.kernel == contestant.name());
+    let accuracy = Accuracy::of(cells_of(&all.triangles, contestant));
+    let (title, tier, precision, source, summary) = match contestant {
+        Contestant::Kernel(kernel) => {
+            let info = kernel.info;
+            let tier = info.tier.map(|tier| tier.name());
+            (
+                info.title,
+                tier,
+                info.precision.name(),
+                info.source,
+                info.summary,
+            )
+        }
+        Contestant::AsPrinted(program) => {
+            let source = "Lensch, Basic Geometry, lecture, 2022";
+            (program.title, None, "f32", source, program.summary)
+        }
+    };
+    json!({
+        "name": contestant.name(),
+        "title": title,
+        "tier": tier,
+        "precision": precision,
+        "source": source,
+        "summary": summary,
+        "speed": speed.map(speed_json),
+        "accuracy": accuracy,
+    })
+}
+
+fn speed_json(speed: &Speed) -> Value {
+    let mut json = json!(speed);
+    json["in_f64_per_million"] = json!(speed.adaptive_per_million.map(|rates| rates[0]));
+    json["in_integers_per_million"] = json!(speed.adaptive_per_million.map(|rates| rates[1]));
+    json
+}
+
+fn triangle_json(cell: &TriangleCell) -> Value {
+    let mut json = json!(cell);
+    json["missed_per_million"] = json!(per_million(cell.missed, cell.n));
+    json["false_per_million"] = json!(per_million(cell.false_hits, cell.n));
+    json["bound_per_million"] = json!(bound_per_million(cell.n));
+    json
+}
+
+/// A contestant over all cases of one triangle.
+#[derive(Clone, Copy, Debug, Default, serde::Serialize)]
+struct Accuracy {
+    n: u64,
+    hits: u64,
+    missed: u64,
+    false_hits: u64,
+    wrong_per_million: f64,
+    /// The worst case's.
+    t_ulps_p99: Option<f64>,
+    t_ulps_max: Option<f64>,
+    barycentric_max: Option<f64>,
+    non_finite: u64,
+}
+
+impl Accuracy {
+    fn of<'a>(cells: impl Iterator<Item = &'a TriangleCell>) -> Option<Self> {
+        let mut sum = Self::default();
+        let larger = |sum: &mut Option<f64>, x: f64| *sum = Some(sum.unwrap_or(0.0).max(x));
+        for cell in cells {
+            sum.n += cell.n;
+            sum.hits += cell.hits;
+            sum.missed += cell.missed;
+            sum.false_hits += cell.false_hits;
+            sum.non_finite += cell.non_finite;
+            if let Some(t) = cell.t_ulps {
+                larger(&mut sum.t_ulps_p99, t.p99);
+                larger(&mut sum.t_ulps_max, t.max);
+            }
+            if let Some(weights) = cell.barycentric_error {
+                larger(&mut sum.barycentric_max, weights.max);
+            }
+        }
+        sum.wrong_per_million = per_million(sum.missed + sum.false_hits, sum.n);
+        (sum.n > 0).then_some(sum)
+    }
+}
