@@ -4,3 +4,12 @@
 mod commands;
 // Inspection of single rays against the exact answer.
 mod inspection;
+
+// The exact kernel against the oracle; the accurate ones where f64 suffices.
+mod exact;
+
+// The lecture's slips.
+mod lecture;
+
+// Closed meshes, boxes, leaving rays.
+mod watertight;

@@ -1,0 +1,86 @@
+//! The exact kernel against the oracle: through all extremes, and in the order of hits.
+
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_lab::measure::cases::{Case, triangle_cases};
+use hitscope_lab::measure::contestants::Contestant;
+use hitscope_lab::measure::order::ORDER_CASES;
+use hitscope_lab::measure::triangles::{self, TriangleCell};
+use rayon::prelude::*;
+
+/// As many as take a few seconds; `hitscope lab` takes 100 000 a case.
+const RAYS: u64 = 4_000;
+const SEED: u64 = 7;
+
+fn promising(is_promised: impl Fn(&TriangleKernel) -> bool) -> Vec<Contestant> {
+    let kernels = TRIANGLE_KERNELS.iter().filter(|kernel| is_promised(kernel));
+    kernels.map(Contestant::Kernel).collect()
+}
+
+fn measured(contestants: &[Contestant], is_wanted: impl Fn(&Case) -> bool) -> Vec<TriangleCell> {
+    let cases: Vec<Case> = triangle_cases().into_iter().filter(is_wanted).collect();
+    let cells = cases
+        .par_iter()
+        .flat_map(|case| triangles::measure(case, contestants, RAYS, SEED));
+    cells.collect()
+}
+
+#[test]
+fn hit_or_miss_is_as_the_oracle_says_and_t_to_half_an_ulp_in_every_case() {
+    let cells = measured(&promising(|kernel| kernel.info.promises.is_exact), |_| true);
+    assert!(cells.len() > 100);
+    for cell in &cells {
+        assert_eq!(cell.wrong(), 0, "{cell:?}");
+        assert_eq!(cell.non_finite, 0, "{cell:?}");
+        // Half an ulp, and the 2⁻⁷ of f64 that is accepted.
+        assert!(cell.t_ulps.is_none_or(|t| t.max <= 0.51), "{cell:?}");
+        // A weight errs by 2⁻²⁵, the first one, 1 − u − v, by twice that.
+        let bound = 2.0 / f64::from(1 << 25) * 1.01;
+        assert!(
+            cell.barycentric_error.is_none_or(|w| w.max <= bound),
+            "{cell:?}"
+        );
+    }
+    // Not all misses: the cases do hit, also exactly at edges.
+    assert!(cells.iter().map(|cell| cell.hits).sum::<u64>() > 100_000);
+}
+
+#[test]
+fn accurate_kernels_are_right_and_within_an_ulp_but_where_f64_ends() {
+    // Where more than f64's digits are asked for: a triangle whose distance is 10¹³ times its size, a ray
+    // that starts on the triangle, coordinates of which some are 10³⁶ times others.
+    const BEYOND_F64: [&str; 5] = [
+        "tiny-1e-13",
+        "tiny-1e-40",
+        "origin-on-triangle",
+        "mixed-exponents-60",
+        "mixed-exponents-126",
+    ];
+    let accurate = promising(|kernel| kernel.info.promises.is_accurate);
+    let cells = measured(&accurate, |case| {
+        !case.name.ends_with("-edges") && !BEYOND_F64.contains(&&*case.name)
+    });
+    for cell in &cells {
+        assert_eq!((cell.wrong(), cell.non_finite), (0, 0), "{cell:?}");
+        assert!(cell.t_ulps.is_none_or(|t| t.max <= 0.7), "{cell:?}");
+    }
+}
+
+#[test]
+fn the_nearest_triangle_and_all_crossings_are_the_oracles() {
+    let exact = TRIANGLE_KERNELS
+        .iter()
+        .filter(|kernel| kernel.info.promises.is_exact);
+    let exact: Vec<&TriangleKernel> = exact.collect();
+    let cells: Vec<_> = ORDER_CASES
+        .par_iter()
+        .flat_map(|case| case.measure(&exact, RAYS, SEED))
+        .collect();
+    for cell in &cells {
+        assert_eq!(
+            (cell.wrong_nearest, cell.wrong_crossings),
+            (0, 0),
+            "{cell:?}"
+        );
+    }
+    assert!(cells.iter().map(|cell| cell.ties).sum::<u64>() > 1_000);
+}

@@ -1,0 +1,165 @@
+//! The lecture's slips: what is printed goes wrong, and the kernels don't.
+
+use glam::Vec3;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_kernel};
+use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::random::Random;
+use hitscope_core::{Aabb, Hit, Ray, TriangleMesh};
+use hitscope_lab::measure::cases::triangle_cases;
+use hitscope_lab::measure::contestants::contestants;
+use hitscope_lab::measure::lecture;
+use hitscope_lab::measure::triangles;
+
+const CORNERS: [Vec3; 3] = [
+    Vec3::new(1.0, 1.0, 0.0),
+    Vec3::new(5.0, 1.0, 0.0),
+    Vec3::new(1.0, 5.0, 0.0),
+];
+
+/// Over the point with weights 1/4, 1/2 of B and 1/4 of C.
+fn over_the_middle() -> Ray {
+    Ray::new(Vec3::new(3.0, 2.0, 4.0), Vec3::NEG_Z).expect("a ray")
+}
+
+#[test]
+fn the_programs_normal_is_the_slides_turned_round_and_ours_follows_the_right_hand() {
+    let [a, b, c] = CORNERS;
+    // The program has n = c × b with b = B − A and c = C − A, the slide (v1 − v0) × (v2 − v0).
+    let (printed, slide) = ((c - a).cross(b - a), (b - a).cross(c - a));
+    assert_eq!(printed, -slide);
+    let mesh: TriangleMesh = soup(&[CORNERS]);
+    assert_eq!(mesh.geometric_normal(0), slide.normalize());
+}
+
+#[test]
+fn the_programs_beta_belongs_to_c_and_ours_to_b() {
+    let ray = over_the_middle();
+    let printed = lecture::plane_projection(&ray, CORNERS).expect("a hit all the same");
+    assert_eq!((printed.u, printed.v), (0.25, 0.5));
+    for kernel in TRIANGLE_KERNELS {
+        let hit = kernel.intersect(&ray, CORNERS).expect("a hit");
+        assert_eq!((hit.u, hit.v), (0.5, 0.25), "{}", kernel.info.name);
+    }
+}
+
+#[test]
+fn the_slides_tolerance_lets_a_hit_behind_through_and_the_programs_drops_long_directions() {
+    let slide = |t: f32| t.abs() >= 0.000_001;
+    assert!(slide(-5.0), "|t| < ε doesn't reject what lies behind");
+    let origin = over_the_middle().origin;
+    // As the user would hand it over, without our rescaling.
+    let long = Ray {
+        dir: Vec3::NEG_Z * 1e10,
+        ..over_the_middle()
+    };
+    assert_eq!(lecture::plane_projection(&long, CORNERS), None);
+    for kernel in TRIANGLE_KERNELS {
+        let behind = Ray::new(origin, Vec3::Z).expect("a ray");
+        assert_eq!(
+            kernel.intersect(&behind, CORNERS),
+            None,
+            "{}",
+            kernel.info.name
+        );
+        let long = Ray::new(origin, Vec3::NEG_Z * 1e10).expect("a ray");
+        let hit = kernel.intersect(&long, CORNERS).expect("a hit");
+        assert_eq!(long.t_as_given(hit.t) as f32, 4e-10, "{}", kernel.info.name);
+    }
+}
+
+#[test]
+fn the_edge_planes_cull_one_side_and_give_a_nan_on_an_edges_line_and_ours_do_neither() {
+    let up = Ray::new(Vec3::new(3.0, 2.0, -4.0), Vec3::Z).expect("a ray");
+    let down = over_the_middle();
+    let is_hit = |ray: &Ray| lecture::edge_planes(ray, CORNERS).is_some();
+    assert_ne!(is_hit(&up), is_hit(&down), "one of the sides is culled");
+    // On the line of AB: its plane through the origin has no normal. NaN < 0 is false: a hit far outside.
+    let on_line = Ray::new(Vec3::new(9.0, 1.0, 0.0), Vec3::new(0.5, 1.0, 0.0)).expect("a ray");
+    let [a, b] = [CORNERS[0], CORNERS[1]].map(|p| p - on_line.origin);
+    assert!((a.cross(b) / a.cross(b).length()).is_nan());
+    for kernel in TRIANGLE_KERNELS {
+        for ray in [&up, &down] {
+            assert!(
+                kernel.intersect(ray, CORNERS).is_some(),
+                "{}",
+                kernel.info.name
+            );
+        }
+        assert_eq!(
+            kernel.intersect(&on_line, CORNERS),
+            None,
+            "{}",
+            kernel.info.name
+        );
+    }
+}
+
+#[test]
+fn the_box_test_by_single_pairs_never_misses_and_ours_does_what_it_should() {
+    let bounds = Aabb::around([Vec3::ZERO, Vec3::ONE]);
+    let beside = Ray::new(Vec3::new(-1.0, 3.0, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
+    assert!(
+        lecture::meets_box(&beside, &bounds),
+        "each pair by itself has near ≤ far"
+    );
+    let triangle = [Vec3::ZERO, Vec3::ONE, Vec3::new(0.0, 1.0, 1.0)];
+    let scene = scene(soup(&[triangle]));
+    let kernel = triangle_kernel("watertight").expect("in the table");
+    assert!(scene.intersector(kernel).candidates(&beside).is_empty());
+}
+
+#[test]
+fn the_parametric_form_without_a_is_right_only_at_the_origin() {
+    let ray = over_the_middle();
+    assert_eq!(lecture::parametric(&ray, CORNERS), None);
+    let moved = Ray::new(ray.origin - CORNERS[0], ray.dir).expect("a ray");
+    let at_origin = CORNERS.map(|p| p - CORNERS[0]);
+    let hit = lecture::parametric(&moved, at_origin).expect("a hit");
+    assert_eq!((hit.u, hit.v), (0.5, 0.25));
+    let kernel = triangle_kernel("parametric").expect("in the table");
+    let hit = kernel.intersect(&ray, CORNERS).expect("a hit");
+    assert_eq!((hit.u, hit.v), (0.5, 0.25));
+}
+
+#[test]
+fn the_plane_from_the_worlds_origin_cancels_far_away_and_ours_from_the_corner_does_not() {
+    let case = triangle_cases()
+        .into_iter()
+        .find(|case| case.name == "offset-1e5")
+        .expect("in the matrix");
+    let cells = triangles::measure(&case, &contestants(), 2_000, 1);
+    let p50 = |name: &str| {
+        let cell = cells
+            .iter()
+            .find(|cell| cell.kernel == name)
+            .expect("measured");
+        cell.t_ulps.expect("hits").p50
+    };
+    assert!(p50("plane-projection as printed") > 1_000.0);
+    assert!(p50("plane-projection") < 10.0);
+}
+
+#[test]
+fn interpolation_by_any_kernel_gives_the_point_back() {
+    let mut random = Random::new(3);
+    for _ in 0..1_000 {
+        let corners = [(); 3].map(|()| random.in_cube_f32());
+        let [a, b, c] = corners;
+        let target = 0.5 * a + 0.125 * b + 0.375 * c;
+        let origin = 3.0 * random.in_cube_f32();
+        let ray = Ray::new(origin, target - origin).expect("a ray");
+        // Slivers and grazing rays have ill-conditioned weights: their case is measured, not tested.
+        let normal = (b - a).cross(c - a);
+        let cosine = normal.normalize().dot(ray.dir.normalize()).abs();
+        if normal.length() < 0.25 || cosine < 0.1 {
+            continue;
+        }
+        for kernel in TRIANGLE_KERNELS {
+            let hit: Hit = kernel.intersect(&ray, corners).expect("a hit");
+            let [l1, l2, l3] = hit.barycentric();
+            let off = (l1 * a + l2 * b + l3 * c - target).length();
+            // Edges of 2, distances of 5, over a cosine of 0.1 and an area of 0.125: some 1000u.
+            assert!(off < 1e-4, "{} {off}", kernel.info.name);
+        }
+    }
+}

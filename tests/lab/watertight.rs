@@ -1,0 +1,46 @@
+//! Closed meshes through the tree, a million rays for each place and aim: none gets out.
+
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::spawn::default_spawn_policy;
+use hitscope_lab::measure::boxes::BOX_CASES;
+use hitscope_lab::measure::meshes::mesh_cases;
+use hitscope_lab::measure::spawning::spawn_cases;
+use rayon::prelude::*;
+
+#[test]
+fn no_ray_leaves_a_closed_mesh_by_a_kernel_that_promises_it() {
+    let watertight = TRIANGLE_KERNELS
+        .iter()
+        .filter(|kernel| kernel.info.promises.is_watertight);
+    let cases = mesh_cases();
+    let pairs: Vec<_> = watertight
+        .flat_map(|k| cases.iter().map(move |case| (k, case)))
+        .collect();
+    let cells: Vec<_> = pairs
+        .par_iter()
+        .map(|(kernel, case)| case.measure(kernel, 1_000_000, 3))
+        .collect();
+    for cell in cells {
+        assert_eq!((cell.n, cell.missed), (1_000_000, 0), "{cell:?}");
+    }
+}
+
+#[test]
+fn no_box_loses_what_the_ray_hits() {
+    BOX_CASES.par_iter().for_each(|case| {
+        let cell = case.measure(10_000, 5);
+        assert!(cell.n >= 10_000, "{cell:?}");
+        assert_eq!(cell.lost, 0, "{cell:?}");
+    });
+}
+
+#[test]
+fn no_ray_that_leaves_a_surface_by_the_default_policy_meets_it_again() {
+    spawn_cases().par_iter().for_each(|case| {
+        for cell in case.measure(50_000, 5) {
+            if cell.policy == default_spawn_policy().name {
+                assert_eq!(cell.self_hits, 0, "{cell:?}");
+            }
+        }
+    });
+}
