@@ -7,6 +7,7 @@ use hitscope_core::mesh::Health;
 use hitscope_core::obj::{self, LoadError, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::LoadedScene;
+use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -14,6 +15,15 @@ use std::time::Instant;
 
 const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
+
+/// What a look at every triangle and edge finds.
+#[derive(Clone, Debug)]
+pub struct Findings {
+    /// The mesh's health.
+    pub health: Health,
+    /// The tier that the scene requires.
+    pub requirement: Requirement,
+}
 
 /// A scene that can be traced. Made by a loading thread.
 pub struct Document {
@@ -24,13 +34,16 @@ pub struct Document {
     intersector: Arc<dyn Intersector>,
     /// For another kernel, while it is being made.
     packing: Wanted<&'static str, Box<dyn Intersector>>,
+    /// What the kernel is held against by views that compare, and the next such, while it is being made.
+    second: Option<Arc<dyn Intersector>>,
+    packing_second: Wanted<&'static str, Box<dyn Intersector>>,
     health: HealthState,
 }
 
 enum HealthState {
     Unasked,
-    Checking(Task<Health>),
-    Known(Health),
+    Checking(Task<Findings>),
+    Known(Box<Findings>),
     Broken,
 }
 
@@ -59,6 +72,8 @@ impl Document {
             intersector: Arc::from(loaded.scene.intersector(kernel)),
             loaded,
             packing: Wanted::default(),
+            second: None,
+            packing_second: Wanted::default(),
             health: HealthState::Unasked,
         }
     }
@@ -96,23 +111,60 @@ impl Document {
         Ok(())
     }
 
-    /// The mesh's health, computed when first asked for; `None` until it is known.
-    pub fn health(&mut self, ctx: &egui::Context) -> Option<Health> {
+    /// What the kernel is held against; itself while there is nothing else.
+    pub fn second(&self) -> &Arc<dyn Intersector> {
+        self.second.as_ref().unwrap_or(&self.intersector)
+    }
+
+    /// Packs the scene for a second kernel, or drops it where no view needs one.
+    ///
+    /// # Errors
+    /// [`Broken`] if packing failed.
+    pub fn use_second(
+        &mut self,
+        kernel: Option<&'static TriangleKernel>,
+        ctx: &egui::Context,
+    ) -> Result<(), Broken> {
+        let Some(kernel) = kernel else {
+            self.second = None;
+            return Ok(());
+        };
+        let name = |intersector: &Arc<dyn Intersector>| intersector.kernel().name;
+        if self.second.as_ref().map(name) == Some(kernel.info.name) {
+            return Ok(());
+        }
+        let scene = Arc::clone(&self.loaded.scene);
+        let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
+        if let Some(intersector) = self.packing_second.get(kernel.info.name, pack)? {
+            self.second = Some(Arc::from(intersector));
+        }
+        Ok(())
+    }
+
+    /// The mesh's health and what it requires, found out when first asked for; `None` until it is known.
+    pub fn findings(&mut self, ctx: &egui::Context) -> Option<Findings> {
         match &self.health {
             HealthState::Unasked => {
                 let scene = Arc::clone(&self.loaded.scene);
-                let check = move || Health::of(scene.mesh());
+                let check = move || {
+                    let health = Health::of(scene.mesh());
+                    let requirement = required_tier(&scene, &health);
+                    Findings {
+                        health,
+                        requirement,
+                    }
+                };
                 self.health = HealthState::Checking(Task::spawn("health", ctx, check));
             }
             HealthState::Checking(task) => match task.poll() {
                 Ok(None) => {}
-                Ok(Some(health)) => self.health = HealthState::Known(health),
+                Ok(Some(findings)) => self.health = HealthState::Known(Box::new(findings)),
                 Err(Broken) => self.health = HealthState::Broken,
             },
             HealthState::Known(_) | HealthState::Broken => {}
         }
-        match self.health {
-            HealthState::Known(health) => Some(health),
+        match &self.health {
+            HealthState::Known(findings) => Some(findings.as_ref().clone()),
             _ => None,
         }
     }

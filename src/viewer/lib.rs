@@ -8,6 +8,7 @@
 //! | [`bindings`] | which key does what? |
 //! | [`document`], [`opening`] | what is open, and how does a file get there? |
 //! | [`tracer`] | what is being traced? |
+//! | [`trade`] | what does speed cost in accuracy in this scene? |
 //! | [`task`] | what runs in the background? |
 //! | [`overlay`], [`gpu`] | how does the picture get on the screen, and what is drawn over it? |
 //! | [`panels`], [`settings`] | what can be read and chosen at the side? |
@@ -26,3 +27,4 @@ pub mod screenshot;
 pub mod settings;
 pub mod task;
 pub mod tracer;
+pub mod trade;

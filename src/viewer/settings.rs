@@ -3,7 +3,9 @@
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
-use hitscope_core::kernel::{TriangleKernel, default_triangle_kernel, triangle_kernel};
+use hitscope_core::kernel::{
+    TriangleKernel, default_triangle_kernel, exact_triangle_kernel, triangle_kernel,
+};
 use hitscope_core::scene::Shading;
 use serde::{Deserialize, Serialize};
 
@@ -16,6 +18,8 @@ pub enum Tab {
     View,
     /// What is in the file.
     Mesh,
+    /// What speed costs in accuracy here.
+    Trade,
 }
 
 /// See the [module](self). Names that a later version doesn't know fall back to the default.
@@ -26,6 +30,8 @@ pub struct Settings {
     pub view: String,
     /// Name of the kernel.
     pub kernel: String,
+    /// Name of the kernel that the chosen one is held against.
+    pub against: String,
     /// Interpolated normals.
     pub is_smooth: bool,
     /// Edges over the picture.
@@ -56,6 +62,7 @@ impl Default for Settings {
         Self {
             view: INTEGRATORS[0].name.to_owned(),
             kernel: default_triangle_kernel().info.name.to_owned(),
+            against: exact_triangle_kernel().info.name.to_owned(),
             is_smooth: false,
             shows_wireframe: false,
             shows_diagonals: false,
@@ -80,6 +87,12 @@ impl Settings {
     /// The kernel.
     pub fn kernel(&self) -> &'static TriangleKernel {
         triangle_kernel(&self.kernel).unwrap_or_else(default_triangle_kernel)
+    }
+
+    /// The kernel that the view holds the chosen one against, if it compares.
+    pub fn second_kernel(&self) -> Option<&'static TriangleKernel> {
+        let chosen = triangle_kernel(&self.against).unwrap_or_else(exact_triangle_kernel);
+        self.integrator().against.kernel(chosen)
     }
 
     /// Flat or smooth.

@@ -47,6 +47,7 @@ impl PartialEq for Request {
         let (a, b) = (&self.context, &other.context);
         Arc::ptr_eq(&a.scene, &b.scene)
             && Arc::ptr_eq(&a.intersector, &b.intersector)
+            && Arc::ptr_eq(&a.second, &b.second)
             && (a.camera, a.shading, a.background) == (b.camera, b.shading, b.background)
             && (self.integrator.name, self.samples) == (other.integrator.name, other.samples)
     }

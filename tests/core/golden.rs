@@ -12,12 +12,12 @@
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::{Context, INTEGRATORS, integrator};
-use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::mesh::shapes::{Place, scene, torus};
 use hitscope_core::render::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
-use hitscope_core::{Camera, Film};
+use hitscope_core::{Camera, Film, Intersector};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -31,18 +31,24 @@ const ORTHOGRAPHIC: Projection = Projection::Orthographic { height: 2.5 };
 /// A torus from above, in the view of this name.
 pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
     let scene = Arc::new(scene(torus(24, 12, Place::UNIT)));
-    let intersector = scene.intersector(default_triangle_kernel()).into();
+    let view = integrator(view).expect("a view");
+    let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
+    let second = view.against.kernel(exact_triangle_kernel());
     let eye = DVec3::new(1.25, -2.0, 2.25);
     let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, projection, plan.size());
     Job {
         context: Context {
+            second: second.map_or_else(
+                || Arc::clone(&intersector),
+                |kernel| scene.intersector(kernel).into(),
+            ),
             scene,
             intersector,
             camera: camera.expect("a camera"),
             shading,
             background: Vec3::new(0.05, 0.1, 0.2),
         },
-        integrator: integrator(view).expect("a view"),
+        integrator: view,
         plan,
     }
 }

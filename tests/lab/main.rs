@@ -8,6 +8,9 @@ mod inspection;
 // The exact kernel against the oracle; the accurate ones where f64 suffices.
 mod exact;
 
+// The README's table is what is measured.
+mod readme;
+
 // The lecture's slips.
 mod lecture;
 

@@ -39,9 +39,13 @@ pub fn id_colour(id: u32) -> Vec3 {
 /// Cost at the upper end of [`cost_colour`]'s scale: a bad ray in a good tree.
 pub const COST_SCALE: u32 = 1024;
 
-/// A colour for a count of tests: black at none, over blue, red and yellow to white at
-/// [`COST_SCALE`] and above, by the logarithm.
+/// A colour for a count of tests: [`ramp`] from none to [`COST_SCALE`] and above, by the logarithm.
 pub fn cost_colour(tests: u32) -> Vec3 {
+    ramp((1.0 + tests as f32).log2() / (1.0 + COST_SCALE as f32).log2())
+}
+
+/// Black at 0, over blue, red and yellow to white at 1; outside, clamped.
+pub fn ramp(part: f32) -> Vec3 {
     const STOPS: [Vec3; 6] = [
         Vec3::new(0.0, 0.0, 0.0),
         Vec3::new(0.10, 0.10, 0.45),
@@ -50,11 +54,19 @@ pub fn cost_colour(tests: u32) -> Vec3 {
         Vec3::new(1.0, 0.75, 0.20),
         Vec3::new(1.0, 1.0, 1.0),
     ];
-    let scale = (1.0 + tests as f32).log2() / (1.0 + COST_SCALE as f32).log2();
-    let at = scale.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
+    let at = part.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
     let stop = (at as usize).min(STOPS.len() - 2);
     from_display(STOPS[stop].lerp(STOPS[stop + 1], at - stop as f32))
 }
+
+// Colours that aren't on the ramp, nor near a background.
+
+/// The kernel misses what the other one hits.
+pub const MISSED: Vec3 = Vec3::new(0.0, 0.80, 0.90);
+/// The kernel hits where the other one doesn't.
+pub const FALSE_HIT: Vec3 = Vec3::new(0.20, 0.90, 0.05);
+/// Both hit, not the same triangle.
+pub const OTHER_TRIANGLE: Vec3 = Vec3::new(0.90, 0.02, 0.75);
 
 #[cfg(test)]
 mod tests {

@@ -5,8 +5,12 @@
 
 mod triangle;
 
+pub use triangle::exact::exact_answer;
 pub(crate) use triangle::{ShearedRay, exact};
-pub use triangle::{TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, triangle_kernel};
+pub use triangle::{
+    TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, exact_triangle_kernel,
+    triangle_kernel,
+};
 
 use crate::lane::{Lane, Number, Stored};
 use crate::ray::Ray;

@@ -92,7 +92,7 @@ impl ViewArg {
     }
 }
 
-fn kernel_names() -> impl clap::builder::TypedValueParser<Value = String> {
+pub(super) fn kernel_names() -> impl clap::builder::TypedValueParser<Value = String> {
     let mut names: Vec<&'static str> = Vec::new();
     for kernel in TRIANGLE_KERNELS {
         let tier = kernel.info.tier.map(|tier| tier.name());

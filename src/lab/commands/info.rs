@@ -1,8 +1,9 @@
 //! `hitscope info`: what is in a file, and what it asks of a kernel.
 
 use super::{CommandError, load};
+use crate::requirement::{Requirement, required_tier};
 use clap::Args;
-use hitscope_core::kernel::{KernelInfo, Tier, default_triangle_kernel};
+use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::{Health, SLIVER_ASPECT};
 use hitscope_core::obj::Recentre;
 use hitscope_core::scene::LoadedScene;
@@ -36,7 +37,7 @@ struct Info {
     dropped: BTreeMap<&'static str, usize>,
     warnings: Vec<String>,
     health: HealthReport,
-    tier: TierReport,
+    tier: Requirement,
     load_ms: f64,
     build_ms: f64,
 }
@@ -57,13 +58,6 @@ struct HealthReport {
     slivers: usize,
     flipped_edges: usize,
     max_aspect: f64,
-}
-
-/// The kernel that the scene requires, and why.
-#[derive(Serialize)]
-struct TierReport {
-    name: &'static str,
-    reasons: Vec<String>,
 }
 
 impl InfoArgs {
@@ -113,7 +107,7 @@ impl Info {
                 ("non_finite", mesh.dropped.non_finite),
             ]),
             warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
-            tier: TierReport::of(&health, intersector.kernel()),
+            tier: required_tier(scene, &health),
             health: HealthReport {
                 degenerate: mesh.dropped.zero_area,
                 non_finite: mesh.dropped.non_finite,
@@ -158,7 +152,7 @@ impl Info {
             "load, build   {:.1} ms, {:.1} ms",
             self.load_ms, self.build_ms
         )?;
-        writeln!(out, "tier          {}", self.tier.name)?;
+        writeln!(out, "tier          {}", self.tier.tier)?;
         for reason in &self.tier.reasons {
             writeln!(out, "              {reason}")?;
         }
@@ -166,26 +160,5 @@ impl Info {
             writeln!(out, "warning       {warning}")?;
         }
         Ok(())
-    }
-}
-
-impl TierReport {
-    fn of(health: &Health, kernel: &KernelInfo) -> Self {
-        let mut reasons = Vec::new();
-        if health.open_edges + health.non_manifold_edges == 0 {
-            reasons.push("the mesh is closed: a gap between triangles would show".to_owned());
-        } else {
-            reasons.push("triangles share edges: a gap between them would show".to_owned());
-        }
-        if health.slivers > 0 {
-            reasons.push(format!(
-                "{} sliver(s), up to {:.0} times longer than high: f32 decides some of their rays wrongly",
-                health.slivers, health.max_aspect
-            ));
-        }
-        Self {
-            name: kernel.tier.map_or(kernel.name, Tier::name),
-            reasons,
-        }
     }
 }

@@ -23,7 +23,7 @@ pub struct LabArgs {
     /// A minute instead of several: fewer rays
     #[arg(long)]
     pub quick: bool,
-    /// Write report.html and lab.json there
+    /// Write report.html, lab.json and accuracy.md there
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Only cases whose name begins so; speed is left out
@@ -104,6 +104,7 @@ impl LabArgs {
         if let Some(folder) = &self.out {
             write(&folder.join("lab.json"), &format!("{json:#}\n"))?;
             write(&folder.join("report.html"), &report::to_page(&json))?;
+            write(&folder.join("accuracy.md"), &report::accuracy_table(&all))?;
         }
         if self.json {
             writeln!(out, "{json:#}")?;
@@ -160,8 +161,11 @@ impl LabArgs {
         } else {
             SceneSizes::COMMAND
         };
-        let rows =
-            measure::scene::measure(&scene, &camera, sizes, &progress).expect("nobody cancels");
+        let mut rows = Vec::new();
+        let measured = measure::scene::measure(&scene, &camera, sizes, &progress, |row| {
+            rows.push(row);
+        });
+        measured.expect("nobody cancels");
         if self.json {
             let json = json!({
                 "file": file.display().to_string(),

@@ -1,16 +1,17 @@
 //! `hitscope render`: a picture without a window.
 
-use super::args::{CameraArgs, KernelArg, ViewArg};
+use super::args::{CameraArgs, KernelArg, ViewArg, kernel_names};
 use super::{CommandError, load};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::integrator::Context;
 use hitscope_core::integrator::palette::from_display;
+use hitscope_core::kernel::triangle_kernel;
 use hitscope_core::obj::Recentre;
 use hitscope_core::render::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::{LoadedScene, Shading};
-use hitscope_core::{Camera, Film};
+use hitscope_core::{Camera, Film, Intersector};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -51,6 +52,9 @@ pub struct PictureArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
+    /// What the view “disagreement” holds the kernel against
+    #[arg(long, value_name = "KERNEL", default_value = "exact", value_parser = kernel_names())]
+    pub against: String,
     /// Threads [default: one a core]
     #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
     pub threads: Option<u16>,
@@ -112,8 +116,16 @@ impl PictureArgs {
     pub fn trace(&self, loaded: LoadedScene) -> Result<Rendered, CommandError> {
         let camera = self.camera.camera(&loaded.scene)?;
         let shading = self.shading.into();
+        let intersector: Arc<dyn Intersector> =
+            Arc::from(loaded.scene.intersector(self.kernel.kernel()));
+        let chosen = triangle_kernel(&self.against).expect("clap takes names from the table only");
+        let second = self.view.integrator().against.kernel(chosen);
         let context = Context {
-            intersector: Arc::from(loaded.scene.intersector(self.kernel.kernel())),
+            second: second.map_or_else(
+                || Arc::clone(&intersector),
+                |kernel| Arc::from(loaded.scene.intersector(kernel)),
+            ),
+            intersector,
             scene: Arc::clone(&loaded.scene),
             camera,
             shading,

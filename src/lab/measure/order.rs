@@ -18,9 +18,11 @@ pub struct OrderCase {
     pub title: &'static str,
     /// What is difficult about it.
     pub about: &'static str,
-    /// Makes the triangles, and a ray's origin and target.
-    recipe: fn(&mut Random) -> (Vec<[Vec3; 3]>, Vec3, Vec3),
+    recipe: fn(&mut Random) -> Heap,
 }
+
+/// Triangles, and a ray's origin and target.
+type Heap = (Vec<[Vec3; 3]>, Vec3, Vec3);
 
 /// One kernel in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]

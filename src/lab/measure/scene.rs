@@ -1,6 +1,6 @@
 //! The user's own scene: what each kernel reaches there, and what it gets wrong.
 
-use super::speed::{self, Speed, Workload};
+use super::speed::{self, Bench, Speed, Workload};
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use super::triangles::ulp_at;
 use crate::oracle::{self, ExactHit};
@@ -60,7 +60,7 @@ pub struct SceneRow {
     pub speed: Speed,
 }
 
-/// Measures every kernel in a scene, as a camera sees it.
+/// Measures every kernel in a scene, as a camera sees it; hands each row to `each` as soon as it is there.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -69,18 +69,20 @@ pub fn measure(
     camera: &Camera,
     sizes: SceneSizes,
     progress: &Progress,
-) -> Result<Vec<SceneRow>, Cancelled> {
+    mut each: impl FnMut(SceneRow),
+) -> Result<(), Cancelled> {
     let workloads = speed::workloads(scene, camera, sizes.timed, 1);
-    let name = format!("{} triangles", scene.mesh().triangles.len());
-    let speeds = speed::measure(scene, &name, &workloads, sizes.rounds, progress)?;
     let checked = checked_rays(&workloads, sizes.checked);
     let answers = answers(scene, &checked, progress)?;
-    let mut rows = Vec::with_capacity(speeds.len());
-    for (kernel, speed) in TRIANGLE_KERNELS.iter().zip(speeds) {
+    let name = format!("{} triangles", scene.mesh().triangles.len());
+    let bench = Bench::new(scene, name, &workloads, sizes.rounds);
+    for kernel in TRIANGLE_KERNELS {
         progress.check()?;
-        rows.push(row(&*scene.intersector(kernel), &answers, speed));
+        let intersector = scene.intersector(kernel);
+        let speed = bench.measure(kernel, &*intersector, progress)?;
+        each(row(&*intersector, &answers, speed));
     }
-    Ok(rows)
+    Ok(())
 }
 
 /// Of the camera's and the bounce rays so many, evenly.

@@ -4,7 +4,7 @@ use cpu_time::ThreadTime;
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use hitscope_core::camera::Turntable;
 use hitscope_core::intersector::Cost;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel};
+use hitscope_core::kernel::{TriangleKernel, default_triangle_kernel, triangle_kernel};
 use hitscope_core::mesh::shapes;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
@@ -141,59 +141,75 @@ pub fn default_camera(scene: &Scene) -> Camera {
     start.camera(size)
 }
 
-/// Measures every kernel, in turn within each round, so that what else the machine does meets all alike.
-///
-/// # Errors
-/// [`Cancelled`] if `progress` was cancelled.
-pub fn measure(
-    scene: &Scene,
-    mesh: &str,
-    workloads: &[Workload; 3],
+/// Measures kernels in one scene, each beside `fast` in the same rounds, so that what else the machine
+/// does meets both alike. Two packed meshes are in memory at a time, not all of them.
+pub struct Bench<'a> {
+    scene: &'a Scene,
+    /// What the report calls the scene.
+    name: String,
+    workloads: &'a [Workload; 3],
+    fast: Box<dyn Intersector>,
     rounds: usize,
-    progress: &Progress,
-) -> Result<Vec<Speed>, Cancelled> {
-    let intersectors: Vec<_> = TRIANGLE_KERNELS
-        .iter()
-        .map(|kernel| scene.intersector(kernel))
-        .collect();
-    // Kernel, workload, round: seconds.
-    let mut seconds = vec![[const { Vec::new() }; 3]; intersectors.len()];
-    for _ in 0..rounds {
-        for (w, workload) in workloads.iter().enumerate() {
-            for (intersector, seconds) in intersectors.iter().zip(&mut seconds) {
-                progress.check()?;
-                seconds[w].push(seconds_for(&**intersector, &workload.rays));
-            }
+}
+
+impl<'a> Bench<'a> {
+    /// Packs the scene for `fast`. The middle of so many rounds counts.
+    pub fn new(
+        scene: &'a Scene,
+        name: String,
+        workloads: &'a [Workload; 3],
+        rounds: usize,
+    ) -> Self {
+        let fast = triangle_kernel("fast").expect("the fast tier is in the table");
+        Self {
+            scene,
+            name,
+            workloads,
+            fast: scene.intersector(fast),
+            rounds,
         }
     }
-    let fast = TRIANGLE_KERNELS
-        .iter()
-        .position(|kernel| kernel.info.short_name() == "fast")
-        .expect("the fast tier is in the table");
-    let report = |k: usize| {
-        let rate = |w: usize| {
-            workloads[w].rays.len() as f64 / median(seconds[k][w].clone()).max(1e-9) / 1e6
-        };
-        let relative = |w: usize| {
-            let ratios = seconds[k][w].iter().zip(&seconds[fast][w]);
-            median(ratios.map(|(own, fast)| own / fast).collect())
-        };
-        let triangles = scene.mesh().triangles.len().max(1) as f64;
-        Speed {
-            kernel: TRIANGLE_KERNELS[k].info.name,
-            mesh: mesh.to_owned(),
-            mrays_per_s: Rates {
-                primary: rate(0),
-                bounce: rate(1),
-                random: rate(2),
-            },
-            time_relative_to_fast: (relative(0) + relative(1) + relative(2)) / 3.0,
-            ns_per_test: ns_per_test(&TRIANGLE_KERNELS[k]),
-            bytes_per_triangle: (intersectors[k].bytes() + scene.bvh().bytes()) as f64 / triangles,
-            adaptive_per_million: adaptive(&*intersectors[k], workloads),
+
+    /// How fast a kernel is; `intersector` is the scene packed for it.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn measure(
+        &self,
+        kernel: &TriangleKernel,
+        intersector: &dyn Intersector,
+        progress: &Progress,
+    ) -> Result<Speed, Cancelled> {
+        let mut rates = [0.0; 3];
+        let mut ratios = [0.0; 3];
+        for (w, workload) in self.workloads.iter().enumerate() {
+            let (mut own, mut ratio) = (Vec::new(), Vec::new());
+            for _ in 0..self.rounds {
+                progress.check()?;
+                let fast = seconds_for(&*self.fast, &workload.rays);
+                progress.check()?;
+                own.push(seconds_for(intersector, &workload.rays));
+                ratio.push(own[own.len() - 1] / fast.max(1e-9));
+            }
+            rates[w] = workload.rays.len() as f64 / median(own).max(1e-9) / 1e6;
+            ratios[w] = median(ratio);
         }
-    };
-    Ok((0..intersectors.len()).map(report).collect())
+        let triangles = self.scene.mesh().triangles.len().max(1) as f64;
+        let bytes = intersector.bytes() + self.scene.bvh().bytes();
+        Ok(Speed {
+            kernel: kernel.info.name,
+            mesh: self.name.clone(),
+            mrays_per_s: Rates {
+                primary: rates[0],
+                bounce: rates[1],
+                random: rates[2],
+            },
+            time_relative_to_fast: ratios.iter().sum::<f64>() / 3.0,
+            ns_per_test: ns_per_test(kernel),
+            bytes_per_triangle: bytes as f64 / triangles,
+            adaptive_per_million: adaptive(intersector, self.workloads),
+        })
+    }
 }
 
 fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {

@@ -52,7 +52,7 @@ pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {
         "0".to_owned()
-    } else if size >= 99_999.5 || size < 0.01 {
+    } else if !(0.01..99_999.5).contains(&size) {
         format!("{x:.1e}")
     } else if size >= 99.95 {
         format!("{x:.0}")

@@ -2,7 +2,7 @@
 
 mod text;
 
-pub use text::{accuracy_table, print};
+pub use text::{accuracy_table, is_in_accuracy_table, print};
 
 use crate::measure::contestants::{Contestant, contestants};
 use crate::measure::speed::Speed;

@@ -286,6 +286,11 @@ const SHOWN: [(&str, &str); 8] = [
     ("direction-1e20", "direction 10²⁰"),
 ];
 
+/// Whether the README's table shows this case.
+pub fn is_in_accuracy_table(case: &str) -> bool {
+    SHOWN.iter().any(|(name, _)| *name == case)
+}
+
 /// The README's table: for each kernel, wrong decisions a million rays and the error of t, case by case.
 pub fn accuracy_table(all: &Measurements) -> String {
     let mut text = String::from("| kernel |");

@@ -105,6 +105,7 @@ impl App {
             context: Context {
                 scene: Arc::clone(&self.document.loaded.scene),
                 intersector: Arc::clone(self.document.intersector()),
+                second: Arc::clone(self.document.second()),
                 camera: self.turntable.camera(resolution),
                 shading: self.settings.shading(),
                 background: from_display(background),

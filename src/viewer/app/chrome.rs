@@ -4,7 +4,9 @@ use super::App;
 use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
 use crate::panels;
 use crate::settings::Tab;
+use crate::trade::Trade;
 use egui::{Align, Layout, RichText};
+use glam::UVec2;
 use hitscope_core::integrator::INTEGRATORS;
 
 impl App {
@@ -125,6 +127,7 @@ impl App {
                         (Tab::Inspect, "Inspect"),
                         (Tab::View, "View"),
                         (Tab::Mesh, "Mesh"),
+                        (Tab::Trade, "Trade"),
                     ] {
                         ui.selectable_value(&mut self.settings.tab, tab, label);
                     }
@@ -146,9 +149,30 @@ impl App {
                             );
                         }
                         Tab::Mesh => panels::mesh::mesh_ui(ui, &mut self.document),
+                        Tab::Trade => self.trade_ui(ui),
                     });
             });
         self.settings.shows_panel = is_expanded;
+    }
+
+    /// Measures the scene when the tab is first shown, and when the user asks for it again.
+    fn trade_ui(&mut self, ui: &mut egui::Ui) {
+        let scene = &self.document.loaded.scene;
+        if let Some(trade) = &mut self.trade {
+            trade.poll();
+            if !panels::trade::trade_ui(ui, trade, &mut self.settings) {
+                return;
+            }
+        }
+        if self.resolution != UVec2::ZERO {
+            let camera = self.turntable.camera(self.resolution);
+            let axis = self
+                .trade
+                .take()
+                .map(|trade| trade.axis)
+                .unwrap_or_default();
+            self.trade = Some(Trade::start(scene, camera, axis, ui.ctx()));
+        }
     }
 
     pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {

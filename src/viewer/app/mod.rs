@@ -20,6 +20,7 @@ use crate::overlay::OverlayLayer;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::tracer::Tracer;
+use crate::trade::Trade;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
 use glam::{DVec3, UVec2};
@@ -68,6 +69,8 @@ pub struct App {
     picture: Picture,
     overlay: OverlayLayer,
     pick: Option<Pick>,
+    /// Made when its tab is first shown.
+    trade: Option<Trade>,
     notice: Option<Notice>,
     shows_help: bool,
     /// The picture as it was last laid out: where, in points, and its size in physical pixels.
@@ -110,6 +113,7 @@ impl App {
             picture: Picture::new(&render_state),
             overlay: OverlayLayer::new(render_state),
             pick: None,
+            trade: None,
             notice: None,
             shows_help: false,
             canvas_rect: egui::Rect::ZERO,
@@ -203,6 +207,7 @@ impl App {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
         }
+        self.trade = None;
         self.tracer.stop();
     }
 
@@ -210,6 +215,7 @@ impl App {
         let is_same_file = self.document.path == document.path;
         self.document = document;
         self.pick = None;
+        self.trade = None;
         if is_same_file {
             self.turntable
                 .set_scene(self.document.loaded.scene.bounds());
@@ -258,6 +264,11 @@ impl eframe::App for App {
         if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
             self.error(broken);
             self.settings.kernel = self.document.intersector().kernel().name.to_owned();
+        }
+        let second = self.settings.second_kernel();
+        if let Err(broken) = self.document.use_second(second, ctx) {
+            self.error(broken);
+            self.settings.view = Settings::default().view;
         }
         if let Some(panic) = self.tracer.collect(ctx).first() {
             self.error(panic);

@@ -78,6 +78,10 @@ fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelR
                 exact_distance(exact),
                 kernels.iter().map(kernel_distance),
             );
+            // Nothing hit: no weights.
+            if exact.is_none() && kernels.iter().all(|kernel| !kernel.hit) {
+                return;
+            }
             ui.add_space(4.0);
             let columns = ["", "l1", "l2", "l3"];
             table_ui(
@@ -102,8 +106,24 @@ fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelR
             also.collect::<String>()
         );
         ui.label(RichText::new(text).weak().size(11.5));
+        fractions_ui(ui, exact);
     }
     ui.add_space(4.0);
+}
+
+/// The exact numbers themselves: of up to some hundred digits.
+fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
+    egui::CollapsingHeader::new("As fractions")
+        .id_salt("fractions")
+        .show(ui, |ui| {
+            let [l1, l2, l3] = &exact.barycentric_fractions;
+            for (name, fraction) in [("t", &exact.t_fraction), ("l1", l1), ("l2", l2), ("l3", l3)] {
+                let text = RichText::new(format!("{name} = {fraction}"))
+                    .monospace()
+                    .size(10.5);
+                ui.add(egui::Label::new(text).wrap());
+            }
+        });
 }
 
 fn table_ui<const N: usize>(
@@ -132,7 +152,7 @@ fn table_ui<const N: usize>(
 
 fn exact_distance(exact: Option<&ExactReport>) -> [String; 5] {
     [
-        "exact".to_owned(),
+        "oracle".to_owned(),
         exact.map_or("miss".to_owned(), |e| significant(e.t)),
         dash(),
         dash(),
@@ -154,7 +174,7 @@ fn kernel_distance(kernel: &KernelRow) -> [String; 5] {
 
 fn exact_weights(exact: Option<&ExactReport>) -> [String; 4] {
     let weight = |k: usize| exact.map_or_else(dash, |e| format!("{:.9}", e.barycentric[k]));
-    ["exact".to_owned(), weight(0), weight(1), weight(2)]
+    ["oracle".to_owned(), weight(0), weight(1), weight(2)]
 }
 
 fn kernel_weights(kernel: &KernelRow) -> [String; 4] {

@@ -2,14 +2,15 @@
 
 use super::{lines, row_ui, section_ui};
 use crate::app::grouped;
-use crate::document::Document;
+use crate::document::{Document, Findings};
 use egui::RichText;
 use hitscope_core::mesh::SLIVER_ASPECT;
 use hitscope_core::scene::LoadedScene;
 
 /// Counts, place, memory, health, warnings.
 pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
-    let health = document.health(ui.ctx());
+    let findings = document.findings(ui.ctx());
+    let health = findings.as_ref().map(|findings| findings.health);
     let loaded = &document.loaded;
     let scene = &loaded.scene;
     let mesh = scene.mesh();
@@ -28,6 +29,14 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
         row_ui(ui, "materials", mesh.named_material_count());
         row_ui(ui, "groups", mesh.named_group_count());
     });
+    if let Some(Findings { requirement, .. }) = &findings {
+        section_ui(ui, "Required kernel", |ui| {
+            row_ui(ui, "tier", requirement.tier);
+        });
+        for reason in &requirement.reasons {
+            ui.label(RichText::new(format!("{reason}.")).weak().size(11.5));
+        }
+    }
     place_ui(ui, loaded);
     cost_ui(ui, document);
     let mesh = document.loaded.scene.mesh();

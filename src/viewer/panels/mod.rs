@@ -2,6 +2,7 @@
 
 pub mod inspect;
 pub mod mesh;
+pub mod trade;
 pub mod view;
 
 use egui::RichText;

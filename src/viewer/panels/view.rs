@@ -4,9 +4,11 @@ use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::camera::{StandardView, Turntable};
-use hitscope_core::integrator::INTEGRATORS;
-use hitscope_core::integrator::palette::{COST_SCALE, cost_colour, to_display};
-use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::integrator::palette::to_display;
+use hitscope_core::integrator::{Against, INTEGRATORS, Legend};
+use hitscope_core::kernel::{
+    KernelInfo, TRIANGLE_KERNELS, default_triangle_kernel, triangle_kernel,
+};
 
 /// View, shading, kernel, overlay, camera, theme.
 pub fn view_ui(
@@ -47,8 +49,12 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         }
     });
     ui.label(RichText::new(settings.integrator().about).weak());
-    if settings.integrator().name == "cost" {
-        cost_legend_ui(ui);
+    legend_ui(ui, &(settings.integrator().legend)());
+    if settings.integrator().against == Against::Second {
+        ui.horizontal(|ui| {
+            let label = ui.label("against");
+            kernel_combo_ui(ui, "against", &mut settings.against).labelled_by(label.id);
+        });
     }
     ui.horizontal(|ui| {
         ui.selectable_value(&mut settings.is_smooth, false, "Flat");
@@ -66,44 +72,55 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
 }
 
-fn cost_legend_ui(ui: &mut egui::Ui) {
-    const MARKS: [u32; 6] = [0, 4, 16, 64, 256, COST_SCALE];
-    ui.horizontal(|ui| {
-        for tests in MARKS {
-            let [r, g, b] = cost_colour(tests)
-                .to_array()
-                .map(|x| (255.0 * to_display(x)) as u8);
-            let colour = egui::Color32::from_rgb(r, g, b);
-            let (rect, _) = ui.allocate_exact_size(egui::vec2(12.0, 12.0), egui::Sense::hover());
-            ui.painter().rect(
-                rect,
-                2.0,
-                colour,
-                ui.visuals().widgets.noninteractive.bg_stroke,
-                egui::StrokeKind::Inside,
-            );
-            ui.label(RichText::new(tests.to_string()).size(11.0));
-        }
-    });
+/// The view's colours, line by line.
+fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
+    for line in legend {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 5.0;
+            for (colour, text) in line {
+                let [r, g, b] = colour.to_array().map(|x| (255.0 * to_display(x)) as u8);
+                let size = egui::vec2(12.0, 12.0);
+                let (rect, _) = ui.allocate_exact_size(size, egui::Sense::hover());
+                ui.painter().rect(
+                    rect,
+                    2.0,
+                    egui::Color32::from_rgb(r, g, b),
+                    ui.visuals().widgets.noninteractive.bg_stroke,
+                    egui::StrokeKind::Inside,
+                );
+                ui.label(RichText::new(text).size(11.0));
+                ui.add_space(3.0);
+            }
+        });
+    }
 }
 
 fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     let heading = ui.label(RichText::new("Kernel").strong());
-    let current = &settings.kernel().info;
-    egui::ComboBox::from_id_salt("kernel")
-        .selected_text(current.title)
-        .width(200.0)
-        .show_ui(ui, |ui| {
-            for kernel in TRIANGLE_KERNELS {
-                let name = kernel.info.name.to_owned();
-                ui.selectable_value(&mut settings.kernel, name, kernel.info.title);
-            }
-        })
-        .response
-        .labelled_by(heading.id);
+    kernel_combo_ui(ui, "kernel", &mut settings.kernel).labelled_by(heading.id);
     let info = &settings.kernel().info;
     ui.label(RichText::new(info.summary).weak())
         .on_hover_text(info.source);
+}
+
+/// Every kernel, the tiers marked by their names.
+fn kernel_combo_ui(ui: &mut egui::Ui, id: &str, name: &mut String) -> egui::Response {
+    let title = |info: &KernelInfo| match info.tier {
+        Some(tier) => format!("{} – {}", info.title, tier.name()),
+        None => info.title.to_owned(),
+    };
+    let current = triangle_kernel(name).unwrap_or_else(default_triangle_kernel);
+    egui::ComboBox::from_id_salt(id)
+        .selected_text(title(current.info))
+        .width(220.0)
+        .height(320.0)
+        .show_ui(ui, |ui| {
+            for kernel in TRIANGLE_KERNELS {
+                let value = kernel.info.name.to_owned();
+                ui.selectable_value(name, value, title(kernel.info));
+            }
+        })
+        .response
 }
 
 fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {

@@ -110,6 +110,11 @@ pub fn default_triangle_kernel() -> &'static TriangleKernel {
     triangle_kernel(Watertight::IN_F32.name).expect("the default is in the table")
 }
 
+/// The one whose decisions are those of exact arithmetic.
+pub fn exact_triangle_kernel() -> &'static TriangleKernel {
+    triangle_kernel(exact::INFO.name).expect("the exact kernel is in the table")
+}
+
 fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     let mut values = [<K::Stored<N> as Stored<N>>::NO_TRIANGLE; MOST_VALUES];
     K::pack::<N>(corners, &mut values[..K::VALUES]);

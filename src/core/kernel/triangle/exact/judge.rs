@@ -192,8 +192,20 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
 
     /// The hit, rounded.
     pub fn hit(&self, candidate: Candidate) -> Hit {
+        let [t, u, v] = self.values(candidate);
+        Hit {
+            // Not quite f32's largest number may round to infinity.
+            t: (t as f32).min(f32::MAX),
+            u: u as f32,
+            v: v as f32,
+            primitive: candidate.primitive,
+        }
+    }
+
+    /// t, u and v, off by at most [`GOOD`].
+    pub fn values(&self, candidate: Candidate) -> [f64; 3] {
         let corners = (self.corners)(candidate.slot);
-        let [t, u, v] = match in_f64(self.ray, corners) {
+        match in_f64(self.ray, corners) {
             Sight::Certain {
                 near,
                 far,
@@ -203,13 +215,6 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
                 [0.5 * (near + far) / self.dir_z, u, v]
             }
             _ => integer::rounded(self.ray, corners),
-        };
-        Hit {
-            // Not quite f32's largest number may round to infinity.
-            t: (t as f32).min(f32::MAX),
-            u: u as f32,
-            v: v as f32,
-            primitive: candidate.primitive,
         }
     }
 }

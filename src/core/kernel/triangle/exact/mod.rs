@@ -25,8 +25,8 @@ use glam::Vec3;
 
 /// What the kernel says of itself.
 pub(crate) static INFO: KernelInfo = KernelInfo {
-    name: "adaptive",
-    title: "Exact (adaptive)",
+    name: "exact",
+    title: "Exact, adaptive",
     tier: Some(Tier::Exact),
     precision: Precision::Adaptive,
     source: "Shewchuk, Adaptive Precision Floating-Point Arithmetic, DCG 1997",
@@ -44,19 +44,31 @@ pub(crate) const VALUES: usize = 9;
 
 /// Tests one triangle. The hit's `primitive` is 0.
 pub(super) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
+    ask(ray, corners, |judge, candidate| judge.hit(candidate))
+}
+
+/// t, u and v where a ray hits a triangle, exactly but for rounding to f64 and what lies below 2⁻³²
+/// of them; `None` for a miss. For views and tables that show how much a kernel errs.
+///
+/// A NaN or an infinity in a corner is a miss.
+pub fn exact_answer(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
+    ask(ray, corners, |judge, candidate| judge.values(candidate))
+}
+
+fn ask<T>(
+    ray: &Ray,
+    corners: [Vec3; 3],
+    answer: impl Fn(&Judge<'_, &dyn Fn(usize) -> [Vec3; 3]>, Candidate) -> T,
+) -> Option<T> {
     if !corners.iter().all(|p| p.is_finite()) {
         return None;
     }
     let mut values = [0.0; VALUES];
     pack_corners(corners, &mut values);
     let filtered = filter(&ShearedRay::<f32>::new((), ray), &OneTriangle(&values))?;
-    let mut judge = Judge::new(ray, |_| corners);
-    let candidate = judge.candidate(
-        0,
-        0,
-        filtered.certain.bits() != 0,
-        filtered.near,
-        filtered.far,
-    )?;
-    Some(judge.hit(candidate))
+    let find: &dyn Fn(usize) -> [Vec3; 3] = &|_| corners;
+    let mut judge = Judge::new(ray, find);
+    let is_certain = filtered.certain.bits() != 0;
+    let candidate = judge.candidate(0, 0, is_certain, filtered.near, filtered.far)?;
+    Some(answer(&judge, candidate))
 }

@@ -1,0 +1,76 @@
+//! Views that hold the chosen kernel against another one, as a rule the exact one.
+
+use super::Context;
+use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, ramp};
+use crate::interaction::SurfaceInteraction;
+use crate::kernel::exact_answer;
+use crate::ray::{Hit, Ray};
+use glam::Vec3;
+
+/// Ulps of t at the ends of the scale: a tenth of what a correct rounding may err by, and where four
+/// digits of f32's seven are wrong.
+pub(super) const T_RANGE: [f64; 2] = [0.05, 5e4];
+/// Errors of a weight at the ends of the scale: a sixth of f32's half ulp of 1, and a tenth of all there is.
+pub(super) const WEIGHT_RANGE: [f64; 2] = [1e-8, 0.1];
+
+/// By how many ulps of f32 t errs.
+pub(super) fn error_t(context: &Context, ray: &Ray) -> Vec3 {
+    error(context, ray, |hit, [t, _, _]| {
+        let size = (t.abs() as f32).min(f32::MAX.next_down());
+        let ulp = f64::from(size.next_up()) - f64::from(size);
+        log_colour((f64::from(hit.t) - t).abs() / ulp, T_RANGE)
+    })
+}
+
+/// By how much the weight errs that errs most.
+pub(super) fn error_barycentric(context: &Context, ray: &Ray) -> Vec3 {
+    error(context, ray, |hit, [_, u, v]| {
+        let exact = [1.0 - u - v, u, v];
+        let errors = hit.barycentric().into_iter().zip(exact);
+        let errors = errors.map(|(found, exact)| (f64::from(found) - exact).abs());
+        log_colour(errors.fold(0.0, f64::max), WEIGHT_RANGE)
+    })
+}
+
+/// A hit's colour by the exact t, u and v of its triangle; others where the decision itself is wrong.
+fn error(context: &Context, ray: &Ray, colour: impl Fn(Hit, [f64; 3]) -> Vec3) -> Vec3 {
+    let Some(hit) = context.intersector.closest_hit(ray) else {
+        return if context.second.any_hit(ray) {
+            MISSED
+        } else {
+            context.background
+        };
+    };
+    let corners = context.scene.mesh().corners(hit.primitive);
+    match exact_answer(ray, corners) {
+        Some(exact) => colour(hit, exact),
+        None if context.second.any_hit(ray) => OTHER_TRIANGLE,
+        None => FALSE_HIT,
+    }
+}
+
+/// Where the two kernels differ about what is hit; elsewhere a faint picture, to find one's way.
+pub(super) fn disagreement(context: &Context, ray: &Ray) -> Vec3 {
+    let (first, second) = (
+        context.intersector.closest_hit(ray),
+        context.second.closest_hit(ray),
+    );
+    match (first, second) {
+        (None, None) => context.background,
+        (None, Some(_)) => MISSED,
+        (Some(_), None) => FALSE_HIT,
+        (Some(a), Some(b)) if a.primitive != b.primitive => OTHER_TRIANGLE,
+        (Some(hit), Some(_)) => {
+            let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+            let facing = surface.facing_normal(ray).dot(-ray.dir.normalize_or_zero());
+            Vec3::splat(0.02 + 0.10 * facing.max(0.0))
+        }
+    }
+}
+
+/// The ramp's colour for a number by its logarithm within a range.
+pub(super) fn log_colour(x: f64, [least, most]: [f64; 2]) -> Vec3 {
+    // A 0 has no logarithm, and belongs to the least.
+    let part = (x.max(least) / least).ln() / (most / least).ln();
+    ramp(part as f32)
+}

@@ -1,0 +1,170 @@
+//! Which tier does a scene require, and why?
+//!
+//! The thresholds are where the laboratory's matrix shows that a tier begins to decide rays wrongly:
+//! `hitscope lab --case sliver --case far --case scale`.
+
+use glam::UVec2;
+use hitscope_core::Scene;
+use hitscope_core::camera::Turntable;
+use hitscope_core::kernel::Tier;
+use hitscope_core::mesh::{Health, SAFE_SIZE, SLIVER_ASPECT};
+use serde::Serialize;
+
+/// Distance over a triangle's size from which f32 decides more than one ray in a thousand wrongly.
+const FAR_FOR_F32: f64 = 1e4;
+/// Aspect, and distance over size, at which f64's digits end.
+const END_OF_F64: f64 = 1e12;
+/// Distance from (0, 0, 0) over size that is worth mentioning.
+const FAR_OUT: f64 = 100.0;
+
+/// The tier, and what speaks for it.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct Requirement {
+    /// As `--kernel` takes it.
+    #[serde(rename = "name")]
+    pub tier: &'static str,
+    /// Sentences.
+    pub reasons: Vec<String>,
+}
+
+/// Looks at extent, slivers, offset, and how far away the starting view is.
+pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
+    let mesh = scene.mesh();
+    let mut found = Findings::default();
+    let triangles = mesh.triangles.len();
+    if triangles > 0 && health.open_edges == 3 * triangles {
+        found.add(
+            Tier::Fast,
+            "no two triangles share an edge: there are no gaps to be seen",
+        );
+    } else if health.open_edges + health.non_manifold_edges == 0 {
+        found.add(
+            Tier::Watertight,
+            "the mesh is closed: a gap between triangles would show",
+        );
+    } else {
+        found.add(
+            Tier::Watertight,
+            "triangles share edges: a gap between them would show",
+        );
+    }
+
+    let size = 2.0 * scene.bounds().radius();
+    if triangles > 0 && !SAFE_SIZE.contains(&size) {
+        let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
+        found.add(Tier::Precise, format!(
+            "it is {size:.1e} units large: outside of {least:e} to {most:e} products of lengths leave f32's range"
+        ));
+    }
+    if health.max_aspect > SLIVER_ASPECT {
+        let tier = if health.max_aspect < END_OF_F64 {
+            Tier::Precise
+        } else {
+            Tier::Exact
+        };
+        found.add(tier, format!(
+            "{} sliver(s), up to {:.0e} times longer than high: f32 decides some of their rays wrongly",
+            health.slivers, health.max_aspect
+        ));
+    }
+    if let Some(distance) = distance_in_triangles(scene)
+        && distance > FAR_FOR_F32
+    {
+        let tier = if distance < END_OF_F64 {
+            Tier::Precise
+        } else {
+            Tier::Exact
+        };
+        found.add(tier, format!(
+            "the starting view is {distance:.0e} times as far away as half of the triangles are large: f32 decides some rays wrongly"
+        ));
+    }
+    let offset = mesh.origin.length();
+    if size > 0.0 && offset > FAR_OUT * size {
+        found.reasons.push(format!(
+            "the file's coordinates lie {:.0e} sizes from (0, 0, 0): they are traced about an origin near the mesh, where no kernel minds",
+            offset / size
+        ));
+    }
+    Requirement {
+        tier: found.tier.unwrap_or(Tier::Fast).name(),
+        reasons: found.reasons,
+    }
+}
+
+#[derive(Default)]
+struct Findings {
+    tier: Option<Tier>,
+    reasons: Vec<String>,
+}
+
+impl Findings {
+    fn add(&mut self, tier: Tier, reason: impl Into<String>) {
+        self.tier = self.tier.max(Some(tier));
+        self.reasons.push(reason.into());
+    }
+}
+
+/// The starting view's distance over the middle triangle's longest edge.
+fn distance_in_triangles(scene: &Scene) -> Option<f64> {
+    let mesh = scene.mesh();
+    let mut sizes: Vec<f64> = mesh.corner_list().into_iter().map(longest_edge).collect();
+    let middle = sizes.len() / 2;
+    if sizes.is_empty() {
+        return None;
+    }
+    let (_, &mut size, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
+    let resolution = UVec2::new(1280, 720);
+    let mut view = Turntable::framing(scene.bounds(), resolution);
+    view.frame(scene.bounds(), resolution);
+    Some(view.distance / size)
+}
+
+fn longest_edge([a, b, c]: [glam::Vec3; 3]) -> f64 {
+    let [a, b, c] = [a, b, c].map(|p| p.as_dvec3());
+    (b - a).length().max((c - b).length()).max((a - c).length())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::{DVec3, Vec3};
+    use hitscope_core::TriangleMesh;
+    use hitscope_core::mesh::shapes::{Place, scene, soup, sphere};
+
+    fn required(mesh: TriangleMesh) -> Requirement {
+        let health = Health::of(&mesh);
+        required_tier(&scene(mesh), &health)
+    }
+
+    #[test]
+    fn each_extreme_asks_for_its_tier_and_says_why() {
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        assert_eq!(required(soup(&[corners])).tier, "fast");
+        assert_eq!(required(sphere(4, Place::UNIT)).tier, "watertight");
+        let tiny = required(sphere(4, Place::new(1e-20, 0.0)));
+        assert_eq!(tiny.tier, "precise");
+        assert!(tiny.reasons[1].contains("f32's range"), "{tiny:?}");
+        let thin = Vec3::new(0.5, 1e-5, 0.0);
+        let sliver = required(soup(&[[Vec3::ZERO, Vec3::X, thin], corners]));
+        assert_eq!(sliver.tier, "precise");
+        let needle = Vec3::new(0.5, 1e-15, 0.0);
+        assert_eq!(
+            required(soup(&[[Vec3::ZERO, Vec3::X, needle]])).tier,
+            "exact"
+        );
+        // Small triangles far apart: the view that shows them all is far away from each.
+        let dust = |p: Vec3| corners.map(|c| p + c * 1e-6);
+        let spread = required(soup(&[dust(Vec3::ZERO), dust(Vec3::X), dust(Vec3::Y)]));
+        assert_eq!(spread.tier, "precise", "{spread:?}");
+    }
+
+    #[test]
+    fn an_offset_is_told_but_asks_for_nothing() {
+        let mut mesh = sphere(4, Place::UNIT);
+        mesh.origin = DVec3::splat(1e6);
+        let found = required(mesh);
+        assert_eq!(found.tier, "watertight");
+        assert!(found.reasons[1].contains("(0, 0, 0)"), "{found:?}");
+    }
+}
