@@ -1,8 +1,8 @@
 //! Where does a ray meet the scene? The tree and one kernel together.
 //!
 //! Kernel and CPU level are chosen when the intersector is made; a ray then costs one virtual call.
-//! [`mesh`] is for kernels that decide by themselves, [`exact`] for the one that weighs hits against
-//! each other.
+//! `mesh` is for kernels that decide about each triangle by itself, `exact` for the one that weighs
+//! hits against each other.
 
 mod blocks;
 pub(crate) mod exact;

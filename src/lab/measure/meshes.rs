@@ -48,6 +48,8 @@ pub struct MeshCell {
     pub doubled: u64,
     /// The same, a million.
     pub doubled_per_million: f64,
+    /// What a zero of those means; larger, as only every 16th ray is looked at.
+    pub doubled_bound_per_million: f64,
     /// Decisions that needed f64, a million rays; `None` for kernels that don't adapt.
     pub in_f64_per_million: Option<f64>,
     /// Of these, those that needed integers.
@@ -111,6 +113,7 @@ impl MeshCase {
             bound_per_million: bound_per_million(n),
             doubled: count.doubled * EVERY,
             doubled_per_million: per_million(count.doubled * EVERY, n),
+            doubled_bound_per_million: bound_per_million(n / EVERY),
             in_f64_per_million: rate(count.in_f64 * EVERY),
             in_integers_per_million: rate(count.in_integers * EVERY),
         }

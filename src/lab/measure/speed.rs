@@ -37,8 +37,10 @@ pub struct Speed {
     pub ns_per_test: f64,
     /// Packed triangles and tree.
     pub bytes_per_triangle: f64,
-    /// Of a million rays, decisions that needed f64 and integers; `None` for kernels that don't adapt.
-    pub adaptive_per_million: Option<[f64; 2]>,
+    /// Of a million rays, decisions that needed f64; `None` for kernels that don't adapt.
+    pub in_f64_per_million: Option<f64>,
+    /// Of these, those that needed integers.
+    pub in_integers_per_million: Option<f64>,
 }
 
 /// One rate a workload.
@@ -196,6 +198,7 @@ impl<'a> Bench<'a> {
         }
         let triangles = self.scene.mesh().triangles.len().max(1) as f64;
         let bytes = intersector.bytes() + self.scene.bvh().bytes();
+        let adaptive = adaptive(intersector, self.workloads);
         Ok(Speed {
             kernel: kernel.info.name,
             mesh: self.name.clone(),
@@ -207,7 +210,8 @@ impl<'a> Bench<'a> {
             time_relative_to_fast: ratios.iter().sum::<f64>() / 3.0,
             ns_per_test: ns_per_test(kernel),
             bytes_per_triangle: bytes as f64 / triangles,
-            adaptive_per_million: adaptive(intersector, self.workloads),
+            in_f64_per_million: adaptive.map(|[in_f64, _]| in_f64),
+            in_integers_per_million: adaptive.map(|[_, in_integers]| in_integers),
         })
     }
 }

@@ -5,17 +5,25 @@ mod text;
 pub use text::{accuracy_table, is_in_accuracy_table, print};
 
 use crate::measure::contestants::{Contestant, contestants};
-use crate::measure::speed::Speed;
 use crate::measure::statistics::{bound_per_million, per_million};
 use crate::measure::triangles::TriangleCell;
 use crate::measure::{CaseInfo, Measurements, all_cases, cells_of};
 use hitscope_core::spawn::SPAWN_POLICIES;
 use serde_json::{Value, json};
 
-/// The page, which draws itself from the JSON that is put into it.
-const PAGE: &str = include_str!("page.html");
-/// Where.
-const PLACEHOLDER: &str = "/*LAB_JSON*/";
+/// The page, which draws itself from the JSON that is put into it, and what goes where in it.
+const PAGE: &str = include_str!("page/page.html");
+const STYLE: (&str, &str) = ("/*CSS*/", include_str!("page/page.css"));
+const SCRIPT: (&str, &str) = (
+    "/*SCRIPT*/",
+    concat!(
+        include_str!("page/figures.js"),
+        include_str!("page/tables.js"),
+        include_str!("page/plot.js"),
+        include_str!("page/sections.js"),
+    ),
+);
+const JSON: &str = "/*LAB_JSON*/";
 
 /// How and where it was measured.
 #[derive(Clone, Debug, serde::Serialize)]
@@ -68,7 +76,9 @@ pub fn to_json(about: &About, all: &Measurements) -> Value {
 /// The same as a page that needs nothing else.
 pub fn to_page(json: &Value) -> String {
     // Text in a script element ends at the first `</`.
-    PAGE.replace(PLACEHOLDER, &json.to_string().replace("</", "<\\/"))
+    PAGE.replace(STYLE.0, STYLE.1)
+        .replace(SCRIPT.0, SCRIPT.1)
+        .replace(JSON, &json.to_string().replace("</", "<\\/"))
 }
 
 fn has_case(all: &Measurements, name: &str) -> bool {
@@ -109,16 +119,9 @@ fn kernel_json(contestant: Contestant, all: &Measurements) -> Value {
         "precision": precision,
         "source": source,
         "summary": summary,
-        "speed": speed.map(speed_json),
+        "speed": speed,
         "accuracy": accuracy,
     })
-}
-
-fn speed_json(speed: &Speed) -> Value {
-    let mut json = json!(speed);
-    json["in_f64_per_million"] = json!(speed.adaptive_per_million.map(|rates| rates[0]));
-    json["in_integers_per_million"] = json!(speed.adaptive_per_million.map(|rates| rates[1]));
-    json
 }
 
 fn triangle_json(cell: &TriangleCell) -> Value {
@@ -164,5 +167,30 @@ impl Accuracy {
         }
         sum.wrong_per_million = per_million(sum.missed + sum.false_hits, sum.n);
         (sum.n > 0).then_some(sum)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_page_holds_its_style_its_script_and_the_data_and_nothing_is_left_to_fill() {
+        let about = About {
+            version: "0",
+            command: "</script>".to_owned(),
+            machine: String::new(),
+            started: String::new(),
+            seconds: 0.0,
+            seed: 1,
+            size: "quick",
+        };
+        let page = to_page(&to_json(&about, &Measurements::default()));
+        assert!(page.contains(STYLE.1) && page.contains(SCRIPT.1));
+        assert!(page.contains("<\\/script>"), "data can't end its element");
+        for (placeholder, n) in [(STYLE.0, 0), (SCRIPT.0, 0), (JSON, 0)] {
+            assert_eq!(page.matches(placeholder).count(), n, "{placeholder}");
+        }
+        assert_eq!(page.matches("</script>").count(), 2);
     }
 }

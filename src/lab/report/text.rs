@@ -74,11 +74,7 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     ]);
     for (kernel, speed) in TRIANGLE_KERNELS.iter().zip(&all.speed) {
         let rates = speed.mrays_per_s;
-        let adaptive = |k: usize| {
-            speed
-                .adaptive_per_million
-                .map_or("".to_owned(), |x| short(x[k]))
-        };
+        let rate = |x: Option<f64>| x.map_or(String::new(), short);
         rows.push(vec![
             kernel.info.name.to_owned(),
             kernel.info.tier.map_or("", |tier| tier.name()).to_owned(),
@@ -88,8 +84,8 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
             format!("{:.3}", speed.time_relative_to_fast),
             short(speed.ns_per_test),
             short(speed.bytes_per_triangle),
-            adaptive(0),
-            adaptive(1),
+            rate(speed.in_f64_per_million),
+            rate(speed.in_integers_per_million),
         ]);
     }
     print_table(out, &rows)

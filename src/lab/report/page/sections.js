@@ -1,0 +1,99 @@
+// ---- The sections ----
+
+function showAbout() {
+  const about = lab.about, size = { quick: 'quick: fewer rays, so wider bounds', full: 'full' };
+  const minutes = Math.floor(about.seconds / 60), seconds = Math.round(about.seconds % 60);
+  const facts = [
+    ['version', about.version], ['command', about.command], ['machine', about.machine],
+    ['started', about.started?.replace(/^(\d{4}-\d\d-\d\d)T(\d\d:\d\d).*Z$/, '$1 $2 UTC')],
+    ['took', isNumber(about.seconds) ? (minutes ? `${minutes} min ` : '') + `${seconds} s` : null],
+    ['seed', about.seed], ['size', size[about.size] ?? about.size],
+  ];
+  const known = facts.filter(([, value]) => value != null);
+  section('about').append(...known.flatMap(([label, value]) => [element('dt', {}, label), element('dd', {}, String(value))]));
+}
+
+function showPlot() {
+  const place = element('div');
+  let [horizontal] = horizontalAxes(), [vertical] = verticalAxes;
+  const redraw = () => place.replaceChildren(...drawPlot(horizontal, vertical));
+  section('plot').append(element('div', { class: 'controls' },
+    choice('Across', horizontalAxes(), axis => { horizontal = axis; redraw(); }),
+    choice('Up', verticalAxes, axis => { vertical = axis; redraw(); })), place);
+}
+
+function showKernels() {
+  const scenes = [...new Set(lab.kernels.map(kernel => kernel.speed?.mesh).filter(Boolean))];
+  const remarks = [
+    scenes.length ? `Speed was measured on: ${scenes.join('; ')}; Mrays/s are of one thread, ns/test leave out the tree, bytes hold it.` : '',
+    lab.kernels.some(kernel => isAsPrinted(kernel.name))
+      ? 'A name that ends in “as printed” is a program of the lecture with its slips left in; its speed isn’t measured.' : '',
+  ];
+  section('kernels').append(element('p', { class: 'aside' }, remarks.filter(Boolean).join(' ')),
+    scrollBox('Kernels', null, sortableTable(kernelColumns(), lab.kernels, 'dense').table));
+}
+
+const triangleMap = {
+  title: 'Triangle cases', section: 'triangles', across: 'kernel',
+  entries: lab.triangles, infos: lab.kernels, measures: triangleMeasures, figures: triangleFigures,
+};
+const meshMap = {
+  title: 'Closed meshes', section: 'meshes', across: 'kernel',
+  entries: lab.meshes, infos: lab.kernels, measures: meshMeasures, figures: meshFigures,
+};
+const orderMap = {
+  title: 'Order of hits', section: 'order', across: 'kernel',
+  entries: lab.order, infos: lab.kernels, measures: orderMeasures, figures: orderFigures,
+};
+const spawningMap = {
+  title: 'Spawned rays', section: 'spawning', across: 'policy',
+  entries: lab.spawning, infos: lab.policies, measures: spawningMeasures, figures: spawningFigures,
+};
+
+/** All cells of a map as one long table with a filter. */
+function cellTable({ section: caseSection, title, entries: cells, across, infos, figures }) {
+  const name = words(across, row => row[across], { style: 'name', tip: row => infoTip(infos, row[across]) });
+  const { table, entries } = sortableTable([caseColumn(caseSection), name, ...figures], cells);
+  const box = scrollBox(`${title}, all figures`, 'long', table);
+  const filter = filterField(entries, box, across, row => `${row.case} ${row[across]}`.toLowerCase());
+  return [filter, box, element('p', { class: 'aside print-only' }, 'This table is printed if a filter narrows it down.')];
+}
+
+function showBoxes() {
+  const about = words('what it is', row => infoOf(lab.cases.filter(each => each.section === 'boxes'), row.case)?.about, { style: 'prose' });
+  section('boxes').append(scrollBox('Boxes', null, sortableTable([caseColumn('boxes'), ...boxFigures, about], lab.boxes).table));
+}
+
+const noteList = items => element('dl', { class: 'notes' }, ...items.map(item => element('div', {},
+  element('dt', {}, element('span', { class: 'name' }, item.name), item.title && item.title !== item.name ? ` — ${item.title}` : ''),
+  element('dd', {}, item.summary ?? item.about ?? ''), item.source ? element('dd', { class: 'source' }, item.source) : null)));
+
+function showCases() {
+  const titles = { triangles: 'Triangle cases', meshes: 'Closed meshes', order: 'Order of hits', boxes: 'Boxes', spawning: 'Spawned rays' };
+  for (const name of new Set(lab.cases.map(each => each.section))) {
+    const own = lab.cases.filter(each => each.section === name);
+    section('cases').append(element('details', {}, element('summary', {}, `${titles[name] ?? name}: ${own.length}`), noteList(own)));
+  }
+}
+
+/** What a section needs to be there, and what draws it. */
+const sections = {
+  plot: { needs: () => lab.kernels.filter(kernel => kernel.speed), show: showPlot },
+  kernels: { needs: () => lab.kernels, show: showKernels },
+  'triangles-map': { needs: () => lab.triangles, show: () => section('triangles-map').append(...heatMap(triangleMap)) },
+  triangles: { needs: () => lab.triangles, show: () => section('triangles').append(...cellTable(triangleMap)) },
+  meshes: { needs: () => lab.meshes, show: () => section('meshes').append(...heatMap(meshMap), ...cellTable(meshMap)) },
+  order: { needs: () => lab.order, show: () => section('order').append(...heatMap(orderMap), ...cellTable(orderMap)) },
+  boxes: { needs: () => lab.boxes, show: showBoxes },
+  spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap(spawningMap), ...cellTable(spawningMap)) },
+  policies: { needs: () => lab.policies, show: () => section('policies').append(noteList(lab.policies)) },
+  notes: { needs: () => lab.kernels, show: () => section('notes').append(noteList(lab.kernels)) },
+  cases: { needs: () => lab.cases, show: showCases },
+};
+
+showAbout();
+for (const [id, { needs, show }] of Object.entries(sections)) if (needs().length) show(); else section(id).remove();
+for (const heading of document.querySelectorAll('section > h2')) {
+  document.querySelector('nav').append(element('a', { href: `#${heading.parentNode.id}` }, heading.textContent));
+}
+listenForTips();
