@@ -41,7 +41,18 @@ impl Random {
         DVec3::new(self.signed(), self.signed(), self.signed())
     }
 
-    /// The same, rounded.
+    /// A direction of unit length, every one as likely.
+    pub fn direction(&mut self) -> DVec3 {
+        loop {
+            let p = self.in_cube();
+            let squared = p.length_squared();
+            if squared > 1e-4 && squared <= 1.0 {
+                return p / squared.sqrt();
+            }
+        }
+    }
+
+    /// The same as in the cube, rounded.
     pub fn in_cube_f32(&mut self) -> Vec3 {
         self.in_cube().as_vec3()
     }

@@ -117,6 +117,12 @@ fn rescaled(dir: Vec3) -> (Vec3, i32) {
     }
 }
 
+/// The distance from an f32 of this size to the next larger one: what errors of t are counted in.
+pub fn ulp_at(t: f64) -> f64 {
+    let size = (t.abs() as f32).min(f32::MAX.next_down());
+    f64::from(size.next_up()) - f64::from(size)
+}
+
 /// Where a ray meets a triangle: `P = (1 − u − v)·A + u·B + v·C`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
@@ -135,6 +141,15 @@ impl Hit {
     pub fn barycentric(&self) -> [f32; 3] {
         // Plus zero: no −0.
         [1.0 - self.u - self.v, self.u + 0.0, self.v + 0.0]
+    }
+
+    /// The largest error of a weight against the exact ones. The first one's is taken in f64: the last
+    /// rounding of 1 − u − v isn't the kernel's.
+    pub fn weight_error(&self, exact: [f64; 3]) -> f64 {
+        let (u, v) = (f64::from(self.u), f64::from(self.v));
+        let errors = [1.0 - u - v, u, v].into_iter().zip(exact);
+        let errors = errors.map(|(found, exact)| (found - exact).abs());
+        errors.fold(0.0, f64::max)
     }
 }
 

@@ -6,6 +6,7 @@ use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Cost;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::ray::ulp_at;
 use hitscope_core::scene::{Scene, Shading};
 use hitscope_core::{Camera, Hit, Intersector, Ray};
 use serde::Serialize;
@@ -224,17 +225,10 @@ impl KernelRow {
 
 /// The error of t in ulps of f32, and the largest error of a weight.
 fn errors(hit: &Hit, exact: &ExactHit) -> (f64, f64) {
-    let distance = |x: f32, exact: &Fraction| {
-        let x = Fraction::from_f64(x.into()).expect("a hit is finite");
-        x.minus(exact).to_f64().abs()
-    };
-    let rounded = exact.t.to_f32().abs();
-    let ulp = f64::from(rounded.next_up()) - f64::from(rounded);
-    let weights = hit.barycentric().into_iter().zip(&exact.barycentric);
-    let weight_error = weights
-        .map(|(x, exact)| distance(x, exact))
-        .fold(0.0, f64::max);
-    (distance(hit.t, &exact.t) / ulp, weight_error)
+    let t = Fraction::from_f64(hit.t.into()).expect("a hit is finite");
+    let error = t.minus(&exact.t).to_f64().abs();
+    let weights = exact.barycentric.each_ref().map(Fraction::to_f64);
+    (error / ulp_at(exact.t.to_f64()), hit.weight_error(weights))
 }
 
 /// A point of the mesh in the file's coordinates.

@@ -43,7 +43,7 @@ pub struct Document {
 enum HealthState {
     Unasked,
     Checking(Task<Findings>),
-    Known(Box<Findings>),
+    Known(Arc<Findings>),
     Broken,
 }
 
@@ -142,7 +142,7 @@ impl Document {
     }
 
     /// The mesh's health and what it requires, found out when first asked for; `None` until it is known.
-    pub fn findings(&mut self, ctx: &egui::Context) -> Option<Findings> {
+    pub fn findings(&mut self, ctx: &egui::Context) -> Option<Arc<Findings>> {
         match &self.health {
             HealthState::Unasked => {
                 let scene = Arc::clone(&self.loaded.scene);
@@ -158,13 +158,13 @@ impl Document {
             }
             HealthState::Checking(task) => match task.poll() {
                 Ok(None) => {}
-                Ok(Some(findings)) => self.health = HealthState::Known(Box::new(findings)),
+                Ok(Some(findings)) => self.health = HealthState::Known(Arc::new(findings)),
                 Err(Broken) => self.health = HealthState::Broken,
             },
             HealthState::Known(_) | HealthState::Broken => {}
         }
         match &self.health {
-            HealthState::Known(findings) => Some(findings.as_ref().clone()),
+            HealthState::Known(findings) => Some(Arc::clone(findings)),
             _ => None,
         }
     }

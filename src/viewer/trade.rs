@@ -1,12 +1,39 @@
 //! Measures the open scene in the background.
 
-use crate::panels::trade::Axis;
 use crate::task::Task;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::{Camera, Scene};
 use hitscope_lab::measure::scene::{SceneRow, SceneSizes, measure};
 use std::sync::{Arc, Mutex, PoisonError};
+
+/// What the plot's vertical axis shows.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Axis {
+    /// Ulps that 99 of a hundred t don't exceed.
+    #[default]
+    ErrorOfT,
+    /// Wrong decisions a million.
+    Wrong,
+}
+
+impl Axis {
+    /// Of a kernel.
+    pub fn value(self, row: &SceneRow) -> f64 {
+        match self {
+            Self::ErrorOfT => row.t_ulps.map_or(0.0, |t| t.p99),
+            Self::Wrong => row.wrong_per_million,
+        }
+    }
+
+    /// What stands for zero, which has no logarithm: below all that can be measured.
+    pub fn floor(self) -> f64 {
+        match self {
+            Self::ErrorOfT => 0.01,
+            Self::Wrong => 1.0,
+        }
+    }
+}
 
 /// Where a measurement stands.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -22,7 +49,8 @@ pub enum TradeState {
 /// A measurement of one scene.
 pub struct Trade {
     scene: Arc<Scene>,
-    rows: Arc<Mutex<Vec<SceneRow>>>,
+    /// Replaced by a longer list with every kernel, so that the window only takes a pointer.
+    rows: Arc<Mutex<Arc<[SceneRow]>>>,
     progress: Arc<Progress>,
     task: Task<Result<(), Cancelled>>,
     state: TradeState,
@@ -33,7 +61,7 @@ pub struct Trade {
 impl Trade {
     /// Begins to measure a scene as a camera sees it.
     pub fn start(scene: &Arc<Scene>, camera: Camera, axis: Axis, ctx: &egui::Context) -> Self {
-        let rows: Arc<Mutex<Vec<SceneRow>>> = Arc::default();
+        let rows: Arc<Mutex<Arc<[SceneRow]>>> = Arc::default();
         let progress: Arc<Progress> = Arc::default();
         let work = {
             let (scene, rows, progress) =
@@ -41,9 +69,9 @@ impl Trade {
             let ctx = ctx.clone();
             move || {
                 measure(&scene, &camera, SceneSizes::PANEL, &progress, |row| {
-                    rows.lock()
-                        .unwrap_or_else(PoisonError::into_inner)
-                        .push(row);
+                    let mut rows = rows.lock().unwrap_or_else(PoisonError::into_inner);
+                    *rows = rows.iter().cloned().chain([row]).collect();
+                    drop(rows);
                     ctx.request_repaint();
                 })
             }
@@ -64,9 +92,8 @@ impl Trade {
     }
 
     /// What is there so far, in the table's order.
-    pub fn rows(&self) -> Vec<SceneRow> {
-        let rows = self.rows.lock().unwrap_or_else(PoisonError::into_inner);
-        rows.clone()
+    pub fn rows(&self) -> Arc<[SceneRow]> {
+        Arc::clone(&self.rows.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// How many rows there will be.

@@ -237,7 +237,7 @@ fn another_kernel_traces_once_it_is_packed() {
         .expect("of kernels");
     combo.click();
     window.run_steps(2);
-    window.get_by_label("Möller–Trumbore").click();
+    window.get_by_label("Möller–Trumbore – fast").click();
     wait(&mut window, "the other kernel", |app| {
         app.document().intersector().kernel().name == "moller-trumbore"
     });

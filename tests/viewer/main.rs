@@ -14,3 +14,5 @@ mod shaders;
 mod triangle_ids;
 // The built program in a real window.
 mod window;
+// Views that compare kernels, and the Trade tab.
+mod trade;

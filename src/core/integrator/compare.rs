@@ -4,7 +4,7 @@ use super::Context;
 use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, ramp};
 use crate::interaction::SurfaceInteraction;
 use crate::kernel::exact_answer;
-use crate::ray::{Hit, Ray};
+use crate::ray::{Hit, Ray, ulp_at};
 use glam::Vec3;
 
 /// Ulps of t at the ends of the scale: a tenth of what a correct rounding may err by, and where four
@@ -16,19 +16,14 @@ pub(super) const WEIGHT_RANGE: [f64; 2] = [1e-8, 0.1];
 /// By how many ulps of f32 t errs.
 pub(super) fn error_t(context: &Context, ray: &Ray) -> Vec3 {
     error(context, ray, |hit, [t, _, _]| {
-        let size = (t.abs() as f32).min(f32::MAX.next_down());
-        let ulp = f64::from(size.next_up()) - f64::from(size);
-        log_colour((f64::from(hit.t) - t).abs() / ulp, T_RANGE)
+        log_colour((f64::from(hit.t) - t).abs() / ulp_at(t), T_RANGE)
     })
 }
 
 /// By how much the weight errs that errs most.
 pub(super) fn error_barycentric(context: &Context, ray: &Ray) -> Vec3 {
     error(context, ray, |hit, [_, u, v]| {
-        let exact = [1.0 - u - v, u, v];
-        let errors = hit.barycentric().into_iter().zip(exact);
-        let errors = errors.map(|(found, exact)| (f64::from(found) - exact).abs());
-        log_colour(errors.fold(0.0, f64::max), WEIGHT_RANGE)
+        log_colour(hit.weight_error([1.0 - u - v, u, v]), WEIGHT_RANGE)
     })
 }
 

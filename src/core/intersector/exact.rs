@@ -180,8 +180,12 @@ impl Intersector for ExactIntersector {
             hits.push(hit);
             ControlFlow::Continue(None)
         }, &mut NoTally));
+        if hits.len() > 1 {
+            // Once, before each is compared with several.
+            hits.iter_mut().for_each(|hit| _ = judge.narrow(hit));
+        }
         hits.sort_by(|a, b| {
-            let by_t = judge.compare(&mut a.clone(), &mut b.clone());
+            let by_t = judge.compare(&mut { *a }, &mut { *b });
             by_t.then(a.primitive.cmp(&b.primitive))
         });
         let mut crossings: Vec<(Candidate, Vec<u32>)> = Vec::new();

@@ -18,9 +18,9 @@ pub struct Cost {
     pub boxes: u32,
     /// Triangles tested.
     pub triangles: u32,
-    /// Decisions for which the exact kernel needed f64; 0 for the others.
+    /// Triangles whose bounds the exact kernel had to narrow in f64; 0 for the others.
     pub in_f64: u32,
-    /// Of these, those that needed integers.
+    /// Decisions that it took in integers.
     pub in_integers: u32,
 }
 
@@ -58,7 +58,8 @@ pub trait Intersector: Send + Sync {
     /// could hit, whatever the kernel says.
     fn candidates(&self, ray: &Ray) -> Vec<u32>;
 
-    /// Tests the ray against every triangle, the tree aside, and counts the hits: for measurements.
+    /// Tests the ray against every triangle, the tree aside, and counts the hits: for measurements. What
+    /// the ray excludes is not excluded, and an end of its interval may count.
     fn count_hits(&self, ray: &Ray) -> usize;
 
     /// Bytes that the packed triangles take, the tree not counted.

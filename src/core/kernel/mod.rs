@@ -1,7 +1,7 @@
 //! Where does a ray meet a primitive? One algorithm, one file, written once over a lane type.
 //!
-//! A new triangle kernel is its file in `triangle/` and its two lines in `triangle/mod.rs`: the module,
-//! and the row of [`TRIANGLE_KERNELS`].
+//! A new triangle kernel is its file in `triangle/` and its lines in `triangle/mod.rs`: the module, and a
+//! row of [`TRIANGLE_KERNELS`] for each precision.
 
 mod triangle;
 
@@ -68,8 +68,9 @@ impl Precision {
 pub struct Promises {
     /// No ray slips between triangles of a closed mesh.
     pub is_watertight: bool,
-    /// t errs by at most 0.7 ulp of f32, and a weight by at most 2⁻²³, through the extremes that the
-    /// laboratory measures.
+    /// The right decision, and t within 0.7 ulp of f32, where no more than f64's digits are asked for: not
+    /// at edges to the last bit, nor where some lengths are 10¹² times others, nor for a ray that starts
+    /// on the triangle.
     pub is_accurate: bool,
     /// Hit or miss, and the order of two hits, are as exact arithmetic says.
     pub is_exact: bool,

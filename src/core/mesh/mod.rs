@@ -23,6 +23,14 @@ fn place(p: Vec3) -> [u32; 3] {
 /// two lengths then stay well inside f32's range.
 pub const SAFE_SIZE: std::ops::RangeInclusive<f64> = 1e-15..=1e16;
 
+/// The unit normal by the right-hand rule over A, B, C; zero for a triangle of zero area.
+///
+/// In f64, where neither a product nor a length of f32 numbers under- or overflows.
+pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    (b - a).cross(c - a).normalize_or_zero()
+}
+
 /// Marks a corner without a normal in [`TriangleMesh::corner_normals`].
 pub const NO_NORMAL: u32 = u32::MAX;
 
@@ -95,12 +103,9 @@ impl TriangleMesh {
         p + self.origin
     }
 
-    /// The unit normal by the right-hand rule over A, B, C, rounded to f32.
-    ///
-    /// In f64, where neither a product nor a length of f32 numbers under- or overflows.
+    /// [`unit_normal`], rounded to f32.
     pub fn geometric_normal(&self, triangle: u32) -> Vec3 {
-        let [a, b, c] = self.corners(triangle).map(Vec3::as_dvec3);
-        (b - a).cross(c - a).normalize_or_zero().as_vec3()
+        unit_normal(self.corners(triangle)).as_vec3()
     }
 
     /// How many materials faces name.

@@ -50,6 +50,22 @@ pub static BOX_CASES: &[BoxCase] = &[
         rays_per_mesh: 16,
     },
     BoxCase {
+        name: "box-size-1e-30",
+        title: "size 1e-30",
+        about: "The same, of size 1e-30.",
+        mesh: |random| triangles(random, DVec3::splat(1e-30), 0.0),
+        ray: |mesh, random| aimed(mesh, random, 3e-30),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
+        name: "box-size-1e30",
+        title: "size 1e30",
+        about: "The same, of size 1e30.",
+        mesh: |random| triangles(random, DVec3::splat(1e30), 0.0),
+        ray: |mesh, random| aimed(mesh, random, 3e30),
+        rays_per_mesh: 16,
+    },
+    BoxCase {
         name: "box-offset-1e5",
         title: "offset 1e5",
         about: "The same, 1e5 sizes from the world's origin.",
@@ -171,7 +187,8 @@ impl BoxCase {
 fn triangles(random: &mut Random, extent: DVec3, offset: f64) -> TriangleMesh {
     let place = DVec3::new(offset, -offset, offset);
     let mut corner = || (place + extent * random.in_cube()).as_vec3();
-    let corners: Vec<[Vec3; 3]> = (0..3).map(|_| [corner(), corner(), corner()]).collect();
+    // Several leaves, so that there are boxes below the root's.
+    let corners: Vec<[Vec3; 3]> = (0..24).map(|_| [corner(), corner(), corner()]).collect();
     soup(&corners)
 }
 

@@ -16,6 +16,9 @@ pub struct Case {
     pub title: String,
     /// What is extreme about it.
     pub about: &'static str,
+    /// Whether it asks for more than f64's digits: a distance 10¹³ times a size, coordinates 10¹² times
+    /// others, a ray that starts on its triangle, or an aim at edges to the last bit.
+    pub is_beyond_f64: bool,
     aim: Aim,
     /// How long directions are made; as long as the way to the triangle if `None`.
     dir_length: Option<f64>,
@@ -134,7 +137,17 @@ impl Named {
                 format!("{}, at edges", self.name),
             ),
         };
+        const BEYOND_F64: [&str; 7] = [
+            "far 1e12",
+            "tiny 1e-13",
+            "tiny 1e-40",
+            "origin on triangle",
+            "mixed exponents 20",
+            "mixed exponents 60",
+            "mixed exponents 126",
+        ];
         Case {
+            is_beyond_f64: aim == Aim::Edges || BEYOND_F64.contains(&&*title),
             name: name.replace(' ', "-"),
             title,
             about: self.about,
@@ -216,7 +229,7 @@ fn recipes() -> Vec<Named> {
             "A ray that starts so many sizes away.",
             move |random| {
                 let (_, corners) = ordinary(random, 1.0);
-                ((distance * unit(random)).as_vec3(), corners)
+                ((distance * random.direction()).as_vec3(), corners)
             },
         ));
     }
@@ -289,20 +302,9 @@ fn special_recipes() -> Vec<Named> {
     all
 }
 
-/// A direction, every one as likely.
-fn unit(random: &mut Random) -> DVec3 {
-    loop {
-        let p = random.in_cube();
-        let squared = p.length_squared();
-        if squared > 1e-4 && squared <= 1.0 {
-            return p / squared.sqrt();
-        }
-    }
-}
-
 fn sliver(random: &mut Random, aspect: f64) -> (Vec3, [Vec3; 3]) {
-    let along = unit(random);
-    let across = along.cross(unit(random)).normalize();
+    let along = random.direction();
+    let across = along.cross(random.direction()).normalize();
     let a = (0.3 * random.in_cube()).as_vec3();
     let part = random.unit();
     let b = (a.as_dvec3() + along).as_vec3();
@@ -311,8 +313,8 @@ fn sliver(random: &mut Random, aspect: f64) -> (Vec3, [Vec3; 3]) {
 }
 
 fn grazing(random: &mut Random, angle: f64) -> (Vec3, [Vec3; 3]) {
-    let x = unit(random);
-    let normal = x.cross(unit(random)).normalize();
+    let x = random.direction();
+    let normal = x.cross(random.direction()).normalize();
     let y = normal.cross(x);
     let corners = [(); 3].map(|()| (random.signed() * x + random.signed() * y).as_vec3());
     let towards = loop {

@@ -45,8 +45,8 @@ const EPSILON: f32 = 0.000_001;
 
 /// Method (1), the pseudo-code; its missing parenthesis is where it must be.
 pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
+    let n = program_normal([a, b, c]);
     let (b, c) = (b - a, c - a);
-    let n = c.cross(b).normalize();
     let distance = a.dot(n);
     let t = (distance - ray.origin.dot(n)) / ray.dir.dot(n);
     if t < EPSILON || t > ray.t_max {
@@ -78,6 +78,16 @@ pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
         v: gamma,
         primitive: 0,
     })
+}
+
+/// The normal of the pseudo-code: c × b, where the slide on normals has (v1 − v0) × (v2 − v0).
+pub fn program_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
+    (c - a).cross(b - a).normalize()
+}
+
+/// Whether a hit passes the slide on precision: there |t| < ε is none.
+pub fn passes_slide(t: f32) -> bool {
+    t.abs() >= EPSILON
 }
 
 /// Method (2): P = α(B − A) + β(C − A), solved by least squares.

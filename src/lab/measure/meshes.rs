@@ -6,6 +6,7 @@ use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, in_torus, scene, sphere, torus};
 use hitscope_core::random::Random;
+use hitscope_core::ray::ulp_at;
 use hitscope_core::{Intersector, Ray};
 use serde::Serialize;
 
@@ -26,6 +27,8 @@ enum Aim {
     Anywhere,
     Edges,
     Vertices,
+    /// From so many sizes away to a point well inside.
+    From(f64),
 }
 
 /// One kernel in one case.
@@ -43,16 +46,16 @@ pub struct MeshCell {
     pub missed_per_million: f64,
     /// What a zero means with a confidence of 95 %, a million.
     pub bound_per_million: f64,
-    /// Of every 16th ray, those whose first two crossings lie within 4 ulps of each other: one surface,
-    /// met twice. Scaled up to all.
+    /// Of every 16th ray, those whose first two crossings lie within 4 ulps of each other, scaled up to all:
+    /// one surface met twice, or two that really lie so close at the edge that is aimed at.
     pub doubled: u64,
     /// The same, a million.
     pub doubled_per_million: f64,
     /// What a zero of those means; larger, as only every 16th ray is looked at.
     pub doubled_bound_per_million: f64,
-    /// Decisions that needed f64, a million rays; `None` for kernels that don't adapt.
+    /// Triangles narrowed in f64, a million rays; `None` for kernels that don't adapt.
     pub in_f64_per_million: Option<f64>,
-    /// Of these, those that needed integers.
+    /// Decisions taken in integers, likewise.
     pub in_integers_per_million: Option<f64>,
 }
 
@@ -79,6 +82,13 @@ pub fn mesh_cases() -> Vec<MeshCase> {
                 aim,
             })
         })
+        .chain([1e3, 1e5, 1e6].map(|distance| MeshCase {
+            name: format!("closed-far-{distance:e}"),
+            title: format!("closed, from {distance:e}"),
+            about: "The same from so many sizes away, at points well inside.",
+            place: Place::UNIT,
+            aim: Aim::From(distance),
+        }))
         .collect()
 }
 
@@ -126,14 +136,26 @@ impl MeshCase {
         random: &mut Random,
     ) -> Ray {
         loop {
-            let origin = self.place.of(inside(random));
+            let within = inside(random);
+            if let Aim::From(distance) = self.aim {
+                let origin = (distance * random.direction()).as_vec3();
+                // From a million sizes away f32 aims to within a tenth: still inside.
+                let dir = (within - origin.as_dvec3()).as_vec3();
+                if let Ok(ray) = Ray::new(origin, dir) {
+                    return ray;
+                }
+                continue;
+            }
+            let origin = self.place.of(within);
             let corners = mesh.corners(random.index(mesh.triangles.len()) as u32);
             let start = random.index(3);
             let [a, b] = [corners[start], corners[(start + 1) % 3]].map(|p| p.as_dvec3());
             let target = match self.aim {
                 Aim::Vertices => a,
                 Aim::Edges => a.lerp(b, random.unit()),
-                Aim::Anywhere => origin.as_dvec3() + random.in_cube() * self.place.scale,
+                Aim::Anywhere | Aim::From(_) => {
+                    origin.as_dvec3() + random.in_cube() * self.place.scale
+                }
             };
             let dir = (target - origin.as_dvec3()).as_vec3();
             if let Ok(ray) = Ray::new(origin, dir) {
@@ -166,8 +188,8 @@ impl Count {
         self.in_integers += u64::from(cost.in_integers);
         let crossings = intersector.all_hits(ray);
         if let [first, second, ..] = &crossings[..] {
-            let close = 4.0 * f32::EPSILON * first.hit.t;
-            self.doubled += u64::from(second.hit.t - first.hit.t <= close);
+            let (first, second) = (f64::from(first.hit.t), f64::from(second.hit.t));
+            self.doubled += u64::from(second - first <= 4.0 * ulp_at(first));
         }
     }
 }

@@ -27,7 +27,7 @@ pub mod triangles;
 
 use boxes::{BOX_CASES, BoxCell};
 use contestants::{Contestant, contestants};
-use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::sampler::mix;
@@ -36,6 +36,7 @@ use order::{ORDER_CASES, OrderCell};
 use rayon::prelude::*;
 use spawning::{SpawnCell, spawn_cases};
 use speed::Speed;
+use std::sync::Arc;
 use std::time::{Duration, Instant};
 use triangles::TriangleCell;
 
@@ -63,7 +64,7 @@ pub struct Sizes {
 }
 
 impl Sizes {
-    /// Ends within a minute on two cores.
+    /// Half a minute on two cores, a minute on slow ones.
     pub const QUICK: Self = Self {
         triangle_rays: 4_000,
         watertight_rays: 40_000,
@@ -161,6 +162,20 @@ struct Task {
     run: Box<dyn Fn() -> Measurements + Send + Sync>,
 }
 
+impl Task {
+    /// Measures `n` of something that takes so many seconds each (2026-11).
+    fn new(
+        n: u64,
+        seconds_each: f64,
+        run: impl Fn(u64) -> Measurements + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            seconds: n as f64 * seconds_each,
+            run: Box::new(move || run(n)),
+        }
+    }
+}
+
 /// How far a run has come.
 #[derive(Clone, Copy, Debug)]
 pub struct Advance {
@@ -236,95 +251,73 @@ impl Measurements {
 }
 
 fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> Vec<Task> {
-    let mut tasks = Vec::new();
-    let mut add = |n: u64, seconds_each: f64, run: Box<dyn Fn() -> Measurements + Send + Sync>| {
-        tasks.push(Task {
-            seconds: n as f64 * seconds_each,
-            run,
-        });
-    };
     // A case's seed is its own: what else is measured doesn't change it.
     let seed_of = |name: &str| {
-        name.bytes()
-            .fold(mix(seed), |seed, byte| mix(seed ^ u64::from(byte)))
+        let mixed = |seed, byte: u8| mix(seed ^ u64::from(byte));
+        name.bytes().fold(mix(seed), mixed)
     };
-
-    for case in cases::triangle_cases()
-        .into_iter()
-        .filter(|case| is_wanted(&case.name))
-    {
-        let (n, seed) = (sizes.triangle_rays, seed_of(&case.name));
-        add(
-            n,
-            12e-6,
-            Box::new(move || Measurements {
-                triangles: triangles::measure(&case, &contestants(), n, seed),
-                ..Measurements::default()
-            }),
-        );
-    }
-    for (c, case) in mesh_cases()
-        .iter()
-        .enumerate()
-        .filter(|(_, case)| is_wanted(&case.name))
-    {
-        let seed = seed_of(&case.name);
-        for kernel in TRIANGLE_KERNELS {
+    let triangles = cases::triangle_cases().into_iter().map(|case| {
+        let (name, seed) = (case.name.clone(), seed_of(&case.name));
+        let run = move |n| Measurements {
+            triangles: triangles::measure(&case, &contestants(), n, seed),
+            ..Measurements::default()
+        };
+        (name, vec![Task::new(sizes.triangle_rays, 12e-6, run)])
+    });
+    let meshes = mesh_cases().into_iter().map(|case| {
+        let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
+        let task = |kernel: &'static TriangleKernel| {
             let n = if kernel.info.promises.is_watertight {
                 sizes.watertight_rays
             } else {
                 sizes.leaking_rays
             };
-            add(
-                n,
-                0.6e-6,
-                Box::new(move || Measurements {
-                    meshes: vec![mesh_cases()[c].measure(kernel, n, seed)],
-                    ..Measurements::default()
-                }),
-            );
-        }
-    }
-    for case in ORDER_CASES.iter().filter(|case| is_wanted(case.name)) {
-        let (n, seed) = (sizes.order_rays, seed_of(case.name));
-        add(
-            n,
-            150e-6,
-            Box::new(move || {
-                let kernels: Vec<_> = TRIANGLE_KERNELS.iter().collect();
-                Measurements {
-                    order: case.measure(&kernels, n, seed),
-                    ..Measurements::default()
-                }
-            }),
-        );
-    }
-    for case in BOX_CASES.iter().filter(|case| is_wanted(case.name)) {
-        let (n, seed) = (sizes.box_hits, seed_of(case.name));
-        add(
-            n,
-            60e-6,
-            Box::new(move || Measurements {
-                boxes: vec![case.measure(n, seed)],
+            let case = Arc::clone(&case);
+            Task::new(n, 0.6e-6, move |n| Measurements {
+                meshes: vec![case.measure(kernel, n, seed)],
                 ..Measurements::default()
-            }),
-        );
-    }
-    for case in spawn_cases()
-        .into_iter()
-        .filter(|case| is_wanted(&case.name))
-    {
-        let (n, seed) = (sizes.spawn_rays, seed_of(&case.name));
-        add(
-            n,
-            6e-6,
-            Box::new(move || Measurements {
-                spawning: case.measure(n, seed),
-                ..Measurements::default()
-            }),
-        );
-    }
-    tasks
+            })
+        };
+        (name, TRIANGLE_KERNELS.iter().map(task).collect())
+    });
+    let order = ORDER_CASES.iter().map(|case| {
+        let seed = seed_of(case.name);
+        let run = move |n| Measurements {
+            order: case.measure(&TRIANGLE_KERNELS.iter().collect::<Vec<_>>(), n, seed),
+            ..Measurements::default()
+        };
+        (
+            case.name.to_owned(),
+            vec![Task::new(sizes.order_rays, 150e-6, run)],
+        )
+    });
+    let boxes = BOX_CASES.iter().map(|case| {
+        let seed = seed_of(case.name);
+        let run = move |n| Measurements {
+            boxes: vec![case.measure(n, seed)],
+            ..Measurements::default()
+        };
+        (
+            case.name.to_owned(),
+            vec![Task::new(sizes.box_hits, 60e-6, run)],
+        )
+    });
+    let spawning = spawn_cases().into_iter().map(|case| {
+        let (name, seed) = (case.name.clone(), seed_of(&case.name));
+        let run = move |n| Measurements {
+            spawning: case.measure(n, seed),
+            ..Measurements::default()
+        };
+        (name, vec![Task::new(sizes.spawn_rays, 6e-6, run)])
+    });
+    let all = triangles
+        .chain(meshes)
+        .chain(order)
+        .chain(boxes)
+        .chain(spawning);
+    all.filter(|(name, _)| is_wanted(name))
+        .flat_map(|(_, tasks)| tasks)
+        .collect()
 }
 
 fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {

@@ -2,10 +2,10 @@
 
 use super::speed::{self, Bench, Speed, Workload};
 use super::statistics::{Quantiles, bound_per_million, per_million};
-use super::triangles::ulp_at;
 use crate::oracle::{self, ExactHit};
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::progress::{Cancelled, Progress};
+use hitscope_core::ray::ulp_at;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
 use serde::Serialize;
 
@@ -44,7 +44,8 @@ pub struct SceneRow {
     pub n: u64,
     /// Of these, those that hit, exactly.
     pub hits: u64,
-    /// Hits that it missed.
+    /// Hits that it missed. The oracle is asked about the triangles in boxes that the ray meets: what a box
+    /// lost would be missed by both, which is measured by itself.
     pub missed: u64,
     /// Hits that aren't.
     pub false_hits: u64,

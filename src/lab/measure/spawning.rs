@@ -2,13 +2,13 @@
 //!
 //! Two surfaces, each of which an outgoing ray can't meet again, whatever its size and place: a convex
 //! body, an octahedron turned at random, its corners rounded to f32; and a plane of two triangles whose
-//! corners lie in it exactly, whole multiples of a power of two.
+//! corners lie in it exactly, whole multiples of a power of two. Traced by the default kernel, as users do.
 
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, scene, soup};
+use hitscope_core::mesh::{TriangleMesh, unit_normal};
 use hitscope_core::random::Random;
 use hitscope_core::spawn::{Departure, SPAWN_POLICIES, SpawnPolicy};
 use hitscope_core::{Hit, Intersector, Ray};
@@ -160,7 +160,10 @@ impl SpawnCase {
     /// farthest coordinate.
     fn plane(&self, random: &mut Random) -> TriangleMesh {
         let farthest = self.size * (self.offset + 2.0);
-        let step = 2f64.powi((farthest as f32).log2().ceil() as i32 - 23);
+        // The power of two above it, from its bits: a logarithm may differ from machine to machine.
+        let step = f64::from(f32::from_bits(
+            (((farthest as f32).to_bits() >> 23) + 1) << 23,
+        )) / f64::from(1 << 23);
         let whole = |p: DVec3| (p / step).round() * step;
         let a = whole(self.place().of(DVec3::ZERO).as_dvec3());
         let mut edge = || whole(self.size * 0.5 * random.in_cube());
@@ -180,7 +183,7 @@ impl SpawnCase {
             let [a, b, c] = mesh
                 .corners(random.index(mesh.triangles.len()) as u32)
                 .map(Vec3::as_dvec3);
-            let normal = (b - a).cross(c - a).normalize_or_zero();
+            let normal = unit_normal([a, b, c].map(|p| p.as_vec3()));
             let (mut u, mut v) = (random.unit(), random.unit());
             if u + v > 1.0 {
                 (u, v) = (1.0 - u, 1.0 - v);
@@ -196,7 +199,7 @@ impl SpawnCase {
                 continue;
             };
             // What it hit may be another triangle: it must leave on the side on which it arrived.
-            let normal = mesh.geometric_normal(hit.primitive).as_dvec3();
+            let normal = unit_normal(mesh.corners(hit.primitive));
             let is_outside = normal.dot(ray.dir.as_dvec3()) < 0.0;
             if is_outside && normal.dot(leaving.as_dvec3()) > 0.0 {
                 return (ray, hit, leaving);
@@ -213,8 +216,7 @@ fn outwards(dir: DVec3, normal: DVec3) -> DVec3 {
 
 /// How high above the triangle's plane a ray begins, on the side to which it goes.
 fn height(ray: &Ray, corners: [Vec3; 3], dir: Vec3) -> f64 {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let normal = (b - a).cross(c - a).normalize_or_zero();
+    let normal = unit_normal(corners);
     let side = normal.dot(dir.as_dvec3()).signum();
-    side * normal.dot(ray.origin.as_dvec3() - a)
+    side * normal.dot(ray.origin.as_dvec3() - corners[0].as_dvec3())
 }

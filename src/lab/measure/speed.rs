@@ -5,7 +5,7 @@ use glam::{DVec3, UVec2, Vec2, Vec3};
 use hitscope_core::camera::Turntable;
 use hitscope_core::intersector::Cost;
 use hitscope_core::kernel::{TriangleKernel, default_triangle_kernel, triangle_kernel};
-use hitscope_core::mesh::shapes;
+use hitscope_core::mesh::{shapes, unit_normal};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
 use hitscope_core::spawn::{Departure, default_spawn_policy};
@@ -37,9 +37,9 @@ pub struct Speed {
     pub ns_per_test: f64,
     /// Packed triangles and tree.
     pub bytes_per_triangle: f64,
-    /// Of a million rays, decisions that needed f64; `None` for kernels that don't adapt.
+    /// Triangles narrowed in f64, a million rays; `None` for kernels that don't adapt.
     pub in_f64_per_million: Option<f64>,
-    /// Of these, those that needed integers.
+    /// Decisions taken in integers, likewise.
     pub in_integers_per_million: Option<f64>,
 }
 
@@ -48,7 +48,7 @@ pub struct Speed {
 pub struct Rates {
     /// Camera rays through pixels' centres.
     pub primary: f64,
-    /// Diffuse rays from where those hit.
+    /// Diffuse rays from where those hit; 0 where none does.
     pub bounce: f64,
     /// Rays across the scene's sphere.
     pub random: f64,
@@ -93,7 +93,8 @@ pub fn bounce_rays(
     let bounce = |ray: &Ray| {
         let hit = intersector.closest_hit(ray)?;
         let mesh = scene.mesh();
-        let normal = mesh.geometric_normal(hit.primitive).as_dvec3();
+        let corners = mesh.corners(hit.primitive);
+        let normal = unit_normal(corners);
         let facing = if normal.dot(ray.dir.as_dvec3()) > 0.0 {
             -normal
         } else {
@@ -102,8 +103,8 @@ pub fn bounce_rays(
         let departure = Departure {
             arrived_by: ray,
             hit: &hit,
-            corners: mesh.corners(hit.primitive),
-            dir: (facing + on_sphere(random)).normalize_or(facing).as_vec3(),
+            corners,
+            dir: (facing + random.direction()).normalize_or(facing).as_vec3(),
         };
         default_spawn_policy().spawn(&departure).ok()
     };
@@ -117,22 +118,12 @@ fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
     let (lower, extent) = (bounds.min.as_dvec3(), bounds.extent());
     (0..count)
         .filter_map(|_| {
-            let origin = centre + 2.0 * bounds.radius() * on_sphere(random);
+            let origin = centre + 2.0 * bounds.radius() * random.direction();
             let part = 0.5 * (random.in_cube() + DVec3::ONE);
             let dir = (lower + part * extent - origin).normalize_or_zero();
             Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
         })
         .collect()
-}
-
-fn on_sphere(random: &mut Random) -> DVec3 {
-    loop {
-        let p = random.in_cube();
-        let squared = p.length_squared();
-        if squared > 1e-4 && squared <= 1.0 {
-            return p / squared.sqrt();
-        }
-    }
 }
 
 /// The view that the viewer starts with, 1280×720.
@@ -183,18 +174,23 @@ impl<'a> Bench<'a> {
         progress: &Progress,
     ) -> Result<Speed, Cancelled> {
         let mut rates = [0.0; 3];
-        let mut ratios = [0.0; 3];
-        for (w, workload) in self.workloads.iter().enumerate() {
+        let mut ratios = Vec::new();
+        for (rate, workload) in rates.iter_mut().zip(self.workloads) {
+            // Nothing bounces where the camera sees nothing.
+            if workload.rays.is_empty() {
+                continue;
+            }
             let (mut own, mut ratio) = (Vec::new(), Vec::new());
             for _ in 0..self.rounds {
                 progress.check()?;
                 let fast = seconds_for(&*self.fast, &workload.rays);
                 progress.check()?;
-                own.push(seconds_for(intersector, &workload.rays));
-                ratio.push(own[own.len() - 1] / fast.max(1e-9));
+                let seconds = seconds_for(intersector, &workload.rays);
+                own.push(seconds);
+                ratio.push(seconds / fast.max(1e-9));
             }
-            rates[w] = workload.rays.len() as f64 / median(own).max(1e-9) / 1e6;
-            ratios[w] = median(ratio);
+            *rate = workload.rays.len() as f64 / median(own).max(1e-9) / 1e6;
+            ratios.push(median(ratio));
         }
         let triangles = self.scene.mesh().triangles.len().max(1) as f64;
         let bytes = intersector.bytes() + self.scene.bvh().bytes();
@@ -207,7 +203,7 @@ impl<'a> Bench<'a> {
                 bounce: rates[1],
                 random: rates[2],
             },
-            time_relative_to_fast: ratios.iter().sum::<f64>() / 3.0,
+            time_relative_to_fast: ratios.iter().sum::<f64>() / ratios.len().max(1) as f64,
             ns_per_test: ns_per_test(kernel),
             bytes_per_triangle: bytes as f64 / triangles,
             in_f64_per_million: adaptive.map(|[in_f64, _]| in_f64),

@@ -6,6 +6,7 @@ use super::statistics::Quantiles;
 use crate::oracle::{self, ExactHit};
 use hitscope_core::Hit;
 use hitscope_core::random::Random;
+use hitscope_core::ray::ulp_at;
 use serde::Serialize;
 
 /// One contestant in one case.
@@ -95,12 +96,6 @@ impl Answer {
     }
 }
 
-/// The distance from an f32 of this size to the next larger one.
-pub fn ulp_at(t: f64) -> f64 {
-    let size = (t.abs() as f32).min(f32::MAX.next_down());
-    f64::from(size.next_up()) - f64::from(size)
-}
-
 impl Tally {
     fn add(&mut self, found: Option<Hit>, answer: Option<&Answer>) {
         let is_finite = |hit: &Hit| hit.t.is_finite() && hit.u.is_finite() && hit.v.is_finite();
@@ -115,13 +110,8 @@ impl Tally {
             (Some(hit), Some(answer)) => {
                 self.t_ulps
                     .push((f64::from(hit.t) - answer.t).abs() / answer.ulp);
-                // Of l1 the f64 value: its last rounding is ours, not the kernel's.
-                let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-                let errors = [1.0 - u - v, u, v]
-                    .into_iter()
-                    .zip(answer.barycentric)
-                    .map(|(found, exact)| (found - exact).abs());
-                self.barycentric_errors.push(errors.fold(0.0, f64::max));
+                let error = hit.weight_error(answer.barycentric);
+                self.barycentric_errors.push(error);
             }
         }
     }

@@ -1,11 +1,14 @@
 //! Where does a ray meet a triangle, exactly?
 //!
-//! With A, B, C taken relative to the ray's origin, o + t·d = l1·A + l2·B + l3·C by Cramer's rule:
+//! First the point on the plane, then its weights in two of the three coordinates: no kernel's exact
+//! arithmetic takes this way, so that a wrong sign here or there shows. With e = B − A, f = C − A:
 //!
 //! ```text
-//! w1 = d·(B×C), w2 = d·(C×A), w3 = d·(A×B),  det = w1 + w2 + w3
-//! l1 = w1/det,  l2 = w2/det,  l3 = w3/det,   t = A·(A×B + B×C + C×A)/det = A·(B×C)/det
+//! n = e×f,  det = d·n,  t = (A − o)·n/det,  p = det·(P − A) = det·(o − A) + (A − o)·n·d
+//! l2 = (p_x·f_y − p_y·f_x)/(det·n_k),  l3 = (e_x·p_y − e_y·p_x)/(det·n_k),  l1 = 1 − l2 − l3
 //! ```
+//!
+//! where k is a coordinate in which n isn't 0, and x and y are the ones after it.
 //!
 //! Every f32 is an integer times a power of two, so all of it is integer arithmetic.
 
@@ -13,7 +16,6 @@ use super::fraction::{Fraction, decode};
 use dashu_int::IBig;
 use glam::Vec3;
 use hitscope_core::{Ray, TriangleMesh};
-use std::cmp::Ordering;
 
 /// The exact answer for a ray and a triangle that it hits.
 #[derive(Clone, Debug)]
@@ -35,29 +37,33 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     let (places, length_exponent) = integers(&places)?;
     let (dirs, dir_exponent) = integers(&[ray.dir])?;
     let d = &dirs[0];
-    let relative = |corner: &[IBig; 3]| minus(corner, &places[0]);
-    let [a, b, c] = [
-        relative(&places[1]),
-        relative(&places[2]),
-        relative(&places[3]),
-    ];
+    let [o, a, b, c] = [&places[0], &places[1], &places[2], &places[3]];
+    let (e, f, to_a) = (minus(b, a), minus(c, a), minus(a, o));
 
-    let b_cross_c = cross(&b, &c);
-    let w = [
-        dot(d, &b_cross_c),
-        dot(d, &cross(&c, &a)),
-        dot(d, &cross(&a, &b)),
-    ];
-    let det = &w[0] + &w[1] + &w[2];
-    let side = det.cmp(&IBig::ZERO);
-    // Inside: no weight has the sign opposite to det's.
-    let is_inside = w.iter().all(|w| w.cmp(&IBig::ZERO) != side.reverse());
-    if side == Ordering::Equal || !is_inside {
+    // The plane.
+    let normal = cross(&e, &f);
+    let det = dot(d, &normal);
+    if det == IBig::ZERO {
         return None;
     }
+    let numerator = dot(&to_a, &normal);
+    let t = Fraction::new(numerator.clone(), det.clone())?.scaled(length_exponent - dir_exponent);
 
-    let fraction = |numerator: &IBig| Fraction::new(numerator.clone(), det.clone());
-    let t = fraction(&dot(&a, &b_cross_c))?.scaled(length_exponent - dir_exponent);
+    // The point on it, in the plane's own coordinates.
+    let k = (0..3).find(|&k| normal[k] != IBig::ZERO)?;
+    let (x, y) = ((k + 1) % 3, (k + 2) % 3);
+    let p = |axis: usize| &numerator * &d[axis] - &det * &to_a[axis];
+    let (p_x, p_y) = (p(x), p(y));
+    let whole = &det * &normal[k];
+    let l2 = &p_x * &f[y] - &p_y * &f[x];
+    let l3 = &e[x] * &p_y - &e[y] * &p_x;
+    let weights = [&whole - &l2 - &l3, l2, l3];
+
+    // Inside: no weight has the sign opposite to the whole's.
+    let outside = whole.cmp(&IBig::ZERO).reverse();
+    if weights.iter().any(|w| w.cmp(&IBig::ZERO) == outside) {
+        return None;
+    }
     let is_before_end = match ray.t_max {
         f32::INFINITY => true,
         t_max => t < Fraction::from_f64(t_max.into())?,
@@ -65,10 +71,12 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     if t <= Fraction::from_f64(ray.t_min.into())? || !is_before_end {
         return None;
     }
+    let is_on_boundary = weights.contains(&IBig::ZERO);
+    let [l1, l2, l3] = weights.map(|w| Fraction::new(w, whole.clone()));
     Some(ExactHit {
         t,
-        barycentric: [fraction(&w[0])?, fraction(&w[1])?, fraction(&w[2])?],
-        is_on_boundary: w.contains(&IBig::ZERO),
+        barycentric: [l1?, l2?, l3?],
+        is_on_boundary,
     })
 }
 

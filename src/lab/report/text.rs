@@ -165,7 +165,11 @@ fn print_meshes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
             cell.kernel.to_owned(),
             cell.n.to_string(),
             rate_text(cell.missed, cell.n),
-            short(cell.doubled_per_million),
+            if cell.doubled == 0 {
+                format!("0 (<{})", short(cell.doubled_bound_per_million))
+            } else {
+                short(cell.doubled_per_million)
+            },
             rate(cell.in_f64_per_million),
             rate(cell.in_integers_per_million),
         ]);

@@ -118,7 +118,7 @@ impl App {
     pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let mut is_expanded = self.settings.shows_panel;
         egui::Panel::right("panel")
-            .default_size(350.0)
+            .default_size(385.0)
             .size_range(240.0..=460.0)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 ui.add_space(4.0);

@@ -159,6 +159,11 @@ impl App {
         self.pick.as_ref().map(|pick| &pick.inspection)
     }
 
+    /// What speed costs in accuracy here, once its tab was shown.
+    pub fn trade(&self) -> Option<&Trade> {
+        self.trade.as_ref()
+    }
+
     /// What the user is told, until it is closed.
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_ref().map(|notice| notice.text.as_str())

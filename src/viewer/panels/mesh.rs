@@ -2,7 +2,7 @@
 
 use super::{lines, row_ui, section_ui};
 use crate::app::grouped;
-use crate::document::{Document, Findings};
+use crate::document::Document;
 use egui::RichText;
 use hitscope_core::mesh::SLIVER_ASPECT;
 use hitscope_core::scene::LoadedScene;
@@ -29,7 +29,7 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
         row_ui(ui, "materials", mesh.named_material_count());
         row_ui(ui, "groups", mesh.named_group_count());
     });
-    if let Some(Findings { requirement, .. }) = &findings {
+    if let Some(requirement) = findings.as_ref().map(|findings| &findings.requirement) {
         section_ui(ui, "Required kernel", |ui| {
             row_ui(ui, "tier", requirement.tier);
         });

@@ -1,39 +1,12 @@
 //! What speed costs in accuracy in this scene: a point for each kernel.
 
 use crate::settings::Settings;
-use crate::trade::{Trade, TradeState};
+use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, RichText};
 use egui_plot::{GridMark, HLine, Plot, PlotPoint, PlotPoints, Points, Text};
 use hitscope_core::kernel::{KernelInfo, Tier, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
-
-/// What the plot's vertical axis shows.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Axis {
-    /// Ulps that 99 of a hundred t don't exceed.
-    #[default]
-    ErrorOfT,
-    /// Wrong decisions a million.
-    Wrong,
-}
-
-impl Axis {
-    fn value(self, row: &SceneRow) -> f64 {
-        match self {
-            Self::ErrorOfT => row.t_ulps.map_or(0.0, |t| t.p99),
-            Self::Wrong => row.wrong_per_million,
-        }
-    }
-
-    /// What stands for zero, which has no logarithm: below all that can be measured.
-    fn floor(self) -> f64 {
-        match self {
-            Self::ErrorOfT => 0.01,
-            Self::Wrong => 1.0,
-        }
-    }
-}
 
 /// The plot and its table; a click on a point or a row chooses the kernel. Returns whether the
 /// user wants it measured again.
@@ -109,6 +82,7 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         .include_y(floor - 0.3)
         .include_y(highest + 0.4)
         .y_axis_formatter(move |mark: GridMark, _: &_| power_text(mark.value, floor))
+        .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [1.0, 0.1, 0.05]))
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
@@ -141,13 +115,13 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
             .iter()
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
         // As near as a finger is wide.
-        (distance(nearest) < 20.0).then(|| nearest.clone())
+        (distance(nearest) < 20.0).then_some(nearest)
     });
     if let Some(row) = response.inner {
         if response.response.clicked() {
             settings.kernel = row.kernel.to_owned();
         }
-        let text = format!("{}\n{}", info(&row).title, figures(&row));
+        let text = format!("{}\n{}", info(row).title, figures(row));
         response.response.on_hover_text_at_pointer(text);
     }
 }

@@ -8,7 +8,6 @@ mod moller_trumbore;
 mod parametric;
 mod plane_projection;
 mod shear;
-
 mod watertight;
 
 pub(crate) use shear::ShearedRay;
@@ -73,7 +72,7 @@ impl TriangleKernel {
     }
 
     /// Tests one triangle in scalar arithmetic, with the bits that the SIMD lanes give. The hit's
-    /// `primitive` is 0.
+    /// `primitive` is 0; what the ray excludes is not excluded.
     pub fn intersect(&self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
         (self.one)(ray, corners)
     }
@@ -116,6 +115,7 @@ pub fn exact_triangle_kernel() -> &'static TriangleKernel {
 }
 
 fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
+    const { assert!(K::VALUES <= MOST_VALUES) };
     let mut values = [<K::Stored<N> as Stored<N>>::NO_TRIANGLE; MOST_VALUES];
     K::pack::<N>(corners, &mut values[..K::VALUES]);
     let prepared = K::prepare::<N>((), ray);

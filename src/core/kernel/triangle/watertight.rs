@@ -5,7 +5,7 @@
 //!   f64, lane by lane, so that a lane's answer doesn't depend on its neighbours; the weights are
 //!   divided before they meet the depths, which are interpolated from A's.
 //! Promises: watertight over shared edges and vertices, at any offset; in f32 for edges and distances
-//!   from 1e-18 to 1e17, as beyond the product of two leaves its range. In f64, where no product of f32
+//!   from 1e-18 to 1e17 (so for meshes of 1e-15 to 1e16, seen from ten times as far), as beyond the product of two leaves its range. In f64, where no product of f32
 //!   numbers does: t within 0.7 ulp of f32, and the right decision but for rays that pass an edge at
 //!   less than some 2⁻⁵⁰ of their length.
 //! Doesn't promise: in f32, accurate t and weights at the lower end of that, where the products are
@@ -38,7 +38,7 @@ impl Kernel for Watertight {
         tier: Some(Tier::Watertight),
         precision: Precision::F32,
         source: "Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013",
-        summary: "No ray slips through a closed mesh, at any offset, from 1e-15 to 1e16 in size.",
+        summary: "No ray slips through a closed mesh from 1e-15 to 1e16 in size, at any offset.",
         promises: Promises {
             is_watertight: true,
             ..Promises::PLAIN

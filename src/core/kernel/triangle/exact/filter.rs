@@ -27,12 +27,14 @@
 //!
 //! **Depth.** ζ = t·d_z is the mean of the corners' depths, weighted by the edge functions E/S with
 //! S = ΣE. Computed with E + e, |e| ≤ err, it is off by Σe(z − ζ)/S, at most 3·err·R/|S| with R the
-//! corners' range of depths. Its own roundings are six of the differences from A's depth, and two of
-//! a depth. R itself is known to u·R + 2u·Z, and where the inside is certain |S| > 3·err:
+//! corners' range of depths, both of the rounded depths, whose mean is off by u·Z. Its own roundings are
+//! six of the differences from A's depth, and one of a depth; taking the bound off rounds once more.
 //!
 //! ```text
-//! |δζ| ≤ 3·err·R/|S| + 6u·R + 4u·Z
+//! |δζ| ≤ 3·err·R/|S| + 6u·R + 3u·Z
 //! ```
+//!
+//! The code has 4·err, which pays for R's rounding and is a weight's error besides.
 //!
 //! **Weights.** E/S is off by (1 + 3)·err/|S| and by three roundings.
 

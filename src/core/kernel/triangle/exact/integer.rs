@@ -47,11 +47,8 @@ pub(super) fn compare(ray: &Ray, first: [Vec3; 3], second: [Vec3; 3]) -> Orderin
     }
 }
 
-/// How t compares with a number; the ray isn't parallel to the triangle.
+/// How t compares with a finite number; the ray isn't parallel to the triangle.
 pub(super) fn compare_with(ray: &Ray, corners: [Vec3; 3], t: f32) -> Ordering {
-    if t == f32::INFINITY {
-        return Ordering::Less;
-    }
     let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
     let dirs = Span::of(&[ray.dir]);
     let (numerator, det) = fraction::<IBig>(ray, corners, lengths, dirs);
@@ -85,7 +82,7 @@ pub(super) fn rounded(ray: &Ray, corners: [Vec3; 3]) -> [f64; 3] {
     ]
 }
 
-/// `numerator/denominator·2^exponent`, the digits below f64's cut off.
+/// `numerator/denominator·2^exponent`, cut off after 62 digits and then rounded.
 fn quotient(numerator: &IBig, denominator: &IBig, exponent: i32) -> f64 {
     let bits = |x: &IBig| x.unsigned_abs().bit_len() as i32;
     let shift = 62 - (bits(numerator) - bits(denominator));
@@ -250,4 +247,107 @@ where
     for<'a> &'a T: Arithmetic<'a, T>,
 {
     &(&(&a[0] * &b[0]) + &(&a[1] * &b[1])) + &(&a[2] * &b[2])
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::random::Random;
+
+    const TRIANGLE: [Vec3; 3] = [
+        Vec3::new(0.0, 0.0, 0.0),
+        Vec3::new(4.0, 0.0, 0.0),
+        Vec3::new(0.0, 4.0, 0.0),
+    ];
+
+    fn ray(origin: [f32; 3], dir: [f32; 3]) -> Ray {
+        Ray::new(origin.into(), dir.into()).expect("a ray")
+    }
+
+    #[test]
+    fn t_u_and_v_of_a_known_hit_are_right_on_either_side() {
+        for z in [3.0, -3.0] {
+            let ray = ray([1.0, 2.0, z], [0.0, 0.0, -z]);
+            assert!(is_inside(&ray, TRIANGLE));
+            assert_eq!(rounded(&ray, TRIANGLE), [1.0, 0.25, 0.5]);
+            assert_eq!(compare_with(&ray, TRIANGLE, 1.0), Ordering::Equal);
+            assert_eq!(
+                compare_with(&ray, TRIANGLE, 1.0f32.next_up()),
+                Ordering::Less
+            );
+            assert_eq!(compare_with(&ray, TRIANGLE, -1e-45), Ordering::Greater);
+        }
+        assert!(
+            is_inside(&ray([2.0, 2.0, 1.0], [0.0, 0.0, -1.0]), TRIANGLE),
+            "on BC"
+        );
+        let beside = ray([2.0, 2.0f32.next_up(), 1.0], [0.0, 0.0, -1.0]);
+        assert!(!is_inside(&beside, TRIANGLE));
+        assert!(
+            !is_inside(&ray([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0]), TRIANGLE),
+            "in its plane"
+        );
+    }
+
+    #[test]
+    fn quotients_keep_sign_and_exponent_at_the_ends_of_the_range() {
+        let whole = |x: i32| IBig::from(x);
+        assert_eq!(quotient(&whole(-3), &whole(4), 0), -0.75);
+        assert_eq!(quotient(&whole(3), &whole(-4), 2), -3.0);
+        assert_eq!(quotient(&whole(0), &whole(7), 5), 0.0);
+        for exponent in [-800, -301, 300, 801] {
+            let expected = 2f64.powi(exponent / 2) * 2f64.powi(exponent - exponent / 2);
+            assert_eq!(quotient(&whole(5), &whole(5), exponent), expected);
+        }
+        assert_eq!(quotient(&whole(1), &whole(3), 0), 1.0 / 3.0);
+    }
+
+    #[test]
+    fn numbers_are_taken_apart_and_put_together_again() {
+        for x in [
+            0.0,
+            -0.0,
+            1.0,
+            -1.5,
+            f32::MAX,
+            f32::MIN_POSITIVE,
+            1e-45,
+            -1e-40,
+        ] {
+            let (mantissa, exponent) = decode(x);
+            assert_eq!(f64::from(mantissa) * 2f64.powi(exponent), f64::from(x));
+        }
+    }
+
+    #[test]
+    fn the_integers_of_128_bits_say_what_the_others_say() {
+        let mut random = Random::new(1);
+        let (mut narrow, mut inside) = (0, 0);
+        for _ in 0..20_000 {
+            // Mantissas of up to 24 bits, exponents apart by as much as just fits.
+            let spread = random.index(18) as i32;
+            let mut point = || {
+                let number = |random: &mut Random| {
+                    let exponent = random.index(spread as usize + 1) as i32;
+                    (random.signed() * 2f64.powi(exponent)) as f32
+                };
+                Vec3::from_array([(); 3].map(|()| number(&mut random)))
+            };
+            let corners = [point(), point(), point()];
+            let target = (corners[0] + corners[1] + corners[2]) / 3.0;
+            let origin = point();
+            let Ok(ray) = Ray::new(origin, target - origin) else {
+                continue;
+            };
+            let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
+            let dirs = Span::of(&[ray.dir]);
+            if dirs.bits + 2 * lengths.bits + 7 <= 127 {
+                let in_128 = is_inside_in::<i128>(&ray, corners, lengths, dirs);
+                assert_eq!(in_128, is_inside_in::<IBig>(&ray, corners, lengths, dirs));
+                narrow += 1;
+                inside += u32::from(in_128);
+            }
+        }
+        assert!(narrow > 5_000 && inside > 1_000, "{narrow} {inside}");
+    }
 }

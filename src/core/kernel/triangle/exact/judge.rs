@@ -9,16 +9,16 @@ use crate::ray::{Hit, Ray};
 use glam::Vec3;
 use std::cmp::Ordering;
 
-/// f64 results are used if they are off by at most this, relatively: t and weights then err by 2⁻⁶ of
-/// f32's half ulp at most.
+/// f64 results are used if t's bounds are at most this apart, relatively, and weights off by at most
+/// this: 2⁻⁶ of f32's half ulp of 1.
 const GOOD: f64 = 1.0 / (1u64 << 31) as f64;
 
 /// How often f32 could not decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct Work {
-    /// Decisions about hit, interval or order that needed f64.
+    /// Triangles whose bounds f32 left too wide for a decision.
     pub in_f64: u32,
-    /// Of these, those that needed integers.
+    /// Decisions about hit, interval or order that f64 left open.
     pub in_integers: u32,
 }
 
@@ -162,7 +162,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
     }
 
     /// Narrows the bounds as far as f64 can. `false`: the triangle is missed.
-    fn narrow(&mut self, candidate: &mut Candidate) -> bool {
+    pub fn narrow(&mut self, candidate: &mut Candidate) -> bool {
         if candidate.is_narrow {
             return true;
         }

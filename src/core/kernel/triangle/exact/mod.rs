@@ -6,9 +6,10 @@
 //! Promises: hit or miss, `t_min < t < t_max`, and the order of two hits by t, exactly, for any finite
 //!   ray and triangle; triangles are closed, their boundary belongs to them; a ray in a triangle's plane
 //!   misses it, and so does any ray a triangle of zero area. t errs by at most 0.51 ulp of f32, a
-//!   weight by at most 2⁻²⁵. So it is watertight, and a ray through a shared edge or vertex meets all
+//!   weight by at most 1.02·2⁻²⁵. So it is watertight, and a ray through a shared edge or vertex meets all
 //!   triangles there at the same t: one crossing, told by the lowest of them.
-//! Doesn't promise: that t is a number for hits beyond f32's largest: they are misses.
+//! Doesn't promise: hits beyond f32's largest t, which are misses; anything through a tree whose boxes lie at
+//!   distances that aren't normal f32 numbers, some 1e-38 to 1e38 (see `bvh::slab`).
 
 mod filter;
 mod integer;
@@ -47,8 +48,8 @@ pub(super) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     ask(ray, corners, |judge, candidate| judge.hit(candidate))
 }
 
-/// t, u and v where a ray hits a triangle, exactly but for rounding to f64 and what lies below 2⁻³²
-/// of them; `None` for a miss. For views and tables that show how much a kernel errs.
+/// t, u and v where a ray hits a triangle, t off by at most 2⁻³² of it, weights by 2⁻³¹; `None` for a
+/// miss. For views and tables that show how much a kernel errs.
 ///
 /// A NaN or an infinity in a corner is a miss.
 pub fn exact_answer(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
