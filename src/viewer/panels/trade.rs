@@ -3,7 +3,7 @@
 use crate::settings::Settings;
 use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, RichText};
-use egui_plot::{GridMark, HLine, Plot, PlotPoint, PlotPoints, Points, Text};
+use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, Points, Text};
 use hitscope_core::kernel::{KernelInfo, Tier, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
@@ -75,14 +75,18 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
     let highest = rows.iter().map(height).fold(floor + 1.0, f64::max);
     let plot = Plot::new("trade")
         .height(240.0)
-        .x_axis_label("speed, fast = 1")
+        .custom_x_axes(vec![
+            AxisHints::new_x()
+                .label("speed, fast = 1")
+                .label_spacing(egui::Rangef::new(18.0, 36.0)),
+        ])
         .y_axis_label(label)
         .include_x(0.85 * slowest)
         .include_x(1.12 * fastest)
         .include_y(floor - 0.3)
         .include_y(highest + 0.4)
         .y_axis_formatter(move |mark: GridMark, _: &_| power_text(mark.value, floor))
-        .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [1.0, 0.1, 0.05]))
+        .x_grid_spacer(egui_plot::uniform_grid_spacer(|_| [1.0, 0.2, 0.1]))
         .allow_drag(false)
         .allow_zoom(false)
         .allow_scroll(false)
@@ -141,7 +145,11 @@ fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
                     for row in rows {
                         let info = info(row);
                         let is_current = settings.kernel().info.name == row.kernel;
-                        let name = RichText::new(info.name).size(11.5).color(colour(info));
+                        let mut name = RichText::new(info.name).size(11.5);
+                        // A tier's colour is hard to read on that of the selection.
+                        if !is_current {
+                            name = name.color(colour(info));
+                        }
                         if ui
                             .selectable_label(is_current, name)
                             .on_hover_text(info.summary)
