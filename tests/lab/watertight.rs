@@ -37,9 +37,14 @@ fn no_box_loses_what_the_ray_hits() {
 #[test]
 fn no_ray_that_leaves_a_surface_by_the_default_policy_meets_it_again() {
     spawn_cases().par_iter().for_each(|case| {
-        for cell in case.measure(50_000, 5) {
-            if cell.policy == default_spawn_policy().name {
-                assert_eq!(cell.self_hits, 0, "{cell:?}");
+        for kernel in TRIANGLE_KERNELS
+            .iter()
+            .filter(|k| k.info.promises.is_watertight)
+        {
+            for cell in case.measure(kernel, 50_000, 5) {
+                if cell.policy == default_spawn_policy().name {
+                    assert_eq!(cell.self_hits, 0, "{cell:?}");
+                }
             }
         }
     });

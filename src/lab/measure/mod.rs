@@ -53,7 +53,7 @@ pub struct Sizes {
     pub order_rays: u64,
     /// Hits for each case of boxes.
     pub box_hits: u64,
-    /// Rays for each case of spawning.
+    /// Rays for each case of spawning and each tier's kernel; a tenth for the others.
     pub spawn_rays: u64,
     /// Rays for each workload; none: speed isn't measured.
     pub speed_rays: usize,
@@ -303,12 +303,20 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
         )
     });
     let spawning = spawn_cases().into_iter().map(|case| {
-        let (name, seed) = (case.name.clone(), seed_of(&case.name));
-        let run = move |n| Measurements {
-            spawning: case.measure(n, seed),
-            ..Measurements::default()
+        let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
+        let task = |kernel: &'static TriangleKernel| {
+            // Kernels that serve no tier are there to be compared: fewer rays will do.
+            let n = match kernel.info.tier {
+                Some(_) => sizes.spawn_rays,
+                None => sizes.spawn_rays / 10,
+            };
+            let case = Arc::clone(&case);
+            Task::new(n, 6e-6, move |n| Measurements {
+                spawning: case.measure(kernel, n, seed),
+                ..Measurements::default()
+            })
         };
-        (name, vec![Task::new(sizes.spawn_rays, 6e-6, run)])
+        (name, TRIANGLE_KERNELS.iter().map(task).collect())
     });
     let all = triangles
         .chain(meshes)

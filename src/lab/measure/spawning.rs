@@ -2,15 +2,15 @@
 //!
 //! Two surfaces, each of which an outgoing ray can't meet again, whatever its size and place: a convex
 //! body, an octahedron turned at random, its corners rounded to f32; and a plane of two triangles whose
-//! corners lie in it exactly, whole multiples of a power of two. Traced by the default kernel, as users do.
+//! corners lie in it exactly, whole multiples of a power of two.
 
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use glam::{DVec3, Vec3};
-use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::shapes::{Place, scene, soup};
 use hitscope_core::mesh::{TriangleMesh, unit_normal};
 use hitscope_core::random::Random;
-use hitscope_core::spawn::{Departure, SPAWN_POLICIES, SpawnPolicy};
+use hitscope_core::spawn::{Departure, SPAWN_POLICIES};
 use hitscope_core::{Hit, Intersector, Ray};
 use serde::Serialize;
 
@@ -27,13 +27,15 @@ pub struct SpawnCase {
     offset: f64,
 }
 
-/// One policy in one case.
+/// One policy and one kernel in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpawnCell {
     /// The case.
     pub case: String,
     /// The policy.
     pub policy: &'static str,
+    /// The kernel.
+    pub kernel: &'static str,
     /// Rays that left.
     pub n: u64,
     /// Those that met the surface again.
@@ -69,8 +71,9 @@ pub fn spawn_cases() -> Vec<SpawnCase> {
 const RAYS_PER_SURFACE: u64 = 64;
 
 impl SpawnCase {
-    /// Lets `n` rays leave by each policy.
-    pub fn measure(&self, n: u64, seed: u64) -> Vec<SpawnCell> {
+    /// Lets `n` rays leave by each policy; the kernel finds where they start, and whether they meet the
+    /// surface again.
+    pub fn measure(&self, kernel: &TriangleKernel, n: u64, seed: u64) -> Vec<SpawnCell> {
         let mut random = Random::new(seed);
         let mut self_hits = vec![0; SPAWN_POLICIES.len()];
         let mut heights = vec![Vec::new(); SPAWN_POLICIES.len()];
@@ -85,7 +88,7 @@ impl SpawnCase {
                 continue;
             }
             let scene = scene(mesh);
-            let intersector = scene.intersector(default_triangle_kernel());
+            let intersector = scene.intersector(kernel);
             for _ in 0..RAYS_PER_SURFACE.min(n - count) {
                 let (arrived_by, hit, dir) = self.bounce(scene.mesh(), &*intersector, &mut random);
                 let corners = scene.mesh().corners(hit.primitive);
@@ -109,22 +112,21 @@ impl SpawnCase {
             .iter()
             .zip(self_hits.into_iter().zip(heights));
         cells
-            .map(|(policy, (self_hits, heights))| self.cell(policy, n, self_hits, heights))
+            .map(|(policy, (self_hits, heights))| {
+                let heights = Quantiles::of(heights);
+                SpawnCell {
+                    case: self.name.clone(),
+                    policy: policy.name,
+                    kernel: kernel.info.name,
+                    n,
+                    self_hits,
+                    self_hits_per_million: per_million(self_hits, n),
+                    bound_per_million: bound_per_million(n),
+                    height_p50: heights.map_or(0.0, |h| h.p50),
+                    height_max: heights.map_or(0.0, |h| h.max),
+                }
+            })
             .collect()
-    }
-
-    fn cell(&self, policy: &SpawnPolicy, n: u64, self_hits: u64, heights: Vec<f64>) -> SpawnCell {
-        let heights = Quantiles::of(heights);
-        SpawnCell {
-            case: self.name.clone(),
-            policy: policy.name,
-            n,
-            self_hits,
-            self_hits_per_million: per_million(self_hits, n),
-            bound_per_million: bound_per_million(n),
-            height_p50: heights.map_or(0.0, |h| h.p50),
-            height_max: heights.map_or(0.0, |h| h.max),
-        }
     }
 
     fn place(&self) -> Place {

@@ -256,6 +256,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     let mut rows = header(&[
         "case",
         "policy",
+        "kernel",
         "n",
         "self-hits",
         "height p50",
@@ -265,6 +266,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.clone(),
             cell.policy.to_owned(),
+            cell.kernel.to_owned(),
             cell.n.to_string(),
             rate_text(cell.self_hits, cell.n),
             short(cell.height_p50),

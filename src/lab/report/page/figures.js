@@ -133,6 +133,7 @@ const boxFigures = [
   column('lost /M', row => row.lost_per_million, { text: perMillion }),
 ];
 const spawningFigures = [
+  words('traced by', row => row.kernel, { style: 'name' }),
   column('n', row => row.n, { text: count }),
   column('self-hits', row => row.self_hits, { text: count }),
   column('self-hits /M', row => row.self_hits_per_million, { text: perMillion }),

@@ -85,7 +85,7 @@ const sections = {
   meshes: { needs: () => lab.meshes, show: () => section('meshes').append(...heatMap(meshMap), ...cellTable(meshMap)) },
   order: { needs: () => lab.order, show: () => section('order').append(...heatMap(orderMap), ...cellTable(orderMap)) },
   boxes: { needs: () => lab.boxes, show: showBoxes },
-  spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap(spawningMap), ...cellTable(spawningMap)) },
+  spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap({ ...spawningMap, entries: lab.spawning.filter(row => row.kernel === 'watertight') }), ...cellTable(spawningMap)) },
   policies: { needs: () => lab.policies, show: () => section('policies').append(noteList(lab.policies)) },
   notes: { needs: () => lab.kernels, show: () => section('notes').append(noteList(lab.kernels)) },
   cases: { needs: () => lab.cases, show: showCases },
