@@ -32,22 +32,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     let mesh = scene.mesh();
     let mut found = Findings::default();
     let triangles = mesh.triangles.len();
-    if triangles > 0 && health.open_edges == 3 * triangles {
-        found.add(
-            Tier::Fast,
-            "no two triangles share an edge: there are no gaps to be seen",
-        );
-    } else if health.open_edges + health.non_manifold_edges == 0 {
-        found.add(
-            Tier::Watertight,
-            "the mesh is closed: a gap between triangles would show",
-        );
-    } else {
-        found.add(
-            Tier::Watertight,
-            "triangles share edges: a gap between them would show",
-        );
-    }
+    found.add_for_edges(health, triangles);
 
     let size = 2.0 * scene.bounds().radius();
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
@@ -99,6 +84,26 @@ struct Findings {
 }
 
 impl Findings {
+    fn add_for_edges(&mut self, health: &Health, triangles: usize) {
+        let (tier, reason) = if triangles > 0 && health.open_edges == 3 * triangles {
+            (
+                Tier::Fast,
+                "no two triangles share an edge: there are no gaps to be seen",
+            )
+        } else if health.open_edges + health.non_manifold_edges == 0 {
+            (
+                Tier::Watertight,
+                "the mesh is closed: a gap between triangles would show",
+            )
+        } else {
+            (
+                Tier::Watertight,
+                "triangles share edges: a gap between them would show",
+            )
+        };
+        self.add(tier, reason);
+    }
+
     fn add(&mut self, tier: Tier, reason: impl Into<String>) {
         self.tier = self.tier.max(Some(tier));
         self.reasons.push(reason.into());

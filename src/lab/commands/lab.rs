@@ -5,7 +5,7 @@ use super::render::default_thread_count;
 use super::{CommandError, load};
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short};
-use crate::measure::{self, Advance, Sizes};
+use crate::measure::{self, Advance, Measurements, Sizes};
 use crate::report::{self, About};
 use clap::Args;
 use hitscope_core::intersector::simd_level_name;
@@ -100,11 +100,21 @@ impl LabArgs {
             seed: self.seed,
             size: if self.quick { "quick" } else { "full" },
         };
-        let json = report::to_json(&about, &all);
+        self.hand_over(&about, &all, out)
+    }
+
+    /// Writes the files and prints the tables.
+    fn hand_over(
+        &self,
+        about: &About,
+        all: &Measurements,
+        out: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        let json = report::to_json(about, all);
         if let Some(folder) = &self.out {
             write(&folder.join("lab.json"), &format!("{json:#}\n"))?;
             write(&folder.join("report.html"), &report::to_page(&json))?;
-            write(&folder.join("accuracy.md"), &report::accuracy_table(&all))?;
+            write(&folder.join("accuracy.md"), &report::accuracy_table(all))?;
         }
         if self.json {
             writeln!(out, "{json:#}")?;
@@ -115,7 +125,7 @@ impl LabArgs {
                 "{}: {:.1} s, seed {}\n",
                 about.command, about.seconds, about.seed
             )?;
-            report::print(&all, out)?;
+            report::print(all, out)?;
         }
         Ok(out.flush()?)
     }

@@ -274,6 +274,13 @@ fn special_recipes() -> Vec<Named> {
             origin_on_triangle,
         ),
     ];
+    all.extend(number_recipes());
+    all
+}
+
+/// What is special about the numbers themselves.
+fn number_recipes() -> Vec<Named> {
+    let mut all = Vec::new();
     for side in [4, 64, 4096] {
         all.push(named(
             format!("integer grid {side}"),

@@ -92,6 +92,24 @@ impl Sizes {
     };
 }
 
+impl Sizes {
+    fn mesh_rays(&self, kernel: &TriangleKernel) -> u64 {
+        if kernel.info.promises.is_watertight {
+            self.watertight_rays
+        } else {
+            self.leaking_rays
+        }
+    }
+
+    /// Kernels that serve no tier are there to be compared: fewer rays will do.
+    fn leaving_rays(&self, kernel: &TriangleKernel) -> u64 {
+        match kernel.info.tier {
+            Some(_) => self.spawn_rays,
+            None => self.spawn_rays / 10,
+        }
+    }
+}
+
 /// Everything that was measured.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurements {
@@ -250,12 +268,14 @@ impl Measurements {
     }
 }
 
+/// A case's seed is its own: what else is measured doesn't change it.
+fn seed_of(seed: u64, name: &str) -> u64 {
+    let mixed = |seed, byte: u8| mix(seed ^ u64::from(byte));
+    name.bytes().fold(mix(seed), mixed)
+}
+
 fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> Vec<Task> {
-    // A case's seed is its own: what else is measured doesn't change it.
-    let seed_of = |name: &str| {
-        let mixed = |seed, byte: u8| mix(seed ^ u64::from(byte));
-        name.bytes().fold(mix(seed), mixed)
-    };
+    let seed_of = |name: &str| seed_of(seed, name);
     let triangles = cases::triangle_cases().into_iter().map(|case| {
         let (name, seed) = (case.name.clone(), seed_of(&case.name));
         let run = move |n| Measurements {
@@ -267,13 +287,8 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
     let meshes = mesh_cases().into_iter().map(|case| {
         let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
         let task = |kernel: &'static TriangleKernel| {
-            let n = if kernel.info.promises.is_watertight {
-                sizes.watertight_rays
-            } else {
-                sizes.leaking_rays
-            };
             let case = Arc::clone(&case);
-            Task::new(n, 0.6e-6, move |n| Measurements {
+            Task::new(sizes.mesh_rays(kernel), 0.6e-6, move |n| Measurements {
                 meshes: vec![case.measure(kernel, n, seed)],
                 ..Measurements::default()
             })
@@ -305,13 +320,8 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
     let spawning = spawn_cases().into_iter().map(|case| {
         let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
         let task = |kernel: &'static TriangleKernel| {
-            // Kernels that serve no tier are there to be compared: fewer rays will do.
-            let n = match kernel.info.tier {
-                Some(_) => sizes.spawn_rays,
-                None => sizes.spawn_rays / 10,
-            };
             let case = Arc::clone(&case);
-            Task::new(n, 6e-6, move |n| Measurements {
+            Task::new(sizes.leaving_rays(kernel), 6e-6, move |n| Measurements {
                 spawning: case.measure(kernel, n, seed),
                 ..Measurements::default()
             })

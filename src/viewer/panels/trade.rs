@@ -3,7 +3,7 @@
 use crate::settings::Settings;
 use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, RichText};
-use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, Points, Text};
+use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
 use hitscope_core::kernel::{KernelInfo, Tier, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
@@ -96,19 +96,8 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
     let response = plot.show(ui, |plot| {
         plot.hline(HLine::new("zero", floor).color(Color32::GRAY.gamma_multiply(0.5)));
         for row in rows {
-            let info = info(row);
             let is_current = settings.kernel().info.name == row.kernel;
-            let at = [speed(row), height(row)];
-            let points = Points::new(info.title, PlotPoints::from(vec![at]))
-                .radius(if is_current { 7.0 } else { 4.5 })
-                .color(colour(info));
-            plot.points(points);
-            if info.tier.is_some() || is_current {
-                let name = format!(" {} ", info.short_name());
-                let name = RichText::new(name).size(11.0).strong().color(colour(info));
-                let at = PlotPoint::new(at[0], at[1]);
-                plot.text(Text::new(info.title, at, name).anchor(anchor(info)));
-            }
+            draw_point(plot, row, [speed(row), height(row)], is_current);
         }
         let pointer = plot.response().hover_pos()?;
         let distance = |row: &SceneRow| {
@@ -127,6 +116,21 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         }
         let text = format!("{}\n{}", info(row).title, figures(row));
         response.response.on_hover_text_at_pointer(text);
+    }
+}
+
+/// A kernel's point; the tiers' and the current one have a name beside it.
+fn draw_point(plot: &mut PlotUi<'_>, row: &SceneRow, at: [f64; 2], is_current: bool) {
+    let info = info(row);
+    let points = Points::new(info.title, PlotPoints::from(vec![at]))
+        .radius(if is_current { 7.0 } else { 4.5 })
+        .color(colour(info));
+    plot.points(points);
+    if info.tier.is_some() || is_current {
+        let name = format!(" {} ", info.short_name());
+        let name = RichText::new(name).size(11.0).strong().color(colour(info));
+        let at = PlotPoint::new(at[0], at[1]);
+        plot.text(Text::new(info.title, at, name).anchor(anchor(info)));
     }
 }
 
