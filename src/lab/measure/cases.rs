@@ -137,11 +137,13 @@ impl Named {
                 format!("{}, at edges", self.name),
             ),
         };
-        const BEYOND_F64: [&str; 7] = [
+        const BEYOND_F64: [&str; 8] = [
             "far 1e12",
             "tiny 1e-13",
             "tiny 1e-40",
             "origin on triangle",
+            // Some rays start on their triangle.
+            "integer grid 4",
             "mixed exponents 20",
             "mixed exponents 60",
             "mixed exponents 126",
