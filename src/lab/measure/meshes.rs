@@ -63,7 +63,7 @@ pub struct MeshCell {
 pub fn mesh_cases() -> Vec<MeshCase> {
     let offset = |x: f64| (format!("offset {x:e}"), Place::new(1.0, x));
     let scale = |x: f64| (format!("scale {x:e}"), Place::new(x, 0.5));
-    let places = [0.0, 1e3, 1.5e5, 1e6].map(offset);
+    let places = [0.0, 1e2, 1e3, 1e4, 1.5e5, 1e6].map(offset);
     let places = places
         .into_iter()
         .chain([1e-12, 1e-6, 1e6, 1e12].map(scale));
