@@ -184,17 +184,12 @@ impl HitReport {
 
 impl ExactReport {
     fn nearest(mesh: &TriangleMesh, ray: &Ray, candidates: &[u32]) -> Option<Self> {
-        let exact = |&triangle: &u32| {
-            oracle::intersect(ray, mesh.corners(triangle)).map(|hit| (triangle, hit))
-        };
-        let hits: Vec<(u32, ExactHit)> = candidates.iter().filter_map(exact).collect();
-        let (triangle, hit) = hits.iter().min_by(|a, b| a.1.t.cmp(&b.1.t))?;
-        let at_same_t = hits
-            .iter()
-            .filter(|(other, h)| other != triangle && h.t == hit.t);
+        let (hit, triangles) = oracle::crossings(mesh, ray, candidates)
+            .into_iter()
+            .next()?;
         Some(Self {
-            triangle: *triangle,
-            also: at_same_t.map(|(other, _)| *other).collect(),
+            triangle: triangles[0],
+            also: triangles[1..].to_vec(),
             t: hit.t.to_f64(),
             barycentric: hit.barycentric.each_ref().map(Fraction::to_f64),
             t_fraction: hit.t.to_string(),

@@ -120,9 +120,7 @@ fn distance_in_triangles(scene: &Scene) -> Option<f64> {
     }
     let (_, &mut size, _) = sizes.select_nth_unstable_by(middle, f64::total_cmp);
     let resolution = UVec2::new(1280, 720);
-    let mut view = Turntable::framing(scene.bounds(), resolution);
-    view.frame(scene.bounds(), resolution);
-    Some(view.distance / size)
+    Some(Turntable::framing(scene.bounds(), resolution).distance / size)
 }
 
 fn longest_edge([a, b, c]: [glam::Vec3; 3]) -> f64 {

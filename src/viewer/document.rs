@@ -1,12 +1,12 @@
 //! What is open: a scene, its file, and the intersector that traces it.
 
 use crate::task::{Broken, Task, Wanted};
-use hitscope_core::Intersector;
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::Health;
 use hitscope_core::obj::{self, LoadError, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::LoadedScene;
+use hitscope_core::{Intersector, Scene};
 use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
 use std::path::{Path, PathBuf};
@@ -33,10 +33,10 @@ pub struct Document {
     pub loaded: LoadedScene,
     intersector: Arc<dyn Intersector>,
     /// For another kernel, while it is being made.
-    packing: Wanted<&'static str, Box<dyn Intersector>>,
+    packing: Packing,
     /// What the kernel is held against by views that compare, and the next such, while it is being made.
     second: Option<Arc<dyn Intersector>>,
-    packing_second: Wanted<&'static str, Box<dyn Intersector>>,
+    packing_second: Packing,
     health: HealthState,
 }
 
@@ -103,10 +103,9 @@ impl Document {
         if self.intersector.kernel().name == kernel.info.name {
             return Ok(());
         }
-        let scene = Arc::clone(&self.loaded.scene);
-        let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
-        if let Some(intersector) = self.packing.get(kernel.info.name, pack)? {
-            self.intersector = Arc::from(intersector);
+        let scene = &self.loaded.scene;
+        if let Some(packed) = packed(&mut self.packing, scene, kernel, ctx)? {
+            self.intersector = packed;
         }
         Ok(())
     }
@@ -133,10 +132,9 @@ impl Document {
         if self.second.as_ref().map(name) == Some(kernel.info.name) {
             return Ok(());
         }
-        let scene = Arc::clone(&self.loaded.scene);
-        let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
-        if let Some(intersector) = self.packing_second.get(kernel.info.name, pack)? {
-            self.second = Some(Arc::from(intersector));
+        let scene = &self.loaded.scene;
+        if let Some(packed) = packed(&mut self.packing_second, scene, kernel, ctx)? {
+            self.second = Some(packed);
         }
         Ok(())
     }
@@ -168,6 +166,21 @@ impl Document {
             _ => None,
         }
     }
+}
+
+/// A scene that is being packed for the kernel of a name.
+type Packing = Wanted<&'static str, Box<dyn Intersector>>;
+
+/// The scene packed for a kernel, once it is; begins unless that is under way.
+fn packed(
+    packing: &mut Packing,
+    scene: &Arc<Scene>,
+    kernel: &'static TriangleKernel,
+    ctx: &egui::Context,
+) -> Result<Option<Arc<dyn Intersector>>, Broken> {
+    let scene = Arc::clone(scene);
+    let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
+    Ok(packing.get(kernel.info.name, pack)?.map(Arc::from))
 }
 
 /// The scene that is shown when no file is given.

@@ -48,7 +48,6 @@ pub enum TradeState {
 
 /// A measurement of one scene.
 pub struct Trade {
-    scene: Arc<Scene>,
     /// Replaced by a longer list with every kernel, so that the window only takes a pointer.
     rows: Arc<Mutex<Arc<[SceneRow]>>>,
     progress: Arc<Progress>,
@@ -77,18 +76,12 @@ impl Trade {
             }
         };
         Self {
-            scene: Arc::clone(scene),
             rows,
             progress,
             task: Task::spawn("trade", ctx, work),
             state: TradeState::Measuring,
             axis,
         }
-    }
-
-    /// Whether it is of this scene.
-    pub fn is_of(&self, scene: &Arc<Scene>) -> bool {
-        Arc::ptr_eq(&self.scene, scene)
     }
 
     /// What is there so far, in the table's order.

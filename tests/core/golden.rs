@@ -33,15 +33,11 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
     let scene = Arc::new(scene(torus(24, 12, Place::UNIT)));
     let view = integrator(view).expect("a view");
     let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
-    let second = view.against.kernel(exact_triangle_kernel());
     let eye = DVec3::new(1.25, -2.0, 2.25);
     let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, projection, plan.size());
     Job {
         context: Context {
-            second: second.map_or_else(
-                || Arc::clone(&intersector),
-                |kernel| scene.intersector(kernel).into(),
-            ),
+            second: view.second(&scene, &intersector, exact_triangle_kernel()),
             scene,
             intersector,
             camera: camera.expect("a camera"),

@@ -8,7 +8,7 @@ use hitscope_core::intersector::Crossing;
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes::{Place, flat_grid, in_torus, scene, soup, sphere, torus};
 use hitscope_core::random::Random;
-use hitscope_core::{Hit, Intersector, Ray, Scene, TriangleMesh};
+use hitscope_core::{Hit, Intersector, Ray, Scene};
 
 /// The bits of an answer: equal floats may differ in them, NaN may not.
 fn bits(hit: Option<Hit>) -> Option<(u32, u32, u32, u32)> {
@@ -27,11 +27,6 @@ fn one_by_one(kernel: &TriangleKernel, corners: &[[Vec3; 3]], ray: &Ray) -> Vec<
     let mut hits: Vec<Hit> = asked.collect();
     hits.sort_by(|a, b| a.t.total_cmp(&b.t).then(a.primitive.cmp(&b.primitive)));
     hits
-}
-
-fn corners_of(mesh: &TriangleMesh) -> Vec<[Vec3; 3]> {
-    let count = mesh.triangles.len() as u32;
-    (0..count).map(|k| mesh.corners(k)).collect()
 }
 
 /// Asserts that every question about a ray gets the answer that asking one by one gives. Returns
@@ -110,7 +105,7 @@ fn assert_same_for_rays(
     count: usize,
     mut next_ray: impl FnMut() -> Option<Ray>,
 ) {
-    let corners = corners_of(scene.mesh());
+    let corners = scene.mesh().corner_list();
     for kernel in ask.kernels() {
         let intersector = scene.intersector(kernel);
         let mut hits = 0;
@@ -183,7 +178,7 @@ fn the_tree_answers_like_every_triangle_asked_alone_at_edges_and_corners() {
     let mut random = Random::new(4);
     let place = Place::new(1.0, 3.0);
     let scene = scene(torus(16, 8, place));
-    let corners = corners_of(scene.mesh());
+    let corners = scene.mesh().corner_list();
     assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
         let [a, b, _] = corners[random.index(corners.len())];
         let target = a + (b - a) * [0.0, 0.25, random.unit() as f32][random.index(3)];
@@ -235,7 +230,7 @@ fn a_flat_grid_behind_the_origin_is_found_by_a_negative_interval() {
     let mut random = Random::new(6);
     let grid = flat_grid(8, Place::new(0.25, 0.1));
     let scene = scene(grid);
-    let corners = corners_of(scene.mesh());
+    let corners = scene.mesh().corner_list();
     assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
         let target = corners[random.index(corners.len())][random.index(3)];
         let dir = random.in_cube_f32();
@@ -316,7 +311,7 @@ fn a_hit_whose_t_rounds_to_before_its_box_is_not_left_out() {
 fn the_candidates_hold_every_triangle_that_is_hit() {
     let mut random = Random::new(9);
     let scene = scene(torus(24, 12, Place::UNIT));
-    let corners = corners_of(scene.mesh());
+    let corners = scene.mesh().corner_list();
     for kernel in TRIANGLE_KERNELS {
         let intersector = scene.intersector(kernel);
         let (mut hits, mut candidates) = (0, 0);

@@ -74,6 +74,20 @@ impl Against {
 pub type Legend = Vec<Vec<(Vec3, String)>>;
 
 impl Integrator {
+    /// What the view holds `first` against; `first` itself where it holds it against nothing.
+    pub fn second(
+        &self,
+        scene: &Scene,
+        first: &Arc<dyn Intersector>,
+        chosen: &'static TriangleKernel,
+    ) -> Arc<dyn Intersector> {
+        let second = self.against.kernel(chosen);
+        second.map_or_else(
+            || Arc::clone(first),
+            |kernel| Arc::from(scene.intersector(kernel)),
+        )
+    }
+
     /// The colour that a ray brings back, in linear RGB.
     pub fn radiance(&self, context: &Context, ray: &Ray) -> Vec3 {
         (self.radiance)(context, ray)

@@ -2,7 +2,7 @@
 
 use super::args::CameraArgs;
 use super::render::default_thread_count;
-use super::{CommandError, load};
+use super::{CommandError, file_error, load};
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short};
 use crate::measure::{self, Advance, Measurements, Sizes};
@@ -172,10 +172,17 @@ impl LabArgs {
             SceneSizes::COMMAND
         };
         let mut rows = Vec::new();
+        let is_told = io::stderr().is_terminal();
         let measured = measure::scene::measure(&scene, &camera, sizes, &progress, |row| {
+            if is_told {
+                eprint!("\r{} of {} kernels", rows.len() + 1, TRIANGLE_KERNELS.len());
+            }
             rows.push(row);
         });
         measured.expect("nobody cancels");
+        if is_told {
+            eprintln!();
+        }
         if self.json {
             let json = json!({
                 "file": file.display().to_string(),
@@ -239,13 +246,6 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
 
 fn write(path: &Path, text: &str) -> Result<(), CommandError> {
     std::fs::write(path, text).map_err(|source| file_error(path, source))
-}
-
-fn file_error(path: &Path, source: io::Error) -> CommandError {
-    CommandError::File {
-        path: path.to_owned(),
-        source,
-    }
 }
 
 /// CPU, threads and SIMD level.

@@ -72,6 +72,14 @@ pub enum CommandError {
     Other(String),
 }
 
+/// What a system's error about a file other than the mesh is to a command.
+fn file_error(path: &Path, source: io::Error) -> CommandError {
+    CommandError::File {
+        path: path.to_owned(),
+        source,
+    }
+}
+
 /// Loads a scene, with a line about it on a terminal's stderr.
 ///
 /// # Errors

@@ -119,12 +119,9 @@ impl PictureArgs {
         let intersector: Arc<dyn Intersector> =
             Arc::from(loaded.scene.intersector(self.kernel.kernel()));
         let chosen = triangle_kernel(&self.against).expect("clap takes names from the table only");
-        let second = self.view.integrator().against.kernel(chosen);
+        let integrator = self.view.integrator();
         let context = Context {
-            second: second.map_or_else(
-                || Arc::clone(&intersector),
-                |kernel| Arc::from(loaded.scene.intersector(kernel)),
-            ),
+            second: integrator.second(&loaded.scene, &intersector, chosen),
             intersector,
             scene: Arc::clone(&loaded.scene),
             camera,
@@ -133,7 +130,7 @@ impl PictureArgs {
         };
         let job = Job {
             context,
-            integrator: self.view.integrator(),
+            integrator,
             plan: Plan::new(camera.resolution(), 1, self.samples),
         };
         let threads = self.threads.map_or_else(default_thread_count, usize::from);

@@ -2,7 +2,7 @@
 
 use super::args::KernelArg;
 use super::render::default_thread_count;
-use super::{CommandError, load};
+use super::{CommandError, file_error, load};
 use crate::inspection::position_in_file;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -145,13 +145,6 @@ fn open(path: &Path) -> Result<Box<dyn BufRead>, CommandError> {
     }
     let file = File::open(path).map_err(|source| file_error(path, source))?;
     Ok(Box::new(BufReader::new(file)))
-}
-
-fn file_error(path: &Path, source: io::Error) -> CommandError {
-    CommandError::File {
-        path: path.to_owned(),
-        source,
-    }
 }
 
 struct Tracer<'a> {

@@ -90,9 +90,7 @@ impl Sizes {
         speed_rounds: 5,
         speed_cells: 300,
     };
-}
 
-impl Sizes {
     fn mesh_rays(&self, kernel: &TriangleKernel) -> u64 {
         if kernel.info.promises.is_watertight {
             self.watertight_rays
@@ -199,8 +197,6 @@ impl Task {
 pub struct Advance {
     /// Part of the work that is done, 0 to 1.
     pub done: f64,
-    /// Since the start.
-    pub elapsed: Duration,
     /// What is left, by what the work done so far took.
     pub left: Duration,
 }
@@ -230,7 +226,6 @@ pub fn run(
             let elapsed = start.elapsed();
             advanced(Advance {
                 done: *done,
-                elapsed,
                 left: elapsed.mul_f64((1.0 - *done).max(0.0) / *done),
             });
             Ok(part)

@@ -2,7 +2,7 @@
 //! through the tree, against the oracle.
 
 use super::statistics::{bound_per_million, per_million};
-use crate::oracle::{self, ExactHit};
+use crate::oracle::{self, Crossing};
 use glam::Vec3;
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::shapes::{scene, soup};
@@ -192,7 +192,9 @@ impl OrderCase {
         for _ in 0..n {
             let (triangles, ray) = self.sample(&mut random);
             let scene = scene(soup(&triangles));
-            let exact = crossings(&ray, &scene.mesh().corner_list());
+            let mesh = scene.mesh();
+            let every: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+            let exact = oracle::crossings(mesh, &ray, &every);
             ties += u64::from(exact.iter().any(|(_, primitives)| primitives.len() > 1));
             for (kernel, (nearest, all)) in kernels.iter().zip(&mut wrong) {
                 let intersector = scene.intersector(kernel);
@@ -228,23 +230,7 @@ impl OrderCase {
     }
 }
 
-/// What the ray meets, nearest first, triangles at the same t together, the lowest first.
-fn crossings(ray: &Ray, corners: &[[Vec3; 3]]) -> Vec<(ExactHit, Vec<u32>)> {
-    let hit = |(k, &corners)| Some((oracle::intersect(ray, corners)?, k as u32));
-    let mut hits: Vec<(ExactHit, u32)> = corners.iter().enumerate().filter_map(hit).collect();
-    // Stable: the lowest stays first.
-    hits.sort_by(|a, b| a.0.t.cmp(&b.0.t));
-    let mut crossings: Vec<(ExactHit, Vec<u32>)> = Vec::new();
-    for (hit, primitive) in hits {
-        match crossings.last_mut() {
-            Some((first, primitives)) if first.t == hit.t => primitives.push(primitive),
-            _ => crossings.push((hit, vec![primitive])),
-        }
-    }
-    crossings
-}
-
-fn is_same(intersector: &dyn Intersector, ray: &Ray, exact: &[(ExactHit, Vec<u32>)]) -> bool {
+fn is_same(intersector: &dyn Intersector, ray: &Ray, exact: &[Crossing]) -> bool {
     let found = intersector.all_hits(ray);
     found.len() == exact.len()
         && found.iter().zip(exact).all(|(found, (_, primitives))| {

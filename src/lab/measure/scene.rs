@@ -1,9 +1,9 @@
 //! The user's own scene: what each kernel reaches there, and what it gets wrong.
 
-use super::speed::{self, Bench, Speed, Workload};
+use super::speed::{self, Bench, Speed, Workloads};
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use crate::oracle::{self, ExactHit};
-use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, default_triangle_kernel};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::ray::ulp_at;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
@@ -87,14 +87,14 @@ pub fn measure(
 }
 
 /// Of the camera's and the bounce rays so many, evenly.
-fn checked_rays(workloads: &[Workload; 3], count: usize) -> Vec<Ray> {
+fn checked_rays(workloads: &Workloads, count: usize) -> Vec<Ray> {
     let evenly = |rays: &[Ray]| {
         let count = count.min(rays.len());
         let at = |k: usize| rays[k * rays.len() / count];
         (0..count).map(at).collect::<Vec<_>>()
     };
-    let mut rays = evenly(&workloads[0].rays);
-    rays.extend(evenly(&workloads[1].rays));
+    let mut rays = evenly(&workloads[0]);
+    rays.extend(evenly(&workloads[1]));
     rays
 }
 
@@ -106,7 +106,7 @@ struct Answer {
 
 fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answer>, Cancelled> {
     // Whatever the kernel, the candidates are all that the ray could hit.
-    let intersector = scene.intersector(hitscope_core::kernel::default_triangle_kernel());
+    let intersector = scene.intersector(default_triangle_kernel());
     let mut answers = Vec::with_capacity(rays.len());
     for ray in rays {
         progress.check()?;

@@ -13,13 +13,8 @@ use hitscope_core::{Camera, Intersector, Ray, Scene};
 use serde::Serialize;
 use std::hint::black_box;
 
-/// Rays of a kind.
-pub struct Workload {
-    /// `primary`, `bounce` or `random`.
-    pub name: &'static str,
-    /// The rays.
-    pub rays: Vec<Ray>,
-}
+/// The rays of each workload, in the order of [`Rates`].
+pub type Workloads = [Vec<Ray>; 3];
 
 /// What one kernel reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -55,22 +50,17 @@ pub struct Rates {
 }
 
 /// The three workloads of a scene, some `count` rays each.
-pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> [Workload; 3] {
+pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> Workloads {
     let mut random = Random::new(seed);
     let intersector = scene.intersector(default_triangle_kernel());
     let primary = primary_rays(camera, count);
     let bounce = bounce_rays(scene, &*intersector, &primary, &mut random);
     let random = random_rays(scene, count, &mut random);
-    let named = |name, rays| Workload { name, rays };
-    [
-        named("primary", primary),
-        named("bounce", bounce),
-        named("random", random),
-    ]
+    [primary, bounce, random]
 }
 
 /// Through pixels' centres, evenly over the picture, row by row.
-pub fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
+fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
     let size = camera.resolution();
     let pixels = u64::from(size.x) * u64::from(size.y);
     let count = (count as u64).min(pixels);
@@ -84,7 +74,7 @@ pub fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
 }
 
 /// Cosine-distributed about the normal that faces the ray, from each hit.
-pub fn bounce_rays(
+fn bounce_rays(
     scene: &Scene,
     intersector: &dyn Intersector,
     arriving: &[Ray],
@@ -129,9 +119,7 @@ fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
 /// The view that the viewer starts with, 1280×720.
 pub fn default_camera(scene: &Scene) -> Camera {
     let size = UVec2::new(1280, 720);
-    let mut start = Turntable::framing(scene.bounds(), size);
-    start.frame(scene.bounds(), size);
-    start.camera(size)
+    Turntable::framing(scene.bounds(), size).camera(size)
 }
 
 /// Measures kernels in one scene, each beside `fast` in the same rounds, so that what else the machine
@@ -140,25 +128,22 @@ pub struct Bench<'a> {
     scene: &'a Scene,
     /// What the report calls the scene.
     name: String,
-    workloads: &'a [Workload; 3],
+    workloads: &'a Workloads,
     fast: Box<dyn Intersector>,
+    alone: TestBench,
     rounds: usize,
 }
 
 impl<'a> Bench<'a> {
     /// Packs the scene for `fast`. The middle of so many rounds counts.
-    pub fn new(
-        scene: &'a Scene,
-        name: String,
-        workloads: &'a [Workload; 3],
-        rounds: usize,
-    ) -> Self {
+    pub fn new(scene: &'a Scene, name: String, workloads: &'a Workloads, rounds: usize) -> Self {
         let fast = triangle_kernel("fast").expect("the fast tier is in the table");
         Self {
             scene,
             name,
             workloads,
             fast: scene.intersector(fast),
+            alone: TestBench::new(),
             rounds,
         }
     }
@@ -175,21 +160,21 @@ impl<'a> Bench<'a> {
     ) -> Result<Speed, Cancelled> {
         let mut rates = [0.0; 3];
         let mut ratios = Vec::new();
-        for (rate, workload) in rates.iter_mut().zip(self.workloads) {
+        for (rate, rays) in rates.iter_mut().zip(self.workloads) {
             // Nothing bounces where the camera sees nothing.
-            if workload.rays.is_empty() {
+            if rays.is_empty() {
                 continue;
             }
             let (mut own, mut ratio) = (Vec::new(), Vec::new());
             for _ in 0..self.rounds {
                 progress.check()?;
-                let fast = seconds_for(&*self.fast, &workload.rays);
+                let fast = seconds_for(&*self.fast, rays);
                 progress.check()?;
-                let seconds = seconds_for(intersector, &workload.rays);
+                let seconds = seconds_for(intersector, rays);
                 own.push(seconds);
                 ratio.push(seconds / fast.max(1e-9));
             }
-            *rate = workload.rays.len() as f64 / median(own).max(1e-9) / 1e6;
+            *rate = rays.len() as f64 / median(own).max(1e-9) / 1e6;
             ratios.push(median(ratio));
         }
         let triangles = self.scene.mesh().triangles.len().max(1) as f64;
@@ -204,7 +189,7 @@ impl<'a> Bench<'a> {
                 random: rates[2],
             },
             time_relative_to_fast: ratios.iter().sum::<f64>() / ratios.len().max(1) as f64,
-            ns_per_test: ns_per_test(kernel),
+            ns_per_test: self.alone.ns_per_test(kernel),
             bytes_per_triangle: bytes as f64 / triangles,
             in_f64_per_million: adaptive.map(|[in_f64, _]| in_f64),
             in_integers_per_million: adaptive.map(|[_, in_integers]| in_integers),
@@ -221,12 +206,12 @@ fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {
 }
 
 /// Of a million rays, decisions in f64 and in integers.
-fn adaptive(intersector: &dyn Intersector, workloads: &[Workload; 3]) -> Option<[f64; 2]> {
+fn adaptive(intersector: &dyn Intersector, workloads: &Workloads) -> Option<[f64; 2]> {
     if !intersector.kernel().promises.is_exact {
         return None;
     }
     let (mut total, mut count) = (Cost::default(), 0);
-    for ray in workloads.iter().flat_map(|workload| &workload.rays) {
+    for ray in workloads.iter().flatten() {
         let (_, cost) = intersector.closest_hit_with_cost(ray);
         total.in_f64 += cost.in_f64;
         total.in_integers += cost.in_integers;
@@ -236,33 +221,45 @@ fn adaptive(intersector: &dyn Intersector, workloads: &[Workload; 3]) -> Option<
     Some([rate(total.in_f64), rate(total.in_integers)])
 }
 
-/// Time for a triangle where no tree is asked: rays against 4096 triangles of size 0.2 in a cube of
-/// size 2, of which one in some hundreds hits.
-fn ns_per_test(kernel: &TriangleKernel) -> f64 {
-    const TRIANGLES: usize = 4096;
-    const RAYS: usize = 40;
-    let mut random = Random::new(1);
-    let mut near = |p: Vec3| p + 0.1 * random.in_cube_f32();
-    let mut places = Random::new(2);
-    let triangles: Vec<[Vec3; 3]> = (0..TRIANGLES)
-        .map(|_| {
-            let p = places.in_cube_f32();
-            [near(p), near(p), near(p)]
-        })
-        .collect();
-    let scene = shapes::scene(shapes::soup(&triangles));
-    let intersector = scene.intersector(kernel);
-    let rays: Vec<Ray> = (0..RAYS)
-        .filter_map(|_| Ray::new(3.0 * places.in_cube_f32(), places.in_cube_f32()).ok())
-        .collect();
-    let round = || {
-        let start = ThreadTime::now();
-        for ray in &rays {
-            black_box(intersector.count_hits(black_box(ray)));
+/// What a test alone is timed on, where no tree is asked: rays against 4096 triangles of size 0.2 in a
+/// cube of size 2, of which one in some hundreds hits.
+struct TestBench {
+    scene: Scene,
+    rays: Vec<Ray>,
+}
+
+impl TestBench {
+    fn new() -> Self {
+        const TRIANGLES: usize = 4096;
+        const RAYS: usize = 40;
+        let mut random = Random::new(1);
+        let mut near = |p: Vec3| p + 0.1 * random.in_cube_f32();
+        let mut places = Random::new(2);
+        let triangles: Vec<[Vec3; 3]> = (0..TRIANGLES)
+            .map(|_| {
+                let p = places.in_cube_f32();
+                [near(p), near(p), near(p)]
+            })
+            .collect();
+        let ray = |_| Ray::new(3.0 * places.in_cube_f32(), places.in_cube_f32()).ok();
+        Self {
+            scene: shapes::scene(shapes::soup(&triangles)),
+            rays: (0..RAYS).filter_map(ray).collect(),
         }
-        start.elapsed().as_secs_f64() / (rays.len() * TRIANGLES) as f64 * 1e9
-    };
-    median((0..5).map(|_| round()).collect())
+    }
+
+    fn ns_per_test(&self, kernel: &TriangleKernel) -> f64 {
+        let intersector = self.scene.intersector(kernel);
+        let tests = self.rays.len() * self.scene.mesh().triangles.len();
+        let round = || {
+            let start = ThreadTime::now();
+            for ray in &self.rays {
+                black_box(intersector.count_hits(black_box(ray)));
+            }
+            start.elapsed().as_secs_f64() / tests as f64 * 1e9
+        };
+        median((0..5).map(|_| round()).collect())
+    }
 }
 
 fn median(mut values: Vec<f64>) -> f64 {
@@ -284,15 +281,12 @@ mod tests {
         let eye = DVec3::Z * 4.0;
         let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
         let [primary, bounce, random] = workloads(&scene, &camera.expect("a camera"), 512, 1);
-        assert_eq!(primary.rays.len(), 512);
+        assert_eq!(primary.len(), 512);
         let intersector = scene.intersector(default_triangle_kernel());
         let is_hit = |ray: &&Ray| intersector.any_hit(ray);
-        assert_eq!(
-            primary.rays.iter().filter(is_hit).count(),
-            bounce.rays.len()
-        );
+        assert_eq!(primary.iter().filter(is_hit).count(), bounce.len());
         // A sphere is convex: what leaves it doesn't come back.
-        assert_eq!(bounce.rays.iter().filter(is_hit).count(), 0);
-        assert!(random.rays.iter().filter(is_hit).count() > 100);
+        assert_eq!(bounce.iter().filter(is_hit).count(), 0);
+        assert!(random.iter().filter(is_hit).count() > 100);
     }
 }

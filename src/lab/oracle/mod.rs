@@ -4,4 +4,4 @@ mod fraction;
 mod triangle;
 
 pub use fraction::Fraction;
-pub use triangle::{ExactHit, intersect, nearest};
+pub use triangle::{Crossing, ExactHit, crossings, intersect, nearest};

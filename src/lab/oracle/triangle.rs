@@ -80,6 +80,25 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     })
 }
 
+/// A place where a ray meets triangles of a mesh: the hit, and which, in the order they were asked.
+pub type Crossing = (ExactHit, Vec<u32>);
+
+/// What a ray meets of some triangles, nearest first, those at exactly the same t together.
+pub fn crossings(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Vec<Crossing> {
+    let hit = |&triangle| Some((intersect(ray, mesh.corners(triangle))?, triangle));
+    let mut hits: Vec<(ExactHit, u32)> = triangles.iter().filter_map(hit).collect();
+    // Stable: of those at the same t the first stays first.
+    hits.sort_by(|a, b| a.0.t.cmp(&b.0.t));
+    let mut crossings: Vec<Crossing> = Vec::new();
+    for (hit, triangle) in hits {
+        match crossings.last_mut() {
+            Some((first, triangles)) if first.t == hit.t => triangles.push(triangle),
+            _ => crossings.push((hit, vec![triangle])),
+        }
+    }
+    crossings
+}
+
 /// The nearest of some triangles' hits, and its triangle; of several at the same t the first.
 pub fn nearest(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Option<(u32, ExactHit)> {
     triangles
