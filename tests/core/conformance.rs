@@ -355,3 +355,24 @@ fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
         }
     }
 }
+
+/// Source: the BadCases test of M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed.
+#[test]
+fn a_triangle_without_area_is_missed_by_kernels_that_promise_accuracy() {
+    let corners = [-79.049614, -87.09227, -79.209015].map(|y| Vec3::new(-1113.4546, y, -56.24319));
+    let ray = ray(
+        Vec3::new(-1081.4792, 99.999954, 87.77011),
+        Vec3::new(-32.1073, -183.35587, -144.60764),
+    );
+    for kernel in TRIANGLE_KERNELS {
+        let promises = kernel.info.promises;
+        if promises.is_accurate || promises.is_exact {
+            assert_eq!(
+                kernel.intersect(&ray, corners),
+                None,
+                "{}",
+                kernel.info.name
+            );
+        }
+    }
+}

@@ -18,6 +18,8 @@ pub struct MeshCase {
     pub title: String,
     /// What is extreme about it.
     pub about: &'static str,
+    /// Whether the products of its lengths leave f32's range.
+    pub is_beyond_f32: bool,
     place: Place,
     aim: Aim,
 }
@@ -62,11 +64,12 @@ pub struct MeshCell {
 /// Every case.
 pub fn mesh_cases() -> Vec<MeshCase> {
     let offset = |x: f64| (format!("offset {x:e}"), Place::new(1.0, x));
+    // At 1e7 an ulp is 1: a body of size 1 has no inside there, one of size 16 has.
+    let farthest = ("offset 1e7".to_owned(), Place::new(16.0, 1e7 / 16.0));
     let scale = |x: f64| (format!("scale {x:e}"), Place::new(x, 0.5));
-    let places = [0.0, 1e2, 1e3, 1e4, 1.5e5, 1e6].map(offset);
-    let places = places
-        .into_iter()
-        .chain([1e-12, 1e-6, 1e6, 1e12].map(scale));
+    let places = [0.0, 1e2, 1e3, 1e4, 1e5, 1.5e5, 1e6].map(offset);
+    let scales = [1e-30, 1e-18, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e30].map(scale);
+    let places = places.into_iter().chain([farthest]).chain(scales);
     let aims = [
         (Aim::Edges, "edges"),
         (Aim::Vertices, "vertices"),
@@ -78,6 +81,7 @@ pub fn mesh_cases() -> Vec<MeshCase> {
                 name: format!("closed {name} {target}").replace(' ', "-"),
                 title: format!("closed, {name}, {target}"),
                 about: "A sphere and a torus, from inside: every ray must hit.",
+                is_beyond_f32: !(1e-15..=1e16).contains(&place.scale),
                 place,
                 aim,
             })
@@ -86,6 +90,7 @@ pub fn mesh_cases() -> Vec<MeshCase> {
             name: format!("closed-far-{distance:e}"),
             title: format!("closed, from {distance:e}"),
             about: "The same from so many sizes away, at points well inside.",
+            is_beyond_f32: false,
             place: Place::UNIT,
             aim: Aim::From(distance),
         }))

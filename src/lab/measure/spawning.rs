@@ -1,8 +1,12 @@
 //! Does a ray that leaves a surface meet it again, and how high above it does it begin?
 //!
-//! Two surfaces, each of which an outgoing ray can't meet again, whatever its size and place: a convex
-//! body, an octahedron turned at random, its corners rounded to f32; and a plane of two triangles whose
-//! corners lie in it exactly, whole multiples of a power of two.
+//! Surfaces, each of which an outgoing ray can't meet again, whatever its size and place: a convex
+//! body, an octahedron turned at random, its corners rounded to f32; a plane of two triangles whose
+//! corners lie in it exactly, whole multiples of a power of two; and a single triangle whose coordinates
+//! have magnitudes from 10⁻⁸ to 10⁸, each its own.
+//!
+//! Source of the last: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests
+//! of its shapes.
 
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use glam::{DVec3, Vec3};
@@ -22,9 +26,16 @@ pub struct SpawnCase {
     pub title: String,
     /// What is extreme about it.
     pub about: &'static str,
-    size: f64,
-    /// In sizes.
-    offset: f64,
+    surfaces: Surfaces,
+}
+
+/// What rays leave.
+#[derive(Clone, Copy)]
+enum Surfaces {
+    /// Octahedra and planes of this size, so many sizes from the world's origin.
+    Bodies { size: f64, offset: f64 },
+    /// A triangle, every coordinate of a magnitude of its own.
+    Triangle,
 }
 
 /// One policy and one kernel in one case.
@@ -44,7 +55,7 @@ pub struct SpawnCell {
     pub self_hits_per_million: f64,
     /// What a zero means with a confidence of 95 %, a million.
     pub bound_per_million: f64,
-    /// The middle height above the triangle at which rays begin, in its sizes.
+    /// The middle height above the triangle at which rays begin, in the surface's sizes.
     pub height_p50: f64,
     /// The largest.
     pub height_max: f64,
@@ -60,10 +71,15 @@ pub fn spawn_cases() -> Vec<SpawnCase> {
                 name: format!("spawn-size-{size:e}-offset-{offset:e}"),
                 title: format!("size {size:e}, offset {offset:e}"),
                 about: "An octahedron and a plane of this size, so many sizes from the world's origin.",
-                size,
-                offset,
+                surfaces: Surfaces::Bodies { size, offset },
             })
         })
+        .chain([SpawnCase {
+            name: "spawn-exponents-8".to_owned(),
+            title: "one triangle, 1e-8 to 1e8".to_owned(),
+            about: "A triangle whose coordinates have magnitudes from 1e-8 to 1e8, each its own.",
+            surfaces: Surfaces::Triangle,
+        }])
         .collect()
 }
 
@@ -79,18 +95,17 @@ impl SpawnCase {
         let mut heights = vec![Vec::new(); SPAWN_POLICIES.len()];
         let mut count = 0;
         while count < n {
-            let mesh = if random.index(2) == 0 {
-                self.octahedron(&mut random)
-            } else {
-                self.plane(&mut random)
-            };
+            let (mesh, size) = self.surface(&mut random);
             if mesh.triangles.is_empty() {
                 continue;
             }
             let scene = scene(mesh);
             let intersector = scene.intersector(kernel);
             for _ in 0..RAYS_PER_SURFACE.min(n - count) {
-                let (arrived_by, hit, dir) = self.bounce(scene.mesh(), &*intersector, &mut random);
+                let bounce = bounce(scene.mesh(), size, &*intersector, &mut random);
+                let Some((arrived_by, hit, dir)) = bounce else {
+                    break;
+                };
                 let corners = scene.mesh().corners(hit.primitive);
                 let departure = Departure {
                     arrived_by: &arrived_by,
@@ -103,7 +118,7 @@ impl SpawnCase {
                         .spawn(&departure)
                         .expect("a finite place and direction");
                     self_hits[k] += u64::from(intersector.any_hit(&ray));
-                    heights[k].push(height(&ray, corners, dir) / self.size);
+                    heights[k].push(height(&ray, corners, dir) / size);
                 }
                 count += 1;
             }
@@ -129,85 +144,100 @@ impl SpawnCase {
             .collect()
     }
 
-    fn place(&self) -> Place {
-        Place::new(self.size, self.offset)
-    }
-
-    /// Convex also when its corners are rounded, as its faces meet at 109°: but where there are only a
-    /// few floats within its size, which the caller notices by the triangles that vanish.
-    fn octahedron(&self, random: &mut Random) -> TriangleMesh {
-        let x = random.in_cube().normalize_or(DVec3::X);
-        let y = x.cross(random.in_cube()).normalize_or(DVec3::Y);
-        let z = x.cross(y);
-        let place = self.place();
-        let at = |p: DVec3| place.of(0.5 * p);
-        let mut triangles = Vec::new();
-        for (k, x) in [x, -x].into_iter().enumerate() {
-            for (l, y) in [y, -y].into_iter().enumerate() {
-                for (m, z) in [z, -z].into_iter().enumerate() {
-                    let [a, b, c] = [at(x), at(y), at(z)];
-                    // Mirrored as often as an axis is turned round.
-                    triangles.push(if (k + l + m) % 2 == 0 {
-                        [a, b, c]
-                    } else {
-                        [a, c, b]
-                    });
-                }
+    /// A surface and its size.
+    fn surface(&self, random: &mut Random) -> (TriangleMesh, f64) {
+        match self.surfaces {
+            Surfaces::Bodies { size, offset } => {
+                let place = Place::new(size, offset);
+                let body = [octahedron, plane][random.index(2)];
+                (body(place, random), size)
             }
-        }
-        soup(&triangles)
-    }
-
-    /// Two triangles of a slanted parallelogram, its corners whole multiples of the last place of the
-    /// farthest coordinate.
-    fn plane(&self, random: &mut Random) -> TriangleMesh {
-        let farthest = self.size * (self.offset + 2.0);
-        // The power of two above it, from its bits: a logarithm may differ from machine to machine.
-        let step = f64::from(f32::from_bits(
-            (((farthest as f32).to_bits() >> 23) + 1) << 23,
-        )) / f64::from(1 << 23);
-        let whole = |p: DVec3| (p / step).round() * step;
-        let a = whole(self.place().of(DVec3::ZERO).as_dvec3());
-        let mut edge = || whole(self.size * 0.5 * random.in_cube());
-        let (e1, e2) = (edge(), edge());
-        let [a, b, c, d] = [a, a + e1, a + e1 + e2, a + e2].map(|p| p.as_vec3());
-        soup(&[[a, b, c], [a, c, d]])
-    }
-
-    /// A ray that arrives at a triangle's outside, its hit, and where it goes from there.
-    fn bounce(
-        &self,
-        mesh: &TriangleMesh,
-        intersector: &dyn Intersector,
-        random: &mut Random,
-    ) -> (Ray, Hit, Vec3) {
-        loop {
-            let [a, b, c] = mesh
-                .corners(random.index(mesh.triangles.len()) as u32)
-                .map(Vec3::as_dvec3);
-            let normal = unit_normal([a, b, c].map(|p| p.as_vec3()));
-            let (mut u, mut v) = (random.unit(), random.unit());
-            if u + v > 1.0 {
-                (u, v) = (1.0 - u, 1.0 - v);
-            }
-            let target = a + u * (b - a) + v * (c - a);
-            let towards = outwards(random.in_cube(), normal);
-            let origin = (target + 2.0 * self.size * towards).as_vec3();
-            let leaving = outwards(random.in_cube(), normal).as_vec3();
-            let Ok(ray) = Ray::new(origin, (target - origin.as_dvec3()).as_vec3()) else {
-                continue;
-            };
-            let Some(hit) = intersector.closest_hit(&ray) else {
-                continue;
-            };
-            // What it hit may be another triangle: it must leave on the side on which it arrived.
-            let normal = unit_normal(mesh.corners(hit.primitive));
-            let is_outside = normal.dot(ray.dir.as_dvec3()) < 0.0;
-            if is_outside && normal.dot(leaving.as_dvec3()) > 0.0 {
-                return (ray, hit, leaving);
+            Surfaces::Triangle => {
+                let mut number = || random.signed() * 2f64.powi(random.index(54) as i32 - 26);
+                let corners = [(); 3].map(|()| DVec3::new(number(), number(), number()).as_vec3());
+                let [a, b, c] = corners.map(Vec3::as_dvec3);
+                let size = (b - a).abs().max((c - a).abs()).max_element();
+                (soup(&[corners]), size)
             }
         }
     }
+}
+
+/// Convex also when its corners are rounded, as its faces meet at 109°: but where there are only a
+/// few floats within its size, which the caller notices by the triangles that vanish.
+fn octahedron(place: Place, random: &mut Random) -> TriangleMesh {
+    let x = random.in_cube().normalize_or(DVec3::X);
+    let y = x.cross(random.in_cube()).normalize_or(DVec3::Y);
+    let z = x.cross(y);
+    let at = |p: DVec3| place.of(0.5 * p);
+    let mut triangles = Vec::new();
+    for (k, x) in [x, -x].into_iter().enumerate() {
+        for (l, y) in [y, -y].into_iter().enumerate() {
+            for (m, z) in [z, -z].into_iter().enumerate() {
+                let [a, b, c] = [at(x), at(y), at(z)];
+                // Mirrored as often as an axis is turned round.
+                triangles.push(if (k + l + m) % 2 == 0 {
+                    [a, b, c]
+                } else {
+                    [a, c, b]
+                });
+            }
+        }
+    }
+    soup(&triangles)
+}
+
+/// Two triangles of a slanted parallelogram, its corners whole multiples of the last place of the
+/// farthest coordinate.
+fn plane(place: Place, random: &mut Random) -> TriangleMesh {
+    let farthest = place.offset.abs().max_element() + 2.0 * place.scale;
+    // The power of two above it, from its bits: a logarithm may differ from machine to machine.
+    let step = f64::from(f32::from_bits(
+        (((farthest as f32).to_bits() >> 23) + 1) << 23,
+    )) / f64::from(1 << 23);
+    let whole = |p: DVec3| (p / step).round() * step;
+    let a = whole(place.of(DVec3::ZERO).as_dvec3());
+    let mut edge = || whole(place.scale * 0.5 * random.in_cube());
+    let (e1, e2) = (edge(), edge());
+    let [a, b, c, d] = [a, a + e1, a + e1 + e2, a + e2].map(|p| p.as_vec3());
+    soup(&[[a, b, c], [a, c, d]])
+}
+
+/// A ray that arrives at a triangle's outside, its hit, and where it goes from there; `None` if the kernel
+/// finds no hit so often that it may never.
+fn bounce(
+    mesh: &TriangleMesh,
+    size: f64,
+    intersector: &dyn Intersector,
+    random: &mut Random,
+) -> Option<(Ray, Hit, Vec3)> {
+    for _ in 0..256 {
+        let [a, b, c] = mesh
+            .corners(random.index(mesh.triangles.len()) as u32)
+            .map(Vec3::as_dvec3);
+        let normal = unit_normal([a, b, c].map(|p| p.as_vec3()));
+        let (mut u, mut v) = (random.unit(), random.unit());
+        if u + v > 1.0 {
+            (u, v) = (1.0 - u, 1.0 - v);
+        }
+        let target = a + u * (b - a) + v * (c - a);
+        let towards = outwards(random.in_cube(), normal);
+        let origin = (target + 2.0 * size * towards).as_vec3();
+        let leaving = outwards(random.in_cube(), normal).as_vec3();
+        let Ok(ray) = Ray::new(origin, (target - origin.as_dvec3()).as_vec3()) else {
+            continue;
+        };
+        let Some(hit) = intersector.closest_hit(&ray) else {
+            continue;
+        };
+        // What it hit may be another triangle: it must leave on the side on which it arrived.
+        let normal = unit_normal(mesh.corners(hit.primitive));
+        let is_outside = normal.dot(ray.dir.as_dvec3()) < 0.0;
+        if is_outside && normal.dot(leaving.as_dvec3()) > 0.0 {
+            return Some((ray, hit, leaving));
+        }
+    }
+    None
 }
 
 /// A direction on the normal's side.

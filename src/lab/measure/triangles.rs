@@ -4,9 +4,10 @@ use super::cases::Case;
 use super::contestants::Contestant;
 use super::statistics::Quantiles;
 use crate::oracle::{self, ExactHit};
-use hitscope_core::Hit;
+use glam::Vec3;
 use hitscope_core::random::Random;
 use hitscope_core::ray::ulp_at;
+use hitscope_core::{Hit, Ray};
 use serde::Serialize;
 
 /// One contestant in one case.
@@ -30,6 +31,9 @@ pub struct TriangleCell {
     pub t_ulps: Option<Quantiles>,
     /// The largest error of a weight of each, likewise.
     pub barycentric_error: Option<Quantiles>,
+    /// Where both hit, how far the point by the kernel's weights lies from the point at its t along the ray,
+    /// in units of the largest coordinate of the ray's origin and the corners.
+    pub gap: Option<Quantiles>,
 }
 
 impl TriangleCell {
@@ -47,6 +51,7 @@ struct Tally {
     non_finite: u64,
     t_ulps: Vec<f64>,
     barycentric_errors: Vec<f64>,
+    gaps: Vec<f64>,
 }
 
 /// The answer that a hit is held against, rounded once.
@@ -67,7 +72,13 @@ pub fn measure(case: &Case, contestants: &[Contestant], n: u64, seed: u64) -> Ve
         let answer = oracle::intersect(&ray, corners).map(|exact| Answer::of(&exact));
         hits += u64::from(answer.is_some());
         for (contestant, tally) in contestants.iter().zip(&mut tallies) {
-            tally.add(contestant.intersect(&ray, corners), answer.as_ref());
+            let found = contestant.intersect(&ray, corners);
+            if let (Some(hit), Some(_)) = (found, &answer) {
+                // Non-finite answers are counted by themselves.
+                let gap = Some(gap(&ray, corners, &hit));
+                tally.gaps.extend(gap.filter(|gap| gap.is_finite()));
+            }
+            tally.add(found, answer.as_ref());
         }
     }
     let cells = contestants.iter().zip(tallies);
@@ -82,8 +93,23 @@ pub fn measure(case: &Case, contestants: &[Contestant], n: u64, seed: u64) -> Ve
             non_finite: tally.non_finite,
             t_ulps: Quantiles::of(tally.t_ulps),
             barycentric_error: Quantiles::of(tally.barycentric_errors),
+            gap: Quantiles::of(tally.gaps),
         })
         .collect()
+}
+
+/// See [`TriangleCell::gap`].
+fn gap(ray: &Ray, corners: [Vec3; 3], hit: &Hit) -> f64 {
+    let origin = ray.origin.as_dvec3();
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let (t, u, v) = (f64::from(hit.t), f64::from(hit.u), f64::from(hit.v));
+    let by_weights = a + u * (b - a) + v * (c - a);
+    let along_ray = origin + t * ray.dir.as_dvec3();
+    let farthest = [a, b, c].map(|p| p.abs().max_element());
+    let unit = farthest
+        .into_iter()
+        .fold(origin.abs().max_element(), f64::max);
+    (by_weights - along_ray).length() / unit
 }
 
 impl Answer {

@@ -112,6 +112,7 @@ fn print_triangles(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         "t max",
         "weights p99",
         "weights max",
+        "gap max",
     ]);
     for cell in &all.triangles {
         let t = |pick: fn(&crate::measure::statistics::Quantiles) -> f64| {
@@ -136,6 +137,7 @@ fn print_triangles(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
             t(|q| q.max),
             weights(|q| q.p99),
             weights(|q| q.max),
+            cell.gap.map_or("–".to_owned(), |q| short(q.max)),
         ]);
     }
     print_table(out, &rows)

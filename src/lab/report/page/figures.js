@@ -108,6 +108,7 @@ const triangleFigures = [
   column('wrong /M', wrongPerMillion, { text: perMillion }),
   ...spread('t error, ulps', 't_ulps'),
   ...spread('barycentric error', 'barycentric_error'),
+  ...spread('weights against t', 'gap'),
   column('count', row => row.non_finite, { text: count, group: 'non-finite' }),
   ...decidedIn(row => row),
 ];

@@ -104,6 +104,7 @@ const triangleMeasures = [
   rate('false hits /M', row => row.false_per_million),
   { title: 't error p99, ulps', value: row => row.t_ulps?.p99, firstExponent: 0 },
   { title: 'barycentric error p99', value: row => row.barycentric_error?.p99, firstExponent: -7 },
+  { title: 'weights against t p99', value: row => row.gap?.p99, firstExponent: -7 },
 ];
 const meshMeasures = [
   rate('missed /M', row => row.missed_per_million),
