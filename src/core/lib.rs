@@ -38,6 +38,7 @@ pub mod ray;
 pub mod render;
 pub mod sampler;
 pub mod scene;
+pub mod simd;
 pub mod spawn;
 
 pub use aabb::Aabb;

@@ -7,6 +7,7 @@ use crate::kernel::TriangleKernel;
 use crate::mesh::{SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, Loaded, Recentre, Warning};
 use crate::progress::{Cancelled, Phase, Progress};
+use crate::simd::SimdLevel;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
@@ -39,10 +40,9 @@ impl Scene {
     pub fn new(mesh: TriangleMesh, progress: &Progress) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
         let start = Instant::now();
-        let boxes: Vec<Aabb> = (0..mesh.triangles.len() as u32)
-            .map(|triangle| Aabb::around(mesh.corners(triangle)))
-            .collect();
-        let bvh = Arc::new(Bvh::build(&boxes, &|| progress.check())?);
+        let bounds_of = |triangle| Aabb::around(mesh.corners(triangle));
+        let bvh = Bvh::build(mesh.triangles.len(), bounds_of, &|| progress.check())?;
+        let bvh = Arc::new(bvh);
         Ok(Self {
             mesh,
             bvh,
@@ -94,7 +94,16 @@ impl Scene {
 
     /// Packs the scene for a kernel.
     pub fn intersector(&self, kernel: &TriangleKernel) -> Box<dyn Intersector> {
-        kernel.intersector(&self.mesh, Arc::clone(&self.bvh))
+        self.intersector_at(kernel, SimdLevel::current())
+    }
+
+    /// The same, for one of this machine's SIMD levels.
+    pub fn intersector_at(
+        &self,
+        kernel: &TriangleKernel,
+        level: SimdLevel,
+    ) -> Box<dyn Intersector> {
+        kernel.intersector(&self.mesh, Arc::clone(&self.bvh), level)
     }
 }
 

@@ -49,17 +49,17 @@ impl<F: Fn(&Ray) + Send + Sync> Intersector for Before<F> {
     fn kernel(&self) -> &'static KernelInfo {
         self.inner.kernel()
     }
-    fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
-        (self.before)(ray);
-        self.inner.closest_hit(ray)
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        rays.iter().for_each(&self.before);
+        self.inner.closest_hits(rays, hits);
     }
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
         (self.before)(ray);
         self.inner.closest_hit_with_cost(ray)
     }
-    fn any_hit(&self, ray: &Ray) -> bool {
-        (self.before)(ray);
-        self.inner.any_hit(ray)
+    fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        rays.iter().for_each(&self.before);
+        self.inner.any_hits(rays, are_hits);
     }
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
         (self.before)(ray);

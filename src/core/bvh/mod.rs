@@ -1,68 +1,117 @@
 //! Which boxes does a ray meet, nearest first?
 //!
-//! A binary tree over boxes; it knows nothing of what lies in them. [`Bvh::build`] makes it,
-//! [`Bvh::traverse`] hands the leaves that a ray meets to a closure.
+//! A tree over boxes, eight to a node; it knows nothing of what lies in them. [`Bvh::build`] makes it;
+//! `walk` hands the blocks of primitives that a ray meets to a visitor, `packet` those that any of
+//! sixteen rays meets.
 
 mod build;
 mod slab;
-mod traverse;
+mod walk;
 
 use crate::aabb::Aabb;
+pub(crate) use walk::{Stack, Visitor, rank_floor, with_stack};
 
-/// Most primitives in a leaf: the lanes of one block of triangles.
-pub const LEAF_SIZE: usize = 4;
+/// Primitives side by side in a block, which a SIMD test takes at once.
+pub const BLOCK_SIZE: usize = 8;
 
-/// No leaf lies deeper, so that the traversal's stack can't overflow.
-const MAX_DEPTH: usize = 63;
+/// Children of a node.
+const WIDTH: usize = 8;
 
-/// A node's child: an inner node, or a leaf.
+/// No leaf lies deeper, so that a walk's stack can't overflow: on each level a node leaves at most seven
+/// of its children on it.
+const MAX_DEPTH: usize = 34;
+
+/// Blocks of the largest leaf.
+const LEAF_BLOCKS: usize = 2;
+
+/// Marks a lane of a block without a primitive.
+pub(crate) const NO_PRIMITIVE: u32 = u32::MAX;
+
+/// A node's child: a node, a leaf, or nothing.
+///
+/// A leaf is a run of blocks: the highest bit set, three bits for their number less one, the rest for the
+/// first one's index.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Child(u32);
 
 impl Child {
+    /// Its box is empty, so that no ray gets there.
+    const NONE: Self = Self(u32::MAX);
     const LEAF: u32 = 1 << 31;
+    const INDEX: u32 = (1 << 28) - 1;
 
     fn node(index: usize) -> Self {
         Self(index as u32)
     }
 
-    fn leaf(index: usize) -> Self {
-        Self(index as u32 | Self::LEAF)
+    fn leaf(first: usize, blocks: usize) -> Self {
+        Self(Self::LEAF | (blocks as u32 - 1) << 28 | first as u32)
     }
 
-    /// The leaf's index, if it is one.
-    fn as_leaf(self) -> Option<usize> {
-        (self.0 & Self::LEAF != 0).then_some((self.0 & !Self::LEAF) as usize)
+    #[inline(always)]
+    fn is_leaf(self) -> bool {
+        self.0 & Self::LEAF != 0
     }
 
-    fn index(self) -> usize {
+    #[inline(always)]
+    fn node_index(self) -> usize {
         self.0 as usize
+    }
+
+    #[inline(always)]
+    fn first_block(self) -> usize {
+        (self.0 & Self::INDEX) as usize
+    }
+
+    #[inline(always)]
+    fn block_count(self) -> usize {
+        (self.0 >> 28 & 7) as usize + 1
+    }
+
+    /// What it is once so many nodes and blocks stand before its own.
+    fn moved(self, nodes: usize, blocks: usize) -> Self {
+        if self == Self::NONE {
+            self
+        } else if self.is_leaf() {
+            Self(self.0 + blocks as u32)
+        } else {
+            Self(self.0 + nodes as u32)
+        }
     }
 }
 
-/// Two children, each with the box around all that lies below it.
+/// Eight children and the boxes around all that lies below them: four cache lines.
 #[derive(Clone, Debug)]
+#[repr(C, align(64))]
 struct Node {
-    bounds: [Aabb; 2],
-    child: [Child; 2],
+    /// Lower x, upper x, lower y, upper y, lower z, upper z, child by child.
+    planes: [[f32; WIDTH]; 6],
+    child: [Child; WIDTH],
+}
+
+impl Node {
+    /// Without children.
+    const EMPTY: Self = {
+        let (lower, upper) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
+        Self {
+            planes: [lower, upper, lower, upper, lower, upper],
+            child: [Child::NONE; WIDTH],
+        }
+    };
 }
 
 /// A bounding volume hierarchy: the tree over boxes.
 ///
-/// A node is two boxes and two children; a leaf is a run of at most [`LEAF_SIZE`] primitives.
-///
-/// Source: S. M. Rubin, T. Whitted, "A 3-Dimensional Representation for Fast Rendering of Complex
-/// Scenes", SIGGRAPH 1980.
+/// Sources: S. M. Rubin, T. Whitted, "A 3-Dimensional Representation for Fast Rendering of Complex
+/// Scenes", SIGGRAPH 1980; H. Dammertz, J. Hanika, A. Keller, "Shallow Bounding Volume Hierarchies for
+/// Fast SIMD Ray Tracing of Incoherent Rays", EGSR 2008.
 #[derive(Clone, Debug)]
 pub struct Bvh {
+    /// The first one is the root; none for a tree over nothing.
     nodes: Vec<Node>,
-    /// Where each leaf's run starts in `order`, and after the last one the end.
-    leaf_starts: Vec<u32>,
-    /// The primitives, leaf by leaf.
-    order: Vec<u32>,
+    /// The primitives of each block, from the first lane on.
+    blocks: Vec<[u32; BLOCK_SIZE]>,
     bounds: Aabb,
-    /// `None` for a tree over nothing.
-    root: Option<Child>,
 }
 
 impl Bvh {
@@ -71,20 +120,26 @@ impl Bvh {
         self.bounds
     }
 
-    /// How many leaves there are.
-    pub fn leaf_count(&self) -> usize {
-        self.leaf_starts.len() - 1
+    /// How many blocks there are.
+    pub fn block_count(&self) -> usize {
+        self.blocks.len()
     }
 
-    /// The primitives of a leaf.
-    pub fn leaf(&self, leaf: usize) -> &[u32] {
-        &self.order[self.leaf_starts[leaf] as usize..self.leaf_starts[leaf + 1] as usize]
+    /// The primitives of a block.
+    pub fn block(&self, index: usize) -> &[u32] {
+        let lanes = self.lanes(index);
+        let count = lanes.iter().position(|&p| p == NO_PRIMITIVE);
+        &lanes[..count.unwrap_or(BLOCK_SIZE)]
+    }
+
+    /// The primitive in each lane of a block, or [`NO_PRIMITIVE`].
+    #[inline(always)]
+    pub(crate) fn lanes(&self, block: usize) -> &[u32; BLOCK_SIZE] {
+        &self.blocks[block]
     }
 
     /// Bytes that the tree takes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.nodes[..])
-            + size_of_val(&self.leaf_starts[..])
-            + size_of_val(&self.order[..])
+        size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
     }
 }

@@ -1,89 +1,82 @@
-//! The triangles of each leaf as a kernel keeps them, one a lane.
+//! The triangles of each block of the tree as a kernel keeps them, one a lane.
 
-use crate::bvh::{Bvh, LEAF_SIZE};
+use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Visitor, with_stack};
 use crate::kernel::Values;
 use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::Ray;
+use crate::simd::{baseline, prefetch};
 use fearless_simd::Simd;
 use glam::Vec3;
+use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// A block for each leaf of the tree, and the tree.
+/// Blocks that a thread packs at a time.
+const BLOCKS_AT_ONCE: usize = 1024;
+
+/// A value of the triangles in a block. Aligned, so that no row of f32 lies in two cache lines.
+#[derive(Clone, Copy)]
+#[repr(C, align(32))]
+struct Row<T>([T; BLOCK_SIZE]);
+
+/// What a kernel keeps of the tree's triangles, and the tree.
 pub(super) struct Blocks<T> {
     pub bvh: Arc<Bvh>,
-    /// So many values a block, each for all lanes.
-    values: Vec<[T; LEAF_SIZE]>,
-    values_per_block: usize,
-    leaves: Vec<Leaf>,
-}
-
-/// Which triangles are in a block.
-#[derive(Clone, Copy)]
-pub(super) struct Leaf {
-    pub primitives: [u32; LEAF_SIZE],
-    pub count: u32,
+    /// So many rows a block.
+    rows: Vec<Row<T>>,
+    rows_per_block: usize,
 }
 
 /// A block's values as vectors of `N`.
 pub(super) struct BlockValues<'a, N, S, T> {
     token: S,
-    values: &'a [[T; LEAF_SIZE]],
+    rows: &'a [Row<T>],
     number: PhantomData<N>,
 }
 
 impl<N: Number, S: Simd, T: Stored<N>> Values<N::Lanes<S>> for BlockValues<'_, N, S, T> {
     #[inline(always)]
     fn value(&self, index: usize) -> N::Lanes<S> {
-        T::lanes(self.token, &self.values[index])
+        T::lanes(self.token, &self.rows[index].0)
     }
 }
 
-impl<T: Copy + Default> Blocks<T> {
-    /// `pack` makes so many values of a triangle; lanes without one hold `empty`, or the leaf's first
+impl<T: Copy + Default + Send + Sync> Blocks<T> {
+    /// `pack` makes so many values of a triangle; lanes without one hold `empty`, or the block's first
     /// triangle again.
     pub fn new(
         mesh: &TriangleMesh,
         bvh: Arc<Bvh>,
-        values_per_block: usize,
+        rows_per_block: usize,
         empty: Option<T>,
-        pack: impl Fn([Vec3; 3], &mut [T]),
+        pack: impl Fn([Vec3; 3], &mut [T]) + Sync,
     ) -> Self {
-        let leaf_count = bvh.leaf_count();
-        let mut values = vec![[T::default(); LEAF_SIZE]; leaf_count * values_per_block];
-        let mut one = vec![T::default(); values_per_block];
-        let mut leaves = Vec::with_capacity(leaf_count);
-        for (index, block) in values.chunks_exact_mut(values_per_block).enumerate() {
-            let in_leaf = bvh.leaf(index);
-            let mut leaf = Leaf {
-                primitives: [0; LEAF_SIZE],
-                count: in_leaf.len() as u32,
-            };
-            for (lane, &primitive) in in_leaf.iter().enumerate() {
-                leaf.primitives[lane] = primitive;
-                pack(mesh.corners(primitive), &mut one);
-                for (value, kept) in one.iter().zip(&mut *block) {
+        let mut rows = vec![Row([T::default(); BLOCK_SIZE]); bvh.block_count() * rows_per_block];
+        let pack_block = |block: usize, rows: &mut [Row<T>], one: &mut [T]| {
+            for (lane, &primitive) in bvh.block(block).iter().enumerate() {
+                pack(mesh.corners(primitive), one);
+                for (value, row) in one.iter().zip(&mut *rows) {
                     if lane == 0 {
-                        *kept = [empty.unwrap_or(*value); LEAF_SIZE];
+                        row.0 = [empty.unwrap_or(*value); BLOCK_SIZE];
                     }
-                    kept[lane] = *value;
+                    row.0[lane] = *value;
                 }
             }
-            leaves.push(leaf);
-        }
+        };
+        let chunks = rows.par_chunks_mut(rows_per_block * BLOCKS_AT_ONCE);
+        chunks.enumerate().for_each(|(chunk, rows)| {
+            let mut one = vec![T::default(); rows_per_block];
+            for (index, rows) in rows.chunks_exact_mut(rows_per_block).enumerate() {
+                pack_block(chunk * BLOCKS_AT_ONCE + index, rows, &mut one);
+            }
+        });
         Self {
             bvh,
-            values,
-            values_per_block,
-            leaves,
+            rows,
+            rows_per_block,
         }
-    }
-
-    #[inline(always)]
-    pub fn leaf(&self, index: usize) -> &Leaf {
-        &self.leaves[index]
     }
 
     /// The values of a block; `count` is their number, known to the compiler.
@@ -91,39 +84,67 @@ impl<T: Copy + Default> Blocks<T> {
     pub fn values<N, S: Simd>(
         &self,
         token: S,
-        index: usize,
+        block: usize,
         count: usize,
     ) -> BlockValues<'_, N, S, T> {
-        debug_assert_eq!(count, self.values_per_block);
+        debug_assert_eq!(count, self.rows_per_block);
         BlockValues {
             token,
-            values: &self.values[index * count..][..count],
+            rows: &self.rows[block * count..][..count],
             number: PhantomData,
         }
     }
 
+    /// Asks the cache for a block.
+    #[inline(always)]
+    pub fn announce<S: Simd>(&self, token: S, block: usize, count: usize) {
+        prefetch(
+            token,
+            &self.rows,
+            block * count,
+            count * size_of::<Row<T>>(),
+        );
+    }
+
     /// One value of one lane.
     #[inline(always)]
-    pub fn value(&self, index: usize, lane: usize, value: usize) -> T {
-        self.values[index * self.values_per_block + value][lane]
-    }
-
-    pub fn candidates(&self, ray: &Ray) -> Vec<u32> {
-        let mut found = Vec::new();
-        let visit = |leaf: usize| {
-            found.extend_from_slice(self.bvh.leaf(leaf));
-            ControlFlow::Continue(ray.t_max)
-        };
-        self.bvh.traverse(ray, visit, || ());
-        found
-    }
-
-    /// How many blocks there are.
-    pub fn len(&self) -> usize {
-        self.leaves.len()
+    pub fn value(&self, block: usize, lane: usize, value: usize) -> T {
+        self.rows[block * self.rows_per_block + value].0[lane]
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.values[..]) + size_of_val(&self.leaves[..])
+        size_of_val(&self.rows[..])
     }
+}
+
+/// The primitives in all blocks that the ray meets.
+pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
+    struct Gathered<'a> {
+        bvh: &'a Bvh,
+        t_max: f32,
+        found: Vec<u32>,
+    }
+    impl Visitor for Gathered<'_> {
+        const IS_ORDERED: bool = false;
+        const IS_BEHIND: bool = true;
+        fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+            self.found.extend_from_slice(self.bvh.block(block));
+            ControlFlow::Continue(self.t_max)
+        }
+        fn announce(&self, _: usize) {}
+        fn count_boxes(&mut self, _: u32) {}
+    }
+    let mut gathered = Gathered {
+        bvh,
+        t_max: ray.t_max,
+        found: Vec::new(),
+    };
+    with_stack(|stack| bvh.walk(baseline(), ray, stack, &mut gathered));
+    gathered.found
+}
+
+/// Whether a lane holds a triangle that the ray may hit.
+#[inline(always)]
+pub(super) fn is_asked(primitive: u32, exclude: Option<u32>) -> bool {
+    primitive != NO_PRIMITIVE && Some(primitive) != exclude
 }

@@ -10,6 +10,7 @@ pub(crate) mod mesh;
 
 use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};
+use std::slice::from_ref;
 
 /// What a ray cost.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -42,14 +43,28 @@ pub trait Intersector: Send + Sync {
     /// The kernel that it was made with.
     fn kernel(&self) -> &'static KernelInfo;
 
-    /// The nearest hit with `t_min < t < t_max`, or `None`.
-    fn closest_hit(&self, ray: &Ray) -> Option<Hit>;
+    /// The nearest hit with `t_min < t < t_max` of each ray, or `None`.
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
+
+    /// That of one ray.
+    fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
+        let mut hit = [None];
+        self.closest_hits(from_ref(ray), &mut hit);
+        hit[0]
+    }
 
     /// The same, and what it cost.
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost);
 
-    /// Whether anything lies in `t_min < t < t_max`.
-    fn any_hit(&self, ray: &Ray) -> bool;
+    /// Whether anything lies in `t_min < t < t_max`, ray by ray.
+    fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]);
+
+    /// The same for one ray.
+    fn any_hit(&self, ray: &Ray) -> bool {
+        let mut is_hit = [false];
+        self.any_hits(from_ref(ray), &mut is_hit);
+        is_hit[0]
+    }
 
     /// All hits with `t_min < t < t_max`, by t; those at equal t are one crossing.
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing>;
@@ -66,33 +81,7 @@ pub trait Intersector: Send + Sync {
     fn bytes(&self) -> usize;
 }
 
-/// The SIMD instructions that intersectors use on this machine, as tables call them.
-pub fn simd_level_name() -> String {
-    format!("{:?}", fearless_simd::Level::new())
-        .split('(')
-        .next()
-        .unwrap_or_default()
-        .to_owned()
-}
-
-/// Counts, or doesn't: the compiler drops the counting where nobody asks.
-trait Tally {
-    fn add(&mut self, cost: Cost);
-}
-
-struct NoTally;
-
-impl Tally for NoTally {
-    #[inline(always)]
-    fn add(&mut self, _: Cost) {}
-}
-
-impl Tally for Cost {
-    #[inline(always)]
-    fn add(&mut self, cost: Cost) {
-        self.boxes += cost.boxes;
-        self.triangles += cost.triangles;
-        self.in_f64 += cost.in_f64;
-        self.in_integers += cost.in_integers;
-    }
+/// Whether a ray's interval begins behind its origin.
+fn is_behind(ray: &Ray) -> bool {
+    ray.t_min < 0.0
 }

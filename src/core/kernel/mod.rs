@@ -3,8 +3,10 @@
 //! A new triangle kernel is its file in `triangle/` and its lines in `triangle/mod.rs`: the module, and a
 //! row of [`TRIANGLE_KERNELS`] for each precision.
 
+mod ray_lanes;
 mod triangle;
 
+pub(crate) use ray_lanes::RayLanes;
 pub use triangle::exact::exact_answer;
 pub(crate) use triangle::{ShearedRay, exact};
 pub use triangle::{
@@ -13,7 +15,6 @@ pub use triangle::{
 };
 
 use crate::lane::{Lane, Number, Stored};
-use crate::ray::Ray;
 use glam::Vec3;
 
 /// The tier that a user chooses by, from fast to exact.
@@ -166,16 +167,16 @@ pub(crate) trait Kernel: Send + Sync + 'static {
     const VALUES: usize;
     /// What it keeps them as where it works in `N`.
     type Stored<N: Number>: Stored<N>;
-    /// A ray made ready for many tests.
+    /// Rays made ready for many tests.
     type Prepared<L: Lane>: Copy;
 
     /// Makes a triangle ready; done once, into [`VALUES`](Self::VALUES) numbers.
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [Self::Stored<N>]);
 
-    /// Makes a ray ready; done once a ray.
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> Self::Prepared<L>;
+    /// Makes rays ready; done once a ray.
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> Self::Prepared<L>;
 
-    /// Tests a ray against the triangles that the lanes hold.
+    /// Tests lane by lane a ray against a triangle: one ray against many triangles, or many against one.
     ///
     /// A hit has `t_min < t ≤ t_max`; a triangle with a NaN is a miss, and so is one of zero area
     /// where the kernel recognises it. `None`: no lane hit.
@@ -191,22 +192,5 @@ pub(crate) trait Kernel: Send + Sync + 'static {
 pub(crate) fn pack_corners(corners: [Vec3; 3], values: &mut [f32]) {
     for (corner, kept) in corners.iter().zip(values.chunks_exact_mut(3)) {
         kept.copy_from_slice(&corner.to_array());
-    }
-}
-
-/// The ray as it is, in every lane.
-#[derive(Clone, Copy)]
-pub(crate) struct PlainRay<L> {
-    pub origin: [L; 3],
-    pub dir: [L; 3],
-}
-
-impl<L: Lane> PlainRay<L> {
-    #[inline(always)]
-    pub fn new(token: L::Token, ray: &Ray) -> Self {
-        Self {
-            origin: ray.origin.to_array().map(|x| L::of(token, x)),
-            dir: ray.dir.to_array().map(|x| L::of(token, x)),
-        }
     }
 }

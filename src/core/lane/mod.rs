@@ -11,6 +11,11 @@ mod vector;
 use fearless_simd::Simd;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
+/// Numbers in a vector of triangles.
+pub const LANES: usize = 8;
+/// Numbers in a vector of rays.
+pub const PACKET: usize = 16;
+
 /// Which lanes a comparison holds for.
 pub trait LaneMask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> {
     /// Whether it holds for any lane.
@@ -79,7 +84,7 @@ pub trait Number:
     + Sync
     + 'static
 {
-    /// Four of them side by side.
+    /// [`LANES`] of them side by side.
     type Lanes<S: Simd>: Lane<Token = S, Number = Self>;
     /// What a rounding errs by at most, relatively: 2⁻²⁴ or 2⁻⁵³.
     const U: Self;
@@ -89,10 +94,10 @@ pub trait Number:
     const HOLDS_PRODUCTS: bool;
     /// Rounded; infinite where f32 has no such number.
     fn to_f32(self) -> f32;
-    /// Four f32.
-    fn load<S: Simd>(token: S, from: &[f32; 4]) -> Self::Lanes<S>;
-    /// The four numbers of a vector.
-    fn store<S: Simd>(lanes: Self::Lanes<S>) -> [Self; 4];
+    /// So many f32.
+    fn load<S: Simd>(token: S, from: &[f32; LANES]) -> Self::Lanes<S>;
+    /// The numbers of a vector.
+    fn store<S: Simd>(lanes: Self::Lanes<S>) -> [Self; LANES];
 }
 
 /// What a kernel that works in `N` may keep its triangles as: `N`, or f32 where it keeps nothing but
@@ -102,8 +107,8 @@ pub trait Stored<N>: Copy + Default + Send + Sync + 'static {
     const NO_TRIANGLE: Self;
     /// One of them, in `N`.
     fn number(self) -> N;
-    /// Four of them, in `N`.
-    fn lanes<S: Simd>(token: S, from: &[Self; 4]) -> N::Lanes<S>
+    /// [`LANES`] of them, in `N`.
+    fn lanes<S: Simd>(token: S, from: &[Self; LANES]) -> N::Lanes<S>
     where
         N: Number;
 }

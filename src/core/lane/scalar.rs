@@ -1,7 +1,7 @@
 //! One number as a lane.
 
-use super::{Lane, LaneMask, Number, Stored};
-use fearless_simd::{Simd, SimdBase, SimdCombine, SimdWiden, f32x4, f64x4};
+use super::{LANES, Lane, LaneMask, Number, Stored};
+use fearless_simd::{Simd, SimdBase, SimdCombine, SimdWiden, f32x8, f64x8};
 
 impl LaneMask for bool {
     #[inline(always)]
@@ -87,7 +87,7 @@ pub(super) fn difference_of_products(factors: [f32; 4]) -> f32 {
 }
 
 impl Number for f32 {
-    type Lanes<S: Simd> = f32x4<S>;
+    type Lanes<S: Simd> = f32x8<S>;
     const U: Self = f32::EPSILON / 2.0;
     const LEAST_NORMAL: Self = f32::MIN_POSITIVE;
     const HOLDS_PRODUCTS: bool = false;
@@ -96,17 +96,17 @@ impl Number for f32 {
         self
     }
     #[inline(always)]
-    fn load<S: Simd>(token: S, from: &[f32; 4]) -> f32x4<S> {
-        f32x4::load_array_ref(token, from)
+    fn load<S: Simd>(token: S, from: &[f32; LANES]) -> f32x8<S> {
+        f32x8::load_array_ref(token, from)
     }
     #[inline(always)]
-    fn store<S: Simd>(lanes: f32x4<S>) -> [f32; 4] {
+    fn store<S: Simd>(lanes: f32x8<S>) -> [f32; LANES] {
         lanes.to_array()
     }
 }
 
 impl Number for f64 {
-    type Lanes<S: Simd> = f64x4<S>;
+    type Lanes<S: Simd> = f64x8<S>;
     const U: Self = f64::EPSILON / 2.0;
     const LEAST_NORMAL: Self = f64::MIN_POSITIVE;
     const HOLDS_PRODUCTS: bool = true;
@@ -115,12 +115,12 @@ impl Number for f64 {
         self as f32
     }
     #[inline(always)]
-    fn load<S: Simd>(token: S, from: &[f32; 4]) -> f64x4<S> {
-        let (low, high) = f32x4::load_array_ref(token, from).widen();
+    fn load<S: Simd>(token: S, from: &[f32; LANES]) -> f64x8<S> {
+        let (low, high) = f32x8::load_array_ref(token, from).widen();
         low.combine(high)
     }
     #[inline(always)]
-    fn store<S: Simd>(lanes: f64x4<S>) -> [f64; 4] {
+    fn store<S: Simd>(lanes: f64x8<S>) -> [f64; LANES] {
         lanes.to_array()
     }
 }
@@ -132,7 +132,7 @@ impl<N: Number> Stored<N> for f32 {
         N::from(self)
     }
     #[inline(always)]
-    fn lanes<S: Simd>(token: S, from: &[Self; 4]) -> N::Lanes<S> {
+    fn lanes<S: Simd>(token: S, from: &[Self; LANES]) -> N::Lanes<S> {
         N::load(token, from)
     }
 }
@@ -144,8 +144,8 @@ impl Stored<f64> for f64 {
         self
     }
     #[inline(always)]
-    fn lanes<S: Simd>(token: S, from: &[Self; 4]) -> f64x4<S> {
-        f64x4::load_array_ref(token, from)
+    fn lanes<S: Simd>(token: S, from: &[Self; LANES]) -> f64x8<S> {
+        f64x8::load_array_ref(token, from)
     }
 }
 

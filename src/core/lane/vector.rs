@@ -1,8 +1,8 @@
-//! Four numbers side by side as a lane.
+//! Several numbers side by side as a lane.
 
 use super::scalar::difference_of_products;
 use super::{Lane, LaneMask};
-use fearless_simd::{Simd, f32x4, f64x4, mask32x4, mask64x4, prelude::*};
+use fearless_simd::{Simd, f32x8, f32x16, f64x8, mask32x8, mask32x16, mask64x8, prelude::*};
 
 macro_rules! vector_lane {
     ($vector:ident, $mask:ident, $number:ty, $sign_bit:expr, $widened:expr) => {
@@ -74,20 +74,31 @@ macro_rules! vector_lane {
 }
 
 vector_lane!(
-    f32x4,
-    mask32x4,
+    f32x8,
+    mask32x8,
     f32,
     0x8000_0000u32,
-    |x: f32x4<S>, factors: [f32x4<S>; 4]| {
+    |x: f32x8<S>, factors: [f32x8<S>; 4]| {
         let factors = factors.map(|x| x.to_array());
         let lane = |i: usize| difference_of_products(factors.map(|x| x[i]));
         SimdBase::load_array(Lane::token(x), std::array::from_fn(lane))
     }
 );
 vector_lane!(
-    f64x4,
-    mask64x4,
+    f32x16,
+    mask32x16,
+    f32,
+    0x8000_0000u32,
+    |x: f32x16<S>, factors: [f32x16<S>; 4]| {
+        let factors = factors.map(|x| x.to_array());
+        let lane = |i: usize| difference_of_products(factors.map(|x| x[i]));
+        SimdBase::load_array(Lane::token(x), std::array::from_fn(lane))
+    }
+);
+vector_lane!(
+    f64x8,
+    mask64x8,
     f64,
     0x8000_0000_0000_0000u64,
-    |x: f64x4<S>, _| x
+    |x: f64x8<S>, _| x
 );

@@ -8,10 +8,10 @@ use crate::measure::statistics::{rate_text, short};
 use crate::measure::{self, Advance, Measurements, Sizes};
 use crate::report::{self, About};
 use clap::Args;
-use hitscope_core::intersector::simd_level_name;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::obj::Recentre;
 use hitscope_core::progress::Progress;
+use hitscope_core::simd::SimdLevel;
 use serde_json::json;
 use std::io::{self, IsTerminal, Write};
 use std::path::{Path, PathBuf};
@@ -258,7 +258,7 @@ fn machine() -> String {
     format!(
         "{model}, {} threads, {}",
         default_thread_count(),
-        simd_level_name()
+        SimdLevel::current().name()
     )
 }
 

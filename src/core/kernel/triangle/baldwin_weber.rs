@@ -9,9 +9,8 @@
 //!   origin: the map's translation is rounded there. At a thousand times its size a mesh is full of holes.
 
 use super::dominant_axis::{self, Rows};
-use crate::kernel::{Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
 use crate::lane::{Lane, LaneMask, Number, dot, plus, times};
-use crate::ray::Ray;
 use glam::Vec3;
 
 /// See the [module](self).
@@ -39,7 +38,7 @@ impl Kernel for BaldwinWeber {
     };
     const VALUES: usize = 12;
     type Stored<N: Number> = N;
-    type Prepared<L: Lane> = PlainRay<L>;
+    type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
         let Rows { u, v, normal, a } = dominant_axis::rows(corners);
@@ -50,13 +49,13 @@ impl Kernel for BaldwinWeber {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
-        PlainRay::new(token, ray)
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
     }
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &PlainRay<L>,
+        ray: &RayLanes<L>,
         triangles: &impl Values<L>,
         t_min: L,
         t_max: L,

@@ -12,7 +12,7 @@ mod watertight;
 
 pub(crate) use shear::ShearedRay;
 
-use super::{Kernel, KernelInfo, OneTriangle};
+use super::{Kernel, KernelInfo, OneTriangle, RayLanes};
 use crate::bvh::Bvh;
 use crate::intersector::Intersector;
 use crate::intersector::exact::ExactIntersector;
@@ -20,6 +20,7 @@ use crate::intersector::mesh::MeshIntersector;
 use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
+use crate::simd::SimdLevel;
 use baldwin_weber::BaldwinWeber;
 use edge_planes::EdgePlanes;
 use glam::Vec3;
@@ -33,7 +34,7 @@ use watertight::Watertight;
 pub struct TriangleKernel {
     /// What the kernel says of itself.
     pub info: &'static KernelInfo,
-    intersector: fn(&TriangleMesh, Arc<Bvh>) -> Box<dyn Intersector>,
+    intersector: fn(&TriangleMesh, Arc<Bvh>, SimdLevel) -> Box<dyn Intersector>,
     one: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
 }
 
@@ -41,8 +42,9 @@ impl TriangleKernel {
     const fn in_f32<K: Kernel>() -> Self {
         Self {
             info: &K::IN_F32,
-            intersector: |mesh, bvh| {
-                Box::new(MeshIntersector::<K, f32>::new(&K::IN_F32, mesh, bvh))
+            intersector: |mesh, bvh, level| {
+                let new = MeshIntersector::<K, f32>::new;
+                Box::new(new(&K::IN_F32, mesh, bvh, level))
             },
             one: intersect_one::<K, f32>,
         }
@@ -51,8 +53,9 @@ impl TriangleKernel {
     const fn in_f64<K: Kernel>() -> Self {
         Self {
             info: &K::IN_F64,
-            intersector: |mesh, bvh| {
-                Box::new(MeshIntersector::<K, f64>::new(&K::IN_F64, mesh, bvh))
+            intersector: |mesh, bvh, level| {
+                let new = MeshIntersector::<K, f64>::new;
+                Box::new(new(&K::IN_F64, mesh, bvh, level))
             },
             one: intersect_one::<K, f64>,
         }
@@ -61,14 +64,19 @@ impl TriangleKernel {
     const fn exact() -> Self {
         Self {
             info: &exact::INFO,
-            intersector: |mesh, bvh| Box::new(ExactIntersector::new(mesh, bvh)),
+            intersector: |mesh, bvh, level| Box::new(ExactIntersector::new(mesh, bvh, level)),
             one: exact::intersect_one,
         }
     }
 
     /// Packs a mesh for this kernel.
-    pub fn intersector(&self, mesh: &TriangleMesh, bvh: Arc<Bvh>) -> Box<dyn Intersector> {
-        (self.intersector)(mesh, bvh)
+    pub fn intersector(
+        &self,
+        mesh: &TriangleMesh,
+        bvh: Arc<Bvh>,
+        level: SimdLevel,
+    ) -> Box<dyn Intersector> {
+        (self.intersector)(mesh, bvh, level)
     }
 
     /// Tests one triangle in scalar arithmetic, with the bits that the SIMD lanes give. The hit's
@@ -118,7 +126,7 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<
     const { assert!(K::VALUES <= MOST_VALUES) };
     let mut values = [<K::Stored<N> as Stored<N>>::NO_TRIANGLE; MOST_VALUES];
     K::pack::<N>(corners, &mut values[..K::VALUES]);
-    let prepared = K::prepare::<N>((), ray);
+    let prepared = K::prepare::<N>(&RayLanes::of((), ray));
     let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);
     let hit = K::intersect(&prepared, &OneTriangle(&values[..K::VALUES]), t_min, t_max)?;
     let t = hit.t.to_f32();

@@ -8,10 +8,9 @@
 //!   that both may miss), nor, in f32, for triangles whose edges are below some 1e-12 (det underflows).
 
 use crate::kernel::{
-    Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Tier, Values, pack_corners,
+    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
 };
 use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
-use crate::ray::Ray;
 use glam::Vec3;
 
 /// See the [module](self).
@@ -37,20 +36,20 @@ impl Kernel for MollerTrumbore {
     };
     const VALUES: usize = 9;
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = PlainRay<L>;
+    type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         pack_corners(corners, values);
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
-        PlainRay::new(token, ray)
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
     }
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &PlainRay<L>,
+        ray: &RayLanes<L>,
         triangles: &impl Values<L>,
         t_min: L,
         t_max: L,

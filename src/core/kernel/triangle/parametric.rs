@@ -7,10 +7,9 @@
 //! Doesn't promise: an answer at shared edges and vertices.
 
 use crate::kernel::{
-    Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values, pack_corners,
+    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
 };
 use crate::lane::{Lane, LaneMask, Number, cross, dot, minus, times};
-use crate::ray::Ray;
 use glam::Vec3;
 
 /// See the [module](self).
@@ -34,20 +33,20 @@ impl Kernel for Parametric {
     };
     const VALUES: usize = 9;
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = PlainRay<L>;
+    type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         pack_corners(corners, values);
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
-        PlainRay::new(token, ray)
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
     }
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &PlainRay<L>,
+        ray: &RayLanes<L>,
         triangles: &impl Values<L>,
         t_min: L,
         t_max: L,

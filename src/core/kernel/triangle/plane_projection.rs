@@ -11,9 +11,8 @@
 //!   each triangle anew.
 
 use super::dominant_axis::{self, Rows};
-use crate::kernel::{Kernel, KernelInfo, LaneHit, PlainRay, Precision, Promises, Values};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
 use crate::lane::{Lane, LaneMask, Number, dot, minus, times};
-use crate::ray::Ray;
 use glam::Vec3;
 
 /// See the [module](self).
@@ -38,7 +37,7 @@ impl Kernel for PlaneProjection {
     };
     const VALUES: usize = 12;
     type Stored<N: Number> = N;
-    type Prepared<L: Lane> = PlainRay<L>;
+    type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
         let Rows { u, v, normal, a } = dominant_axis::rows(corners);
@@ -48,13 +47,13 @@ impl Kernel for PlaneProjection {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> PlainRay<L> {
-        PlainRay::new(token, ray)
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
     }
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &PlainRay<L>,
+        ray: &RayLanes<L>,
         triangles: &impl Values<L>,
         t_min: L,
         t_max: L,

@@ -2,8 +2,8 @@
 //!
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
-use crate::kernel::Values;
-use crate::lane::{Lane, Number, longest_axis};
+use crate::kernel::{RayLanes, Values};
+use crate::lane::{Lane, Number};
 use crate::ray::Ray;
 
 /// A ray made ready to shear triangles.
@@ -23,19 +23,24 @@ pub(crate) struct ShearedRay<L> {
 }
 
 impl<L: Lane> ShearedRay<L> {
+    /// One ray.
     #[inline(always)]
-    pub fn new(token: L::Token, ray: &Ray) -> Self {
-        let axes = axes_of(ray.dir.to_array());
-        let lane = |x: f32| L::of(token, x);
-        let [dx, dy, dz] = axes.map(|axis| lane(ray.dir[axis]));
+    pub fn of(token: L::Token, ray: &Ray) -> Self {
+        Self::new(&RayLanes::of(token, ray))
+    }
+
+    #[inline(always)]
+    pub fn new(rays: &RayLanes<L>) -> Self {
+        let RayLanes { origin, dir, axes } = *rays;
+        let [dx, dy, dz] = [dir[axes[0]], dir[axes[1]], dir[axes[2]]];
         let (unit, slope) = if L::Number::HOLDS_PRODUCTS {
             (dz, [dx, dy])
         } else {
-            (lane(1.0), [dx / dz, dy / dz])
+            (L::of(dz.token(), 1.0), [dx / dz, dy / dz])
         };
         Self {
             axes,
-            origin: axes.map(|axis| lane(ray.origin[axis])),
+            origin: [origin[axes[0]], origin[axes[1]], origin[axes[2]]],
             unit,
             slope,
             dir_z: dz,
@@ -78,34 +83,6 @@ impl<L: Lane> ShearedRay<L> {
             [x * self.unit - dx * z, y * self.unit - dy * z, z]
         } else {
             [x - self.slope[0] * z, y - self.slope[1] * z, z]
-        }
-    }
-}
-
-/// The direction's longest coordinate as z, the next two as x and y; swapped where z looks
-/// backwards, which keeps the triangles' winding.
-fn axes_of(dir: [f32; 3]) -> [usize; 3] {
-    let z = longest_axis(dir);
-    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
-    if dir[z] < 0.0 { [y, x, z] } else { [x, y, z] }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use glam::Vec3;
-
-    #[test]
-    fn the_axes_keep_the_winding_whichever_way_the_ray_looks() {
-        for dir in [Vec3::X, Vec3::Y, Vec3::Z] {
-            for sign in [1.0, -1.0] {
-                let d = (dir * sign).to_array();
-                let [x, y, z] = axes_of(d);
-                let unit = |i: usize| {
-                    Vec3::from_array(std::array::from_fn(|k| f32::from(u8::from(k == i))))
-                };
-                assert_eq!(unit(x).cross(unit(y)).dot(unit(z)), sign, "{d:?}");
-            }
         }
     }
 }

@@ -23,9 +23,10 @@
 //! ```
 
 use super::shear::ShearedRay;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier, Values, pack_corners};
+use crate::kernel::{
+    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
+};
 use crate::lane::{Lane, LaneMask, Number};
-use crate::ray::Ray;
 use glam::Vec3;
 
 /// See the [module](self).
@@ -65,8 +66,8 @@ impl Kernel for Watertight {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(token: L::Token, ray: &Ray) -> ShearedRay<L> {
-        ShearedRay::new(token, ray)
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> ShearedRay<L> {
+        ShearedRay::new(rays)
     }
 
     #[inline(always)]

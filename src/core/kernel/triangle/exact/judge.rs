@@ -236,7 +236,7 @@ enum Sight {
 fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Sight {
     let mut values = [0.0; VALUES];
     pack_corners(corners, &mut values);
-    match filter(&ShearedRay::<f64>::new((), ray), &OneTriangle(&values)) {
+    match filter(&ShearedRay::<f64>::of((), ray), &OneTriangle(&values)) {
         None => Sight::Missed,
         Some(filtered) if filtered.certain.any() => Sight::Certain {
             near: filtered.near,

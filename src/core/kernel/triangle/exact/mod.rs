@@ -66,7 +66,7 @@ fn ask<T>(
     }
     let mut values = [0.0; VALUES];
     pack_corners(corners, &mut values);
-    let filtered = filter(&ShearedRay::<f32>::new((), ray), &OneTriangle(&values))?;
+    let filtered = filter(&ShearedRay::<f32>::of((), ray), &OneTriangle(&values))?;
     let find: &dyn Fn(usize) -> [Vec3; 3] = &|_| corners;
     let mut judge = Judge::new(ray, find);
     let is_certain = filtered.certain.bits() != 0;

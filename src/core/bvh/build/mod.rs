@@ -1,0 +1,461 @@
+//! Building the tree: top-down, straight to eight children, splitting where the surface-area heuristic
+//! says.
+//!
+//! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
+//! centroids' box). Differs from it: a node's largest child is split until there are eight; costs
+//! count blocks, as a SIMD test costs the same whether its lanes are full or not; near the root several
+//! threads bin and partition a range together, below it each builds subtrees of its own.
+
+mod split;
+
+use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
+use crate::aabb::Aabb;
+use crate::progress::Cancelled;
+use glam::{Vec3, Vec3A, Vec4};
+use rayon::prelude::*;
+use split::{Scale, Splitter};
+
+/// Subtrees of fewer primitives are one thread's work.
+const LEAST_JOB: usize = 4096;
+/// Subtrees for the threads to share, at least so many.
+const JOBS: usize = 64;
+/// Ranges of fewer primitives are built without asking whether to go on.
+const ASK_FROM: usize = 1024;
+
+/// A primitive while the tree is built: its box, and its index in a place that is left over.
+#[derive(Clone, Copy)]
+struct Item {
+    /// The fourth number holds the index's bits.
+    lower: Vec4,
+    upper: Vec4,
+}
+
+impl Item {
+    fn new(bounds: Aabb, index: u32) -> Self {
+        Self {
+            lower: bounds.min.extend(f32::from_bits(index)),
+            upper: bounds.max.extend(0.0),
+        }
+    }
+
+    fn index(&self) -> u32 {
+        self.lower.w.to_bits()
+    }
+
+    #[inline(always)]
+    fn bounds(&self) -> Bounds {
+        Bounds {
+            lower: Vec3A::from_vec4(self.lower),
+            upper: Vec3A::from_vec4(self.upper),
+        }
+    }
+}
+
+/// A box in registers.
+#[derive(Clone, Copy)]
+struct Bounds {
+    lower: Vec3A,
+    upper: Vec3A,
+}
+
+impl Bounds {
+    const EMPTY: Self = Self {
+        lower: Vec3A::INFINITY,
+        upper: Vec3A::NEG_INFINITY,
+    };
+
+    #[inline(always)]
+    fn grow(&mut self, other: Self) {
+        self.lower = self.lower.min(other.lower);
+        self.upper = self.upper.max(other.upper);
+    }
+}
+
+/// Primitives that lie together, the box around them, and that around their centres.
+struct Range<'a> {
+    items: &'a mut [Item],
+    bounds: Bounds,
+    centres: Bounds,
+}
+
+/// A part of the tree whose nodes and blocks are numbered from 0.
+#[derive(Default)]
+struct Subtree {
+    nodes: Vec<Node>,
+    blocks: Vec<[u32; BLOCK_SIZE]>,
+}
+
+/// A subtree that is still to be built: which child of which node it becomes.
+struct Job<'a> {
+    range: Range<'a>,
+    depth: usize,
+    node: usize,
+    slot: usize,
+}
+
+type KeepGoing<'a> = &'a (dyn Fn() -> Result<(), Cancelled> + Sync);
+
+impl Bvh {
+    /// Builds a tree over so many primitives; `bounds_of` gives the box of each.
+    ///
+    /// Boxes that are empty or hold a NaN or an infinity are left out: no ray can meet what is in
+    /// them. `keep_going` is asked now and then. The result doesn't depend on the number of threads.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `keep_going` said so.
+    pub fn build(
+        count: usize,
+        bounds_of: impl Fn(u32) -> Aabb + Sync,
+        keep_going: KeepGoing,
+    ) -> Result<Self, Cancelled> {
+        keep_going()?;
+        let item = |index| {
+            let bounds = bounds_of(index);
+            let is_good = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
+            is_good.then(|| Item::new(bounds, index))
+        };
+        let mut items: Vec<Item> = (0..count as u32).into_par_iter().filter_map(item).collect();
+        let bounds = split::around(&items);
+        let scale = Scale::of(bounds);
+        let mut bvh = Self {
+            nodes: Vec::new(),
+            blocks: Vec::new(),
+            bounds: Aabb {
+                min: Vec3::from(bounds.lower),
+                max: Vec3::from(bounds.upper),
+            },
+        };
+        if items.is_empty() {
+            return Ok(bvh);
+        }
+        let range = Range {
+            centres: scale.centres(&items),
+            bounds,
+            items: &mut items,
+        };
+        let mut builder = Builder {
+            splitter: Splitter::new(scale),
+            keep_going,
+            job_size: (count / JOBS).max(LEAST_JOB),
+            tree: Subtree::default(),
+            jobs: Vec::new(),
+        };
+        builder.root(range)?;
+        let Builder { tree, jobs, .. } = builder;
+        (bvh.nodes, bvh.blocks) = (tree.nodes, tree.blocks);
+        let places: Vec<(usize, usize)> = jobs.iter().map(|job| (job.node, job.slot)).collect();
+        let subtrees = jobs.into_par_iter().map(|job| {
+            let mut builder = Builder {
+                splitter: Splitter::new(scale),
+                keep_going,
+                job_size: 0,
+                tree: Subtree::default(),
+                jobs: Vec::new(),
+            };
+            let root = builder.child(job.range, job.depth)?;
+            Ok((root, builder.tree))
+        });
+        let subtrees = subtrees.collect::<Result<Vec<_>, Cancelled>>()?;
+        drop(items);
+        bvh.append(places, subtrees);
+        Ok(bvh)
+    }
+
+    /// Puts subtrees behind one another, and each under its node.
+    fn append(&mut self, places: Vec<(usize, usize)>, subtrees: Vec<(Child, Subtree)>) {
+        let count = |of: fn(&Subtree) -> usize| subtrees.iter().map(|(_, tree)| of(tree)).sum();
+        self.nodes.reserve_exact(count(|tree| tree.nodes.len()));
+        self.blocks.reserve_exact(count(|tree| tree.blocks.len()));
+        for ((node, slot), (root, mut tree)) in places.into_iter().zip(subtrees) {
+            let (nodes, blocks) = (self.nodes.len(), self.blocks.len());
+            self.nodes[node].child[slot] = root.moved(nodes, blocks);
+            for node in &mut tree.nodes {
+                node.child = node.child.map(|child| child.moved(nodes, blocks));
+            }
+            self.nodes.append(&mut tree.nodes);
+            self.blocks.append(&mut tree.blocks);
+        }
+    }
+}
+
+/// Builds a subtree, and puts parts of it off as jobs.
+struct Builder<'a, 'k> {
+    splitter: Splitter,
+    keep_going: KeepGoing<'k>,
+    /// Ranges of at most so many primitives become jobs.
+    job_size: usize,
+    tree: Subtree,
+    jobs: Vec<Job<'a>>,
+}
+
+impl<'a> Builder<'a, '_> {
+    /// The root is a node even of a tree of one leaf: its box is tested.
+    fn root(&mut self, range: Range<'a>) -> Result<(), Cancelled> {
+        match self.split(range, 0) {
+            Ok(halves) => self.node(halves, 0)?,
+            Err(range) => {
+                let mut node = Node::EMPTY;
+                node.set_bounds(0, range.bounds);
+                self.tree.nodes.push(node);
+                self.tree.nodes[0].child[0] = self.leaf(range.items);
+                return Ok(());
+            }
+        };
+        Ok(())
+    }
+
+    /// A range as a node or a leaf.
+    fn child(&mut self, range: Range<'a>, depth: usize) -> Result<Child, Cancelled> {
+        match self.split(range, depth) {
+            Ok(halves) => self.node(halves, depth),
+            Err(range) => Ok(self.leaf(range.items)),
+        }
+    }
+
+    /// Halves a range, or hands it back where a leaf is better.
+    fn split(&mut self, range: Range<'a>, depth: usize) -> Result<[Range<'a>; 2], Range<'a>> {
+        let count = range.items.len();
+        if count <= BLOCK_SIZE {
+            return Err(range);
+        }
+        // Halving by index keeps depth + log₂(n) ≤ MAX_DEPTH, whatever the input.
+        if depth + count.ilog2() as usize + 2 > MAX_DEPTH {
+            return Ok(self.splitter.halve(range));
+        }
+        self.splitter.split(range)
+    }
+
+    /// A node above the two ranges.
+    fn node(&mut self, [first, second]: [Range<'a>; 2], depth: usize) -> Result<Child, Cancelled> {
+        if first.items.len() + second.items.len() >= ASK_FROM {
+            (self.keep_going)()?;
+        }
+        let mut ranges: [Option<Range<'a>>; WIDTH] = [const { None }; WIDTH];
+        // The area of ranges that may be split again, else 0.
+        let mut weight = [0.0; WIDTH];
+        (weight[0], weight[1]) = (self.weight(&first), self.weight(&second));
+        (ranges[0], ranges[1]) = (Some(first), Some(second));
+        for count in 2..WIDTH {
+            let Some((slot, range)) = take_largest(&mut ranges, &mut weight) else {
+                break;
+            };
+            match self.split(range, depth) {
+                Ok([first, second]) => {
+                    (weight[slot], weight[count]) = (self.weight(&first), self.weight(&second));
+                    (ranges[slot], ranges[count]) = (Some(first), Some(second));
+                }
+                Err(range) => ranges[slot] = Some(range),
+            }
+        }
+        let index = self.tree.nodes.len();
+        let mut node = Node::EMPTY;
+        let ranges = ranges.into_iter().flatten();
+        let ranges: Vec<Range<'a>> = ranges.collect();
+        for (slot, range) in ranges.iter().enumerate() {
+            node.set_bounds(slot, range.bounds);
+        }
+        self.tree.nodes.push(node);
+        for (slot, range) in ranges.into_iter().enumerate() {
+            let depth = depth + 1;
+            if range.items.len() <= self.job_size {
+                self.jobs.push(Job {
+                    range,
+                    depth,
+                    node: index,
+                    slot,
+                });
+            } else {
+                self.tree.nodes[index].child[slot] = self.child(range, depth)?;
+            }
+        }
+        Ok(Child::node(index))
+    }
+
+    fn weight(&self, range: &Range) -> f32 {
+        if range.items.len() > BLOCK_SIZE {
+            let area = self.splitter.scale.half_area(range.bounds);
+            area.max(f32::MIN_POSITIVE)
+        } else {
+            0.0
+        }
+    }
+
+    fn leaf(&mut self, items: &[Item]) -> Child {
+        debug_assert!(items.len() <= LEAF_BLOCKS * BLOCK_SIZE);
+        let first = self.tree.blocks.len();
+        for part in items.chunks(BLOCK_SIZE) {
+            let mut block = [NO_PRIMITIVE; BLOCK_SIZE];
+            for (lane, item) in block.iter_mut().zip(part) {
+                *lane = item.index();
+            }
+            self.tree.blocks.push(block);
+        }
+        Child::leaf(first, self.tree.blocks.len() - first)
+    }
+}
+
+/// The range of the largest weight, and where it was; what it weighed becomes 0. Of equal weights, as
+/// identical boxes have them, the one with more in it.
+fn take_largest<'a>(
+    ranges: &mut [Option<Range<'a>>; WIDTH],
+    weight: &mut [f32; WIDTH],
+) -> Option<(usize, Range<'a>)> {
+    let count = |slot: usize| ranges[slot].as_ref().map_or(0, |range| range.items.len());
+    let by_weight = |&a: &usize, &b: &usize| {
+        let by_weight = weight[a].total_cmp(&weight[b]);
+        by_weight.then(count(a).cmp(&count(b)))
+    };
+    let slot = (0..WIDTH)
+        .max_by(by_weight)
+        .filter(|&slot| weight[slot] > 0.0)?;
+    weight[slot] = 0.0;
+    Some((slot, ranges[slot].take()?))
+}
+
+impl Node {
+    fn set_bounds(&mut self, slot: usize, bounds: Bounds) {
+        let (lower, upper) = (bounds.lower.to_array(), bounds.upper.to_array());
+        for axis in 0..3 {
+            self.planes[2 * axis][slot] = lower[axis];
+            self.planes[2 * axis + 1][slot] = upper[axis];
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn build(boxes: &[Aabb]) -> Bvh {
+        let bounds_of = |primitive: u32| boxes[primitive as usize];
+        Bvh::build(boxes.len(), bounds_of, &|| Ok(())).expect("nobody cancels")
+    }
+
+    /// Every primitive in exactly one block, every block within its ancestors' boxes.
+    fn assert_sound(bvh: &Bvh, boxes: &[Aabb], expected: usize) {
+        let mut seen = vec![0; boxes.len()];
+        let mut stack: Vec<(usize, Aabb, usize)> = vec![];
+        if !bvh.nodes.is_empty() {
+            stack.push((0, bvh.bounds, 1));
+        }
+        while let Some((index, outer, depth)) = stack.pop() {
+            assert!(depth <= MAX_DEPTH);
+            let node = &bvh.nodes[index];
+            for slot in 0..WIDTH {
+                let child = node.child[slot];
+                if child == Child::NONE {
+                    continue;
+                }
+                let row = |first: usize| {
+                    Vec3::from_array([0, 2, 4].map(|k| node.planes[first + k][slot]))
+                };
+                let bounds = Aabb {
+                    min: row(0),
+                    max: row(1),
+                };
+                assert_eq!(outer.union(bounds), outer);
+                if !child.is_leaf() {
+                    stack.push((child.node_index(), bounds, depth + 1));
+                    continue;
+                }
+                assert!(child.block_count() <= LEAF_BLOCKS);
+                for block in child.first_block()..child.first_block() + child.block_count() {
+                    for &primitive in bvh.block(block) {
+                        seen[primitive as usize] += 1;
+                        let inner = boxes[primitive as usize];
+                        assert_eq!(bounds.union(inner), bounds);
+                    }
+                }
+            }
+        }
+        assert!(seen.iter().all(|&n| n <= 1));
+        assert_eq!(seen.iter().sum::<usize>(), expected);
+    }
+
+    fn scattered(n: u64) -> Vec<Aabb> {
+        let at = |i: u64| (crate::sampler::mix(i) >> 40) as f32 / 1e4;
+        (0..n)
+            .map(|i| {
+                let p = Vec3::new(at(3 * i), at(3 * i + 1), at(3 * i + 2));
+                Aabb::around([p, p + at(i) * 1e-3])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn every_primitive_is_in_one_leaf_and_every_box_holds_what_is_below() {
+        for n in [0, 1, 8, 9, 1000, 150_000] {
+            let boxes = scattered(n);
+            assert_sound(&build(&boxes), &boxes, n as usize);
+        }
+    }
+
+    #[test]
+    fn identical_boxes_and_extreme_extents_build() {
+        let point = Aabb::around([Vec3::ONE]);
+        let huge = Aabb::around([Vec3::splat(-3e38), Vec3::splat(3e38)]);
+        let tiny = Aabb::around([Vec3::ZERO, Vec3::splat(1e-45)]);
+        for case in [
+            vec![point; 50_000],
+            vec![huge; 100],
+            vec![tiny, huge, point],
+        ] {
+            assert_sound(&build(&case), &case, case.len());
+        }
+        // Centres in a geometric series put all but one into the first bin.
+        let series: Vec<Aabb> = (0..250)
+            .map(|i| Aabb::around([Vec3::splat(2f32.powi(i - 125))]))
+            .collect();
+        assert_sound(&build(&series), &series, series.len());
+    }
+
+    #[test]
+    fn the_tree_does_not_depend_on_the_scenes_size() {
+        let boxes = scattered(2000);
+        let blocks = build(&boxes).blocks;
+        for exponent in [-70, 70] {
+            let scale = 2f32.powi(exponent);
+            let scaled = |b: &Aabb| Aabb::around([b.min * scale, b.max * scale]);
+            let boxes: Vec<Aabb> = boxes.iter().map(scaled).collect();
+            assert_eq!(build(&boxes).blocks, blocks, "2^{exponent}");
+        }
+    }
+
+    #[test]
+    fn boxes_that_no_ray_can_meet_are_left_out() {
+        let good = Aabb::around([Vec3::ZERO, Vec3::ONE]);
+        let nan = Aabb {
+            min: Vec3::splat(f32::NAN),
+            max: Vec3::ONE,
+        };
+        let infinite = Aabb {
+            min: Vec3::ZERO,
+            max: Vec3::INFINITY,
+        };
+        let boxes = [nan, good, Aabb::EMPTY, infinite];
+        assert_sound(&build(&boxes), &boxes, 1);
+    }
+
+    #[test]
+    fn a_cancelled_build_says_so() {
+        let unit = |_| Aabb::around([Vec3::ZERO, Vec3::ONE]);
+        assert!(Bvh::build(2000, unit, &|| Err(Cancelled)).is_err());
+    }
+
+    #[test]
+    fn the_tree_does_not_depend_on_the_number_of_threads() {
+        let boxes = scattered(150_000);
+        let trees = [1, 3].map(|threads| {
+            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
+            pool.expect("threads").install(|| build(&boxes))
+        });
+        assert_eq!(trees[0].blocks, trees[1].blocks);
+        assert!(
+            trees[0]
+                .nodes
+                .iter()
+                .zip(&trees[1].nodes)
+                .all(|(a, b)| a.planes == b.planes && a.child == b.child)
+        );
+    }
+}

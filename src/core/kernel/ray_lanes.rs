@@ -1,0 +1,58 @@
+//! Rays side by side.
+
+use crate::lane::{Lane, longest_axis};
+use crate::ray::Ray;
+
+/// One ray in every lane, or as many rays as there are lanes, all of which look along the same axis.
+#[derive(Clone, Copy)]
+pub(crate) struct RayLanes<L> {
+    /// Where they start.
+    pub origin: [L; 3],
+    /// Where they go.
+    pub dir: [L; 3],
+    /// Which coordinates to take as x, y and z: z is the direction's longest one, the next two are x and
+    /// y, swapped where z looks backwards, which keeps the triangles' winding.
+    pub axes: [usize; 3],
+}
+
+impl<L: Lane> RayLanes<L> {
+    /// The same ray in every lane.
+    #[inline(always)]
+    pub fn of(token: L::Token, ray: &Ray) -> Self {
+        let ([x, y, z], [i, j, k]) = (ray.origin.to_array(), ray.dir.to_array());
+        let dir = [i, j, k];
+        Self {
+            origin: [L::of(token, x), L::of(token, y), L::of(token, z)],
+            dir: [L::of(token, i), L::of(token, j), L::of(token, k)],
+            axes: axes_of(dir),
+        }
+    }
+}
+
+/// See [`RayLanes::axes`].
+#[inline(always)]
+pub(crate) fn axes_of(dir: [f32; 3]) -> [usize; 3] {
+    let z = longest_axis(dir);
+    let (x, y) = ((z + 1) % 3, (z + 2) % 3);
+    if dir[z] < 0.0 { [y, x, z] } else { [x, y, z] }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    #[test]
+    fn the_axes_keep_the_winding_whichever_way_the_ray_looks() {
+        for dir in [Vec3::X, Vec3::Y, Vec3::Z] {
+            for sign in [1.0, -1.0] {
+                let d = (dir * sign).to_array();
+                let [x, y, z] = axes_of(d);
+                let unit = |i: usize| {
+                    Vec3::from_array(std::array::from_fn(|k| f32::from(u8::from(k == i))))
+                };
+                assert_eq!(unit(x).cross(unit(y)).dot(unit(z)), sign, "{d:?}");
+            }
+        }
+    }
+}

@@ -1,0 +1,177 @@
+//! Which SIMD instructions are used, and what can be asked of the cache.
+//!
+//! The best level of the machine is chosen at run time, so that a build for any CPU is as fast as one
+//! for this CPU. A level changes how fast an answer comes, never its bits.
+
+use fearless_simd::{Level, Simd};
+use std::sync::OnceLock;
+
+/// The environment variable that forces a level, for tests.
+pub const VARIABLE: &str = "HITSCOPE_SIMD";
+
+/// SIMD instructions that this machine has.
+#[derive(Clone, Copy, Debug)]
+pub struct SimdLevel {
+    name: &'static str,
+    level: Level,
+}
+
+/// A level was asked for that there isn't.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{VARIABLE}={asked}: this machine has {}", available.join(", "))]
+pub struct SimdError {
+    asked: String,
+    available: Vec<&'static str>,
+}
+
+impl SimdLevel {
+    /// Every level that this machine has, the weakest first: plain code for any CPU.
+    pub fn available() -> Vec<Self> {
+        let named = |(name, level): (_, Option<Level>)| {
+            Some(Self {
+                name,
+                level: level?,
+            })
+        };
+        levels(Level::new()).into_iter().filter_map(named).collect()
+    }
+
+    /// The one that [`VARIABLE`] names, or the strongest.
+    ///
+    /// # Errors
+    /// [`SimdError`] if it names none of this machine's.
+    pub fn chosen() -> Result<Self, SimdError> {
+        static CHOSEN: OnceLock<Result<SimdLevel, SimdError>> = OnceLock::new();
+        CHOSEN
+            .get_or_init(|| match std::env::var(VARIABLE) {
+                Ok(name) => Self::named(&name),
+                Err(_) => Ok(Self::strongest()),
+            })
+            .clone()
+    }
+
+    /// The level of this name.
+    ///
+    /// # Errors
+    /// [`SimdError`] if this machine hasn't got it.
+    pub fn named(name: &str) -> Result<Self, SimdError> {
+        let available = Self::available();
+        let found = available.iter().find(|level| level.name == name);
+        found.copied().ok_or_else(|| SimdError {
+            asked: name.to_owned(),
+            available: available.iter().map(|level| level.name).collect(),
+        })
+    }
+
+    /// As [`VARIABLE`] takes it.
+    pub fn name(self) -> &'static str {
+        self.name
+    }
+
+    /// What is used unless something else is asked for. A program says at its start that the variable
+    /// can't be obeyed; here it is ignored then.
+    pub fn current() -> Self {
+        Self::chosen().unwrap_or_else(|_| Self::strongest())
+    }
+
+    pub(crate) fn level(self) -> Level {
+        self.level
+    }
+
+    fn strongest() -> Self {
+        let last = Self::available().pop();
+        last.expect("every machine runs plain code")
+    }
+}
+
+#[cfg(target_arch = "x86_64")]
+fn levels(best: Level) -> Vec<(&'static str, Option<Level>)> {
+    vec![
+        ("fallback", Some(Level::baseline())),
+        ("sse4.2", best.as_sse4_2().map(Level::Sse4_2)),
+        ("avx2", best.as_avx2().map(Level::Avx2)),
+        ("avx512", best.as_avx512().map(Level::Avx512)),
+    ]
+}
+
+#[cfg(target_arch = "aarch64")]
+fn levels(best: Level) -> Vec<(&'static str, Option<Level>)> {
+    vec![
+        ("fallback", Some(Level::baseline())),
+        ("neon", best.as_neon().map(Level::Neon)),
+    ]
+}
+
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+fn levels(_: Level) -> Vec<(&'static str, Option<Level>)> {
+    vec![("fallback", Some(Level::baseline()))]
+}
+
+/// What every machine of the target has. Questions that are asked rarely are answered by it alone: each
+/// level more is each kernel's code once more, which takes long to compile.
+#[cfg(target_arch = "x86_64")]
+pub(crate) fn baseline() -> impl Simd {
+    let token = Level::baseline().as_sse2();
+    token.expect("every x86-64 has SSE2")
+}
+
+/// What every machine of the target has.
+#[cfg(not(target_arch = "x86_64"))]
+pub(crate) fn baseline() -> impl Simd {
+    #[cfg(target_arch = "aarch64")]
+    return Level::baseline().as_neon().expect("every AArch64 has NEON");
+    #[cfg(not(target_arch = "aarch64"))]
+    return fearless_simd::Fallback::new();
+}
+
+/// Asks the cache for an element that will be read soon, and for what follows it up to `bytes`. A hint:
+/// where the element isn't, nothing happens.
+#[inline(always)]
+pub(crate) fn prefetch<S: Simd, T>(token: S, slice: &[T], index: usize, bytes: usize) {
+    #[cfg(target_arch = "x86_64")]
+    if let Some(token) = token.level().as_sse2() {
+        let first = slice.as_ptr().wrapping_add(index).cast::<i8>();
+        let mut offset = 0;
+        while offset < bytes {
+            line::prefetch(token, first.wrapping_add(offset));
+            offset += 64;
+        }
+    }
+    #[cfg(not(target_arch = "x86_64"))]
+    let _ = (token, slice, index, bytes);
+}
+
+#[cfg(target_arch = "x86_64")]
+mod line {
+    fearless_simd::kernel!(
+        /// Asks for the cache line at an address, which is not read.
+        #[inline(always)]
+        pub(super) fn prefetch(_token: Sse2, address: *const i8) {
+            std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(address)
+        }
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_machine_has_plain_code_and_a_level_is_found_by_its_name() {
+        let available = SimdLevel::available();
+        assert_eq!(available[0].name(), "fallback");
+        for level in available {
+            assert_eq!(
+                SimdLevel::named(level.name()).map(|l| l.name),
+                Ok(level.name)
+            );
+        }
+        let error = SimdLevel::named("mmx")
+            .expect_err("no such level")
+            .to_string();
+        assert!(
+            error.starts_with("HITSCOPE_SIMD=mmx: this machine has fallback"),
+            "{error}"
+        );
+    }
+}
