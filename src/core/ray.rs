@@ -61,6 +61,7 @@ impl Ray {
     ///
     /// # Errors
     /// See [`RayError`].
+    #[inline]
     pub fn with_interval(
         origin: Vec3,
         dir: Vec3,
@@ -74,19 +75,40 @@ impl Ray {
         } else if dir == Vec3::ZERO {
             return Err(RayError::DirectionZero);
         }
-        let (dir, scale) = rescaled(dir);
         let ray = Self {
             origin,
             dir,
-            t_min: scaled(t_min, -scale),
-            t_max: scaled(t_max, -scale),
-            scale,
+            t_min,
+            t_max,
+            scale: 0,
             exclude: None,
+        };
+        let ray = if USUAL.contains(&exponent_of(dir)) {
+            ray
+        } else {
+            ray.rescaled()
         };
         if ray.t_min < ray.t_max {
             Ok(ray)
         } else {
             Err(RayError::IntervalEmpty)
+        }
+    }
+
+    /// With a direction of a usual length; as it is where that would round one of its coordinates.
+    #[cold]
+    fn rescaled(self) -> Self {
+        let exponent = exponent_of(self.dir);
+        let usual = Vec3::from_array(self.dir.to_array().map(|x| scaled(x, -exponent)));
+        if usual.as_dvec3() * 2f64.powi(exponent) != self.dir.as_dvec3() {
+            return self;
+        }
+        Self {
+            dir: usual,
+            t_min: scaled(self.t_min, exponent),
+            t_max: scaled(self.t_max, exponent),
+            scale: -exponent,
+            ..self
         }
     }
 
@@ -100,21 +122,11 @@ fn scaled(x: f32, power: i32) -> f32 {
     (f64::from(x) * 2f64.powi(power)) as f32
 }
 
-/// A direction of a usual length, and the power of two that it was multiplied by. As it is where that
-/// would round one of its coordinates.
-fn rescaled(dir: Vec3) -> (Vec3, i32) {
+/// That of the longest coordinate.
+#[inline]
+fn exponent_of(dir: Vec3) -> i32 {
     // An f64 holds f32's subnormals as normal numbers: its exponent is that of the size.
-    let exponent = (f64::from(dir.abs().max_element()).to_bits() >> 52) as i32 - 1023;
-    if USUAL.contains(&exponent) {
-        return (dir, 0);
-    }
-    let usual = Vec3::from_array(dir.to_array().map(|x| scaled(x, -exponent)));
-    let back = usual.as_dvec3() * 2f64.powi(exponent);
-    if back == dir.as_dvec3() {
-        (usual, -exponent)
-    } else {
-        (dir, 0)
-    }
+    (f64::from(dir.abs().max_element()).to_bits() >> 52) as i32 - 1023
 }
 
 /// The distance from an f32 of this size to the next larger one: what errors of t are counted in.

@@ -9,8 +9,8 @@ use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use hitscope_lab::commands::{
-    CommandError, InfoArgs, InspectArgs, LabArgs, PictureArgs, RenderArgs, TraceArgs, load,
-    write_png,
+    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, PictureArgs, RenderArgs, TraceArgs,
+    load, write_png,
 };
 use std::io::{BufWriter, ErrorKind, Write, stdout};
 use std::path::{Path, PathBuf};
@@ -41,6 +41,7 @@ enum Command {
     Trace(TraceArgs),
     Info(InfoArgs),
     Lab(LabArgs),
+    Bench(BenchArgs),
 }
 
 /// Runs what the command line asks for. 0: done; 1: the input is bad, with one line on stderr; 2:
@@ -73,6 +74,7 @@ impl Command {
             Self::Trace(args) => args.run(&mut out)?,
             Self::Info(args) => args.run(&mut out)?,
             Self::Lab(args) => args.run(&mut out)?,
+            Self::Bench(args) => args.run(&mut out)?,
         }
         Ok(out.flush()?)
     }

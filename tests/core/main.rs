@@ -8,6 +8,9 @@ mod conformance;
 // The tree with its SIMD lanes against each triangle asked alone.
 mod intersector;
 
+// Every SIMD level, rays one by one and together: the same bits.
+mod simd;
+
 // Kernels that promise it: no ray leaves a closed mesh.
 mod watertight;
 

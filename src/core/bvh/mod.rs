@@ -5,10 +5,12 @@
 //! sixteen rays meets.
 
 mod build;
+mod packet;
 mod slab;
 mod walk;
 
 use crate::aabb::Aabb;
+pub(crate) use packet::{PacketVisitor, RayPacket};
 pub(crate) use walk::{Stack, Visitor, rank_floor, with_stack};
 
 /// Primitives side by side in a block, which a SIMD test takes at once.

@@ -19,7 +19,7 @@ use fearless_simd::{Simd, f32x8, prelude::*};
 /// and the far side are 6u; the watertight kernel may find a corner some 4u of its distance away
 /// from where it is (one rounding of the difference, three of the shear); 1u is for rounding the
 /// product with this.
-const AHEAD: f32 = 1.0 + 6.0 * f32::EPSILON;
+pub(super) const AHEAD: f32 = 1.0 + 6.0 * f32::EPSILON;
 /// 1 − 12u: a far distance behind the origin is negative, and made nearer to it.
 const BEHIND: f32 = 1.0 - 6.0 * f32::EPSILON;
 
@@ -102,7 +102,7 @@ fn splat3<S: Simd>(token: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
 
 /// The larger one; the bound where the other is NaN. On x86 the second operand is what comes out then.
 #[inline(always)]
-fn at_least<S: Simd>(bound: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
+pub(super) fn at_least<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
     if cfg!(target_arch = "x86_64") {
         x.max(bound)
     } else {
@@ -112,7 +112,7 @@ fn at_least<S: Simd>(bound: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
 
 /// The smaller one; the bound where the other is NaN.
 #[inline(always)]
-fn at_most<S: Simd>(bound: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
+pub(super) fn at_most<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
     if cfg!(target_arch = "x86_64") {
         x.min(bound)
     } else {
@@ -120,13 +120,15 @@ fn at_most<S: Simd>(bound: f32x8<S>, x: f32x8<S>) -> f32x8<S> {
     }
 }
 
+/// Half of what f32 holds, as the padded value mustn't overflow either.
+pub(super) const MOST_INVERSE: f32 = 0.5 * f32::MAX;
+
 /// 1/d; a NaN, which no comparison heeds, where it overflows. Then the axis doesn't constrain the ray: a
 /// number in its place would be wrong on one side of the origin or the other.
 #[inline(always)]
 pub(super) fn inverse_of(d: f32) -> f32 {
     let inverse = 1.0 / d;
-    // Half, as the padded value mustn't overflow either.
-    if d != 0.0 && inverse.abs() > 0.5 * f32::MAX {
+    if d != 0.0 && inverse.abs() > MOST_INVERSE {
         f32::NAN
     } else {
         inverse

@@ -8,9 +8,10 @@
 
 use super::slab::SlabRay;
 use super::{Bvh, Child, MAX_DEPTH, WIDTH};
+use crate::lane::Lane;
 use crate::ray::Ray;
 use crate::simd::prefetch;
-use fearless_simd::{Simd, f32x8, prelude::*};
+use fearless_simd::{Simd, f32x8};
 use std::cell::RefCell;
 use std::ops::ControlFlow;
 
@@ -63,8 +64,8 @@ pub(crate) trait Visitor {
 
 /// What a hit at `t` is ranked by, in a box entered at `entry`.
 #[inline(always)]
-pub(crate) fn rank_floor(entry: f32) -> f32 {
-    entry - entry.abs() * RANK_SLACK
+pub(crate) fn rank_floor<L: Lane>(entry: L) -> L {
+    entry - entry.abs() * L::of(entry.token(), RANK_SLACK)
 }
 
 impl Bvh {
@@ -80,9 +81,9 @@ impl Bvh {
         if self.nodes.is_empty() {
             return;
         }
-        let slabs = SlabRay::new(token, ray, ray.t_min - ray.t_min.abs() * SLACK);
-        let mut limit = slackened(ray.t_max);
-        let mut far = f32x8::splat(token, limit);
+        let slabs = SlabRay::new(token, ray, start_slackened(ray.t_min));
+        let mut limit = end_slackened(ray.t_max);
+        let mut far: f32x8<S> = Lane::splat(token, limit);
         let mut depth = 0u8;
         let mut current = key(ray.t_min, Child::node(0));
         loop {
@@ -117,11 +118,11 @@ impl Bvh {
                 let (start, count) = (leaf.first_block(), leaf.block_count());
                 for block in start..start + count {
                     match visitor.visit(block, entry) {
-                        ControlFlow::Continue(t) => limit = slackened(t),
+                        ControlFlow::Continue(t) => limit = end_slackened(t),
                         ControlFlow::Break(()) => return,
                     }
                 }
-                far = f32x8::splat(token, limit);
+                far = Lane::splat(token, limit);
             }
             // Back to what was put off, but for what has since turned out to lie behind the hit.
             loop {
@@ -166,7 +167,7 @@ impl Bvh {
 
 /// Puts a key among those from `first` to `depth`, the nearest last.
 #[inline(always)]
-fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
+pub(super) fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
     let mut at = depth;
     while at > first && stack[usize::from(at.wrapping_sub(1))] < key {
         stack[usize::from(at)] = stack[usize::from(at.wrapping_sub(1))];
@@ -193,7 +194,14 @@ fn entry_of(key: u64) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
+/// Until where boxes are visited that lie before `t`.
 #[inline(always)]
-fn slackened(t: f32) -> f32 {
-    t + t.abs() * SLACK
+pub(super) fn end_slackened<L: Lane>(t: L) -> L {
+    t + t.abs() * L::of(t.token(), SLACK)
+}
+
+/// From where on boxes are visited that lie behind `t`.
+#[inline(always)]
+pub(super) fn start_slackened<L: Lane>(t: L) -> L {
+    t - t.abs() * L::of(t.token(), SLACK)
 }

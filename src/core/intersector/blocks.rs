@@ -6,7 +6,7 @@ use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::Ray;
 use crate::simd::{baseline, prefetch};
-use fearless_simd::Simd;
+use fearless_simd::{Simd, SimdBase, f32x16};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::marker::PhantomData;
@@ -29,6 +29,13 @@ pub(super) struct Blocks<T> {
     rows_per_block: usize,
 }
 
+/// A block's values of one lane, in every lane of a vector.
+pub(super) struct LaneValues<'a, T, S> {
+    token: S,
+    rows: &'a [Row<T>],
+    lane: usize,
+}
+
 /// A block's values as vectors of `N`.
 pub(super) struct BlockValues<'a, N, S, T> {
     token: S,
@@ -40,6 +47,29 @@ impl<N: Number, S: Simd, T: Stored<N>> Values<N::Lanes<S>> for BlockValues<'_, N
     #[inline(always)]
     fn value(&self, index: usize) -> N::Lanes<S> {
         T::lanes(self.token, &self.rows[index].0)
+    }
+}
+
+impl<T: Stored<f32>, S: Simd> Values<f32x16<S>> for LaneValues<'_, T, S> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> f32x16<S> {
+        let lane = self.rows[index].0[self.lane % BLOCK_SIZE];
+        SimdBase::splat(self.token, lane.number())
+    }
+}
+
+/// The values of one lane.
+pub(super) struct OneLane<'a, T> {
+    rows: &'a [Row<T>],
+    lane: usize,
+}
+
+impl OneLane<'_, f32> {
+    /// Three in a row.
+    #[inline(always)]
+    pub fn vector(&self, first: usize) -> Vec3 {
+        let value = |k: usize| self.rows[k].0[self.lane];
+        Vec3::new(value(first), value(first + 1), value(first + 2))
     }
 }
 
@@ -95,6 +125,22 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         }
     }
 
+    /// The values of one lane of a block, below [`BLOCK_SIZE`].
+    #[inline(always)]
+    pub fn lane_values<S: Simd>(
+        &self,
+        token: S,
+        block: usize,
+        count: usize,
+        lane: usize,
+    ) -> LaneValues<'_, T, S> {
+        LaneValues {
+            token,
+            rows: &self.rows[block * count..][..count],
+            lane,
+        }
+    }
+
     /// Asks the cache for a block.
     #[inline(always)]
     pub fn announce<S: Simd>(&self, token: S, block: usize, count: usize) {
@@ -106,10 +152,13 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         );
     }
 
-    /// One value of one lane.
+    /// A lane's values, to be looked at one by one; `count` is their number, known to the compiler.
     #[inline(always)]
-    pub fn value(&self, block: usize, lane: usize, value: usize) -> T {
-        self.rows[block * self.rows_per_block + value].0[lane]
+    pub fn lane(&self, block: usize, lane: usize, count: usize) -> OneLane<'_, T> {
+        OneLane {
+            rows: &self.rows[block * count..][..count],
+            lane: lane % BLOCK_SIZE,
+        }
     }
 
     pub fn bytes(&self) -> usize {

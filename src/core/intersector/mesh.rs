@@ -4,7 +4,7 @@ use super::blocks::{Blocks, candidates, is_asked};
 use super::{Cost, Crossing, Intersector, is_behind};
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, Visitor, rank_floor, with_stack};
 use crate::kernel::{Kernel, KernelInfo, RayLanes};
-use crate::lane::{Lane, LaneMask, Number, Stored};
+use crate::lane::{Lane, LaneMask, Number, PACKET, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::simd::{SimdLevel, baseline};
@@ -14,10 +14,14 @@ use std::sync::Arc;
 
 /// Triangles for the kernel `K`, working in `N`.
 pub(crate) struct MeshIntersector<K: Kernel, N: Number> {
-    blocks: Blocks<K::Stored<N>>,
-    level: SimdLevel,
-    kernel: &'static KernelInfo,
+    pub(super) blocks: Blocks<K::Stored<N>>,
+    pub(super) level: SimdLevel,
+    pub(super) kernel: &'static KernelInfo,
+    /// How to trace rays that go together; not for every kernel, as that is each one's code once more.
+    pub(super) packets: Option<Packets<K, N>>,
 }
+
+type Packets<K, N> = fn(&MeshIntersector<K, N>, &[Ray], &mut [Option<Hit>]);
 
 /// A hit as the kernel computed it.
 #[derive(Clone, Copy)]
@@ -226,6 +230,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
             blocks: Blocks::new(mesh, bvh, K::VALUES, empty, K::pack::<N>),
             level,
             kernel,
+            packets: None,
         }
     }
 
@@ -315,6 +320,17 @@ impl<K: Kernel, N: Number> Intersector for MeshIntersector<K, N> {
         for (ray, hit) in rays.iter().zip(hits).filter(|(ray, _)| is_behind(ray)) {
             *hit = self.closest_hit_with_cost(ray).0;
         }
+    }
+
+    fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        match self.packets {
+            Some(trace) => trace(self, rays, hits),
+            None => self.closest_hits(rays, hits),
+        }
+    }
+
+    fn rays_together(&self) -> usize {
+        if self.packets.is_some() { PACKET } else { 1 }
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {

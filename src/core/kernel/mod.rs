@@ -6,7 +6,7 @@
 mod ray_lanes;
 mod triangle;
 
-pub(crate) use ray_lanes::RayLanes;
+pub(crate) use ray_lanes::{RayLanes, axes_of};
 pub use triangle::exact::exact_answer;
 pub(crate) use triangle::{ShearedRay, exact};
 pub use triangle::{

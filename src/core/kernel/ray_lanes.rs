@@ -1,6 +1,6 @@
 //! Rays side by side.
 
-use crate::lane::{Lane, longest_axis};
+use crate::lane::{Lane, LaneMask, longest_axis};
 use crate::ray::Ray;
 
 /// One ray in every lane, or as many rays as there are lanes, all of which look along the same axis.
@@ -27,14 +27,42 @@ impl<L: Lane> RayLanes<L> {
             axes: axes_of(dir),
         }
     }
+
+    /// A ray in each lane; `None` if they don't all look along the same axis.
+    #[inline(always)]
+    pub fn side_by_side(origin: [L; 3], dir: [L; 3]) -> Option<Self> {
+        let size = [dir[0].abs(), dir[1].abs(), dir[2].abs()];
+        let is_x = size[1].le(size[0]) & size[2].le(size[0]);
+        let is_y = size[2].le(size[1]);
+        let z = match (is_x.any(), is_y.any()) {
+            _ if is_x.all() => 0,
+            (false, _) if is_y.all() => 1,
+            (false, false) => 2,
+            _ => return None,
+        };
+        let is_backward = dir[z].lt(L::of(dir[z].token(), 0.0));
+        if is_backward.any() != is_backward.all() {
+            return None;
+        }
+        Some(Self {
+            origin,
+            dir,
+            axes: axes_along(z, is_backward.any()),
+        })
+    }
 }
 
 /// See [`RayLanes::axes`].
 #[inline(always)]
 pub(crate) fn axes_of(dir: [f32; 3]) -> [usize; 3] {
     let z = longest_axis(dir);
+    axes_along(z, dir[z] < 0.0)
+}
+
+#[inline(always)]
+fn axes_along(z: usize, is_backward: bool) -> [usize; 3] {
     let (x, y) = ((z + 1) % 3, (z + 2) % 3);
-    if dir[z] < 0.0 { [y, x, z] } else { [x, y, z] }
+    if is_backward { [y, x, z] } else { [x, y, z] }
 }
 
 #[cfg(test)]

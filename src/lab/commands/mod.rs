@@ -1,6 +1,7 @@
 //! The commands that need no window. Results go to stdout; errors are one line for stderr.
 
 mod args;
+mod bench;
 mod info;
 mod inspect;
 mod lab;
@@ -8,6 +9,7 @@ mod render;
 mod trace;
 
 pub use args::CameraArgs;
+pub use bench::BenchArgs;
 pub use info::InfoArgs;
 pub use inspect::InspectArgs;
 pub use lab::LabArgs;

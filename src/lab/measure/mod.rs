@@ -7,7 +7,7 @@
 //! | [`order`] | is the nearest triangle the nearest? |
 //! | [`boxes`] | do the tree's boxes lose what the ray hits? |
 //! | [`spawning`] | does a ray that leaves a surface meet it again? |
-//! | [`speed`] | how fast is a kernel? |
+//! | [`speed`], [`workloads`] | how fast is a kernel, on which rays? |
 //! | [`scene`] | all of that for the user's own scene |
 //! | [`lecture`] | the lecture's programs as they are printed |
 //!
@@ -24,6 +24,7 @@ pub mod spawning;
 pub mod speed;
 pub mod statistics;
 pub mod triangles;
+pub mod workloads;
 
 use boxes::{BOX_CASES, BoxCell};
 use contestants::{Contestant, contestants};
@@ -338,7 +339,7 @@ fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<S
     let name = format!("sphere, {} triangles", mesh.triangles.len());
     let scene = shapes::scene(mesh);
     let camera = speed::default_camera(&scene);
-    let workloads = speed::workloads(&scene, &camera, sizes.speed_rays, seed);
+    let workloads = workloads::workloads(&scene, &camera, sizes.speed_rays, seed);
     let bench = speed::Bench::new(&scene, name, &workloads, sizes.speed_rounds);
     let kernels = TRIANGLE_KERNELS.iter();
     kernels

@@ -1,7 +1,8 @@
 //! The user's own scene: what each kernel reaches there, and what it gets wrong.
 
-use super::speed::{self, Bench, Speed, Workloads};
+use super::speed::{Bench, Speed};
 use super::statistics::{Quantiles, bound_per_million, per_million};
+use super::workloads::{Workloads, workloads};
 use crate::oracle::{self, ExactHit};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, default_triangle_kernel};
 use hitscope_core::progress::{Cancelled, Progress};
@@ -72,7 +73,7 @@ pub fn measure(
     progress: &Progress,
     mut each: impl FnMut(SceneRow),
 ) -> Result<(), Cancelled> {
-    let workloads = speed::workloads(scene, camera, sizes.timed, 1);
+    let workloads = workloads(scene, camera, sizes.timed, 1);
     let checked = checked_rays(&workloads, sizes.checked);
     let answers = answers(scene, &checked, progress)?;
     let name = format!("{} triangles", scene.mesh().triangles.len());

@@ -1,20 +1,17 @@
 //! How fast is a kernel? In the real traversal, with rays as a renderer has them, and by itself.
 
+use super::workloads::Workloads;
 use cpu_time::ThreadTime;
-use glam::{DVec3, UVec2, Vec2, Vec3};
+use glam::{UVec2, Vec3};
 use hitscope_core::camera::Turntable;
 use hitscope_core::intersector::Cost;
-use hitscope_core::kernel::{TriangleKernel, default_triangle_kernel, triangle_kernel};
-use hitscope_core::mesh::{shapes, unit_normal};
+use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
+use hitscope_core::mesh::shapes;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
-use hitscope_core::spawn::{Departure, default_spawn_policy};
 use hitscope_core::{Camera, Intersector, Ray, Scene};
 use serde::Serialize;
 use std::hint::black_box;
-
-/// The rays of each workload, in the order of [`Rates`].
-pub type Workloads = [Vec<Ray>; 3];
 
 /// What one kernel reached.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -47,73 +44,6 @@ pub struct Rates {
     pub bounce: f64,
     /// Rays across the scene's sphere.
     pub random: f64,
-}
-
-/// The three workloads of a scene, some `count` rays each.
-pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> Workloads {
-    let mut random = Random::new(seed);
-    let intersector = scene.intersector(default_triangle_kernel());
-    let primary = primary_rays(camera, count);
-    let bounce = bounce_rays(scene, &*intersector, &primary, &mut random);
-    let random = random_rays(scene, count, &mut random);
-    [primary, bounce, random]
-}
-
-/// Through pixels' centres, evenly over the picture, row by row.
-fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
-    let size = camera.resolution();
-    let pixels = u64::from(size.x) * u64::from(size.y);
-    let count = (count as u64).min(pixels);
-    (0..count)
-        .map(|k| {
-            let index = k * pixels / count;
-            let (x, y) = (index % u64::from(size.x), index / u64::from(size.x));
-            camera.ray(UVec2::new(x as u32, y as u32), Vec2::splat(0.5))
-        })
-        .collect()
-}
-
-/// Cosine-distributed about the normal that faces the ray, from each hit.
-fn bounce_rays(
-    scene: &Scene,
-    intersector: &dyn Intersector,
-    arriving: &[Ray],
-    random: &mut Random,
-) -> Vec<Ray> {
-    let bounce = |ray: &Ray| {
-        let hit = intersector.closest_hit(ray)?;
-        let mesh = scene.mesh();
-        let corners = mesh.corners(hit.primitive);
-        let normal = unit_normal(corners);
-        let facing = if normal.dot(ray.dir.as_dvec3()) > 0.0 {
-            -normal
-        } else {
-            normal
-        };
-        let departure = Departure {
-            arrived_by: ray,
-            hit: &hit,
-            corners,
-            dir: (facing + random.direction()).normalize_or(facing).as_vec3(),
-        };
-        default_spawn_policy().spawn(&departure).ok()
-    };
-    arriving.iter().filter_map(bounce).collect()
-}
-
-/// From the sphere about the scene, its diagonal in radius, through a point of its box.
-fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
-    let bounds = scene.bounds();
-    let centre = bounds.centre().as_dvec3();
-    let (lower, extent) = (bounds.min.as_dvec3(), bounds.extent());
-    (0..count)
-        .filter_map(|_| {
-            let origin = centre + 2.0 * bounds.radius() * random.direction();
-            let part = 0.5 * (random.in_cube() + DVec3::ONE);
-            let dir = (lower + part * extent - origin).normalize_or_zero();
-            Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
-        })
-        .collect()
 }
 
 /// The view that the viewer starts with, 1280×720.
@@ -197,10 +127,15 @@ impl<'a> Bench<'a> {
     }
 }
 
+/// Rays that are handed to an intersector in one call: what its level costs to choose then doesn't show.
+pub const RAYS_AT_ONCE: usize = 64;
+
 fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {
     let start = ThreadTime::now();
-    for ray in rays {
-        black_box(intersector.closest_hit(black_box(ray)));
+    let mut hits = [None; RAYS_AT_ONCE];
+    for rays in rays.chunks(RAYS_AT_ONCE) {
+        intersector.closest_hits(black_box(rays), &mut hits[..rays.len()]);
+        black_box(&hits);
     }
     start.elapsed().as_secs_f64()
 }
@@ -262,31 +197,7 @@ impl TestBench {
     }
 }
 
-fn median(mut values: Vec<f64>) -> f64 {
+pub(crate) fn median(mut values: Vec<f64>) -> f64 {
     values.sort_unstable_by(f64::total_cmp);
     values.get(values.len() / 2).copied().unwrap_or(0.0)
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-    use hitscope_core::camera::Projection;
-    use hitscope_core::mesh::shapes::{Place, scene, sphere};
-
-    #[test]
-    fn the_workloads_are_what_their_names_say() {
-        let scene = scene(sphere(8, Place::UNIT));
-        let projection = Projection::Perspective { fov_y_radians: 0.7 };
-        let size = UVec2::new(32, 16);
-        let eye = DVec3::Z * 4.0;
-        let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
-        let [primary, bounce, random] = workloads(&scene, &camera.expect("a camera"), 512, 1);
-        assert_eq!(primary.len(), 512);
-        let intersector = scene.intersector(default_triangle_kernel());
-        let is_hit = |ray: &&Ray| intersector.any_hit(ray);
-        assert_eq!(primary.iter().filter(is_hit).count(), bounce.len());
-        // A sphere is convex: what leaves it doesn't come back.
-        assert_eq!(bounce.iter().filter(is_hit).count(), 0);
-        assert!(random.iter().filter(is_hit).count() > 100);
-    }
 }

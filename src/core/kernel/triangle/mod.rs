@@ -50,6 +50,17 @@ impl TriangleKernel {
         }
     }
 
+    /// The same, and rays that go together are traced together.
+    const fn in_f32_with_packets<K: Kernel>() -> Self {
+        Self {
+            intersector: |mesh, bvh, level| {
+                let new = MeshIntersector::<K, f32>::new;
+                Box::new(new(&K::IN_F32, mesh, bvh, level).with_packets())
+            },
+            ..Self::in_f32::<K>()
+        }
+    }
+
     const fn in_f64<K: Kernel>() -> Self {
         Self {
             info: &K::IN_F64,
@@ -96,9 +107,9 @@ pub static TRIANGLE_KERNELS: &[TriangleKernel] = &[
     TriangleKernel::in_f64::<EdgePlanes>(),
     TriangleKernel::in_f32::<BaldwinWeber>(),
     TriangleKernel::in_f64::<BaldwinWeber>(),
-    TriangleKernel::in_f32::<MollerTrumbore>(),
+    TriangleKernel::in_f32_with_packets::<MollerTrumbore>(),
     TriangleKernel::in_f64::<MollerTrumbore>(),
-    TriangleKernel::in_f32::<Watertight>(),
+    TriangleKernel::in_f32_with_packets::<Watertight>(),
     TriangleKernel::in_f64::<Watertight>(),
     TriangleKernel::exact(),
 ];

@@ -28,15 +28,16 @@
 //! **Depth.** ζ = t·d_z is the mean of the corners' depths, weighted by the edge functions E/S with
 //! S = ΣE. Computed with E + e, |e| ≤ err, it is off by Σe(z − ζ)/S, at most 3·err·R/|S| with R the
 //! corners' range of depths, both of the rounded depths, whose mean is off by u·Z. Its own roundings are
-//! six of the differences from A's depth, and one of a depth; taking the bound off rounds once more.
+//! seven of the differences from A's depth (two of S, its inverse, two products, a difference, a sum), and
+//! one of a depth; taking the bound off rounds once more.
 //!
 //! ```text
-//! |δζ| ≤ 3·err·R/|S| + 6u·R + 3u·Z
+//! |δζ| ≤ 3·err·R/|S| + 7u·R + 3u·Z
 //! ```
 //!
 //! The code has 4·err, which pays for R's rounding and is a weight's error besides.
 //!
-//! **Weights.** E/S is off by (1 + 3)·err/|S| and by three roundings.
+//! **Weights.** E/S is off by (1 + 3)·err/|S| and by four roundings.
 
 use super::super::shear::ShearedRay;
 use crate::kernel::Values;
@@ -54,7 +55,7 @@ pub(crate) struct Filtered<L: Lane> {
     pub far: L,
     /// Weights of the second and the third corner, where certain.
     pub weights: [L; 2],
-    /// What those err by at most, three roundings not counted.
+    /// What those err by at most, four roundings not counted.
     pub weight_error: L,
 }
 
@@ -93,14 +94,15 @@ pub(crate) fn filter<L: Lane>(
     }
 
     let det = edge[0] + edge[1] + edge[2];
-    let size = det.abs();
-    let weights = [edge[1] / det, edge[2] / det];
+    // Infinite where det is subnormal: then the bounds aren't numbers, and decide nothing.
+    let inverse = constant(1.0) / det;
+    let weights = [edge[1] * inverse, edge[2] * inverse];
     let (to_b, to_c) = (b[2] - a[2], c[2] - a[2]);
     let depth = a[2] + (weights[0] * to_b + weights[1] * to_c);
     let range = a[2].greater(b[2]).greater(c[2]) - a[2].lesser(b[2]).lesser(c[2]);
-    let weight_error = constant(4.0) * error / size;
+    let weight_error = constant(4.0) * error * inverse.abs();
     let slack =
-        weight_error * range + (constant(6.5) * range + constant(4.25) * z) * u + least_normal;
+        weight_error * range + (constant(7.5) * range + constant(4.25) * z) * u + least_normal;
     let ahead = depth.flip(ray.dir_z());
     Some(Filtered {
         certain,

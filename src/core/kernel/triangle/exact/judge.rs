@@ -2,16 +2,13 @@
 //! integers.
 
 use super::super::shear::ShearedRay;
+use super::rounding::GOOD;
 use super::{VALUES, filter, integer};
 use crate::kernel::{OneTriangle, pack_corners};
 use crate::lane::LaneMask;
 use crate::ray::{Hit, Ray};
 use glam::Vec3;
 use std::cmp::Ordering;
-
-/// f64 results are used if t's bounds are at most this apart, relatively, and weights off by at most
-/// this: 2⁻⁶ of f32's half ulp of 1.
-const GOOD: f64 = 1.0 / (1u64 << 31) as f64;
 
 /// How often f32 could not decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -27,7 +24,7 @@ pub(crate) struct Work {
 pub(crate) struct Candidate {
     pub primitive: u32,
     /// Where its corners are found.
-    slot: usize,
+    pub slot: usize,
     /// |t·d_z| with t's sign is at least this,
     near: f64,
     /// and at most that.
@@ -37,14 +34,50 @@ pub(crate) struct Candidate {
 }
 
 impl Candidate {
-    /// A bound on its depth in f32, no less than that in f64.
-    pub fn far_f32(&self) -> f32 {
-        let far = self.far as f32;
-        if f64::from(far) < self.far {
-            far.next_up()
-        } else {
-            far
+    /// With the f32 filter's bounds.
+    #[inline(always)]
+    pub fn new(primitive: u32, slot: usize, near: f32, far: f32) -> Self {
+        Self {
+            primitive,
+            slot,
+            near: near.into(),
+            far: far.into(),
+            is_narrow: false,
         }
+    }
+
+    /// On |t·d_z|, with t's sign.
+    #[inline(always)]
+    pub fn bounds(&self) -> [f64; 2] {
+        [self.near, self.far]
+    }
+
+    /// The hit there, t, u and v rounded.
+    pub fn hit(&self, [t, u, v]: [f64; 3]) -> Hit {
+        Hit {
+            // Not quite f32's largest number may round to infinity.
+            t: (t as f32).min(f32::MAX),
+            u: u as f32,
+            v: v as f32,
+            primitive: self.primitive,
+        }
+    }
+
+    /// The bounds in f32, no narrower than those in f64.
+    pub fn bounds_f32(&self) -> [f32; 2] {
+        let (near, far) = (self.near as f32, self.far as f32);
+        [
+            if f64::from(near) > self.near {
+                near.next_down()
+            } else {
+                near
+            },
+            if f64::from(far) < self.far {
+                far.next_up()
+            } else {
+                far
+            },
+        ]
     }
 }
 
@@ -53,15 +86,21 @@ pub(crate) struct Judge<'a, F> {
     ray: &'a Ray,
     corners: F,
     dir_z: f64,
+    /// The interval's ends as depths, exactly: 24 digits by 24. What is farther than f32's largest number is
+    /// never hit.
+    interval: [f64; 2],
     pub work: Work,
 }
 
 impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
     pub fn new(ray: &'a Ray, corners: F) -> Self {
+        let dir_z = f64::from(ray.dir.abs().max_element());
+        let end = ray.t_max.min(f32::MAX);
         Self {
             ray,
             corners,
-            dir_z: f64::from(ray.dir.abs().max_element()),
+            dir_z,
+            interval: [f64::from(ray.t_min) * dir_z, f64::from(end) * dir_z],
             work: Work::default(),
         }
     }
@@ -70,41 +109,49 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         self.ray
     }
 
-    /// A bound on t from one on the depth; infinite beyond f32's range.
-    pub fn t_beyond(&self, candidate: &Candidate) -> f32 {
-        (candidate.far / self.dir_z) as f32
+    /// The depths at which the ray's interval begins and ends.
+    #[inline(always)]
+    pub fn interval(&self) -> [f64; 2] {
+        self.interval
     }
 
-    /// A triangle that isn't a certain miss, if its hit lies in the ray's interval.
-    ///
-    /// `is_certain` and the bounds are the f32 filter's.
-    pub fn candidate(
-        &mut self,
-        primitive: u32,
-        slot: usize,
-        is_certain: bool,
-        near: f32,
-        far: f32,
-    ) -> Option<Candidate> {
-        let mut candidate = Candidate {
-            primitive,
-            slot,
-            near: near.into(),
-            far: far.into(),
-            is_narrow: false,
-        };
+    /// Depths below this are before the ray's interval: among them those of the triangle that it leaves.
+    #[inline(always)]
+    pub fn earliest(&self) -> f32 {
+        let start = self.interval[0] as f32;
+        // Rounding is off by half an ulp, or half of the least number.
+        start - start.abs() * f32::EPSILON - f32::from_bits(1)
+    }
+
+    /// `candidate`, which isn't a certain miss, if its hit lies in the ray's interval. Its bounds are the
+    /// f32 filter's, and so is `is_certain`.
+    #[inline(always)]
+    pub fn within(&mut self, candidate: Candidate, is_certain: bool) -> Option<Candidate> {
+        let ([start, end], [near, far]) = (self.interval, candidate.bounds());
+        if is_certain && start < near && far < end {
+            Some(candidate)
+        } else {
+            self.doubtful(candidate, is_certain)
+        }
+    }
+
+    // Out of line: it is the rare path, and the common one is the better for it.
+    #[inline(never)]
+    fn doubtful(&mut self, mut candidate: Candidate, is_certain: bool) -> Option<Candidate> {
         if !is_certain && !self.narrow(&mut candidate) {
             return None;
         }
-        let ray = self.ray;
-        let is_after = self.compare_with(&mut candidate, ray.t_min) == Ordering::Greater;
-        // What is farther than f32's largest number is never hit.
-        let end = ray.t_max.min(f32::MAX);
+        let (start, end) = (self.ray.t_min, self.ray.t_max.min(f32::MAX));
+        let is_after = self.compare_with(&mut candidate, start) == Ordering::Greater;
         (is_after && self.compare_with(&mut candidate, end) == Ordering::Less).then_some(candidate)
     }
 
     /// Whether the first is nearer, or as near and of a lower index.
+    #[inline(always)]
     pub fn is_before(&mut self, first: &mut Candidate, second: &mut Candidate) -> bool {
+        if first.far < second.near {
+            return true;
+        }
         match self.compare(first, second) {
             Ordering::Less => true,
             Ordering::Equal => first.primitive < second.primitive,
@@ -113,6 +160,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
     }
 
     /// Which is nearer, exactly.
+    #[inline(never)]
     pub fn compare(&mut self, first: &mut Candidate, second: &mut Candidate) -> Ordering {
         let by_bounds = |first: &Candidate, second: &Candidate| {
             if first.far < second.near {
@@ -192,14 +240,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
 
     /// The hit, rounded.
     pub fn hit(&self, candidate: Candidate) -> Hit {
-        let [t, u, v] = self.values(candidate);
-        Hit {
-            // Not quite f32's largest number may round to infinity.
-            t: (t as f32).min(f32::MAX),
-            u: u as f32,
-            v: v as f32,
-            primitive: candidate.primitive,
-        }
+        candidate.hit(self.values(candidate))
     }
 
     /// t, u and v, off by at most [`GOOD`].

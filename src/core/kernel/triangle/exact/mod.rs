@@ -14,9 +14,11 @@
 mod filter;
 mod integer;
 mod judge;
+mod rounding;
 
 pub(crate) use filter::{Filtered, filter};
 pub(crate) use judge::{Candidate, Judge};
+pub(crate) use rounding::HitLanes;
 
 use super::shear::ShearedRay;
 use crate::kernel::{KernelInfo, OneTriangle, Precision, Promises, Tier, pack_corners};
@@ -70,6 +72,7 @@ fn ask<T>(
     let find: &dyn Fn(usize) -> [Vec3; 3] = &|_| corners;
     let mut judge = Judge::new(ray, find);
     let is_certain = filtered.certain.bits() != 0;
-    let candidate = judge.candidate(0, 0, is_certain, filtered.near, filtered.far)?;
+    let candidate = Candidate::new(0, 0, filtered.near, filtered.far);
+    let candidate = judge.within(candidate, is_certain)?;
     Some(answer(&judge, candidate))
 }

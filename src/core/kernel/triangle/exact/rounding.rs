@@ -1,0 +1,119 @@
+//! t, u and v of several hits at a time, a hit a lane, to within half an ulp of f32 and a little.
+
+use super::{VALUES, filter};
+use crate::kernel::{RayLanes, ShearedRay, Values, axes_of};
+use crate::lane::{LANES, Lane, LaneMask, Number};
+use crate::ray::Ray;
+use fearless_simd::{Simd, f64x8};
+use glam::Vec3;
+
+/// f64 results are used if t's bounds are at most this apart, relatively, and weights off by at most
+/// this: 2⁻⁶ of f32's half ulp of 1.
+pub(super) const GOOD: f64 = 1.0 / (1u64 << 31) as f64;
+
+/// Rays and the triangles that they hit, side by side. Each ray's own axes come first, second and third, so
+/// that all lanes look along the third.
+#[derive(Clone, Copy)]
+pub(crate) struct HitLanes {
+    origin: [[f32; LANES]; 3],
+    dir: [[f32; LANES]; 3],
+    corners: [[f32; LANES]; VALUES],
+}
+
+/// What [`HitLanes`] come to.
+pub(crate) struct RoundedLanes {
+    t: [f64; LANES],
+    u: [f64; LANES],
+    v: [f64; LANES],
+    good: u32,
+}
+
+impl RoundedLanes {
+    /// t, u and v in a lane, unless they may be off by more than [`GOOD`].
+    pub fn of(&self, lane: usize) -> Option<[f64; 3]> {
+        let is_good = self.good >> lane & 1 == 1;
+        is_good.then(|| [self.t[lane], self.u[lane], self.v[lane]])
+    }
+}
+
+/// The corners' coordinates as f64.
+struct Widened<'a, S> {
+    token: S,
+    rows: &'a [[f32; LANES]; VALUES],
+}
+
+impl<S: Simd> Values<f64x8<S>> for Widened<'_, S> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> f64x8<S> {
+        f64::load(self.token, &self.rows[index])
+    }
+}
+
+impl HitLanes {
+    /// Without hits.
+    pub const EMPTY: Self = Self {
+        origin: [[0.0; LANES]; 3],
+        dir: [[0.0; LANES]; 3],
+        corners: [[0.0; LANES]; VALUES],
+    };
+
+    /// Puts a ray and the triangle that it hits into a lane.
+    #[inline(always)]
+    pub fn set(&mut self, lane: usize, ray: &Ray, corners: [Vec3; 3]) {
+        let lane = lane % LANES;
+        let [x, y, z] = axes_of(ray.dir.to_array());
+        let permuted = |p: Vec3| [p[x], p[y], p[z]];
+        let put = |rows: &mut [[f32; LANES]], p: Vec3| {
+            for (row, x) in rows.iter_mut().zip(permuted(p)) {
+                row[lane] = x;
+            }
+        };
+        put(&mut self.origin, ray.origin);
+        put(&mut self.dir, ray.dir);
+        let [a, b, c] = corners;
+        put(&mut self.corners[..3], a);
+        put(&mut self.corners[3..6], b);
+        put(&mut self.corners[6..], c);
+    }
+
+    /// t, u and v in each lane.
+    #[inline(always)]
+    pub fn values<S: Simd>(&self, token: S) -> RoundedLanes {
+        let row = |rows: &[[f32; LANES]; 3], k: usize| f64::load(token, &rows[k]);
+        let rays = RayLanes {
+            origin: [
+                row(&self.origin, 0),
+                row(&self.origin, 1),
+                row(&self.origin, 2),
+            ],
+            dir: [row(&self.dir, 0), row(&self.dir, 1), row(&self.dir, 2)],
+            axes: [0, 1, 2],
+        };
+        let sheared = ShearedRay::<f64x8<S>>::new(&rays);
+        let corners = Widened {
+            token,
+            rows: &self.corners,
+        };
+        let Some(filtered) = filter(&sheared, &corners) else {
+            return RoundedLanes {
+                t: [0.0; LANES],
+                u: [0.0; LANES],
+                v: [0.0; LANES],
+                good: 0,
+            };
+        };
+        let number = |x: f64| f64x8::splat(token, x);
+        let (near, far) = (filtered.near, filtered.far);
+        let is_good = filtered.certain
+            & (far - near).le(number(GOOD) * near.abs())
+            & filtered.weight_error.le(number(GOOD));
+        let t = number(0.5) * (near + far) / sheared.dir_z().abs();
+        let [u, v] = filtered.weights;
+        RoundedLanes {
+            t: f64::store(t),
+            u: f64::store(u),
+            v: f64::store(v),
+            good: is_good.bits(),
+        }
+    }
+}

@@ -1,0 +1,311 @@
+//! `hitscope bench`: how fast is a file loaded, its tree built, and the rays of each workload traced?
+
+use super::args::{CameraArgs, kernel_names};
+use super::{CommandError, default_thread_count, load};
+use crate::measure::speed::{RAYS_AT_ONCE, median};
+use crate::measure::workloads::{WORKLOADS, workloads};
+use clap::Args;
+use cpu_time::ThreadTime;
+use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
+use hitscope_core::obj::Recentre;
+use hitscope_core::simd::SimdLevel;
+use hitscope_core::{Intersector, Ray};
+use serde::Serialize;
+use std::hint::black_box;
+use std::io::Write;
+use std::num::NonZeroUsize;
+use std::path::PathBuf;
+use std::sync::Mutex;
+use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
+use std::time::{Duration, Instant};
+
+/// Measure loading, building and tracing
+///
+/// The rays: primary, through the pixels' centres; bounce, a diffuse one from each of their hits; random, across
+/// the scene's sphere; shadow, the bounce rays asked only whether they hit anything. Rates are rays over the
+/// CPU time of the tracing threads over their number, the middle of the rounds, in which the kernels take
+/// turns.
+#[derive(Args, Clone, Debug)]
+pub struct BenchArgs {
+    /// The OBJ file
+    pub file: PathBuf,
+    /// From where primary rays start.
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    /// Kernel or tier, several times for several [default: the four tiers]
+    #[arg(long = "kernel", value_name = "KERNEL", value_parser = kernel_names())]
+    pub kernels: Vec<String>,
+    /// Threads that trace [default: as many as there are cores]
+    #[arg(long, value_name = "N")]
+    pub threads: Option<NonZeroUsize>,
+    /// Rounds, of which the middle counts
+    #[arg(long, value_name = "N", default_value = "5")]
+    pub rounds: NonZeroUsize,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Camera rays and random rays at most.
+const MOST_RAYS: usize = 1 << 20;
+/// Rays that a thread takes at a time.
+const RAYS_PER_PART: usize = 4096;
+
+#[derive(Serialize)]
+struct Report {
+    triangles: usize,
+    simd: &'static str,
+    load_ms: f64,
+    /// The tree alone, on all threads.
+    build_ms: f64,
+    /// Tree and the first kernel's triangles.
+    bytes_per_triangle: f64,
+    /// `None` where the system doesn't tell.
+    peak_rss_bytes: Option<u64>,
+    kernels: Vec<Packed>,
+    workloads: Vec<Row>,
+}
+
+#[derive(Serialize)]
+struct Packed {
+    kernel: &'static str,
+    pack_ms: f64,
+    bytes_per_triangle: f64,
+}
+
+#[derive(Serialize)]
+struct Row {
+    name: &'static str,
+    kernel: &'static str,
+    /// How many rays go through the tree together, where they go the same way.
+    rays_together: usize,
+    threads: usize,
+    rays: usize,
+    hits: u64,
+    mrays_per_s: f64,
+    mrays_per_s_wall: f64,
+}
+
+/// What is asked of rays.
+#[derive(Clone, Copy)]
+enum Question {
+    Closest,
+    Coherent,
+    Any,
+}
+
+impl BenchArgs {
+    /// Measures and prints.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        let loaded = load(&self.file, Recentre::Auto)?;
+        let scene = &loaded.scene;
+        let camera = self.camera.camera(scene)?;
+        let triangles = scene.mesh().triangles.len();
+        let per_triangle = |bytes: usize| bytes as f64 / triangles.max(1) as f64;
+        let mut packed = Vec::new();
+        let mut intersectors = Vec::new();
+        for kernel in self.kernels() {
+            let start = Instant::now();
+            let intersector = scene.intersector(kernel);
+            packed.push(Packed {
+                kernel: kernel.info.short_name(),
+                pack_ms: milliseconds(start.elapsed()),
+                bytes_per_triangle: per_triangle(scene.bvh().bytes() + intersector.bytes()),
+            });
+            intersectors.push(intersector);
+        }
+        let report = Report {
+            triangles,
+            simd: SimdLevel::current().name(),
+            load_ms: milliseconds(loaded.load_time),
+            build_ms: milliseconds(scene.build_time()),
+            bytes_per_triangle: packed[0].bytes_per_triangle,
+            // Before the rays are there, which no viewer keeps.
+            peak_rss_bytes: peak_rss_bytes(),
+            kernels: packed,
+            workloads: self.rows(&intersectors, &workloads(scene, &camera, MOST_RAYS, 1)),
+        };
+        if self.json {
+            let text = serde_json::to_string(&report).expect("a report is plain data");
+            writeln!(out, "{text}")?;
+        } else {
+            report.print(out)?;
+        }
+        Ok(())
+    }
+
+    fn kernels(&self) -> Vec<&'static TriangleKernel> {
+        let tiers = ["fast", "watertight", "precise", "exact"].map(str::to_owned);
+        let names = if self.kernels.is_empty() {
+            &tiers[..]
+        } else {
+            &self.kernels
+        };
+        let named = |name: &String| triangle_kernel(name).expect("names are from the table only");
+        names.iter().map(named).collect()
+    }
+
+    fn rows(&self, intersectors: &[Box<dyn Intersector>], workloads: &[Vec<Ray>; 3]) -> Vec<Row> {
+        let threads = self.threads.map_or_else(default_thread_count, usize::from);
+        let [primary, bounce, _] = workloads;
+        let single = WORKLOADS.into_iter().zip(workloads);
+        let single = single.map(|(name, rays)| (name, Question::Closest, rays));
+        let more = [
+            ("primary", Question::Coherent, primary),
+            ("shadow", Question::Any, bounce),
+        ];
+        let mut rows = Vec::new();
+        for (name, question, rays) in single.chain(more) {
+            let mut times = vec![Vec::new(); intersectors.len()];
+            let mut hits = vec![0; intersectors.len()];
+            // One round to warm up, which doesn't count.
+            for round in 0..=self.rounds.get() {
+                for (k, intersector) in intersectors.iter().enumerate() {
+                    let traced = trace(&**intersector, question, rays, threads);
+                    hits[k] = traced.hits;
+                    if round > 0 {
+                        times[k].push(traced);
+                    }
+                }
+            }
+            for ((intersector, times), hits) in intersectors.iter().zip(times).zip(hits) {
+                let rate = |seconds: fn(&Traced) -> f64| {
+                    let seconds = median(times.iter().map(seconds).collect());
+                    rays.len() as f64 / seconds.max(1e-9) / 1e6
+                };
+                rows.push(Row {
+                    name,
+                    kernel: intersector.kernel().short_name(),
+                    rays_together: match question {
+                        Question::Coherent => intersector.rays_together(),
+                        Question::Closest | Question::Any => 1,
+                    },
+                    threads,
+                    rays: rays.len(),
+                    hits,
+                    mrays_per_s: rate(|traced| traced.cpu_seconds),
+                    mrays_per_s_wall: rate(|traced| traced.wall_seconds),
+                });
+            }
+        }
+        rows
+    }
+}
+
+/// A workload, traced once.
+#[derive(Clone, Copy)]
+struct Traced {
+    hits: u64,
+    /// Of all threads, over their number.
+    cpu_seconds: f64,
+    wall_seconds: f64,
+}
+
+fn trace(
+    intersector: &dyn Intersector,
+    question: Question,
+    rays: &[Ray],
+    threads: usize,
+) -> Traced {
+    let parts: Vec<&[Ray]> = rays.chunks(RAYS_PER_PART).collect();
+    let (next, hits) = (AtomicUsize::new(0), AtomicU64::new(0));
+    let cpu = Mutex::new(Duration::ZERO);
+    let work = || {
+        let start = ThreadTime::now();
+        let mut count = 0;
+        while let Some(part) = parts.get(next.fetch_add(1, Relaxed)) {
+            count += part
+                .chunks(RAYS_AT_ONCE)
+                .map(|rays| hit_count(intersector, question, rays))
+                .sum::<u64>();
+        }
+        hits.fetch_add(count, Relaxed);
+        *cpu.lock().expect("adding doesn't panic") += start.elapsed();
+    };
+    let start = Instant::now();
+    std::thread::scope(|scope| {
+        // Where the system grants fewer threads, those it grants do the work.
+        for _ in 1..threads {
+            _ = std::thread::Builder::new().spawn_scoped(scope, &work);
+        }
+        work();
+    });
+    let wall_seconds = start.elapsed().as_secs_f64();
+    let cpu = cpu.into_inner().expect("adding doesn't panic");
+    Traced {
+        hits: hits.into_inner(),
+        cpu_seconds: cpu.as_secs_f64() / threads as f64,
+        wall_seconds,
+    }
+}
+
+fn hit_count(intersector: &dyn Intersector, question: Question, rays: &[Ray]) -> u64 {
+    let (mut hits, mut are_hits) = ([None; RAYS_AT_ONCE], [false; RAYS_AT_ONCE]);
+    let (hits, are_hits) = (&mut hits[..rays.len()], &mut are_hits[..rays.len()]);
+    match question {
+        Question::Closest => intersector.closest_hits(black_box(rays), hits),
+        Question::Coherent => intersector.coherent_hits(black_box(rays), hits),
+        Question::Any => intersector.any_hits(black_box(rays), are_hits),
+    }
+    let count = hits.iter().flatten().count() + are_hits.iter().filter(|&&is_hit| is_hit).count();
+    count as u64
+}
+
+impl Report {
+    fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        writeln!(
+            out,
+            "{} triangles, {}; loaded in {:.0} ms, tree built in {:.0} ms",
+            self.triangles, self.simd, self.load_ms, self.build_ms
+        )?;
+        if let Some(bytes) = self.peak_rss_bytes {
+            writeln!(out, "{:.0} MB at most", bytes as f64 / 1e6)?;
+        }
+        writeln!(
+            out,
+            "\n{:<24}{:>12}{:>18}",
+            "kernel", "packed, ms", "bytes/triangle"
+        )?;
+        for packed in &self.kernels {
+            let (ms, bytes) = (packed.pack_ms, packed.bytes_per_triangle);
+            writeln!(out, "{:<24}{ms:>12.1}{bytes:>18.1}", packed.kernel)?;
+        }
+        writeln!(
+            out,
+            "\n{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>10}",
+            "rays", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "by clock"
+        )?;
+        for row in &self.workloads {
+            writeln!(
+                out,
+                "{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10.2}{:>10.2}",
+                row.name,
+                row.kernel,
+                row.rays_together,
+                row.threads,
+                row.rays,
+                row.hits,
+                row.mrays_per_s,
+                row.mrays_per_s_wall
+            )?;
+        }
+        Ok(())
+    }
+}
+
+fn milliseconds(duration: Duration) -> f64 {
+    duration.as_secs_f64() * 1e3
+}
+
+/// The most memory that the process has had so far.
+fn peak_rss_bytes() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status
+        .lines()
+        .find_map(|line| line.strip_prefix("VmHWM:"))?;
+    let kib: u64 = line.trim().strip_suffix("kB")?.trim().parse().ok()?;
+    Some(kib * 1024)
+}

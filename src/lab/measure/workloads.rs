@@ -1,0 +1,145 @@
+//! Which rays is a tracer timed on? As a renderer has them: the camera's, those that bounce off what they hit,
+//! and rays without any order.
+
+use glam::{DVec3, UVec2, Vec2};
+use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::mesh::unit_normal;
+use hitscope_core::random::Random;
+use hitscope_core::{Camera, Intersector, Ray, Scene};
+
+/// The rays of each workload, in the order of [`WORKLOADS`].
+pub type Workloads = [Vec<Ray>; 3];
+
+/// What the workloads are called.
+pub const WORKLOADS: [&str; 3] = ["primary", "bounce", "random"];
+
+/// Side of the blocks of pixels that camera rays are taken in, in pixels; a power of two.
+const BLOCK_PX: u32 = 8;
+
+/// How far above the surface bounce rays start, in diagonals of the scene's box: so far that no kernel's
+/// error reaches it, so that all of them trace the same rays.
+const LIFT: f64 = 1e-5;
+
+/// The workloads of a scene: at most `count` camera rays, what bounces off their hits, and `count` random
+/// rays.
+pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> Workloads {
+    let mut random = Random::new(seed);
+    let intersector = scene.intersector(default_triangle_kernel());
+    let primary = primary_rays(camera, count);
+    let bounce = bounce_rays(scene, &*intersector, &primary, &mut random);
+    let random = random_rays(scene, count, &mut random);
+    [primary, bounce, random]
+}
+
+/// Through pixels' centres, block by block in rows, in Morton order within a block. If there are more pixels
+/// than `count`, through every so manieth in both directions.
+fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
+    let size = camera.resolution();
+    let pixels = u64::from(size.x) * u64::from(size.y);
+    let step = (pixels as f64 / count.max(1) as f64).sqrt().ceil().max(1.0) as u32;
+    let size = (size / step).max(UVec2::ONE);
+    let blocks = (size + (BLOCK_PX - 1)) / BLOCK_PX;
+    let in_block = |block: u32| {
+        let corner = UVec2::new(block % blocks.x, block / blocks.x) * BLOCK_PX;
+        (0..BLOCK_PX * BLOCK_PX)
+            .map(move |k| corner + UVec2::new(every_second(k), every_second(k >> 1)))
+    };
+    let pixels = (0..blocks.x * blocks.y).flat_map(in_block);
+    let inside = pixels.filter(|p| p.x < size.x && p.y < size.y);
+    inside
+        .map(|p| camera.ray(p * step + step / 2, Vec2::splat(0.5)))
+        .take(count)
+        .collect()
+}
+
+/// Bits 0, 2, 4 of a number as bits 0, 1, 2: one coordinate of a place on the Morton curve.
+fn every_second(k: u32) -> u32 {
+    k & 1 | (k >> 2 & 1) << 1 | (k >> 4 & 1) << 2
+}
+
+/// Cosine-distributed about the normal that faces the ray, from each hit.
+fn bounce_rays(
+    scene: &Scene,
+    intersector: &dyn Intersector,
+    arriving: &[Ray],
+    random: &mut Random,
+) -> Vec<Ray> {
+    let mut hits = vec![None; arriving.len()];
+    intersector.coherent_hits(arriving, &mut hits);
+    let lift = LIFT * 2.0 * scene.bounds().radius();
+    let bounce = |(ray, hit): (&Ray, Option<hitscope_core::Hit>)| {
+        let hit = hit?;
+        let corners = scene.mesh().corners(hit.primitive);
+        let normal = unit_normal(corners);
+        let facing = if normal.dot(ray.dir.as_dvec3()) > 0.0 {
+            -normal
+        } else {
+            normal
+        };
+        let [a, b, c] = corners.map(|p| p.as_dvec3());
+        let (u, v) = (f64::from(hit.u), f64::from(hit.v));
+        let origin = a + u * (b - a) + v * (c - a) + lift * facing;
+        let dir = (facing + random.direction()).normalize_or(facing);
+        Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
+    };
+    arriving.iter().zip(hits).filter_map(bounce).collect()
+}
+
+/// From the sphere about the scene, its diagonal in radius, through a point of its box.
+fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
+    let bounds = scene.bounds();
+    let centre = bounds.centre().as_dvec3();
+    let (lower, extent) = (bounds.min.as_dvec3(), bounds.extent());
+    (0..count)
+        .filter_map(|_| {
+            let origin = centre + 2.0 * bounds.radius() * random.direction();
+            let part = 0.5 * (random.in_cube() + DVec3::ONE);
+            let dir = (lower + part * extent - origin).normalize_or_zero();
+            Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hitscope_core::camera::Projection;
+    use hitscope_core::mesh::shapes::{Place, scene, sphere};
+
+    #[test]
+    fn the_workloads_are_what_their_names_say() {
+        let scene = scene(sphere(8, Place::UNIT));
+        let projection = Projection::Perspective { fov_y_radians: 0.7 };
+        let size = UVec2::new(32, 16);
+        let eye = DVec3::Z * 4.0;
+        let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
+        let [primary, bounce, random] = workloads(&scene, &camera.expect("a camera"), 512, 1);
+        assert_eq!(primary.len(), 512);
+        let intersector = scene.intersector(default_triangle_kernel());
+        let is_hit = |ray: &&Ray| intersector.any_hit(ray);
+        assert_eq!(primary.iter().filter(is_hit).count(), bounce.len());
+        // A sphere is convex: what leaves it doesn't come back.
+        assert_eq!(bounce.iter().filter(is_hit).count(), 0);
+        assert!(random.iter().filter(is_hit).count() > 100);
+    }
+
+    #[test]
+    fn camera_rays_go_through_every_pixel_once_or_evenly_through_some() {
+        let projection = Projection::Orthographic { height: 2.0 };
+        for (size, count, expected) in [
+            (UVec2::new(21, 10), 1000, 210),
+            (UVec2::new(64, 64), 1024, 1024),
+            (UVec2::new(1, 1), 5, 1),
+        ] {
+            let camera = Camera::look_at(DVec3::Z, DVec3::ZERO, DVec3::Y, projection, size);
+            let rays = primary_rays(&camera.expect("a camera"), count);
+            let mut origins: Vec<_> = rays
+                .iter()
+                .map(|ray| ray.origin.to_array().map(f32::to_bits))
+                .collect();
+            origins.sort_unstable();
+            origins.dedup();
+            assert_eq!(origins.len(), expected, "{size}");
+        }
+    }
+}
