@@ -14,22 +14,27 @@ pub(super) const T_RANGE: [f64; 2] = [0.05, 5e4];
 pub(super) const WEIGHT_RANGE: [f64; 2] = [1e-8, 0.1];
 
 /// By how many ulps of f32 t errs.
-pub(super) fn error_t(context: &Context, ray: &Ray) -> Vec3 {
-    error(context, ray, |hit, [t, _, _]| {
+pub(super) fn error_t(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+    error(context, ray, hit, |hit, [t, _, _]| {
         log_colour((f64::from(hit.t) - t).abs() / ulp_at(t), T_RANGE)
     })
 }
 
 /// By how much the weight errs that errs most.
-pub(super) fn error_barycentric(context: &Context, ray: &Ray) -> Vec3 {
-    error(context, ray, |hit, [_, u, v]| {
+pub(super) fn error_barycentric(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+    error(context, ray, hit, |hit, [_, u, v]| {
         log_colour(hit.weight_error([1.0 - u - v, u, v]), WEIGHT_RANGE)
     })
 }
 
 /// A hit's colour by the exact t, u and v of its triangle; others where the decision itself is wrong.
-fn error(context: &Context, ray: &Ray, colour: impl Fn(Hit, [f64; 3]) -> Vec3) -> Vec3 {
-    let Some(hit) = context.intersector.closest_hit(ray) else {
+fn error(
+    context: &Context,
+    ray: &Ray,
+    hit: Option<Hit>,
+    colour: impl Fn(Hit, [f64; 3]) -> Vec3,
+) -> Vec3 {
+    let Some(hit) = hit else {
         return if context.second.any_hit(ray) {
             MISSED
         } else {
@@ -45,12 +50,8 @@ fn error(context: &Context, ray: &Ray, colour: impl Fn(Hit, [f64; 3]) -> Vec3) -
 }
 
 /// Where the two kernels differ about what is hit; elsewhere a faint picture, to find one's way.
-pub(super) fn disagreement(context: &Context, ray: &Ray) -> Vec3 {
-    let (first, second) = (
-        context.intersector.closest_hit(ray),
-        context.second.closest_hit(ray),
-    );
-    match (first, second) {
+pub(super) fn disagreement(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+    match (hit, context.second.closest_hit(ray)) {
         (None, None) => context.background,
         (None, Some(_)) => MISSED,
         (Some(_), None) => FALSE_HIT,

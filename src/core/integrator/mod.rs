@@ -11,7 +11,7 @@ mod views;
 use crate::camera::Camera;
 use crate::intersector::Intersector;
 use crate::kernel::{TriangleKernel, exact_triangle_kernel};
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use glam::Vec3;
 use std::sync::Arc;
@@ -45,7 +45,15 @@ pub struct Integrator {
     pub against: Against,
     /// What single colours mean.
     pub legend: fn() -> Legend,
-    radiance: fn(&Context, &Ray) -> Vec3,
+    colour: Colour,
+}
+
+/// What a view makes a ray's colour of.
+enum Colour {
+    /// Of what the chosen kernel says that it hits first.
+    OfHit(fn(&Context, &Ray, Option<Hit>) -> Vec3),
+    /// Of what the view finds out about the ray by itself.
+    OfRay(fn(&Context, &Ray) -> Vec3),
 }
 
 /// What a view holds the chosen kernel against.
@@ -88,9 +96,21 @@ impl Integrator {
         )
     }
 
-    /// The colour that a ray brings back, in linear RGB.
-    pub fn radiance(&self, context: &Context, ray: &Ray) -> Vec3 {
-        (self.radiance)(context, ray)
+    /// What the view needs to know of rays before it makes colours of them: what they hit first. Quickest for
+    /// rays that go together.
+    pub fn first_hits(&self, context: &Context, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        match self.colour {
+            Colour::OfHit(_) => context.intersector.coherent_hits(rays, hits),
+            Colour::OfRay(_) => {}
+        }
+    }
+
+    /// The colour that a ray brings back, in linear RGB, by what [`first_hits`](Self::first_hits) found.
+    pub fn radiance(&self, context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+        match self.colour {
+            Colour::OfHit(colour) => colour(context, ray, hit),
+            Colour::OfRay(colour) => colour(context, ray),
+        }
     }
 }
 
@@ -102,7 +122,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Lit by a studio light that moves with the camera.",
         against: Against::Nothing,
         legend: legend::none,
-        radiance: shaded::radiance,
+        colour: Colour::OfHit(shaded::radiance),
     },
     Integrator {
         name: "normal",
@@ -110,7 +130,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "The shading normal: x, y, z from −1 to 1 as red, green, blue.",
         against: Against::Nothing,
         legend: legend::none,
-        radiance: views::normal,
+        colour: Colour::OfHit(views::normal),
     },
     Integrator {
         name: "barycentric",
@@ -118,7 +138,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "The weights of the three corners as red, green, blue.",
         against: Against::Nothing,
         legend: legend::none,
-        radiance: views::barycentric,
+        colour: Colour::OfHit(views::barycentric),
     },
     Integrator {
         name: "depth",
@@ -126,7 +146,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Distance from the eye, white at the nearest place of the scene's sphere, dark at the farthest.",
         against: Against::Nothing,
         legend: legend::none,
-        radiance: views::depth,
+        colour: Colour::OfHit(views::depth),
     },
     Integrator {
         name: "triangle",
@@ -134,7 +154,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "A colour for each triangle.",
         against: Against::Nothing,
         legend: legend::none,
-        radiance: views::triangle,
+        colour: Colour::OfHit(views::triangle),
     },
     Integrator {
         name: "cost",
@@ -142,7 +162,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Boxes and triangles tested for the ray, on a logarithmic scale.",
         against: Against::Nothing,
         legend: legend::cost,
-        radiance: views::cost,
+        colour: Colour::OfRay(views::cost),
     },
     Integrator {
         name: "error-t",
@@ -150,7 +170,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "By how many ulps of f32 the chosen kernel's t errs, on a logarithmic scale.",
         against: Against::Exact,
         legend: legend::error_t,
-        radiance: compare::error_t,
+        colour: Colour::OfHit(compare::error_t),
     },
     Integrator {
         name: "error-barycentric",
@@ -158,7 +178,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "By how much the chosen kernel's worst weight errs, on a logarithmic scale.",
         against: Against::Exact,
         legend: legend::error_barycentric,
-        radiance: compare::error_barycentric,
+        colour: Colour::OfHit(compare::error_barycentric),
     },
     Integrator {
         name: "disagreement",
@@ -166,7 +186,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Where the chosen kernel and a second one differ about what is hit.",
         against: Against::Second,
         legend: legend::decisions,
-        radiance: compare::disagreement,
+        colour: Colour::OfHit(compare::disagreement),
     },
 ];
 

@@ -2,7 +2,7 @@
 
 use super::Context;
 use crate::interaction::SurfaceInteraction;
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use glam::Vec3;
 
 /// Reflectance of faces whose material names none.
@@ -18,8 +18,8 @@ const LAMPS: [(Vec3, f32); 2] = [
 
 /// Diffuse reflection of the lamps; both sides of a triangle are lit. No ray is cast to the lamps:
 /// they cast no shadows.
-pub(super) fn radiance(context: &Context, ray: &Ray) -> Vec3 {
-    let Some(hit) = context.intersector.closest_hit(ray) else {
+pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+    let Some(hit) = hit else {
         return context.background;
     };
     let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);

@@ -4,50 +4,40 @@ use super::Context;
 use super::palette::{cost_colour, from_display, id_colour};
 use crate::camera::Projection;
 use crate::interaction::SurfaceInteraction;
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use glam::Vec3;
 
-pub(super) fn normal(context: &Context, ray: &Ray) -> Vec3 {
-    context
-        .intersector
-        .closest_hit(ray)
-        .map_or(context.background, |hit| {
-            let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
-            from_display(0.5 * surface.shading_normal + 0.5)
-        })
+pub(super) fn normal(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
+    hit.map_or(context.background, |hit| {
+        let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+        from_display(0.5 * surface.shading_normal + 0.5)
+    })
 }
 
-pub(super) fn barycentric(context: &Context, ray: &Ray) -> Vec3 {
-    context
-        .intersector
-        .closest_hit(ray)
-        .map_or(context.background, |hit| {
-            from_display(Vec3::from_array(hit.barycentric()))
-        })
+pub(super) fn barycentric(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
+    hit.map_or(context.background, |hit| {
+        from_display(Vec3::from_array(hit.barycentric()))
+    })
 }
 
-pub(super) fn depth(context: &Context, ray: &Ray) -> Vec3 {
-    context
-        .intersector
-        .closest_hit(ray)
-        .map_or(context.background, |hit| {
-            let bounds = context.scene.bounds();
-            // From the eye, or from its plane, to the scene's sphere, front and back.
-            let camera = &context.camera;
-            let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
-            let middle = match camera.projection() {
-                Projection::Perspective { .. } => from_eye.length(),
-                Projection::Orthographic { .. } => -from_eye.dot(camera.back()),
-            };
-            let nearest = (middle - bounds.radius()).max(0.0);
-            let distance = f64::from(hit.t) * ray.dir.as_dvec3().length();
-            let part = (distance - nearest) / (middle + bounds.radius() - nearest);
-            from_display(Vec3::splat(1.0 - 0.9 * part as f32))
-        })
+pub(super) fn depth(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+    hit.map_or(context.background, |hit| {
+        let bounds = context.scene.bounds();
+        // From the eye, or from its plane, to the scene's sphere, front and back.
+        let camera = &context.camera;
+        let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
+        let middle = match camera.projection() {
+            Projection::Perspective { .. } => from_eye.length(),
+            Projection::Orthographic { .. } => -from_eye.dot(camera.back()),
+        };
+        let nearest = (middle - bounds.radius()).max(0.0);
+        let distance = f64::from(hit.t) * ray.dir.as_dvec3().length();
+        let part = (distance - nearest) / (middle + bounds.radius() - nearest);
+        from_display(Vec3::splat(1.0 - 0.9 * part as f32))
+    })
 }
 
-pub(super) fn triangle(context: &Context, ray: &Ray) -> Vec3 {
-    let hit = context.intersector.closest_hit(ray);
+pub(super) fn triangle(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
     hit.map_or(context.background, |hit| id_colour(hit.primitive))
 }
 

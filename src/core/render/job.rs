@@ -5,10 +5,13 @@ use super::worker::{Message, Renderer};
 use crate::camera::Projection;
 use crate::film::{Film, FixedRgb, TileSamples, fixed};
 use crate::integrator::{Context, Integrator};
+use crate::lane::PACKET;
+use crate::ray::Ray;
 use glam::{DVec3, UVec2};
 use std::any::Any;
 use std::cell::Cell;
-use std::panic::{AssertUnwindSafe, catch_unwind};
+use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
+use std::slice::from_ref;
 use std::time::{Duration, Instant};
 
 /// A picture to be rendered.
@@ -56,7 +59,7 @@ pub struct RenderPanic {
 }
 
 impl Job {
-    /// Traces a tile; `None` if `is_stale` said so between two pixels.
+    /// Traces a tile; `None` if `is_stale` said so between two batches of rays.
     pub(super) fn trace(
         &self,
         unit: Unit,
@@ -81,32 +84,88 @@ impl Job {
     ) -> Option<TileResult> {
         let start = Instant::now();
         let samples = self.plan.pass(unit.pass).samples();
-        let mut sums: Vec<FixedRgb> = Vec::new();
-        let (mut rays, mut non_finite) = (0, 0);
+        let mut batch = Batch {
+            job: self,
+            at,
+            rays: Vec::with_capacity(RAYS_AT_ONCE),
+            places: Vec::with_capacity(RAYS_AT_ONCE),
+            sums: Vec::new(),
+            non_finite: 0,
+        };
+        let mut rays = 0;
         for pixel in self.plan.pixels(unit) {
-            // A relaxed load costs nothing beside a ray, and a ray may be slow.
-            if is_stale() {
-                return None;
-            }
-            let mut sum = [0; 3];
+            batch.sums.push([0; 3]);
             for sample in samples.clone() {
-                at.set((pixel, sample));
-                let place = Plan::position(pixel, sample);
-                let ray = self.context.camera.ray(pixel, place);
-                match fixed(self.integrator.radiance(&self.context, &ray)) {
-                    Some(colour) => (0..3).for_each(|k| sum[k] += colour[k]),
-                    None => non_finite += 1,
-                }
+                batch.add(pixel, sample);
                 rays += 1;
+                if batch.rays.len() == RAYS_AT_ONCE {
+                    // A relaxed load costs nothing beside rays, and rays may be slow.
+                    if is_stale() {
+                        return None;
+                    }
+                    batch.trace();
+                }
             }
-            sums.push(sum);
         }
+        batch.trace();
+        let Batch {
+            sums, non_finite, ..
+        } = batch;
         Some(TileResult {
             samples: TileSamples { unit, sums },
             non_finite,
             rays,
             busy: start.elapsed(),
         })
+    }
+}
+
+/// Rays that are traced in one call: two packets. More gains nothing, and whoever wants a tile given up waits
+/// for them.
+const RAYS_AT_ONCE: usize = 2 * PACKET;
+
+/// Rays that wait to be traced, and what the pixels of their tile have come to so far.
+struct Batch<'a> {
+    job: &'a Job,
+    /// What is being traced, should it panic.
+    at: &'a Cell<(UVec2, u32)>,
+    rays: Vec<Ray>,
+    /// The index of the pixel's sum, the pixel, and the sample.
+    places: Vec<(usize, UVec2, u32)>,
+    sums: Vec<FixedRgb>,
+    non_finite: u32,
+}
+
+impl Batch<'_> {
+    /// Adds a sample of the last pixel.
+    fn add(&mut self, pixel: UVec2, sample: u32) {
+        self.at.set((pixel, sample));
+        let place = Plan::position(pixel, sample);
+        self.rays.push(self.job.context.camera.ray(pixel, place));
+        self.places.push((self.sums.len() - 1, pixel, sample));
+    }
+
+    fn trace(&mut self) {
+        let (context, integrator) = (&self.job.context, self.job.integrator);
+        let mut hits = [None; RAYS_AT_ONCE];
+        let hits = &mut hits[..self.rays.len()];
+        let together = || integrator.first_hits(context, &self.rays, hits);
+        if let Err(panic) = catch_unwind(AssertUnwindSafe(together)) {
+            // Which of them was it? Unless none is by itself, this panics in its turn.
+            for (ray, &(_, pixel, sample)) in self.rays.iter().zip(&self.places) {
+                self.at.set((pixel, sample));
+                integrator.first_hits(context, from_ref(ray), &mut [None]);
+            }
+            resume_unwind(panic);
+        }
+        let rays = self.rays.drain(..).zip(self.places.drain(..)).zip(hits);
+        for ((ray, (index, pixel, sample)), hit) in rays {
+            self.at.set((pixel, sample));
+            match fixed(integrator.radiance(context, &ray, *hit)) {
+                Some(colour) => (0..3).for_each(|k| self.sums[index][k] += colour[k]),
+                None => self.non_finite += 1,
+            }
+        }
     }
 }
 

@@ -150,8 +150,9 @@ impl Plan {
         }
     }
 
-    /// The pixels that a piece of work traces, row by row.
+    /// The pixels that a piece of work traces, in blocks of 4 × 4: rays of neighbours go together.
     pub fn pixels(&self, unit: Unit) -> impl Iterator<Item = UVec2> + '_ {
+        const BLOCK: u32 = 4;
         let rect = self.tile_rect(unit.tile);
         let pass = self.passes[unit.pass];
         let step = match pass {
@@ -162,12 +163,16 @@ impl Plan {
             Pass::Lattice { .. } => &self.passes[..unit.pass],
             Pass::Samples { .. } => &[],
         };
-        let rows = (rect.min.y..rect.max.y).step_by(step as usize);
-        rows.flat_map(move |y| {
-            let columns = (rect.min.x..rect.max.x).step_by(step as usize);
-            columns.map(move |x| self.representative(UVec2::new(x, y), step))
-        })
-        .filter(move |&pixel| !coarser.iter().any(|&pass| self.lattice_holds(pass, pixel)))
+        let starts = move |from: u32, to: u32| (from..to).step_by((BLOCK * step) as usize);
+        let blocks = starts(rect.min.y, rect.max.y)
+            .flat_map(move |y| starts(rect.min.x, rect.max.x).map(move |x| UVec2::new(x, y)));
+        blocks
+            .flat_map(move |block| {
+                (0..BLOCK * BLOCK).map(move |k| block + UVec2::new(k % BLOCK, k / BLOCK) * step)
+            })
+            .filter(move |p| p.cmplt(rect.max).all())
+            .map(move |p| self.representative(p, step))
+            .filter(move |&pixel| !coarser.iter().any(|&pass| self.lattice_holds(pass, pixel)))
     }
 
     /// The place of a sample in its pixel.

@@ -76,7 +76,7 @@ impl Shared {
     }
 }
 
-/// Threads that render the job posted last. Dropping it ends them within a pixel.
+/// Threads that render the job posted last. Dropping it ends them within a batch of rays.
 pub struct Renderer {
     shared: Arc<Shared>,
     /// `None` only while it is dropped.
@@ -132,7 +132,7 @@ impl Renderer {
         self.shared.changed.notify_all();
     }
 
-    /// Drops the job: what is being traced is given up within a pixel.
+    /// Drops the job: what is being traced is given up within a batch of rays.
     pub fn cancel(&mut self) {
         self.generation += 1;
         self.shared.state().posted = None;
