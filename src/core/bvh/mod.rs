@@ -10,6 +10,8 @@ mod slab;
 mod walk;
 
 use crate::aabb::Aabb;
+use crate::simd::prefetch;
+use fearless_simd::Simd;
 pub(crate) use packet::{PacketVisitor, RayPacket};
 pub(crate) use walk::{Stack, Visitor, rank_floor, with_stack};
 
@@ -138,6 +140,12 @@ impl Bvh {
     #[inline(always)]
     pub(crate) fn lanes(&self, block: usize) -> &[u32; BLOCK_SIZE] {
         &self.blocks[block]
+    }
+
+    /// Asks the cache for [`lanes`](Self::lanes).
+    #[inline(always)]
+    pub(crate) fn announce_lanes<S: Simd>(&self, token: S, block: usize) {
+        prefetch(token, &self.blocks, block, size_of::<[u32; BLOCK_SIZE]>());
     }
 
     /// Bytes that the tree takes.

@@ -99,8 +99,24 @@ impl Bvh {
                     current = NOTHING;
                     break;
                 }
-                let mut nearest = self.next(token, &mut met, &node.child, &entries, visitor);
+                let a = self.next(token, &mut met, &node.child, &entries, visitor);
+                if met == 0 {
+                    current = a;
+                    continue;
+                }
                 let first = depth;
+                let b = self.next(token, &mut met, &node.child, &entries, visitor);
+                let (mut nearest, mut farther) = (a.min(b), a.max(b));
+                // Two and three are sorted without branches that nobody could foretell.
+                if V::IS_ORDERED && met != 0 {
+                    let c = self.next(token, &mut met, &node.child, &entries, visitor);
+                    stack[usize::from(depth)] = farther.max(c);
+                    depth = depth.wrapping_add(1);
+                    let middle = farther.min(c);
+                    (nearest, farther) = (nearest.min(middle), nearest.max(middle));
+                }
+                stack[usize::from(depth)] = farther;
+                depth = depth.wrapping_add(1);
                 while met != 0 {
                     let next = self.next(token, &mut met, &node.child, &entries, visitor);
                     if V::IS_ORDERED {

@@ -141,9 +141,10 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         }
     }
 
-    /// Asks the cache for a block.
+    /// Asks the cache for a block and its primitives.
     #[inline(always)]
     pub fn announce<S: Simd>(&self, token: S, block: usize, count: usize) {
+        self.bvh.announce_lanes(token, block);
         prefetch(
             token,
             &self.rows,

@@ -6,7 +6,10 @@
 //! count blocks, as a SIMD test costs the same whether its lanes are full or not; near the root several
 //! threads bin and partition a range together, below it each builds subtrees of its own.
 
+mod quick;
 mod split;
+#[cfg(test)]
+mod tests;
 
 use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
 use crate::aabb::Aabb;
@@ -49,6 +52,12 @@ impl Item {
             upper: Vec3A::from_vec4(self.upper),
         }
     }
+}
+
+/// `None` for boxes that no ray can meet: those that are empty or hold a NaN or an infinity.
+fn item_of(bounds: Aabb, index: u32) -> Option<Item> {
+    let is_good = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
+    is_good.then(|| Item::new(bounds, index))
 }
 
 /// A box in registers.
@@ -109,11 +118,7 @@ impl Bvh {
         keep_going: KeepGoing,
     ) -> Result<Self, Cancelled> {
         keep_going()?;
-        let item = |index| {
-            let bounds = bounds_of(index);
-            let is_good = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
-            is_good.then(|| Item::new(bounds, index))
-        };
+        let item = |index| item_of(bounds_of(index), index);
         let mut items: Vec<Item> = (0..count as u32).into_par_iter().filter_map(item).collect();
         let bounds = split::around(&items);
         let scale = Scale::of(bounds);
@@ -319,143 +324,5 @@ impl Node {
             self.planes[2 * axis][slot] = lower[axis];
             self.planes[2 * axis + 1][slot] = upper[axis];
         }
-    }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn build(boxes: &[Aabb]) -> Bvh {
-        let bounds_of = |primitive: u32| boxes[primitive as usize];
-        Bvh::build(boxes.len(), bounds_of, &|| Ok(())).expect("nobody cancels")
-    }
-
-    /// Every primitive in exactly one block, every block within its ancestors' boxes.
-    fn assert_sound(bvh: &Bvh, boxes: &[Aabb], expected: usize) {
-        let mut seen = vec![0; boxes.len()];
-        let mut stack: Vec<(usize, Aabb, usize)> = vec![];
-        if !bvh.nodes.is_empty() {
-            stack.push((0, bvh.bounds, 1));
-        }
-        while let Some((index, outer, depth)) = stack.pop() {
-            assert!(depth <= MAX_DEPTH);
-            let node = &bvh.nodes[index];
-            for slot in 0..WIDTH {
-                let child = node.child[slot];
-                if child == Child::NONE {
-                    continue;
-                }
-                let row = |first: usize| {
-                    Vec3::from_array([0, 2, 4].map(|k| node.planes[first + k][slot]))
-                };
-                let bounds = Aabb {
-                    min: row(0),
-                    max: row(1),
-                };
-                assert_eq!(outer.union(bounds), outer);
-                if !child.is_leaf() {
-                    stack.push((child.node_index(), bounds, depth + 1));
-                    continue;
-                }
-                assert!(child.block_count() <= LEAF_BLOCKS);
-                for block in child.first_block()..child.first_block() + child.block_count() {
-                    for &primitive in bvh.block(block) {
-                        seen[primitive as usize] += 1;
-                        let inner = boxes[primitive as usize];
-                        assert_eq!(bounds.union(inner), bounds);
-                    }
-                }
-            }
-        }
-        assert!(seen.iter().all(|&n| n <= 1));
-        assert_eq!(seen.iter().sum::<usize>(), expected);
-    }
-
-    fn scattered(n: u64) -> Vec<Aabb> {
-        let at = |i: u64| (crate::sampler::mix(i) >> 40) as f32 / 1e4;
-        (0..n)
-            .map(|i| {
-                let p = Vec3::new(at(3 * i), at(3 * i + 1), at(3 * i + 2));
-                Aabb::around([p, p + at(i) * 1e-3])
-            })
-            .collect()
-    }
-
-    #[test]
-    fn every_primitive_is_in_one_leaf_and_every_box_holds_what_is_below() {
-        for n in [0, 1, 8, 9, 1000, 150_000] {
-            let boxes = scattered(n);
-            assert_sound(&build(&boxes), &boxes, n as usize);
-        }
-    }
-
-    #[test]
-    fn identical_boxes_and_extreme_extents_build() {
-        let point = Aabb::around([Vec3::ONE]);
-        let huge = Aabb::around([Vec3::splat(-3e38), Vec3::splat(3e38)]);
-        let tiny = Aabb::around([Vec3::ZERO, Vec3::splat(1e-45)]);
-        for case in [
-            vec![point; 50_000],
-            vec![huge; 100],
-            vec![tiny, huge, point],
-        ] {
-            assert_sound(&build(&case), &case, case.len());
-        }
-        // Centres in a geometric series put all but one into the first bin.
-        let series: Vec<Aabb> = (0..250)
-            .map(|i| Aabb::around([Vec3::splat(2f32.powi(i - 125))]))
-            .collect();
-        assert_sound(&build(&series), &series, series.len());
-    }
-
-    #[test]
-    fn the_tree_does_not_depend_on_the_scenes_size() {
-        let boxes = scattered(2000);
-        let blocks = build(&boxes).blocks;
-        for exponent in [-70, 70] {
-            let scale = 2f32.powi(exponent);
-            let scaled = |b: &Aabb| Aabb::around([b.min * scale, b.max * scale]);
-            let boxes: Vec<Aabb> = boxes.iter().map(scaled).collect();
-            assert_eq!(build(&boxes).blocks, blocks, "2^{exponent}");
-        }
-    }
-
-    #[test]
-    fn boxes_that_no_ray_can_meet_are_left_out() {
-        let good = Aabb::around([Vec3::ZERO, Vec3::ONE]);
-        let nan = Aabb {
-            min: Vec3::splat(f32::NAN),
-            max: Vec3::ONE,
-        };
-        let infinite = Aabb {
-            min: Vec3::ZERO,
-            max: Vec3::INFINITY,
-        };
-        let boxes = [nan, good, Aabb::EMPTY, infinite];
-        assert_sound(&build(&boxes), &boxes, 1);
-    }
-
-    #[test]
-    fn a_cancelled_build_says_so() {
-        let unit = |_| Aabb::around([Vec3::ZERO, Vec3::ONE]);
-        assert!(Bvh::build(2000, unit, &|| Err(Cancelled)).is_err());
-    }
-
-    #[test]
-    fn the_tree_does_not_depend_on_the_number_of_threads() {
-        let boxes = scattered(150_000);
-        let trees = [1, 3].map(|threads| {
-            let pool = rayon::ThreadPoolBuilder::new().num_threads(threads).build();
-            pool.expect("threads").install(|| build(&boxes))
-        });
-        assert_eq!(trees[0].blocks, trees[1].blocks);
-        assert!(
-            trees[0]
-                .nodes
-                .iter()
-                .zip(&trees[1].nodes)
-                .all(|(a, b)| a.planes == b.planes && a.child == b.child)
-        );
     }
 }

@@ -38,8 +38,14 @@ impl Kernel for MollerTrumbore {
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
+    /// A and the edges from it in f32; in f64, where f32 doesn't hold the edges exactly, the corners.
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
-        pack_corners(corners, values);
+        let [a, b, c] = corners;
+        if N::HOLDS_PRODUCTS {
+            pack_corners(corners, values);
+        } else {
+            pack_corners([a, b - a, c - a], values);
+        }
     }
 
     #[inline(always)]
@@ -56,7 +62,11 @@ impl Kernel for MollerTrumbore {
     ) -> Option<LaneHit<L>> {
         let zero = L::of(t_min.token(), 0.0);
         let [a, b, c] = [triangles.three(0), triangles.three(3), triangles.three(6)];
-        let (e1, e2) = (minus(&b, &a), minus(&c, &a));
+        let (e1, e2) = if L::Number::HOLDS_PRODUCTS {
+            (minus(&b, &a), minus(&c, &a))
+        } else {
+            (b, c)
+        };
 
         // Cramer's rule for o − A = −t·d + u·e1 + v·e2; det = 0: the ray is parallel to the plane.
         let p = cross(&ray.dir, &e2);

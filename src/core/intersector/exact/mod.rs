@@ -1,12 +1,14 @@
 //! A mesh, packed for the exact kernel: hits are weighed against each other as exact arithmetic orders
 //! them.
 
-use super::blocks::{Blocks, candidates, is_asked};
+mod visitors;
+
+use super::blocks::{Blocks, candidates};
 use super::{Cost, Crossing, Intersector, is_behind};
-use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, Visitor, with_stack};
-use crate::kernel::exact::{Candidate, Filtered, HitLanes, INFO, Judge, VALUES, filter};
+use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, with_stack};
+use crate::kernel::exact::{Candidate, HitLanes, INFO, Judge, VALUES};
 use crate::kernel::{KernelInfo, ShearedRay, pack_corners};
-use crate::lane::{LANES, Lane, LaneMask, Number};
+use crate::lane::{LANES, Number};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::simd::{SimdLevel, baseline};
@@ -15,6 +17,7 @@ use glam::Vec3;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use std::sync::Arc;
+use visitors::{Any, Each, Kept, Nearest, Sighted, Tester};
 
 type Vector<S> = <f32 as Number>::Lanes<S>;
 
@@ -22,262 +25,6 @@ type Vector<S> = <f32 as Number>::Lanes<S>;
 pub(crate) struct ExactIntersector {
     blocks: Blocks<f32>,
     level: SimdLevel,
-}
-
-/// One ray against blocks.
-struct Tester<'a, S: Simd, F> {
-    intersector: &'a ExactIntersector,
-    token: S,
-    sheared: ShearedRay<Vector<S>>,
-    judge: Judge<'a, F>,
-    /// Depths below this are before the ray's interval: among them those of the triangle that it leaves.
-    earliest: f32,
-    /// t is a depth times this.
-    inverse_dir_z: f32,
-}
-
-/// A lane of a block that isn't a certain miss, and not certainly too deep.
-#[derive(Clone, Copy)]
-struct Sighted {
-    primitive: u32,
-    /// Where its corners are found.
-    slot: u32,
-    /// Bounds on its depth.
-    near: f32,
-    far: f32,
-    is_certain: bool,
-}
-
-impl Sighted {
-    fn candidate(&self) -> Candidate {
-        Candidate::new(self.primitive, self.slot as usize, self.near, self.far)
-    }
-}
-
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Tester<'_, S, F> {
-    /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to `sighted`, until that
-    /// breaks.
-    #[inline(always)]
-    fn test(
-        &mut self,
-        block: usize,
-        deepest: f32,
-        mut sighted: impl FnMut(&mut Judge<'_, F>, Sighted) -> ControlFlow<()>,
-    ) -> ControlFlow<()> {
-        let blocks = &self.intersector.blocks;
-        let values = blocks.values::<f32, S>(self.token, block, VALUES);
-        let Some(filtered) = filter(&self.sheared, &values) else {
-            return ControlFlow::Continue(());
-        };
-        let Filtered {
-            certain,
-            missed,
-            near,
-            far,
-            ..
-        } = filtered;
-        let splat = |x: f32| Vector::<S>::splat(self.token, x);
-        let is_outside = certain & (splat(deepest).lt(near) | far.lt(splat(self.earliest)));
-        let certain = certain.bits();
-        let mut lanes = !(missed | is_outside).bits() & ((1 << BLOCK_SIZE) - 1);
-        let (near, far) = (f32::store(near), f32::store(far));
-        let primitives = blocks.bvh.lanes(block);
-        while lanes != 0 {
-            let lane = lanes.trailing_zeros() as usize % BLOCK_SIZE;
-            lanes &= lanes - 1;
-            let primitive = primitives[lane];
-            if is_asked(primitive, self.judge.ray().exclude) {
-                let hit = Sighted {
-                    primitive,
-                    slot: (block * BLOCK_SIZE + lane) as u32,
-                    near: near[lane],
-                    far: far[lane],
-                    is_certain: certain >> lane & 1 == 1,
-                };
-                sighted(&mut self.judge, hit)?;
-            }
-        }
-        ControlFlow::Continue(())
-    }
-
-    #[inline(always)]
-    fn announce(&self, block: usize) {
-        self.intersector.blocks.announce(self.token, block, VALUES);
-    }
-}
-
-/// Looks for the nearest hit.
-struct Nearest<'a, S: Simd, F> {
-    tester: Tester<'a, S, F>,
-    /// The nearest so far, or [`NO_PRIMITIVE`] and infinity.
-    best: Sighted,
-    /// The same, where it had to be looked at more closely.
-    weighed: Option<Candidate>,
-    t_max: f32,
-}
-
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Nearest<'_, S, F> {
-    #[inline(always)]
-    fn candidate(&self) -> Option<Candidate> {
-        let is_hit = self.best.primitive != NO_PRIMITIVE;
-        is_hit.then(|| self.weighed.unwrap_or_else(|| self.best.candidate()))
-    }
-}
-
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Nearest<'_, S, F> {
-    const IS_ORDERED: bool = true;
-    const IS_BEHIND: bool = false;
-
-    #[inline(always)]
-    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
-        let (best, weighed) = (&mut self.best, &mut self.weighed);
-        let deepest = best.far;
-        _ = self.tester.test(block, deepest, |judge, hit| {
-            let [start, end] = judge.interval();
-            let is_inside = start < f64::from(hit.near) && f64::from(hit.far) < end;
-            if hit.is_certain && is_inside && hit.far < best.near {
-                (*best, *weighed) = (hit, None);
-            } else if !(hit.is_certain && best.far < hit.near) {
-                let nearest = weigh(judge, &hit, best, *weighed);
-                if let Some(nearest) = nearest {
-                    [best.near, best.far] = nearest.bounds_f32();
-                    (best.primitive, *weighed) = (nearest.primitive, Some(nearest));
-                }
-            }
-            ControlFlow::Continue(())
-        });
-        // Rounded twice, which what boxes are allowed beyond it pays for.
-        let t = self.best.far * self.tester.inverse_dir_z;
-        ControlFlow::Continue(t.min(self.t_max))
-    }
-
-    #[inline(always)]
-    fn announce(&self, block: usize) {
-        self.tester.announce(block);
-    }
-
-    #[inline(always)]
-    fn count_boxes(&mut self, _: u32) {}
-}
-
-/// The nearer of a hit and the nearest so far, where f32 doesn't tell.
-// Out of line: it is the rare path, and the common one is the better for it.
-#[inline(never)]
-fn weigh<F: Fn(usize) -> [Vec3; 3]>(
-    judge: &mut Judge<'_, F>,
-    hit: &Sighted,
-    best: &Sighted,
-    weighed: Option<Candidate>,
-) -> Option<Candidate> {
-    let best =
-        (best.primitive != NO_PRIMITIVE).then(|| weighed.unwrap_or_else(|| best.candidate()));
-    nearer(judge, hit, best)
-}
-
-fn nearer<F: Fn(usize) -> [Vec3; 3]>(
-    judge: &mut Judge<'_, F>,
-    hit: &Sighted,
-    best: Option<Candidate>,
-) -> Option<Candidate> {
-    let Some(mut hit) = judge.within(hit.candidate(), hit.is_certain) else {
-        return best;
-    };
-    match best {
-        Some(mut best) => Some(if judge.is_before(&mut hit, &mut best) {
-            hit
-        } else {
-            best
-        }),
-        None => Some(hit),
-    }
-}
-
-/// Looks for a hit, whichever.
-struct Any<'a, S: Simd, F> {
-    tester: Tester<'a, S, F>,
-    is_hit: bool,
-}
-
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Any<'_, S, F> {
-    const IS_ORDERED: bool = false;
-    const IS_BEHIND: bool = false;
-
-    #[inline(always)]
-    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
-        let is_hit = &mut self.is_hit;
-        self.tester.test(block, f32::INFINITY, |judge, hit| {
-            *is_hit = judge.within(hit.candidate(), hit.is_certain).is_some();
-            if *is_hit {
-                ControlFlow::Break(())
-            } else {
-                ControlFlow::Continue(())
-            }
-        })?;
-        ControlFlow::Continue(self.tester.judge.ray().t_max)
-    }
-
-    #[inline(always)]
-    fn announce(&self, block: usize) {
-        self.tester.announce(block);
-    }
-
-    #[inline(always)]
-    fn count_boxes(&mut self, _: u32) {}
-}
-
-/// Which hits are kept.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum Kept {
-    Nearest,
-    All,
-}
-
-/// Keeps hits, and counts what they cost: for rarer questions, and rays whose interval begins behind
-/// their origin.
-struct Each<'a, S: Simd, F> {
-    tester: Tester<'a, S, F>,
-    kept: Kept,
-    hits: Vec<Candidate>,
-    cost: Cost,
-}
-
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Each<'_, S, F> {
-    /// Hits deeper than this aren't kept.
-    fn deepest(&self) -> f32 {
-        match self.hits.first() {
-            Some(nearest) if self.kept == Kept::Nearest => nearest.bounds_f32()[1],
-            _ => f32::INFINITY,
-        }
-    }
-}
-
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Each<'_, S, F> {
-    const IS_ORDERED: bool = true;
-    const IS_BEHIND: bool = true;
-
-    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
-        let primitives = self.tester.intersector.blocks.bvh.block(block);
-        self.cost.triangles += primitives.len() as u32;
-        let (deepest, kept, hits) = (self.deepest(), self.kept, &mut self.hits);
-        _ = self.tester.test(block, deepest, |judge, hit| {
-            match kept {
-                Kept::Nearest => {
-                    let nearest = nearer(judge, &hit, hits.pop());
-                    hits.extend(nearest);
-                }
-                Kept::All => hits.extend(judge.within(hit.candidate(), hit.is_certain)),
-            }
-            ControlFlow::Continue(())
-        });
-        let t = self.deepest() * self.tester.inverse_dir_z;
-        ControlFlow::Continue(t.min(self.tester.judge.ray().t_max))
-    }
-
-    fn announce(&self, _: usize) {}
-
-    fn count_boxes(&mut self, count: u32) {
-        self.cost.boxes += count;
-    }
 }
 
 impl ExactIntersector {

@@ -1,0 +1,268 @@
+//! What the exact kernel does with the blocks that a ray meets.
+
+use super::{ExactIntersector, Vector};
+use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, Visitor};
+use crate::intersector::Cost;
+use crate::intersector::blocks::is_asked;
+use crate::kernel::ShearedRay;
+use crate::kernel::exact::{Candidate, Filtered, Judge, VALUES, filter};
+use crate::lane::{Lane, LaneMask, Number};
+use fearless_simd::Simd;
+use glam::Vec3;
+use std::ops::ControlFlow;
+
+/// One ray against blocks.
+pub(super) struct Tester<'a, S: Simd, F> {
+    pub intersector: &'a ExactIntersector,
+    pub token: S,
+    pub sheared: ShearedRay<Vector<S>>,
+    pub judge: Judge<'a, F>,
+    /// Depths below this are before the ray's interval: among them those of the triangle that it leaves.
+    pub earliest: f32,
+    /// t is a depth times this.
+    pub inverse_dir_z: f32,
+}
+
+/// A lane of a block that isn't a certain miss, and not certainly too deep.
+#[derive(Clone, Copy)]
+pub(super) struct Sighted {
+    pub primitive: u32,
+    /// Where its corners are found.
+    pub slot: u32,
+    /// Bounds on its depth.
+    pub near: f32,
+    pub far: f32,
+    pub is_certain: bool,
+}
+
+impl Sighted {
+    pub fn candidate(&self) -> Candidate {
+        Candidate::new(self.primitive, self.slot as usize, self.near, self.far)
+    }
+}
+
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Tester<'_, S, F> {
+    /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to `sighted`, until that
+    /// breaks.
+    #[inline(always)]
+    pub fn test(
+        &mut self,
+        block: usize,
+        deepest: f32,
+        mut sighted: impl FnMut(&mut Judge<'_, F>, Sighted) -> ControlFlow<()>,
+    ) -> ControlFlow<()> {
+        let blocks = &self.intersector.blocks;
+        let values = blocks.values::<f32, S>(self.token, block, VALUES);
+        let Some(filtered) = filter(&self.sheared, &values) else {
+            return ControlFlow::Continue(());
+        };
+        let Filtered {
+            certain,
+            missed,
+            near,
+            far,
+            ..
+        } = filtered;
+        let splat = |x: f32| Vector::<S>::splat(self.token, x);
+        let is_outside = certain & (splat(deepest).lt(near) | far.lt(splat(self.earliest)));
+        let certain = certain.bits();
+        let mut lanes = !(missed | is_outside).bits() & ((1 << BLOCK_SIZE) - 1);
+        let (near, far) = (f32::store(near), f32::store(far));
+        let primitives = blocks.bvh.lanes(block);
+        while lanes != 0 {
+            let lane = lanes.trailing_zeros() as usize % BLOCK_SIZE;
+            lanes &= lanes - 1;
+            let primitive = primitives[lane];
+            if is_asked(primitive, self.judge.ray().exclude) {
+                let hit = Sighted {
+                    primitive,
+                    slot: (block * BLOCK_SIZE + lane) as u32,
+                    near: near[lane],
+                    far: far[lane],
+                    is_certain: certain >> lane & 1 == 1,
+                };
+                sighted(&mut self.judge, hit)?;
+            }
+        }
+        ControlFlow::Continue(())
+    }
+
+    #[inline(always)]
+    fn announce(&self, block: usize) {
+        self.intersector.blocks.announce(self.token, block, VALUES);
+    }
+}
+
+/// Looks for the nearest hit.
+pub(super) struct Nearest<'a, S: Simd, F> {
+    pub tester: Tester<'a, S, F>,
+    /// The nearest so far, or [`NO_PRIMITIVE`] and infinity.
+    pub best: Sighted,
+    /// The same, where it had to be looked at more closely.
+    pub weighed: Option<Candidate>,
+    pub t_max: f32,
+}
+
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Nearest<'_, S, F> {
+    #[inline(always)]
+    pub fn candidate(&self) -> Option<Candidate> {
+        let is_hit = self.best.primitive != NO_PRIMITIVE;
+        is_hit.then(|| self.weighed.unwrap_or_else(|| self.best.candidate()))
+    }
+}
+
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Nearest<'_, S, F> {
+    const IS_ORDERED: bool = true;
+    const IS_BEHIND: bool = false;
+
+    #[inline(always)]
+    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+        let (best, weighed) = (&mut self.best, &mut self.weighed);
+        let deepest = best.far;
+        _ = self.tester.test(block, deepest, |judge, hit| {
+            let [start, end] = judge.interval();
+            let is_inside = start < f64::from(hit.near) && f64::from(hit.far) < end;
+            if hit.is_certain && is_inside && hit.far < best.near {
+                (*best, *weighed) = (hit, None);
+            } else if !(hit.is_certain && best.far < hit.near) {
+                let nearest = weigh(judge, &hit, best, *weighed);
+                if let Some(nearest) = nearest {
+                    [best.near, best.far] = nearest.bounds_f32();
+                    (best.primitive, *weighed) = (nearest.primitive, Some(nearest));
+                }
+            }
+            ControlFlow::Continue(())
+        });
+        // Rounded twice, which what boxes are allowed beyond it pays for.
+        let t = self.best.far * self.tester.inverse_dir_z;
+        ControlFlow::Continue(t.min(self.t_max))
+    }
+
+    #[inline(always)]
+    fn announce(&self, block: usize) {
+        self.tester.announce(block);
+    }
+
+    #[inline(always)]
+    fn count_boxes(&mut self, _: u32) {}
+}
+
+/// The nearer of a hit and the nearest so far, where f32 doesn't tell.
+// Out of line: it is the rare path, and the common one is the better for it.
+#[inline(never)]
+fn weigh<F: Fn(usize) -> [Vec3; 3]>(
+    judge: &mut Judge<'_, F>,
+    hit: &Sighted,
+    best: &Sighted,
+    weighed: Option<Candidate>,
+) -> Option<Candidate> {
+    let best =
+        (best.primitive != NO_PRIMITIVE).then(|| weighed.unwrap_or_else(|| best.candidate()));
+    nearer(judge, hit, best)
+}
+
+fn nearer<F: Fn(usize) -> [Vec3; 3]>(
+    judge: &mut Judge<'_, F>,
+    hit: &Sighted,
+    best: Option<Candidate>,
+) -> Option<Candidate> {
+    let Some(mut hit) = judge.within(hit.candidate(), hit.is_certain) else {
+        return best;
+    };
+    match best {
+        Some(mut best) => Some(if judge.is_before(&mut hit, &mut best) {
+            hit
+        } else {
+            best
+        }),
+        None => Some(hit),
+    }
+}
+
+/// Looks for a hit, whichever.
+pub(super) struct Any<'a, S: Simd, F> {
+    pub tester: Tester<'a, S, F>,
+    pub is_hit: bool,
+}
+
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Any<'_, S, F> {
+    const IS_ORDERED: bool = false;
+    const IS_BEHIND: bool = false;
+
+    #[inline(always)]
+    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+        let is_hit = &mut self.is_hit;
+        self.tester.test(block, f32::INFINITY, |judge, hit| {
+            *is_hit = judge.within(hit.candidate(), hit.is_certain).is_some();
+            if *is_hit {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+        ControlFlow::Continue(self.tester.judge.ray().t_max)
+    }
+
+    #[inline(always)]
+    fn announce(&self, block: usize) {
+        self.tester.announce(block);
+    }
+
+    #[inline(always)]
+    fn count_boxes(&mut self, _: u32) {}
+}
+
+/// Which hits are kept.
+#[derive(Clone, Copy, PartialEq, Eq)]
+pub(super) enum Kept {
+    Nearest,
+    All,
+}
+
+/// Keeps hits, and counts what they cost: for rarer questions, and rays whose interval begins behind
+/// their origin.
+pub(super) struct Each<'a, S: Simd, F> {
+    pub tester: Tester<'a, S, F>,
+    pub kept: Kept,
+    pub hits: Vec<Candidate>,
+    pub cost: Cost,
+}
+
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Each<'_, S, F> {
+    /// Hits deeper than this aren't kept.
+    fn deepest(&self) -> f32 {
+        match self.hits.first() {
+            Some(nearest) if self.kept == Kept::Nearest => nearest.bounds_f32()[1],
+            _ => f32::INFINITY,
+        }
+    }
+}
+
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Each<'_, S, F> {
+    const IS_ORDERED: bool = true;
+    const IS_BEHIND: bool = true;
+
+    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+        let primitives = self.tester.intersector.blocks.bvh.block(block);
+        self.cost.triangles += primitives.len() as u32;
+        let (deepest, kept, hits) = (self.deepest(), self.kept, &mut self.hits);
+        _ = self.tester.test(block, deepest, |judge, hit| {
+            match kept {
+                Kept::Nearest => {
+                    let nearest = nearer(judge, &hit, hits.pop());
+                    hits.extend(nearest);
+                }
+                Kept::All => hits.extend(judge.within(hit.candidate(), hit.is_certain)),
+            }
+            ControlFlow::Continue(())
+        });
+        let t = self.deepest() * self.tester.inverse_dir_z;
+        ControlFlow::Continue(t.min(self.tester.judge.ray().t_max))
+    }
+
+    fn announce(&self, _: usize) {}
+
+    fn count_boxes(&mut self, count: u32) {
+        self.cost.boxes += count;
+    }
+}
