@@ -8,6 +8,7 @@ use crate::overlay::wireframe::Edges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
     BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, PictureArgs, RenderArgs, TraceArgs,
     load, write_png,
@@ -48,6 +49,10 @@ enum Command {
 /// the command line is.
 pub fn run() -> ExitCode {
     let cli = Cli::parse();
+    if let Err(error) = SimdLevel::chosen() {
+        eprintln!("hitscope: {error}");
+        return ExitCode::from(2);
+    }
     let result = match &cli.command {
         Some(command) => command.run(),
         None => window(&cli),

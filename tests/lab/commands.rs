@@ -2,7 +2,7 @@
 
 use clap::{Args, Parser};
 use hitscope_lab::commands::{
-    CommandError, InfoArgs, InspectArgs, RenderArgs, TraceArgs, write_png,
+    BenchArgs, CommandError, InfoArgs, InspectArgs, RenderArgs, TraceArgs, write_png,
 };
 use serde_json::Value;
 use std::path::{Path, PathBuf};
@@ -266,4 +266,29 @@ fn a_mesh_far_away_is_traced_in_the_files_coordinates() {
         serde_json::json!([4_649_776.5, -9_999_999.5, 1.0])
     );
     assert_eq!(near["t"], 2.0);
+}
+
+#[test]
+fn bench_prints_a_row_for_each_workload_and_kernel() {
+    let folder = Folder::new();
+    let line = "@cube.obj --size 24x16 --rounds 1 --threads 2 --kernel fast --kernel exact --json";
+    let report = folder.json(|folder, out| folder.args::<BenchArgs>(line).run(out));
+    assert_eq!(report["triangles"], 12);
+    for figure in ["load_ms", "build_ms", "bytes_per_triangle"] {
+        assert!(report[figure].as_f64().is_some_and(|x| x > 0.0), "{figure}");
+    }
+    let rows = report["workloads"].as_array().expect("rows");
+    for (name, count) in [("primary", 4), ("bounce", 2), ("random", 2), ("shadow", 2)] {
+        let rows: Vec<_> = rows.iter().filter(|row| row["name"] == name).collect();
+        assert_eq!(rows.len(), count, "{name}");
+        for row in &rows {
+            assert_eq!(row["threads"], 2, "{name}");
+            assert_eq!(row["hits"], rows[0]["hits"], "{name}");
+            assert!(
+                row["mrays_per_s"].as_f64().is_some_and(|x| x > 0.0),
+                "{name}"
+            );
+        }
+    }
+    assert_eq!(rows[0]["rays"], 24 * 16);
 }

@@ -154,3 +154,24 @@ fn a_wireframe_is_drawn_over_a_render() {
         );
     }
 }
+
+#[test]
+fn a_simd_level_that_the_machine_has_not_got_is_refused() {
+    let folder = folder();
+    let run = |level: &str| {
+        Command::new(env!("CARGO_BIN_EXE_hitscope"))
+            .args(["info", "good.obj"])
+            .current_dir(folder.path())
+            .env("HITSCOPE_SIMD", level)
+            .output()
+            .expect("the program runs")
+    };
+    assert!(run("fallback").status.success());
+    let refused = run("mmx");
+    assert_eq!(refused.status.code(), Some(2));
+    let text = stderr(&refused);
+    assert!(
+        text.starts_with("hitscope: HITSCOPE_SIMD=mmx: this machine has fallback"),
+        "{text}"
+    );
+}
