@@ -32,8 +32,7 @@ pub(super) struct Blocks<T> {
 /// A block's values of one lane, in every lane of a vector.
 pub(super) struct LaneValues<'a, T, S> {
     token: S,
-    rows: &'a [Row<T>],
-    lane: usize,
+    one: OneLane<'a, T>,
 }
 
 /// A block's values as vectors of `N`.
@@ -53,8 +52,7 @@ impl<N: Number, S: Simd, T: Stored<N>> Values<N::Lanes<S>> for BlockValues<'_, N
 impl<T: Stored<f32>, S: Simd> Values<f32x16<S>> for LaneValues<'_, T, S> {
     #[inline(always)]
     fn value(&self, index: usize) -> f32x16<S> {
-        let lane = self.rows[index].0[self.lane % BLOCK_SIZE];
-        SimdBase::splat(self.token, lane.number())
+        SimdBase::splat(self.token, self.one.value(index).number())
     }
 }
 
@@ -64,12 +62,19 @@ pub(super) struct OneLane<'a, T> {
     lane: usize,
 }
 
+impl<T: Copy> OneLane<'_, T> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> T {
+        self.rows[index].0[self.lane % BLOCK_SIZE]
+    }
+}
+
 impl OneLane<'_, f32> {
     /// Three in a row.
     #[inline(always)]
     pub fn vector(&self, first: usize) -> Vec3 {
-        let value = |k: usize| self.rows[k].0[self.lane];
-        Vec3::new(value(first), value(first + 1), value(first + 2))
+        let [x, y, z] = [first, first + 1, first + 2];
+        Vec3::new(self.value(x), self.value(y), self.value(z))
     }
 }
 
@@ -136,8 +141,7 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
     ) -> LaneValues<'_, T, S> {
         LaneValues {
             token,
-            rows: &self.rows[block * count..][..count],
-            lane,
+            one: self.lane(block, lane, count),
         }
     }
 
@@ -158,7 +162,7 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
     pub fn lane(&self, block: usize, lane: usize, count: usize) -> OneLane<'_, T> {
         OneLane {
             rows: &self.rows[block * count..][..count],
-            lane: lane % BLOCK_SIZE,
+            lane,
         }
     }
 

@@ -1,7 +1,7 @@
 //! A mesh, packed for a kernel that decides about each triangle by itself.
 
 use super::blocks::{Blocks, candidates, is_asked};
-use super::{Cost, Crossing, Intersector, is_behind};
+use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, Visitor, rank_floor, with_stack};
 use crate::kernel::{Kernel, KernelInfo, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, PACKET, Stored};
@@ -317,9 +317,7 @@ impl<K: Kernel, N: Number> Intersector for MeshIntersector<K, N> {
                 }
             });
         });
-        for (ray, hit) in rays.iter().zip(hits).filter(|(ray, _)| is_behind(ray)) {
-            *hit = self.closest_hit_with_cost(ray).0;
-        }
+        answer_behind(rays, hits, |ray| self.closest_hit_with_cost(ray).0);
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
@@ -354,9 +352,9 @@ impl<K: Kernel, N: Number> Intersector for MeshIntersector<K, N> {
                 }
             });
         });
-        for (ray, is_hit) in rays.iter().zip(are_hits).filter(|(ray, _)| is_behind(ray)) {
-            *is_hit = self.closest_hit_with_cost(ray).0.is_some();
-        }
+        answer_behind(rays, are_hits, |ray| {
+            self.closest_hit_with_cost(ray).0.is_some()
+        });
     }
 
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {

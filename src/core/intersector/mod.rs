@@ -92,6 +92,15 @@ pub trait Intersector: Send + Sync {
     fn bytes(&self) -> usize;
 }
 
+/// Answers those rays whose intervals begin behind their origins, one by one: boxes then need padding on both
+/// sides, which the others aren't to pay for.
+fn answer_behind<T>(rays: &[Ray], answers: &mut [T], answer: impl Fn(&Ray) -> T) {
+    let pairs = rays.iter().zip(answers);
+    for (ray, place) in pairs.filter(|(ray, _)| is_behind(ray)) {
+        *place = answer(ray);
+    }
+}
+
 /// Whether a ray's interval begins behind its origin.
 fn is_behind(ray: &Ray) -> bool {
     ray.t_min < 0.0

@@ -14,7 +14,7 @@ mod tests;
 use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
 use crate::aabb::Aabb;
 use crate::progress::Cancelled;
-use glam::{Vec3, Vec3A, Vec4};
+use glam::{Vec3A, Vec4};
 use rayon::prelude::*;
 use split::{Scale, Splitter};
 
@@ -54,10 +54,14 @@ impl Item {
     }
 }
 
-/// `None` for boxes that no ray can meet: those that are empty or hold a NaN or an infinity.
-fn item_of(bounds: Aabb, index: u32) -> Option<Item> {
-    let is_good = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
-    is_good.then(|| Item::new(bounds, index))
+/// The primitives that rays can meet: without those whose boxes are empty or hold a NaN or an infinity.
+fn items_of(count: usize, bounds_of: impl Fn(u32) -> Aabb + Sync) -> Vec<Item> {
+    let item = |index| {
+        let bounds = bounds_of(index);
+        let is_good = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
+        is_good.then(|| Item::new(bounds, index))
+    };
+    (0..count as u32).into_par_iter().filter_map(item).collect()
 }
 
 /// A box in registers.
@@ -77,6 +81,15 @@ impl Bounds {
     fn grow(&mut self, other: Self) {
         self.lower = self.lower.min(other.lower);
         self.upper = self.upper.max(other.upper);
+    }
+}
+
+impl From<Bounds> for Aabb {
+    fn from(bounds: Bounds) -> Self {
+        Self {
+            min: bounds.lower.into(),
+            max: bounds.upper.into(),
+        }
     }
 }
 
@@ -118,17 +131,13 @@ impl Bvh {
         keep_going: KeepGoing,
     ) -> Result<Self, Cancelled> {
         keep_going()?;
-        let item = |index| item_of(bounds_of(index), index);
-        let mut items: Vec<Item> = (0..count as u32).into_par_iter().filter_map(item).collect();
+        let mut items = items_of(count, bounds_of);
         let bounds = split::around(&items);
         let scale = Scale::of(bounds);
         let mut bvh = Self {
             nodes: Vec::new(),
             blocks: Vec::new(),
-            bounds: Aabb {
-                min: Vec3::from(bounds.lower),
-                max: Vec3::from(bounds.upper),
-            },
+            bounds: bounds.into(),
         };
         if items.is_empty() {
             return Ok(bvh);

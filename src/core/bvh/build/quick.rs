@@ -6,11 +6,11 @@
 //! number, not where codes differ, so that every block and node but the last ones is full.
 
 use super::split::around;
-use super::{Bounds, Item, KeepGoing, item_of};
+use super::{Bounds, KeepGoing, items_of};
 use crate::aabb::Aabb;
 use crate::bvh::{BLOCK_SIZE, Bvh, Child, NO_PRIMITIVE, Node, WIDTH};
 use crate::progress::Cancelled;
-use glam::{Vec3, Vec3A};
+use glam::Vec3A;
 use rayon::prelude::*;
 
 /// Bits of a Morton code along each axis.
@@ -27,8 +27,7 @@ impl Bvh {
         keep_going: KeepGoing,
     ) -> Result<Self, Cancelled> {
         keep_going()?;
-        let item = |index| item_of(bounds_of(index), index);
-        let items: Vec<Item> = (0..count as u32).into_par_iter().filter_map(item).collect();
+        let items = items_of(count, bounds_of);
         let bounds = around(&items);
         let grid = Grid::over(bounds);
         // The code above the index: one number to sort by.
@@ -52,10 +51,7 @@ impl Bvh {
         Ok(Self {
             nodes: nodes(boxes),
             blocks,
-            bounds: Aabb {
-                min: Vec3::from(bounds.lower),
-                max: Vec3::from(bounds.upper),
-            },
+            bounds: bounds.into(),
         })
     }
 }

@@ -1,6 +1,7 @@
 //! Both ways to build a tree.
 
 use super::*;
+use glam::Vec3;
 
 fn build(boxes: &[Aabb]) -> Bvh {
     let bounds_of = |primitive: u32| boxes[primitive as usize];

@@ -4,7 +4,7 @@
 mod visitors;
 
 use super::blocks::{Blocks, candidates};
-use super::{Cost, Crossing, Intersector, is_behind};
+use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, with_stack};
 use crate::kernel::exact::{Candidate, HitLanes, INFO, Judge, VALUES};
 use crate::kernel::{KernelInfo, ShearedRay, pack_corners};
@@ -188,9 +188,7 @@ impl Intersector for ExactIntersector {
                 dispatch!(level, token => self.round(token, rays, &batch, hits));
             }
         });
-        for (ray, hit) in rays.iter().zip(hits).filter(|(ray, _)| is_behind(ray)) {
-            *hit = self.closest_hit_with_cost(ray).0;
-        }
+        answer_behind(rays, hits, |ray| self.closest_hit_with_cost(ray).0);
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
@@ -209,9 +207,9 @@ impl Intersector for ExactIntersector {
                 }
             });
         });
-        for (ray, is_hit) in rays.iter().zip(are_hits).filter(|(ray, _)| is_behind(ray)) {
-            *is_hit = !self.each(ray, Kept::Nearest).0.is_empty();
-        }
+        answer_behind(rays, are_hits, |ray| {
+            self.closest_hit_with_cost(ray).0.is_some()
+        });
     }
 
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {

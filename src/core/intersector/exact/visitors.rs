@@ -42,8 +42,8 @@ impl Sighted {
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Tester<'_, S, F> {
-    /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to `sighted`, until that
-    /// breaks.
+    /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to
+    /// `sighted`, until that breaks.
     #[inline(always)]
     pub fn test(
         &mut self,
@@ -104,11 +104,18 @@ pub(super) struct Nearest<'a, S: Simd, F> {
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Nearest<'_, S, F> {
+    /// What was found.
     #[inline(always)]
     pub fn candidate(&self) -> Option<Candidate> {
-        let is_hit = self.best.primitive != NO_PRIMITIVE;
-        is_hit.then(|| self.weighed.unwrap_or_else(|| self.best.candidate()))
+        candidate_of(&self.best, self.weighed)
     }
+}
+
+/// The nearest hit so far as it was weighed last.
+#[inline(always)]
+fn candidate_of(best: &Sighted, weighed: Option<Candidate>) -> Option<Candidate> {
+    let is_hit = best.primitive != NO_PRIMITIVE;
+    is_hit.then(|| weighed.unwrap_or_else(|| best.candidate()))
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Nearest<'_, S, F> {
@@ -125,7 +132,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Nearest<'_, S, F> {
             if hit.is_certain && is_inside && hit.far < best.near {
                 (*best, *weighed) = (hit, None);
             } else if !(hit.is_certain && best.far < hit.near) {
-                let nearest = weigh(judge, &hit, best, *weighed);
+                let nearest = nearer(judge, &hit, candidate_of(best, *weighed));
                 if let Some(nearest) = nearest {
                     [best.near, best.far] = nearest.bounds_f32();
                     (best.primitive, *weighed) = (nearest.primitive, Some(nearest));
@@ -150,17 +157,6 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Nearest<'_, S, F> {
 /// The nearer of a hit and the nearest so far, where f32 doesn't tell.
 // Out of line: it is the rare path, and the common one is the better for it.
 #[inline(never)]
-fn weigh<F: Fn(usize) -> [Vec3; 3]>(
-    judge: &mut Judge<'_, F>,
-    hit: &Sighted,
-    best: &Sighted,
-    weighed: Option<Candidate>,
-) -> Option<Candidate> {
-    let best =
-        (best.primitive != NO_PRIMITIVE).then(|| weighed.unwrap_or_else(|| best.candidate()));
-    nearer(judge, hit, best)
-}
-
 fn nearer<F: Fn(usize) -> [Vec3; 3]>(
     judge: &mut Judge<'_, F>,
     hit: &Sighted,
