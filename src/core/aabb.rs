@@ -11,6 +11,9 @@ pub struct Aabb {
     pub max: Vec3,
 }
 
+/// Boxes side by side, plane by plane: lower x, upper x, lower y, upper y, lower z, upper z.
+pub(crate) type Planes<T> = [T; 6];
+
 impl Aabb {
     /// The box that holds nothing; growing it gives what it was grown by.
     pub const EMPTY: Self = Self {

@@ -7,6 +7,8 @@ use glam::Vec3;
 /// `dir` needn't be unit length; `t` counts its lengths. Make one with [`Ray::new`], which refuses
 /// what has no answer, and rescales a direction of an unusual length.
 #[derive(Clone, Copy, Debug, PartialEq)]
+// The first eight numbers in this order: packets load four at a time.
+#[repr(C)]
 pub struct Ray {
     /// Where it starts, in the mesh's coordinates (about [`TriangleMesh::origin`](crate::TriangleMesh)).
     pub origin: Vec3,

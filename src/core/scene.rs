@@ -3,7 +3,7 @@
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::Intersector;
-use crate::kernel::TriangleKernel;
+use crate::kernel::{TriangleKernel, triangle_bounds};
 use crate::mesh::{SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, Loaded, Recentre, Warning};
 use crate::progress::{Cancelled, Phase, Progress};
@@ -40,7 +40,7 @@ impl Scene {
     pub fn new(mesh: TriangleMesh, progress: &Progress) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
         let start = Instant::now();
-        let bounds_of = |triangle| Aabb::around(mesh.corners(triangle));
+        let bounds_of = |triangle| triangle_bounds(mesh.corners(triangle));
         let bvh = Bvh::build(mesh.triangles.len(), bounds_of, &|| progress.check())?;
         let bvh = Arc::new(bvh);
         Ok(Self {

@@ -11,6 +11,9 @@ mod intersector;
 // Every SIMD level, rays one by one and together: the same bits.
 mod simd;
 
+// Every tree: the same bits.
+mod trees;
+
 // Kernels that promise it: no ray leaves a closed mesh.
 mod watertight;
 

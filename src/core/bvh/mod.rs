@@ -9,10 +9,11 @@ mod packet;
 mod slab;
 mod walk;
 
-use crate::aabb::Aabb;
+use crate::aabb::{Aabb, Planes};
 use crate::simd::prefetch;
 use fearless_simd::Simd;
-pub(crate) use packet::{PacketVisitor, RayPacket};
+pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
+pub(crate) use slab::SlabRay;
 pub(crate) use walk::{Stack, Visitor, rank_floor, with_stack};
 
 /// Primitives side by side in a block, which a SIMD test takes at once.
@@ -88,8 +89,7 @@ impl Child {
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 struct Node {
-    /// Lower x, upper x, lower y, upper y, lower z, upper z, child by child.
-    planes: [[f32; WIDTH]; 6],
+    planes: Planes<[f32; WIDTH]>,
     child: [Child; WIDTH],
 }
 

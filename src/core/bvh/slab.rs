@@ -1,5 +1,4 @@
-//! Does a ray meet the boxes of a node? Never a false no, as long as distances and inverses are normal
-//! numbers.
+//! Does a ray meet boxes? Never a false no, as long as distances and inverses are normal numbers.
 //!
 //! The slab test: the ray is inside a box while it is between the two planes of all three axes at
 //! once. Of `(plane − origin)·(1/d)` each of the three operations rounds, so that a far plane may
@@ -7,25 +6,41 @@
 //!
 //! Sources: Kay, Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; Ize, "Robust BVH Ray
 //! Traversal", JCGT 2(2), 2013. Differs from the latter: the padding is in the inverse direction of
-//! the far planes, where it costs nothing a box, and is wider, as hits mustn't be missed that a kernel
-//! accepts beside the box; far planes behind the origin are padded, too, for rays whose interval
+//! the far planes, where it costs nothing a box, and is wider, as hits mustn't be missed that the watertight
+//! kernel accepts beside the box; far planes behind the origin are padded, too, for rays whose interval
 //! begins there.
+//!
+//! Why a hit of that kernel isn't lost beside the box: say that the ray leaves the slab of x before it enters
+//! that of y, both going up; X and Y are those two planes, and (x, y, z) a corner, all relative to the
+//! origin; s = z/d_z. The kernel moves the corner to x' = x − s·d_x and y' = y − s·d_y, and accepts if (0, 0) lies
+//! in the hull of the three. As x ≤ X and y ≥ Y,
+//!
+//! ```text
+//! y'/d_y − x'/d_x  ≥  Y/d_y − X/d_x  >  0
+//! ```
+//!
+//! at each corner, so that a line parts them from (0, 0). Rounding must use up the gap between Y/d_y and
+//! X/d_x before that fails. The difference from the origin is rounded alike here and there, which keeps
+//! x ≤ X and y ≥ Y. Slope and product then move x'/d_x and y'/d_y by 2u·s each, their last rounding the sum
+//! by 2u of the gap's distance: 6u of it where s isn't larger. With the slabs' own 2u each and 1u for the
+//! padding's product that is 11u of the 12u there are. The slab of z is the same with z' = 0. Two ends are
+//! open: a needle seen along its length, whose far corner is many times as deep as where the ray passes its
+//! near end, and a distance or an inverse that isn't normal. Kernels in f64 and the exact one need no more than the slabs' own 5u;
+//! for the other kernels in f32 no padding would do: see `walk`.
 
-use super::{Node, WIDTH};
+use super::WIDTH;
+use crate::aabb::Planes;
 use crate::ray::Ray;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// 1 + 12u with u = 2⁻²⁴: what a far distance ahead is lengthened by. Three roundings each on the near
-/// and the far side are 6u; the watertight kernel may find a corner some 4u of its distance away
-/// from where it is (one rounding of the difference, three of the shear); 1u is for rounding the
-/// product with this.
+/// 1 + 12u with u = 2⁻²⁴: what a far distance ahead is lengthened by; see the [module](self).
 pub(super) const AHEAD: f32 = 1.0 + 6.0 * f32::EPSILON;
 /// 1 − 12u: a far distance behind the origin is negative, and made nearer to it.
 const BEHIND: f32 = 1.0 - 6.0 * f32::EPSILON;
 
 /// A ray made ready for many boxes.
 #[derive(Clone, Copy)]
-pub(super) struct SlabRay<S: Simd> {
+pub(crate) struct SlabRay<S: Simd> {
     origin: [f32x8<S>; 3],
     inv_near: [f32x8<S>; 3],
     inv_far: [f32x8<S>; 3],
@@ -52,24 +67,24 @@ impl<S: Simd> SlabRay<S> {
         }
     }
 
-    /// Where the ray enters each of a node's boxes, and which it enters before `t_max`, a bit each.
+    /// Where the ray enters each of the boxes, and which it enters before `t_max`, a bit each.
     /// `IS_BEHIND`: `t_min` may be negative.
     ///
     /// 0·∞ is a NaN where the origin lies in a plane that the ray runs along; such a plane doesn't
     /// constrain the ray, which is why each comparison keeps the old bound on NaN.
     #[inline(always)]
-    pub(super) fn enter<const IS_BEHIND: bool>(
+    pub(crate) fn enter<const IS_BEHIND: bool>(
         &self,
         token: S,
-        node: &Node,
+        boxes: &Planes<[f32; WIDTH]>,
         t_max: f32x8<S>,
     ) -> ([f32; WIDTH], u32) {
         let (mut near, mut far) = (self.t_min, t_max);
         let mut axis = 0;
         while axis < 3 {
             let row = self.near[axis];
-            let first = f32x8::load_array_ref(token, &node.planes[row]);
-            let last = f32x8::load_array_ref(token, &node.planes[row ^ 1]);
+            let first = f32x8::load_array_ref(token, &boxes[row]);
+            let last = f32x8::load_array_ref(token, &boxes[row ^ 1]);
             near = at_least(near, (first - self.origin[axis]) * self.inv_near[axis]);
             let rest = last - self.origin[axis];
             let ahead = rest * self.inv_far[axis];
@@ -139,6 +154,7 @@ pub(super) fn inverse_of(d: f32) -> f32 {
 mod tests {
     use super::*;
     use crate::aabb::Aabb;
+    use crate::bvh::Node;
     use crate::simd::SimdLevel;
     use fearless_simd::dispatch;
     use glam::Vec3;
@@ -154,7 +170,7 @@ mod tests {
         let at = |level: SimdLevel| {
             dispatch!(level.level(), token => {
                 let slabs = SlabRay::new(token, ray, ray.t_min);
-                let (entries, met) = slabs.enter::<true>(token, &node, f32x8::splat(token, t_max));
+                let (entries, met) = slabs.enter::<true>(token, &node.planes, f32x8::splat(token, t_max));
                 assert_eq!(met & 0x7f, 0, "an empty child is met");
                 (met != 0).then_some(entries[WIDTH - 1])
             })

@@ -1,10 +1,18 @@
 //! Visiting the blocks that a ray meets, nearest first.
 //!
-//! A walk never leaves out what could still count. A box is put aside only if the ray enters it behind
-//! the farthest t of interest; and a visitor that looks for the nearest hit ranks a hit by
-//! [`rank_floor`]: by its t, but as no nearer than its box, however much the kernel's t errs. So no hit in a box
-//! that is put aside would have ranked first, whatever the kernel, and the answer doesn't depend on the
-//! order of visits.
+//! A walk never leaves out what could still count, and what counts doesn't depend on the tree. A kernel may
+//! accept a ray that passes beside the triangle, at a t that lies before it, by more than any padding would
+//! cover where the triangle is a sliver or seen edge-on. So its hit counts if
+//!
+//! 1. the ray meets the triangle's own box (see [`triangle_bounds`](crate::kernel::triangle_bounds)), by the
+//!    same padded operations as the tree's; and it ranks
+//! 2. by its t, but as no nearer than [`rank_floor`] of where the ray enters that box.
+//!
+//! Both are of the ray and the triangle alone. A box of the tree holds the boxes of the triangles below it, and
+//! each operation that tells where a ray enters and leaves it is monotone in its planes, rounded or not: so
+//! the ray meets it, too, and enters it no later. The walk puts it aside only if the ray enters it behind the
+//! best rank so far, and with it only hits that rank behind that. That a box is padded enough for what its
+//! triangles' kernels are right to accept is another matter: see `slab`.
 
 use super::slab::SlabRay;
 use super::{Bvh, Child, MAX_DEPTH, WIDTH};
@@ -25,7 +33,7 @@ const SLACK: f32 = 24.0 * f32::EPSILON;
 /// A kernel's t is rounded some nine times and an entry three, so that of hits at equal t in two boxes one
 /// may be reported before its box is entered, and the lowest triangle is to count. Measured on overlapping
 /// triangles in one plane, where that shows: of 5 M rays the lowest triangle lost 15 with 3 ulp, 9 with
-/// 4, 5 with 8, none with 16 (2026-11).
+/// 4, 5 with 8, none with 16 (the leaf's box in place of the triangle's, 2026-11).
 const RANK_SLACK: f32 = 16.0 * f32::EPSILON;
 
 /// Children that were put off: the bits of where the ray enters them, above the child. Nearer ones are
@@ -44,16 +52,15 @@ pub(crate) fn with_stack<T>(walk: impl FnOnce(&mut Stack) -> T) -> T {
 }
 
 /// What is done with the blocks that a ray meets.
-pub(crate) trait Visitor {
+pub(crate) trait Visitor<S: Simd> {
     /// Whether nearer children come first; else in any order.
     const IS_ORDERED: bool;
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
-    /// Looks at a block whose box is entered at `entry`, and returns the farthest t that is still of
-    /// interest; a break ends the walk. Boxes at exactly that distance are still visited, and those a
-    /// little behind it.
-    fn visit(&mut self, block: usize, entry: f32) -> ControlFlow<(), f32>;
+    /// Looks at a block, and returns the farthest t that is still of interest; a break ends the walk. Boxes
+    /// at exactly that distance are still visited, and those a little behind it.
+    fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32>;
 
     /// A block will be visited soon, unless a hit comes in between.
     fn announce(&self, block: usize);
@@ -71,7 +78,7 @@ pub(crate) fn rank_floor<L: Lane>(entry: L) -> L {
 impl Bvh {
     /// Hands each block that the ray meets to the visitor.
     #[inline(always)]
-    pub(crate) fn walk<S: Simd, V: Visitor>(
+    pub(crate) fn walk<S: Simd, V: Visitor<S>>(
         &self,
         token: S,
         ray: &Ray,
@@ -91,9 +98,9 @@ impl Bvh {
                 let node = &self.nodes[child_of(current).node_index()];
                 visitor.count_boxes(WIDTH as u32);
                 let (entries, mut met) = if V::IS_BEHIND {
-                    slabs.enter::<true>(token, node, far)
+                    slabs.enter::<true>(token, &node.planes, far)
                 } else {
-                    slabs.enter::<false>(token, node, far)
+                    slabs.enter::<false>(token, &node.planes, far)
                 };
                 if met == 0 {
                     current = NOTHING;
@@ -130,10 +137,10 @@ impl Bvh {
                 current = nearest;
             }
             if current != NOTHING {
-                let (leaf, entry) = (child_of(current), entry_of(current));
+                let leaf = child_of(current);
                 let (start, count) = (leaf.first_block(), leaf.block_count());
                 for block in start..start + count {
-                    match visitor.visit(block, entry) {
+                    match visitor.visit(block, &slabs) {
                         ControlFlow::Continue(t) => limit = end_slackened(t),
                         ControlFlow::Break(()) => return,
                     }
@@ -156,7 +163,7 @@ impl Bvh {
 
     /// Takes the lowest child out of `met`, and asks for it.
     #[inline(always)]
-    fn next<S: Simd, V: Visitor>(
+    fn next<S: Simd, V: Visitor<S>>(
         &self,
         token: S,
         met: &mut u32,
@@ -196,17 +203,17 @@ pub(super) fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
 const NOTHING: u64 = Child::NONE.0 as u64;
 
 #[inline(always)]
-fn key(entry: f32, child: Child) -> u64 {
+pub(super) fn key(entry: f32, child: Child) -> u64 {
     u64::from(entry.to_bits()) << 32 | u64::from(child.0)
 }
 
 #[inline(always)]
-fn child_of(key: u64) -> Child {
+pub(super) fn child_of(key: u64) -> Child {
     Child(key as u32)
 }
 
 #[inline(always)]
-fn entry_of(key: u64) -> f32 {
+pub(super) fn entry_of(key: u64) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 

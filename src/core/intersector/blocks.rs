@@ -1,12 +1,13 @@
 //! The triangles of each block of the tree as a kernel keeps them, one a lane.
 
-use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Visitor, with_stack};
-use crate::kernel::Values;
+use crate::aabb::Planes;
+use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
+use crate::kernel::{Kernel, Values};
 use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::Ray;
 use crate::simd::{baseline, prefetch};
-use fearless_simd::{Simd, SimdBase, f32x16};
+use fearless_simd::{Simd, SimdBase, f32x8, f32x16};
 use glam::Vec3;
 use rayon::prelude::*;
 use std::marker::PhantomData;
@@ -145,6 +146,28 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         }
     }
 
+    /// The box around each of a block's triangles, as the kernel `K` takes their corners to be.
+    #[inline(always)]
+    pub fn boxes<K: Kernel<Stored<N> = T>, N: Number, S: Simd>(
+        &self,
+        token: S,
+        block: usize,
+    ) -> Planes<[f32; BLOCK_SIZE]>
+    where
+        T: Stored<f32>,
+    {
+        let values = self.values::<f32, S>(token, block, K::VALUES);
+        let [a, b, c, d, e, f] = K::bounds::<N, f32x8<S>>(&values);
+        [
+            a.to_array(),
+            b.to_array(),
+            c.to_array(),
+            d.to_array(),
+            e.to_array(),
+            f.to_array(),
+        ]
+    }
+
     /// Asks the cache for a block and its primitives.
     #[inline(always)]
     pub fn announce<S: Simd>(&self, token: S, block: usize, count: usize) {
@@ -178,10 +201,10 @@ pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
         t_max: f32,
         found: Vec<u32>,
     }
-    impl Visitor for Gathered<'_> {
+    impl<S: Simd> Visitor<S> for Gathered<'_> {
         const IS_ORDERED: bool = false;
         const IS_BEHIND: bool = true;
-        fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+        fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
             self.found.extend_from_slice(self.bvh.block(block));
             ControlFlow::Continue(self.t_max)
         }

@@ -2,7 +2,7 @@
 
 use super::blocks::{Blocks, candidates, is_asked};
 use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
-use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, Visitor, rank_floor, with_stack};
+use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Stack, Visitor, rank_floor, with_stack};
 use crate::kernel::{Kernel, KernelInfo, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, PACKET, Stored};
 use crate::mesh::TriangleMesh;
@@ -26,7 +26,7 @@ type Packets<K, N> = fn(&MeshIntersector<K, N>, &[Ray], &mut [Option<Hit>]);
 /// A hit as the kernel computed it.
 #[derive(Clone, Copy)]
 struct Found<N> {
-    /// What it is ordered by: t, or what its box's entry allows.
+    /// What it is ordered by: t, or what its own box's entry allows.
     rank: N,
     t: N,
     u: N,
@@ -78,11 +78,12 @@ struct Tester<'a, K: Kernel, N: Number, S: Simd> {
 
 impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
     /// Hands each hit in a block whose rank is at most `limit` to `found`, until that breaks.
+    /// `IS_BEHIND`: as for [`SlabRay::enter`].
     #[inline(always)]
-    fn test(
+    fn test<const IS_BEHIND: bool>(
         &self,
         block: usize,
-        entry: f32,
+        slabs: &SlabRay<S>,
         limit: N,
         mut found: impl FnMut(Found<N>) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
@@ -91,14 +92,18 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
         let Some(hit) = K::intersect(&self.ray, &values, self.t_min, t_max) else {
             return ControlFlow::Continue(());
         };
-        let floor = N::from(rank_floor(entry));
+        // What a ray hits beside the triangle's own box doesn't count.
+        let boxes = self.blocks.boxes::<K, N, S>(self.token, block);
+        let infinity = Lane::splat(self.token, f32::INFINITY);
+        let (entries, met) = slabs.enter::<IS_BEHIND>(self.token, &boxes, infinity);
         let (t, u, v) = (N::store(hit.t), N::store(hit.u), N::store(hit.v));
         let primitives = self.blocks.bvh.lanes(block);
-        let mut lanes = LaneMask::bits(hit.mask);
+        let mut lanes = LaneMask::bits(hit.mask) & met;
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % BLOCK_SIZE;
             lanes &= lanes - 1;
             let (t, primitive) = (t[lane], primitives[lane]);
+            let floor = N::from(rank_floor(entries[lane]));
             let rank = if t < floor { floor } else { t };
             // What is farther than f32's largest number is a miss.
             if rank < self.end && t.to_f32() < f32::INFINITY && is_asked(primitive, self.exclude) {
@@ -126,15 +131,15 @@ struct Nearest<'a, K: Kernel, N: Number, S: Simd> {
     best: Found<N>,
 }
 
-impl<K: Kernel, N: Number, S: Simd> Visitor for Nearest<'_, K, N, S> {
+impl<K: Kernel, N: Number, S: Simd> Visitor<S> for Nearest<'_, K, N, S> {
     const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
-    fn visit(&mut self, block: usize, entry: f32) -> ControlFlow<(), f32> {
+    fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
         let limit = self.best.rank;
         let best = &mut self.best;
-        _ = self.tester.test(block, entry, limit, |hit| {
+        _ = self.tester.test::<false>(block, slabs, limit, |hit| {
             if hit.is_before(best) {
                 *best = hit;
             }
@@ -159,15 +164,15 @@ struct Any<'a, K: Kernel, N: Number, S: Simd> {
     is_hit: bool,
 }
 
-impl<K: Kernel, N: Number, S: Simd> Visitor for Any<'_, K, N, S> {
+impl<K: Kernel, N: Number, S: Simd> Visitor<S> for Any<'_, K, N, S> {
     const IS_ORDERED: bool = false;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
-    fn visit(&mut self, block: usize, entry: f32) -> ControlFlow<(), f32> {
+    fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
         let is_hit = &mut self.is_hit;
         let end = self.tester.end;
-        self.tester.test(block, entry, end, |_| {
+        self.tester.test::<false>(block, slabs, end, |_| {
             *is_hit = true;
             ControlFlow::Break(())
         })?;
@@ -193,16 +198,16 @@ struct Each<'a, 'f, K: Kernel, N: Number, S: Simd> {
     cost: Cost,
 }
 
-impl<K: Kernel, N: Number, S: Simd> Visitor for Each<'_, '_, K, N, S> {
+impl<K: Kernel, N: Number, S: Simd> Visitor<S> for Each<'_, '_, K, N, S> {
     const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = true;
 
     #[inline(always)]
-    fn visit(&mut self, block: usize, entry: f32) -> ControlFlow<(), f32> {
+    fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
         self.cost.triangles += self.tester.blocks.bvh.block(block).len() as u32;
         let limit = &mut self.limit;
         let found = &mut self.found;
-        self.tester.test(block, entry, *limit, |hit| {
+        self.tester.test::<true>(block, slabs, *limit, |hit| {
             *limit = found(hit)?;
             ControlFlow::Continue(())
         })?;

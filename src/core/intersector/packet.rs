@@ -4,12 +4,14 @@
 use super::Intersector;
 use super::blocks::Blocks;
 use super::mesh::MeshIntersector;
-use crate::bvh::{NO_PRIMITIVE, PacketVisitor, RayPacket, Stack, rank_floor, with_stack};
+use crate::bvh::{
+    BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank_floor, with_stack,
+};
 use crate::kernel::{Kernel, RayLanes};
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
 use crate::simd::prefetch;
-use fearless_simd::{Simd, dispatch, f32x16, mask32x16, prelude::*, u32x16};
+use fearless_simd::{Simd, dispatch, f32x16, prelude::*, u32x8, u32x16};
 
 /// Looks for the nearest hit of each ray. The same order of hits as for rays one by one: see
 /// `Found::is_before` in `mesh`.
@@ -28,14 +30,20 @@ struct Nearest<'a, K: Kernel, S: Simd> {
 
 impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
     #[inline(always)]
-    fn visit(&mut self, block: usize, entry: f32x16<S>, met: mask32x16<S>) -> f32x16<S> {
-        let floor = rank_floor(entry);
+    fn visit(&mut self, block: usize, slabs: &Slabs<S>, farthest: f32) -> f32x16<S> {
+        let boxes = self.blocks.boxes::<K, f32, S>(self.token, block);
+        let (_, near) = slabs.enter_any(self.token, &boxes, farthest);
         let infinity = f32x16::splat(self.token, f32::INFINITY);
         let lanes = self.blocks.bvh.lanes(block);
-        let mut lane = 0;
-        while lane < lanes.len() && lanes[lane] != NO_PRIMITIVE {
+        let primitives = u32x8::load_array_ref(self.token, lanes);
+        let mut near = near & primitives.simd_lt(NO_PRIMITIVE).to_bitmask() as u32;
+        while near != 0 {
+            let lane = near.trailing_zeros() as usize % BLOCK_SIZE;
+            near &= near - 1;
             let values = self.blocks.lane_values(self.token, block, K::VALUES, lane);
             if let Some(hit) = K::intersect(&self.rays, &values, self.t_min, self.rank) {
+                let (entry, met) = slabs.enter_one(self.token, &boxes, lane);
+                let floor = rank_floor(entry);
                 let primitive = u32x16::splat(self.token, lanes[lane]);
                 let rank = hit.t.simd_lt(floor).select(floor, hit.t);
                 let is_asked = hit.mask & met & rank.simd_lt(self.end) & hit.t.simd_lt(infinity);
@@ -49,7 +57,6 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
                 self.v = is_best.select(hit.v, self.v);
                 self.primitive = is_best.select(primitive, self.primitive);
             }
-            lane += 1;
         }
         self.rank
     }

@@ -11,9 +11,10 @@ pub use triangle::exact::exact_answer;
 pub(crate) use triangle::{ShearedRay, exact};
 pub use triangle::{
     TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, exact_triangle_kernel,
-    triangle_kernel,
+    triangle_bounds, triangle_kernel,
 };
 
+use crate::aabb::Planes;
 use crate::lane::{Lane, Number, Stored};
 use glam::Vec3;
 
@@ -166,12 +167,16 @@ pub(crate) trait Kernel: Send + Sync + 'static {
     /// How many numbers it keeps of a triangle.
     const VALUES: usize;
     /// What it keeps them as where it works in `N`.
-    type Stored<N: Number>: Stored<N>;
+    type Stored<N: Number>: Stored<N> + Stored<f32>;
     /// Rays made ready for many tests.
     type Prepared<L: Lane>: Copy;
 
     /// Makes a triangle ready; done once, into [`VALUES`](Self::VALUES) numbers.
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [Self::Stored<N>]);
+
+    /// The box around each triangle as `pack::<N>` packed it, exactly; within
+    /// [`triangle_bounds`].
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L>;
 
     /// Makes rays ready; done once a ray.
     fn prepare<L: Lane>(rays: &RayLanes<L>) -> Self::Prepared<L>;

@@ -77,6 +77,7 @@ pub trait Lane:
 pub trait Number:
     Lane<Token = (), Mask = bool, Number = Self>
     + Stored<Self>
+    + Stored<f32>
     + PartialOrd
     + From<f32>
     + Into<f64>

@@ -137,6 +137,25 @@ impl<N: Number> Stored<N> for f32 {
     }
 }
 
+/// For those that f32 holds.
+impl Stored<f32> for f64 {
+    const NO_TRIANGLE: Self = f64::NAN;
+    #[inline(always)]
+    fn number(self) -> f32 {
+        self.to_f32()
+    }
+    #[inline(always)]
+    fn lanes<S: Simd>(token: S, from: &[Self; LANES]) -> f32x8<S> {
+        let mut narrowed = [0.0; LANES];
+        let mut i = 0;
+        while i < LANES {
+            narrowed[i] = from[i].to_f32();
+            i += 1;
+        }
+        f32x8::load_array(token, narrowed)
+    }
+}
+
 impl Stored<f64> for f64 {
     const NO_TRIANGLE: Self = f64::NAN;
     #[inline(always)]

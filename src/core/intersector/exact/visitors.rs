@@ -1,7 +1,7 @@
 //! What the exact kernel does with the blocks that a ray meets.
 
 use super::{ExactIntersector, Vector};
-use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, Visitor};
+use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor};
 use crate::intersector::Cost;
 use crate::intersector::blocks::is_asked;
 use crate::kernel::ShearedRay;
@@ -118,12 +118,12 @@ fn candidate_of(best: &Sighted, weighed: Option<Candidate>) -> Option<Candidate>
     is_hit.then(|| weighed.unwrap_or_else(|| best.candidate()))
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Nearest<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Nearest<'_, S, F> {
     const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
-    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+    fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
         let (best, weighed) = (&mut self.best, &mut self.weighed);
         let deepest = best.far;
         _ = self.tester.test(block, deepest, |judge, hit| {
@@ -181,12 +181,12 @@ pub(super) struct Any<'a, S: Simd, F> {
     pub is_hit: bool,
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Any<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Any<'_, S, F> {
     const IS_ORDERED: bool = false;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
-    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+    fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
         let is_hit = &mut self.is_hit;
         self.tester.test(block, f32::INFINITY, |judge, hit| {
             *is_hit = judge.within(hit.candidate(), hit.is_certain).is_some();
@@ -234,11 +234,11 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Each<'_, S, F> {
     }
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor for Each<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Each<'_, S, F> {
     const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = true;
 
-    fn visit(&mut self, block: usize, _: f32) -> ControlFlow<(), f32> {
+    fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
         let primitives = self.tester.intersector.blocks.bvh.block(block);
         self.cost.triangles += primitives.len() as u32;
         let (deepest, kept, hits) = (self.deepest(), self.kept, &mut self.hits);

@@ -8,10 +8,15 @@
 //! Doesn't promise: an answer at shared edges and vertices; in f32, any accuracy far from the world's
 //!   origin: the map's translation is rounded there. At a thousand times its size a mesh is full of holes.
 
+use super::bounds;
 use super::dominant_axis::{self, Rows};
+use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
 use crate::lane::{Lane, LaneMask, Number, dot, plus, times};
 use glam::Vec3;
+
+/// Where the box is kept.
+const BOX: usize = 12;
 
 /// See the [module](self).
 pub(super) struct BaldwinWeber;
@@ -23,7 +28,7 @@ impl Kernel for BaldwinWeber {
         tier: None,
         precision: Precision::F32,
         source: "Baldwin, Weber, Fast Ray-Triangle Intersections by Coordinate Transformation, JCGT 2016",
-        summary: "The least arithmetic a test, a third more memory; useless far from (0, 0, 0).",
+        summary: "The least arithmetic a test, twice the memory; useless far from (0, 0, 0).",
         promises: Promises {
             is_translation_invariant: false,
             ..Promises::PLAIN
@@ -33,19 +38,25 @@ impl Kernel for BaldwinWeber {
         name: "baldwin-weber-f64",
         title: "Baldwin–Weber, f64",
         precision: Precision::F64,
-        summary: "Little arithmetic, nearly three times the memory.",
+        summary: "Little arithmetic, four times the memory.",
         ..Self::IN_F32
     };
-    const VALUES: usize = 12;
+    const VALUES: usize = BOX + bounds::VALUES;
     type Stored<N: Number> = N;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
         let Rows { u, v, normal, a } = dominant_axis::rows(corners);
-        for (row, kept) in [normal, u, v].iter().zip(values.chunks_exact_mut(4)) {
+        for (row, kept) in [normal, u, v].iter().zip(values[..BOX].chunks_exact_mut(4)) {
             kept[..3].copy_from_slice(row);
             kept[3] = -dot(row, &a);
         }
+        bounds::pack(corners, &mut values[BOX..]);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+        bounds::kept(triangles, BOX)
     }
 
     #[inline(always)]

@@ -16,6 +16,8 @@
 //!   both neighbours round alike; any accuracy far from the triangle: the normals' size follows the
 //!   square of the distance.
 
+use super::bounds;
+use crate::aabb::Planes;
 use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
 };
@@ -48,6 +50,11 @@ impl Kernel for EdgePlanes {
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         pack_corners(corners, values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+        bounds::around_corners(triangles, 0)
     }
 
     #[inline(always)]

@@ -1,6 +1,7 @@
 //! Ray–triangle kernels, and the table of them.
 
 mod baldwin_weber;
+mod bounds;
 mod dominant_axis;
 mod edge_planes;
 pub(crate) mod exact;
@@ -10,6 +11,7 @@ mod plane_projection;
 mod shear;
 mod watertight;
 
+pub use bounds::triangle_bounds;
 pub(crate) use shear::ShearedRay;
 
 use super::{Kernel, KernelInfo, OneTriangle, RayLanes};
@@ -150,7 +152,7 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<
 }
 
 /// As many values as any kernel keeps of a triangle.
-const MOST_VALUES: usize = 12;
+const MOST_VALUES: usize = 18;
 
 #[cfg(test)]
 mod tests {

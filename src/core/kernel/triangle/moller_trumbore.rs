@@ -7,6 +7,8 @@
 //! Doesn't promise: an answer at shared edges and vertices (each neighbour rounds its own way, so
 //!   that both may miss), nor, in f32, for triangles whose edges are below some 1e-12 (det underflows).
 
+use super::bounds;
+use crate::aabb::Planes;
 use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
 };
@@ -45,6 +47,15 @@ impl Kernel for MollerTrumbore {
             pack_corners(corners, values);
         } else {
             pack_corners([a, b - a, c - a], values);
+        }
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+        if N::HOLDS_PRODUCTS {
+            bounds::around_corners(triangles, 0)
+        } else {
+            bounds::around_edges(triangles)
         }
     }
 

@@ -6,6 +6,8 @@
 //! Promises: nothing beyond the figures that are measured.
 //! Doesn't promise: an answer at shared edges and vertices.
 
+use super::bounds;
+use crate::aabb::Planes;
 use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
 };
@@ -37,6 +39,11 @@ impl Kernel for Parametric {
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         pack_corners(corners, values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+        bounds::around_corners(triangles, 0)
     }
 
     #[inline(always)]

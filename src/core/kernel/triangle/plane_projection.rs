@@ -10,10 +10,15 @@
 //! Doesn't promise: an answer at shared edges and vertices: the point on the plane is rounded for
 //!   each triangle anew.
 
+use super::bounds;
 use super::dominant_axis::{self, Rows};
+use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
 use crate::lane::{Lane, LaneMask, Number, dot, minus, times};
 use glam::Vec3;
+
+/// Where the box is kept.
+const BOX: usize = 12;
 
 /// See the [module](self).
 pub(super) struct PlaneProjection;
@@ -25,25 +30,34 @@ impl Kernel for PlaneProjection {
         tier: None,
         precision: Precision::F32,
         source: "Badouel, An Efficient Ray-Polygon Intersection, Graphics Gems 1990",
-        summary: "Plane first, then 2D; rays slip through edges and vertices.",
+        summary: "Plane first, then 2D, twice the memory; rays slip through edges and vertices.",
         promises: Promises::PLAIN,
     };
     const IN_F64: KernelInfo = KernelInfo {
         name: "plane-projection-f64",
         title: "Plane and projection, f64",
         precision: Precision::F64,
-        summary: "Plane first, then 2D; twice the memory.",
+        summary: "Plane first, then 2D; four times the memory.",
         ..Self::IN_F32
     };
-    const VALUES: usize = 12;
+    const VALUES: usize = BOX + bounds::VALUES;
     type Stored<N: Number> = N;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
         let Rows { u, v, normal, a } = dominant_axis::rows(corners);
-        for (row, kept) in [a, normal, u, v].iter().zip(values.chunks_exact_mut(3)) {
+        for (row, kept) in [a, normal, u, v]
+            .iter()
+            .zip(values[..BOX].chunks_exact_mut(3))
+        {
             kept.copy_from_slice(row);
         }
+        bounds::pack(corners, &mut values[BOX..]);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+        bounds::kept(triangles, BOX)
     }
 
     #[inline(always)]

@@ -22,7 +22,9 @@
 //!      A──┼──┘ x        A fused multiply-add would break this: it rounds one product only.
 //! ```
 
+use super::bounds;
 use super::shear::ShearedRay;
+use crate::aabb::Planes;
 use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
 };
@@ -63,6 +65,11 @@ impl Kernel for Watertight {
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         pack_corners(corners, values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+        bounds::around_corners(triangles, 0)
     }
 
     #[inline(always)]

@@ -1,0 +1,125 @@
+//! No box of a tree loses what a kernel hits, however the kernel rounds: whatever the tree, the same bits.
+//!
+//! The yardstick is a tree whose boxes all hold everything, so that every triangle is asked about every ray.
+
+use glam::Vec3;
+use hitscope_core::bvh::Bvh;
+use hitscope_core::intersector::Intersector;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_bounds};
+use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::mesh::shapes::{Place, soup, torus};
+use hitscope_core::random::Random;
+use hitscope_core::simd::SimdLevel;
+use hitscope_core::{Aabb, Hit, Ray};
+use std::sync::Arc;
+
+/// Long thin triangles across each other, at all angles and of all sizes: what f32 kernels are worst at.
+fn needles(random: &mut Random) -> TriangleMesh {
+    let needle = |random: &mut Random| {
+        let size = 10f64.powf(3.0 * random.unit() - 3.0);
+        let a = random.in_cube();
+        let b = a + size * random.direction();
+        let thin = size * 10f64.powf(-6.0 * random.unit());
+        [a, b, b.lerp(a, random.unit()) + thin * random.direction()].map(|p| p.as_vec3())
+    };
+    let corners: Vec<[Vec3; 3]> = (0..600).map(|_| needle(random)).collect();
+    soup(&corners)
+}
+
+/// Triangles that overlap in one plane: many hits at nearly the same t.
+fn layers(random: &mut Random) -> TriangleMesh {
+    let corner = |random: &mut Random| {
+        let p = random.in_cube_f32();
+        Vec3::new(p.x, p.y, 0.25 * p.x + 0.5 * p.y)
+    };
+    let corners: Vec<[Vec3; 3]> = (0..300)
+        .map(|_| [corner(random), corner(random), corner(random)])
+        .collect();
+    soup(&corners)
+}
+
+/// Rays to points on edges, some of which start on a triangle's plane, some behind their origins; a few in a
+/// row go together.
+fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
+    let corner_list = mesh.corner_list();
+    let aimed = (0..500).flat_map(|k| {
+        let [a, b, c] = corner_list[random.index(corner_list.len())];
+        let on_edge = a.lerp(b, random.unit() as f32);
+        // Every other one grazes the triangle.
+        let beside = on_edge + 3.0 * (c - a) + 2.0 * (b - a);
+        let origin = if k % 2 == 0 {
+            beside + 1e-4 * random.in_cube_f32()
+        } else {
+            on_edge + 2.0 * random.in_cube_f32()
+        };
+        let near = (0..16).map(|_| on_edge + 1e-6 * random.in_cube_f32());
+        let targets: Vec<Vec3> = near.collect();
+        let t_min = if k % 8 < 2 { -2.0 } else { 0.0 };
+        targets.into_iter().map(move |target| {
+            Ray::with_interval(origin, target - origin, t_min, f32::INFINITY).ok()
+        })
+    });
+    aimed.flatten().collect()
+}
+
+fn bits(hit: &Option<Hit>) -> Option<[u32; 4]> {
+    hit.map(|h| [h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.primitive])
+}
+
+/// What a tree gives: the nearest hits, one by one and together, and whether there are any.
+fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)> {
+    let (mut hits, mut together) = (vec![None; rays.len()], vec![None; rays.len()]);
+    let mut any = vec![false; rays.len()];
+    tree.closest_hits(rays, &mut hits);
+    tree.coherent_hits(rays, &mut together);
+    tree.any_hits(rays, &mut any);
+    assert!(hits.iter().map(bits).eq(together.iter().map(bits)));
+    hits.iter().map(bits).zip(any).collect()
+}
+
+#[test]
+fn every_tree_gives_every_kernel_the_same_bits() {
+    let mut random = Random::new(11);
+    let far_ring = torus(24, 12, Place::new(1.0, 1e4));
+    let meshes = [needles(&mut random), layers(&mut random), far_ring];
+    for (m, mesh) in meshes.iter().enumerate() {
+        let rays = rays(mesh, &mut random);
+        let bounds_of = |triangle| triangle_bounds(mesh.corners(triangle));
+        let count = mesh.triangles.len();
+        let all = (0..count as u32).map(bounds_of);
+        let everything = all.fold(Aabb::EMPTY, Aabb::union);
+        let built = [
+            Bvh::build(count, |_| everything, &|| Ok(())),
+            Bvh::build(count, bounds_of, &|| Ok(())),
+            Bvh::build_quickly(count, bounds_of, &|| Ok(())),
+        ];
+        let trees = built.map(|tree| Arc::new(tree.expect("nobody cancels")));
+        for kernel in TRIANGLE_KERNELS {
+            let of_tree =
+                |tree: &Arc<Bvh>| kernel.intersector(mesh, Arc::clone(tree), SimdLevel::current());
+            let expected = answers(&*of_tree(&trees[0]), &rays);
+            assert!(expected.iter().filter(|(hit, _)| hit.is_some()).count() > 100);
+            for tree in &trees[1..] {
+                let found = answers(&*of_tree(tree), &rays);
+                let differ = |i: &usize| found[*i] != expected[*i];
+                let first = (0..rays.len()).find(differ);
+                assert_eq!(first, None, "{}, mesh {m}", kernel.info.name);
+            }
+        }
+    }
+}
+
+#[test]
+fn a_corner_found_again_from_its_edge_lies_in_the_triangles_box() {
+    let mut random = Random::new(3);
+    let mut beside = 0;
+    for _ in 0..10_000 {
+        let [a, b, c] = [1.0, 1e3, 1e-3].map(|scale| scale * random.in_cube_f32());
+        let bounds = triangle_bounds([a, b, c]);
+        for p in [a, b, c, a + (b - a), a + (c - a)] {
+            assert!(bounds.min.cmple(p).all() && p.cmple(bounds.max).all());
+        }
+        beside += usize::from(bounds != Aabb::around([a, b, c]));
+    }
+    assert!(beside > 100, "rounding moved {beside} corners out");
+}
