@@ -201,7 +201,7 @@ impl ExactReport {
 
 impl KernelRow {
     /// Asks the kernel about the candidates, which are the scene's triangles.
-    fn new(kernel: &TriangleKernel, asked: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
+    fn new(kernel: &'static TriangleKernel, asked: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
         let nearest = asked.intersector(kernel).closest_hit(ray);
         let corners = |hit: Hit| asked.mesh().corners(hit.primitive);
         let exact = nearest.and_then(|hit| oracle::intersect(ray, corners(hit)));

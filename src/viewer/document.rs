@@ -4,8 +4,8 @@ use crate::task::{Broken, Task, Wanted};
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::Health;
 use hitscope_core::obj::{self, LoadError, Recentre};
-use hitscope_core::progress::Progress;
-use hitscope_core::scene::LoadedScene;
+use hitscope_core::progress::{Cancelled, Progress};
+use hitscope_core::scene::{FirstTree, LoadedScene};
 use hitscope_core::{Intersector, Scene};
 use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
@@ -38,6 +38,21 @@ pub struct Document {
     second: Option<Arc<dyn Intersector>>,
     packing_second: Packing,
     health: HealthState,
+    /// Set when the document is dropped: a better tree is then wanted no more.
+    progress: Arc<Progress>,
+    improvement: Improvement,
+}
+
+impl Drop for Document {
+    fn drop(&mut self) {
+        self.progress.cancel();
+    }
+}
+
+enum Improvement {
+    Unasked,
+    UnderWay(Task<Result<(), Cancelled>>),
+    Over,
 }
 
 enum HealthState {
@@ -54,19 +69,19 @@ impl Document {
     /// See [`LoadError`].
     pub fn load(
         path: &Path,
-        kernel: &TriangleKernel,
+        kernel: &'static TriangleKernel,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
-        let loaded = LoadedScene::load(path, Recentre::Auto, progress)?;
+        let loaded = LoadedScene::load_with_tree(path, Recentre::Auto, FirstTree::Quick, progress)?;
         Ok(Self::new(Some(path.to_owned()), loaded, kernel))
     }
 
     /// The embedded scene.
-    pub fn embedded(kernel: &TriangleKernel) -> Self {
+    pub fn embedded(kernel: &'static TriangleKernel) -> Self {
         Self::new(None, embedded_scene(), kernel)
     }
 
-    fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: &TriangleKernel) -> Self {
+    fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: &'static TriangleKernel) -> Self {
         Self {
             path,
             intersector: Arc::from(loaded.scene.intersector(kernel)),
@@ -75,7 +90,43 @@ impl Document {
             second: None,
             packing_second: Wanted::default(),
             health: HealthState::Unasked,
+            progress: Arc::default(),
+            improvement: Improvement::Unasked,
         }
+    }
+
+    /// Has the scene's better tree built, if there is one to come; it then takes the first one's place by
+    /// itself.
+    ///
+    /// # Errors
+    /// [`Broken`] if building it failed, said once; the first tree stays.
+    pub fn improve(&mut self, ctx: &egui::Context) -> Result<(), Broken> {
+        match &self.improvement {
+            Improvement::Unasked if self.loaded.scene.has_best_tree() => {
+                self.improvement = Improvement::Over;
+            }
+            Improvement::Unasked => {
+                let (scene, progress) =
+                    (Arc::clone(&self.loaded.scene), Arc::clone(&self.progress));
+                let improve = move || scene.improve(&progress);
+                self.improvement = Improvement::UnderWay(Task::spawn("improve", ctx, improve));
+            }
+            Improvement::UnderWay(task) => match task.poll() {
+                Ok(None) => {}
+                Ok(Some(_)) => self.improvement = Improvement::Over,
+                Err(broken) => {
+                    self.improvement = Improvement::Over;
+                    return Err(broken);
+                }
+            },
+            Improvement::Over => {}
+        }
+        Ok(())
+    }
+
+    /// Whether the scene's tree stays as it is.
+    pub fn has_last_tree(&self) -> bool {
+        matches!(self.improvement, Improvement::Over)
     }
 
     /// For titles.
@@ -199,7 +250,7 @@ pub fn embedded_scene() -> LoadedScene {
         &progress,
     );
     let loaded = loaded.expect("a test opens the embedded scene");
-    LoadedScene::of(loaded, start, &progress).expect("nobody cancels")
+    LoadedScene::of(loaded, start, FirstTree::Best, &progress).expect("nobody cancels")
 }
 
 #[cfg(test)]

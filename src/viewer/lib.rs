@@ -26,5 +26,6 @@ pub mod panels;
 pub mod screenshot;
 pub mod settings;
 pub mod task;
+mod times;
 pub mod tracer;
 pub mod trade;

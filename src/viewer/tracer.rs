@@ -3,13 +3,13 @@
 //! While the camera moves, each new view waits until the first pass of the one before is there; that
 //! pass is coarse enough to be quick.
 
+use crate::times::Times;
 use glam::{UVec2, Vec3};
 use hitscope_core::film::PixelRect;
 use hitscope_core::integrator::{Context, Integrator};
 use hitscope_core::render::plan::{Plan, STEPS};
 use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
 use hitscope_core::{Camera, Film, Scene};
-use std::collections::VecDeque;
 use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
@@ -23,8 +23,6 @@ const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration
 const COLLECTING: Duration = Duration::from_millis(6);
 /// Views that follow each other within this time are frames of a movement.
 const MOVING: Duration = Duration::from_millis(500);
-/// Views over which their interval is averaged.
-const FRAMES: usize = 31;
 /// Refinement begins when the view has been at rest for this long; until then the processor is left
 /// to drawing the window, which takes most of it where there is no GPU.
 const REST: Duration = Duration::from_millis(80);
@@ -40,6 +38,8 @@ pub struct Request {
     pub integrator: &'static Integrator,
     /// Samples a pixel in the end.
     pub samples: u32,
+    /// Whether the view is of what the scene's best tree costs.
+    pub shows_best_tree: bool,
 }
 
 impl PartialEq for Request {
@@ -50,6 +50,7 @@ impl PartialEq for Request {
             && Arc::ptr_eq(&a.second, &b.second)
             && (a.camera, a.shading, a.background) == (b.camera, b.shading, b.background)
             && (self.integrator.name, self.samples) == (other.integrator.name, other.samples)
+            && self.shows_best_tree == other.shows_best_tree
     }
 }
 
@@ -74,8 +75,8 @@ pub struct Status {
     pub rays_per_s: f64,
     /// Since the view changed, until the newest tile.
     pub lasted: Duration,
-    /// Median time between the views of the last movement.
-    pub frame_interval: Option<Duration>,
+    /// Time between the views of the last movement: the median, and what 99 of 100 don't exceed.
+    pub frame_interval: Option<[Duration; 2]>,
 }
 
 /// Traces what was requested last.
@@ -86,8 +87,8 @@ pub struct Tracer {
     /// What the shown picture is of: the newest one whose first pass is done.
     shown: Option<(Arc<Scene>, Camera)>,
     shown_at: Option<Instant>,
-    /// Between views of a movement, the newest last.
-    frame_intervals: VecDeque<Duration>,
+    /// Between views of a movement.
+    frame_intervals: Times,
     /// What the first pass may take, so that frames take what they are to take.
     first_pass: Duration,
     changed: Option<PixelRect>,
@@ -113,7 +114,7 @@ impl Tracer {
             posted: None,
             shown: None,
             shown_at: None,
-            frame_intervals: VecDeque::new(),
+            frame_intervals: Times::default(),
             first_pass: Duration::from_millis(12),
             changed: None,
             rays: 0.0,
@@ -162,10 +163,7 @@ impl Tracer {
         self.shown_at = Some(now);
         match interval {
             Some(interval) if interval < MOVING => {
-                self.frame_intervals.push_back(interval);
-                if self.frame_intervals.len() > FRAMES {
-                    self.frame_intervals.pop_front();
-                }
+                self.frame_intervals.push(interval);
                 self.adapt(interval);
             }
             // After a rest another movement begins.
@@ -346,7 +344,7 @@ impl Tracer {
                 .posted
                 .as_ref()
                 .map_or(Duration::ZERO, |posted| posted.lasted),
-            frame_interval: median(&self.frame_intervals),
+            frame_interval: self.frame_intervals.median_and_99th(),
         }
     }
 
@@ -373,10 +371,4 @@ impl Tracer {
             self.renderer.resume();
         }
     }
-}
-
-fn median(times: &VecDeque<Duration>) -> Option<Duration> {
-    let mut sorted: Vec<Duration> = times.iter().copied().collect();
-    sorted.sort_unstable();
-    sorted.get(sorted.len() / 2).copied()
 }

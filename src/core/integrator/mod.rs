@@ -52,7 +52,7 @@ pub struct Integrator {
 enum Colour {
     /// Of what the chosen kernel says that it hits first.
     OfHit(fn(&Context, &Ray, Option<Hit>) -> Vec3),
-    /// Of what the view finds out about the ray by itself.
+    /// Of what the ray costs, which the view finds out by itself.
     OfRay(fn(&Context, &Ray) -> Vec3),
 }
 
@@ -94,6 +94,11 @@ impl Integrator {
             || Arc::clone(first),
             |kernel| Arc::from(scene.intersector(kernel)),
         )
+    }
+
+    /// Whether it shows what rays cost, which another tree changes; what they hit it doesn't.
+    pub fn depends_on_tree(&self) -> bool {
+        matches!(self.colour, Colour::OfRay(_))
     }
 
     /// What the view needs to know of rays before it makes colours of them: what they hit first. Quickest for

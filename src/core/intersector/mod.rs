@@ -2,10 +2,12 @@
 //!
 //! Kernel and CPU level are chosen when the intersector is made; a ray then costs one virtual call.
 //! `mesh` is for kernels that decide about each triangle by itself, `packet` for several rays of theirs at a
-//! time; `exact` for the one that weighs hits against each other.
+//! time; `exact` for the one that weighs hits against each other; `improving` asks another one, under which the
+//! tree may be replaced.
 
 mod blocks;
 pub(crate) mod exact;
+pub(crate) mod improving;
 pub(crate) mod mesh;
 mod packet;
 

@@ -12,7 +12,9 @@ pub use area::has_zero_area;
 pub use health::{Health, SLIVER_ASPECT};
 pub use normals::VertexNormals;
 
+use crate::aabb::Aabb;
 use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 /// A place as bits that can be compared and hashed; −0 is the same place as 0.
 fn place(p: Vec3) -> [u32; 3] {
@@ -90,6 +92,15 @@ impl TriangleMesh {
     /// The corners of a triangle.
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// The box around all triangles.
+    pub fn bounds(&self) -> Aabb {
+        let of = |triangle: &[u32; 3]| {
+            Aabb::around(triangle.map(|vertex| self.positions[vertex as usize]))
+        };
+        let boxes = self.triangles.par_iter().map(of);
+        boxes.reduce(|| Aabb::EMPTY, Aabb::union)
     }
 
     /// The corners of every triangle.

@@ -99,7 +99,7 @@ pub fn mesh_cases() -> Vec<MeshCase> {
 
 impl MeshCase {
     /// Traces `n` rays.
-    pub fn measure(&self, kernel: &TriangleKernel, n: u64, seed: u64) -> MeshCell {
+    pub fn measure(&self, kernel: &'static TriangleKernel, n: u64, seed: u64) -> MeshCell {
         let mut random = Random::new(seed);
         let inside_sphere: fn(&mut Random) -> DVec3 = |random| 0.4 * random.in_cube();
         let inside_torus: fn(&mut Random) -> DVec3 =

@@ -185,7 +185,12 @@ pub static ORDER_CASES: &[OrderCase] = &[
 
 impl OrderCase {
     /// Asks every kernel about the same `n` rays.
-    pub fn measure(&self, kernels: &[&TriangleKernel], n: u64, seed: u64) -> Vec<OrderCell> {
+    pub fn measure(
+        &self,
+        kernels: &[&'static TriangleKernel],
+        n: u64,
+        seed: u64,
+    ) -> Vec<OrderCell> {
         let mut random = Random::new(seed);
         let mut ties = 0;
         let mut wrong = vec![(0, 0); kernels.len()];

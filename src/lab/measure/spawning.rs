@@ -89,7 +89,7 @@ const RAYS_PER_SURFACE: u64 = 64;
 impl SpawnCase {
     /// Lets `n` rays leave by each policy; the kernel finds where they start, and whether they meet the
     /// surface again.
-    pub fn measure(&self, kernel: &TriangleKernel, n: u64, seed: u64) -> Vec<SpawnCell> {
+    pub fn measure(&self, kernel: &'static TriangleKernel, n: u64, seed: u64) -> Vec<SpawnCell> {
         let mut random = Random::new(seed);
         let mut self_hits = vec![0; SPAWN_POLICIES.len()];
         let mut heights = vec![Vec::new(); SPAWN_POLICIES.len()];

@@ -84,7 +84,7 @@ impl<'a> Bench<'a> {
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn measure(
         &self,
-        kernel: &TriangleKernel,
+        kernel: &'static TriangleKernel,
         intersector: &dyn Intersector,
         progress: &Progress,
     ) -> Result<Speed, Cancelled> {
@@ -183,7 +183,7 @@ impl TestBench {
         }
     }
 
-    fn ns_per_test(&self, kernel: &TriangleKernel) -> f64 {
+    fn ns_per_test(&self, kernel: &'static TriangleKernel) -> f64 {
         let intersector = self.scene.intersector(kernel);
         let tests = self.rays.len() * self.scene.mesh().triangles.len();
         let round = || {

@@ -183,16 +183,24 @@ impl App {
         } else {
             ""
         };
+        let tree = if scene.has_best_tree() {
+            "tree"
+        } else {
+            "quick tree"
+        };
         let mut parts = vec![
             format!("pass {} of {}{paused}", status.passes, status.pass_count),
             format!("{} of {} samples", status.samples, self.settings.samples),
             format!("{:.1} Mrays/s", status.rays_per_s / 1e6),
             format!("{} triangles", grouped(scene.mesh().triangles.len())),
-            format!("tree {:.0} ms", scene.build_time().as_secs_f64() * 1e3),
+            format!("{tree} {:.0} ms", scene.build_time().as_secs_f64() * 1e3),
             format!("{:.1} s", status.lasted.as_secs_f64()),
         ];
-        if let Some(interval) = status.frame_interval {
-            parts.push(format!("frame {:.0} ms", interval.as_secs_f64() * 1e3));
+        // Both as the median, and what 99 of 100 don't exceed.
+        for (name, times) in [("frame", status.frame_interval), ("UI", self.ui_time())] {
+            if let Some([median, most]) = times.map(|times| times.map(|t| t.as_secs_f64() * 1e3)) {
+                parts.push(format!("{name} {median:.0}, 99 % {most:.0} ms"));
+            }
         }
         if self.tracer.non_finite() > 0 {
             parts.push(format!("{} samples not finite", self.tracer.non_finite()));

@@ -19,6 +19,7 @@ use crate::opening::{Loading, OpenDialog};
 use crate::overlay::OverlayLayer;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
+use crate::times::Times;
 use crate::tracer::Tracer;
 use crate::trade::Trade;
 use eframe::egui_wgpu;
@@ -30,6 +31,7 @@ use hitscope_lab::commands::default_thread_count;
 use hitscope_lab::inspection::Inspection;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
+use std::time::Duration;
 
 /// How the window starts.
 #[derive(Clone, Debug, Default)]
@@ -80,6 +82,8 @@ pub struct App {
     is_unframed: bool,
     /// Uncaught errors of the GPU, from whatever thread they come.
     gpu_errors: Arc<Mutex<Vec<String>>>,
+    /// What the window's thread spent on each of its last frames.
+    ui_times: Times,
     screenshot: Option<Screenshot>,
 }
 
@@ -119,6 +123,7 @@ impl App {
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
             is_unframed: true,
+            ui_times: Times::default(),
             screenshot: start.screenshot.map(Screenshot::new),
             settings,
         })
@@ -131,7 +136,14 @@ impl App {
 
     /// Whether the picture has all its samples and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
-        self.loading.is_none() && self.tracer.is_complete(&self.document.loaded.scene)
+        self.loading.is_none()
+            && self.document.has_last_tree()
+            && self.tracer.is_complete(&self.document.loaded.scene)
+    }
+
+    /// What the window's thread spends on a frame: the median, and what 99 of 100 don't exceed.
+    fn ui_time(&self) -> Option<[Duration; 2]> {
+        self.ui_times.median_and_99th()
     }
 
     /// Whether refinement stands still by the user's wish.
@@ -260,7 +272,10 @@ const SETTINGS_KEY: &str = "settings";
 
 impl eframe::App for App {
     /// Runs also while the window is hidden, so that nothing piles up.
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+    fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
+        if let Some(secs) = frame.info().cpu_usage {
+            self.ui_times.push(Duration::from_secs_f32(secs));
+        }
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
         }
@@ -274,6 +289,9 @@ impl eframe::App for App {
         if let Err(broken) = self.document.use_second(second, ctx) {
             self.error(broken);
             self.settings.view = Settings::default().view;
+        }
+        if let Err(broken) = self.document.improve(ctx) {
+            self.error(broken);
         }
         if let Some(panic) = self.tracer.collect(ctx).first() {
             self.error(panic);

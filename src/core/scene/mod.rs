@@ -1,9 +1,13 @@
 //! What is there to be seen?
 
+mod tree;
+
+pub use tree::FirstTree;
+
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::Intersector;
-use crate::kernel::{TriangleKernel, triangle_bounds};
+use crate::kernel::TriangleKernel;
 use crate::mesh::{SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, Loaded, Recentre, Warning};
 use crate::progress::{Cancelled, Phase, Progress};
@@ -11,6 +15,7 @@ use crate::simd::SimdLevel;
 use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
+use tree::Tree;
 
 /// How normals vary over a triangle.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -22,12 +27,12 @@ pub enum Shading {
     Smooth,
 }
 
-/// A mesh with its tree. Immutable: another scene replaces it.
+/// A mesh with its tree. Immutable, as far as rays can tell: another scene replaces it.
 #[derive(Debug)]
 pub struct Scene {
     mesh: TriangleMesh,
-    bvh: Arc<Bvh>,
-    build_time: Duration,
+    bounds: Aabb,
+    tree: Tree,
     /// Made when smooth shading first asks for it.
     vertex_normals: OnceLock<VertexNormals>,
 }
@@ -38,15 +43,23 @@ impl Scene {
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn new(mesh: TriangleMesh, progress: &Progress) -> Result<Self, Cancelled> {
+        Self::with_tree(mesh, FirstTree::Best, progress)
+    }
+
+    /// Builds one tree or another over a mesh.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn with_tree(
+        mesh: TriangleMesh,
+        first: FirstTree,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
-        let start = Instant::now();
-        let bounds_of = |triangle| triangle_bounds(mesh.corners(triangle));
-        let bvh = Bvh::build(mesh.triangles.len(), bounds_of, &|| progress.check())?;
-        let bvh = Arc::new(bvh);
         Ok(Self {
+            bounds: mesh.bounds(),
+            tree: Tree::build(&mesh, first, progress)?,
             mesh,
-            bvh,
-            build_time: start.elapsed(),
             vertex_normals: OnceLock::new(),
         })
     }
@@ -71,19 +84,34 @@ impl Scene {
         &self.mesh
     }
 
-    /// The tree over the triangles' boxes.
-    pub fn bvh(&self) -> &Bvh {
-        &self.bvh
+    /// The tree over the triangles' boxes, as it is at present.
+    pub fn bvh(&self) -> Arc<Bvh> {
+        self.tree.bvh()
+    }
+
+    /// Whether no better tree is to come.
+    pub fn has_best_tree(&self) -> bool {
+        self.tree.is_best()
+    }
+
+    /// Replaces a quick tree by the best one, also under intersectors that were made with the former; what
+    /// rays hit doesn't change by a bit, what they cost does. Where it was replaced already, nothing
+    /// happens; where another thread is at it, this one waits.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn improve(&self, progress: &Progress) -> Result<(), Cancelled> {
+        self.tree.improve(&self.mesh, progress)
     }
 
     /// The box around everything, in the mesh's coordinates.
     pub fn bounds(&self) -> Aabb {
-        self.bvh.bounds()
+        self.bounds
     }
 
-    /// How long the tree took.
+    /// How long the tree took that there is at present.
     pub fn build_time(&self) -> Duration {
-        self.build_time
+        self.tree.build_time()
     }
 
     /// Normals at the corners, computed at the first call.
@@ -93,17 +121,17 @@ impl Scene {
     }
 
     /// Packs the scene for a kernel.
-    pub fn intersector(&self, kernel: &TriangleKernel) -> Box<dyn Intersector> {
+    pub fn intersector(&self, kernel: &'static TriangleKernel) -> Box<dyn Intersector> {
         self.intersector_at(kernel, SimdLevel::current())
     }
 
     /// The same, for one of this machine's SIMD levels.
     pub fn intersector_at(
         &self,
-        kernel: &TriangleKernel,
+        kernel: &'static TriangleKernel,
         level: SimdLevel,
     ) -> Box<dyn Intersector> {
-        kernel.intersector(&self.mesh, Arc::clone(&self.bvh), level)
+        self.tree.intersector(&self.mesh, kernel, level)
     }
 }
 
@@ -128,9 +156,22 @@ impl LoadedScene {
     /// # Errors
     /// See [`LoadError`].
     pub fn load(path: &Path, recentre: Recentre, progress: &Progress) -> Result<Self, LoadError> {
+        Self::load_with_tree(path, recentre, FirstTree::Best, progress)
+    }
+
+    /// The same, with one tree or another.
+    ///
+    /// # Errors
+    /// See [`LoadError`].
+    pub fn load_with_tree(
+        path: &Path,
+        recentre: Recentre,
+        first: FirstTree,
+        progress: &Progress,
+    ) -> Result<Self, LoadError> {
         let start = Instant::now();
         let loaded = obj::load(path, recentre, progress)?;
-        Self::of(loaded, start, progress).map_err(|Cancelled| LoadError::Cancelled {
+        Self::of(loaded, start, first, progress).map_err(|Cancelled| LoadError::Cancelled {
             path: path.to_owned(),
         })
     }
@@ -139,9 +180,14 @@ impl LoadedScene {
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
-    pub fn of(loaded: Loaded, start: Instant, progress: &Progress) -> Result<Self, Cancelled> {
+    pub fn of(
+        loaded: Loaded,
+        start: Instant,
+        first: FirstTree,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
         let load_time = start.elapsed();
-        let scene = Scene::new(loaded.mesh, progress)?;
+        let scene = Scene::with_tree(loaded.mesh, first, progress)?;
         let mut warnings = loaded.warnings;
         warnings.extend(size_warning(scene.bounds()));
         Ok(Self {
@@ -183,7 +229,12 @@ mod tests {
         ] {
             let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
             let loaded = obj::parse(text.as_bytes(), path, Recentre::Auto, &library, &progress);
-            let loaded = LoadedScene::of(loaded.expect("good"), Instant::now(), &progress);
+            let loaded = LoadedScene::of(
+                loaded.expect("good"),
+                Instant::now(),
+                FirstTree::Best,
+                &progress,
+            );
             let warnings = loaded.expect("nobody cancels").warnings;
             assert_eq!(
                 warnings.len(),

@@ -1,0 +1,86 @@
+//! An intersector under which the tree is replaced while rays are traced: every tree gives the same bits.
+
+use super::{Cost, Crossing, Intersector};
+use crate::kernel::KernelInfo;
+use crate::ray::{Hit, Ray};
+use std::sync::{Arc, PoisonError, RwLock, Weak};
+
+/// Where the intersector is found that answers at present.
+#[derive(Clone)]
+pub(crate) struct Place(Arc<RwLock<Arc<dyn Intersector>>>);
+
+/// The same, for whoever replaces it while it is still used.
+pub(crate) struct WeakPlace(Weak<RwLock<Arc<dyn Intersector>>>);
+
+impl Place {
+    pub fn new(first: Box<dyn Intersector>) -> Self {
+        Self(Arc::new(RwLock::new(Arc::from(first))))
+    }
+
+    pub fn downgrade(&self) -> WeakPlace {
+        WeakPlace(Arc::downgrade(&self.0))
+    }
+
+    /// A pointer, so that no lock is held while tracing.
+    fn current(&self) -> Arc<dyn Intersector> {
+        Arc::clone(&self.0.read().unwrap_or_else(PoisonError::into_inner))
+    }
+}
+
+impl WeakPlace {
+    /// The next one answers from now on; it is made only if it is still wanted.
+    pub fn replace(&self, next: impl FnOnce() -> Box<dyn Intersector>) {
+        if let Some(place) = self.0.upgrade() {
+            let next = Arc::from(next());
+            *place.write().unwrap_or_else(PoisonError::into_inner) = next;
+        }
+    }
+}
+
+/// Asks the one that answers at present.
+pub(crate) struct Improving {
+    pub kernel: &'static KernelInfo,
+    pub place: Place,
+}
+
+impl Intersector for Improving {
+    fn kernel(&self) -> &'static KernelInfo {
+        self.kernel
+    }
+
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        self.place.current().closest_hits(rays, hits);
+    }
+
+    fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        self.place.current().coherent_hits(rays, hits);
+    }
+
+    fn rays_together(&self) -> usize {
+        self.place.current().rays_together()
+    }
+
+    fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
+        self.place.current().closest_hit_with_cost(ray)
+    }
+
+    fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        self.place.current().any_hits(rays, are_hits);
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
+        self.place.current().all_hits(ray)
+    }
+
+    fn candidates(&self, ray: &Ray) -> Vec<u32> {
+        self.place.current().candidates(ray)
+    }
+
+    fn count_hits(&self, ray: &Ray) -> usize {
+        self.place.current().count_hits(ray)
+    }
+
+    fn bytes(&self) -> usize {
+        self.place.current().bytes()
+    }
+}

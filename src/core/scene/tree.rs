@@ -1,0 +1,228 @@
+//! The tree over a scene's triangles, and the better one that takes its place.
+
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::intersector::Intersector;
+use crate::intersector::improving::{Improving, Place, WeakPlace};
+use crate::kernel::{TriangleKernel, triangle_bounds};
+use crate::mesh::TriangleMesh;
+use crate::progress::{Cancelled, Progress};
+use crate::simd::SimdLevel;
+use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
+use std::time::{Duration, Instant};
+
+/// Which tree a scene begins with. The answers are the same, bit for bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum FirstTree {
+    /// The one that rays take the least time with.
+    #[default]
+    Best,
+    /// For a large mesh one that is there sooner; [`Scene::improve`](crate::Scene::improve) replaces it.
+    Quick,
+}
+
+/// Fewer triangles than this have their best tree within 0.1 s on two cores (2026-11).
+const LARGE: usize = 200_000;
+
+#[derive(Clone, Debug)]
+struct Built {
+    bvh: Arc<Bvh>,
+    time: Duration,
+    is_best: bool,
+}
+
+/// See the [module](self).
+#[derive(Debug)]
+pub(super) struct Tree {
+    built: RwLock<Built>,
+    /// Held by who improves it.
+    turn: Mutex<()>,
+    waiting: Mutex<Vec<Waiting>>,
+}
+
+/// An intersector made with the first tree.
+struct Waiting {
+    place: WeakPlace,
+    kernel: &'static TriangleKernel,
+    level: SimdLevel,
+}
+
+impl std::fmt::Debug for Waiting {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        f.write_str(self.kernel.info.name)
+    }
+}
+
+impl Tree {
+    pub fn build(
+        mesh: &TriangleMesh,
+        first: FirstTree,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
+        let is_best = first == FirstTree::Best || mesh.triangles.len() < LARGE;
+        let build = if is_best { built } else { built_quickly };
+        Ok(Self {
+            built: RwLock::new(build(mesh, progress)?),
+            turn: Mutex::default(),
+            waiting: Mutex::default(),
+        })
+    }
+
+    pub fn bvh(&self) -> Arc<Bvh> {
+        self.current().bvh
+    }
+
+    pub fn build_time(&self) -> Duration {
+        self.current().time
+    }
+
+    pub fn is_best(&self) -> bool {
+        self.current().is_best
+    }
+
+    fn current(&self) -> Built {
+        let built = self.built.read().unwrap_or_else(PoisonError::into_inner);
+        built.clone()
+    }
+
+    /// Packs a mesh for a kernel, and again once there is a better tree.
+    pub fn intersector(
+        &self,
+        mesh: &TriangleMesh,
+        kernel: &'static TriangleKernel,
+        level: SimdLevel,
+    ) -> Box<dyn Intersector> {
+        let Built { bvh, is_best, .. } = self.current();
+        let packed = kernel.intersector(mesh, bvh, level);
+        if is_best {
+            return packed;
+        }
+        let place = Place::new(packed);
+        let mut waiting = locked(&self.waiting);
+        if self.is_best() {
+            // The better tree came meanwhile, and nobody looks at the list any more.
+            drop(waiting);
+            return self.intersector(mesh, kernel, level);
+        }
+        waiting.push(Waiting {
+            place: place.downgrade(),
+            kernel,
+            level,
+        });
+        Box::new(Improving {
+            kernel: kernel.info,
+            place,
+        })
+    }
+
+    pub fn improve(&self, mesh: &TriangleMesh, progress: &Progress) -> Result<(), Cancelled> {
+        // One builds, others wait for it.
+        let _turn = locked(&self.turn);
+        if self.is_best() {
+            return Ok(());
+        }
+        let better = built(mesh, progress)?;
+        let bvh = Arc::clone(&better.bvh);
+        *self.built.write().unwrap_or_else(PoisonError::into_inner) = better;
+        let waiting = std::mem::take(&mut *locked(&self.waiting));
+        for Waiting {
+            place,
+            kernel,
+            level,
+        } in waiting
+        {
+            place.replace(|| kernel.intersector(mesh, Arc::clone(&bvh), level));
+        }
+        Ok(())
+    }
+}
+
+/// What a panic left behind is whole: nothing is half written under these locks.
+fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+fn built(mesh: &TriangleMesh, progress: &Progress) -> Result<Built, Cancelled> {
+    let start = Instant::now();
+    let bvh = Bvh::build(mesh.triangles.len(), bounds_in(mesh), &|| progress.check())?;
+    Ok(Built {
+        bvh: Arc::new(bvh),
+        time: start.elapsed(),
+        is_best: true,
+    })
+}
+
+fn built_quickly(mesh: &TriangleMesh, progress: &Progress) -> Result<Built, Cancelled> {
+    let start = Instant::now();
+    let count = mesh.triangles.len();
+    let bvh = Bvh::build_quickly(count, bounds_in(mesh), &|| progress.check())?;
+    Ok(Built {
+        bvh: Arc::new(bvh),
+        time: start.elapsed(),
+        is_best: false,
+    })
+}
+
+fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
+    |triangle| triangle_bounds(mesh.corners(triangle))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::{default_triangle_kernel, triangle_kernel};
+    use crate::mesh::shapes::{Place as Where, sphere};
+    use crate::ray::Ray;
+    use crate::scene::Scene;
+    use glam::Vec3;
+
+    /// 12·150² triangles.
+    fn large() -> Scene {
+        let mesh = sphere(150, Where::UNIT);
+        assert!(mesh.triangles.len() > LARGE);
+        Scene::with_tree(mesh, FirstTree::Quick, &Progress::default()).expect("nobody cancels")
+    }
+
+    #[test]
+    fn the_better_tree_answers_where_the_first_one_was_packed() {
+        let scene = large();
+        let quick = scene.intersector(default_triangle_kernel());
+        let ray = Ray::new(Vec3::new(0.1, 0.2, 3.0), -Vec3::Z).expect("a ray");
+        let (hit, cost) = quick.closest_hit_with_cost(&ray);
+        assert!(hit.is_some() && !scene.has_best_tree());
+        scene.improve(&Progress::default()).expect("nobody cancels");
+        let (hit_again, cost_again) = quick.closest_hit_with_cost(&ray);
+        assert_eq!(hit, hit_again);
+        assert!(scene.has_best_tree() && cost_again != cost);
+        let packed_later = scene.intersector(default_triangle_kernel());
+        assert_eq!(packed_later.closest_hit_with_cost(&ray).1, cost_again);
+    }
+
+    #[test]
+    fn a_cancelled_improvement_leaves_the_first_tree_and_can_be_begun_again() {
+        let scene = large();
+        let cancelled = Progress::default();
+        cancelled.cancel();
+        assert_eq!(scene.improve(&cancelled), Err(Cancelled));
+        assert!(!scene.has_best_tree());
+        scene.improve(&Progress::default()).expect("nobody cancels");
+        assert!(scene.has_best_tree());
+    }
+
+    #[test]
+    fn intersectors_made_while_the_tree_is_replaced_get_the_better_one() {
+        let scene = large();
+        let fast = triangle_kernel("fast").expect("in the table");
+        let ray = Ray::new(Vec3::new(0.1, 0.2, 3.0), -Vec3::Z).expect("a ray");
+        let made = std::thread::scope(|threads| {
+            let improving = threads.spawn(|| scene.improve(&Progress::default()));
+            let made: Vec<_> = (0..6).map(|_| scene.intersector(fast)).collect();
+            improving.join().expect("no panic").expect("nobody cancels");
+            made
+        });
+        let expected = scene.intersector(fast).closest_hit_with_cost(&ray);
+        for intersector in made {
+            assert_eq!(intersector.closest_hit_with_cost(&ray), expected);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+//! How long did the last few of them take?
+
+use std::collections::VecDeque;
+use std::time::Duration;
+
+/// The last times of something that happens again and again.
+#[derive(Debug, Default)]
+pub struct Times(VecDeque<Duration>);
+
+impl Times {
+    /// So many that one in a hundred is several.
+    const KEPT: usize = 500;
+
+    /// Notes one; the oldest is forgotten.
+    pub fn push(&mut self, time: Duration) {
+        if self.0.len() == Self::KEPT {
+            self.0.pop_front();
+        }
+        self.0.push_back(time);
+    }
+
+    /// Forgets all.
+    pub fn clear(&mut self) {
+        self.0.clear();
+    }
+
+    /// What so large a part of them, from 0 to 1, doesn't exceed; `None` of none.
+    pub fn quantile(&self, part: f64) -> Option<Duration> {
+        let mut sorted: Vec<Duration> = self.0.iter().copied().collect();
+        sorted.sort_unstable();
+        let at = (part * sorted.len() as f64).ceil() as usize;
+        sorted.get(at.saturating_sub(1)).copied()
+    }
+
+    /// The half of them doesn't exceed the first, 99 of 100 the second.
+    pub fn median_and_99th(&self) -> Option<[Duration; 2]> {
+        Some([self.quantile(0.5)?, self.quantile(0.99)?])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn one_in_a_hundred_is_left_out() {
+        let mut times = Times::default();
+        assert_eq!(times.quantile(0.5), None);
+        for ms in (1..=100).rev() {
+            times.push(Duration::from_millis(ms));
+        }
+        let ms = |part: f64| times.quantile(part).map(|time| time.as_millis());
+        assert_eq!(
+            (ms(0.0), ms(0.5), ms(0.99), ms(1.0)),
+            (Some(1), Some(50), Some(99), Some(100))
+        );
+    }
+
+    #[test]
+    fn the_oldest_are_forgotten() {
+        let mut times = Times::default();
+        times.push(Duration::from_secs(9));
+        (0..Times::KEPT).for_each(|_| times.push(Duration::from_secs(1)));
+        assert_eq!(times.quantile(1.0), Some(Duration::from_secs(1)));
+    }
+}

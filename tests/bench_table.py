@@ -1,0 +1,65 @@
+#!/usr/bin/env python3
+"""Prints what `hitscope bench` measures as one table a mesh.
+
+    tests/bench_table.py [--binary HITSCOPE]... [--threads N]... MESH.obj [camera options]...
+
+Several binaries (say, one built for any CPU and one with RUSTFLAGS=-Ctarget-cpu=native) and several thread
+counts are measured in turn. Rates are million rays a second and thread, by CPU time, medians; the ratios
+are of kernels measured in the same run. Camera options are those of `hitscope bench --help`.
+"""
+import argparse
+import json
+import subprocess
+
+# Kernel, the one it is held against, and how much of its rate it is to reach.
+RATIOS = [("precise", "fast", 0.70), ("exact", "watertight", 0.87), ("watertight", "fast", 1 / 1.15)]
+
+
+def measured(binary, mesh, threads, camera):
+    command = [binary, "bench", mesh, "--json", "--threads", str(threads), *camera]
+    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+
+
+def print_report(title, report):
+    print(f"\n## {title}: {report['triangles']} triangles, SIMD {report['simd']}\n")
+    print(f"load {report['load_ms']:.0f} ms, tree {report['build_ms']:.1f} ms, quick tree "
+          f"{report['quick_build_ms']:.1f} ms; {report['bytes_per_triangle']:.1f} bytes a triangle; "
+          f"peak {(report['peak_rss_bytes'] or 0) / 1e6:.0f} MB\n")
+    names = list(dict.fromkeys(row["name"] for row in report["workloads"]))
+    kernels = list(dict.fromkeys(row["kernel"] for row in report["workloads"]))
+    rate = {(row["kernel"], row["name"]): row["mrays_per_s"] for row in report["workloads"]}
+    print("| Mrays/s | " + " | ".join(names) + " |")
+    print("|---|" + "---|" * len(names))
+    for kernel in kernels:
+        print(f"| {kernel} | " + " | ".join(f"{rate[kernel, name]:.2f}" for name in names) + " |")
+    for kernel, base, bar in RATIOS:
+        if kernel in kernels and base in kernels:
+            ratios = (f"{rate[kernel, name] / rate[base, name]:.2f}" for name in names)
+            print(f"| {kernel} / {base}, to reach {bar:.2f} | " + " | ".join(ratios) + " |")
+
+
+def print_scaling(first, other, threads):
+    print(f"\n{threads[1]} threads against {threads[0]}, all together:", end=" ")
+    for a, b in zip(first["workloads"], other["workloads"]):
+        ratio = b["mrays_per_s_wall"] / a["mrays_per_s_wall"]
+        print(f"{a['kernel']} {a['name']} {ratio:.2f}", end="; ")
+    print()
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawTextHelpFormatter)
+    parser.add_argument("--binary", action="append")
+    parser.add_argument("--threads", action="append", type=int)
+    parser.add_argument("mesh")
+    args, camera = parser.parse_known_args()
+    threads = args.threads or [1]
+    for binary in args.binary or ["target/release/hitscope"]:
+        reports = []
+        for count in threads:
+            reports.append(measured(binary, args.mesh, count, camera))
+            print_report(f"{args.mesh}, {binary}, {count} thread(s)", reports[-1])
+        for count, report in zip(threads[1:], reports[1:]):
+            print_scaling(reports[0], report, [threads[0], count])
+
+
+main()
