@@ -14,6 +14,8 @@ pub enum Action {
     Frame,
     /// Look along an axis.
     LookFrom(StandardView),
+    /// Go round the mesh or stand still.
+    ToggleTurning,
     /// Perspective or parallel rays.
     ToggleOrthographic,
     /// Edges on or off.
@@ -101,6 +103,11 @@ pub static KEYS: &[Binding] = &[
         &[key(Key::Num5)],
         Action::ToggleOrthographic,
         "Perspective or parallel rays",
+    ),
+    binding(
+        &[key(Key::T)],
+        Action::ToggleTurning,
+        "Go round and round the mesh",
     ),
     binding(&[key(Key::W)], Action::ToggleWireframe, "Wireframe"),
     binding(

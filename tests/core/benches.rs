@@ -133,7 +133,11 @@ fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
 #[divan::bench]
 fn build(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build(mesh.triangles.len(), |i| triangle_bounds(mesh.corners(i)), &|| Ok(()))
+        Bvh::build(
+            mesh.triangles.len(),
+            |i| triangle_bounds(mesh.corners(i)),
+            &|| Ok(()),
+        )
     });
 }
 
@@ -141,7 +145,11 @@ fn build(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn build_quickly(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build_quickly(mesh.triangles.len(), |i| triangle_bounds(mesh.corners(i)), &|| Ok(()))
+        Bvh::build_quickly(
+            mesh.triangles.len(),
+            |i| triangle_bounds(mesh.corners(i)),
+            &|| Ok(()),
+        )
     });
 }
 

@@ -114,6 +114,11 @@ impl Turntable {
         self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
+    /// Turns about the pivot, to the left as seen from above.
+    pub fn turn(&mut self, radians: f64) {
+        self.yaw_radians = (self.yaw_radians + radians).rem_euclid(TAU);
+    }
+
     /// Shifts by a drag, so that the pivot's plane follows the pointer.
     pub fn pan(&mut self, drag_px: DVec2, resolution: UVec2) {
         let axes = self.world_from_camera();

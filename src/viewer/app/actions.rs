@@ -24,6 +24,7 @@ impl App {
             Action::ToggleOrthographic => {
                 self.turntable.is_orthographic = !self.turntable.is_orthographic;
             }
+            Action::ToggleTurning => self.is_turning = !self.is_turning,
             Action::ToggleWireframe => {
                 self.settings.shows_wireframe = !self.settings.shows_wireframe;
             }

@@ -89,10 +89,23 @@ impl App {
                 self.turntable.frame(bounds, canvas.resolution);
             }
             self.pointer(ui, &response, canvas);
+            self.turn(ui);
             self.paint(ui, canvas, response.dragged());
             self.tracer
                 .request(self.wanted(ui.ctx(), canvas.resolution));
         });
+    }
+
+    /// Moves the camera on its way round the mesh.
+    fn turn(&mut self, ui: &egui::Ui) {
+        /// Once round in twelve seconds, however long a frame takes, unless that is very long.
+        const RADIANS_PER_S: f64 = std::f64::consts::TAU / 12.0;
+        const LONGEST_S: f64 = 0.2;
+        if self.is_turning {
+            let secs = f64::from(ui.input(|input| input.unstable_dt)).min(LONGEST_S);
+            self.turntable.turn(secs * RADIANS_PER_S);
+            ui.ctx().request_repaint();
+        }
     }
 
     /// What is to be traced for the window as it is.

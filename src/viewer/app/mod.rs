@@ -75,6 +75,8 @@ pub struct App {
     trade: Option<Trade>,
     notice: Option<Notice>,
     shows_help: bool,
+    /// Whether the camera goes round the mesh by itself.
+    is_turning: bool,
     /// The picture as it was last laid out: where, in points, and its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
@@ -120,6 +122,7 @@ impl App {
             trade: None,
             notice: None,
             shows_help: false,
+            is_turning: false,
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
             is_unframed: true,
