@@ -8,6 +8,7 @@ use crate::overlay::wireframe::Edges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
     BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, PictureArgs, RenderArgs, TraceArgs,
@@ -162,7 +163,11 @@ fn render_instead(file: Option<&Path>) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
     let input = file.unwrap_or(Path::new("the built-in scene"));
     let loaded = match file {
-        Some(path) => load(path, hitscope_core::obj::Recentre::Auto)?,
+        Some(path) => load(
+            path,
+            hitscope_core::obj::Recentre::Auto,
+            SceneOptions::default(),
+        )?,
         None => embedded_scene(),
     };
     let rendered = PictureDefaults::parse_from(["hitscope"])

@@ -5,7 +5,7 @@ use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::Health;
 use hitscope_core::obj::{self, LoadError, Recentre};
 use hitscope_core::progress::{Cancelled, Progress};
-use hitscope_core::scene::{FirstTree, LoadedScene};
+use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Intersector, Scene};
 use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
@@ -70,9 +70,10 @@ impl Document {
     pub fn load(
         path: &Path,
         kernel: &'static TriangleKernel,
+        options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
-        let loaded = LoadedScene::load_with_tree(path, Recentre::Auto, FirstTree::Quick, progress)?;
+        let loaded = LoadedScene::load_with(path, Recentre::Auto, options, progress)?;
         Ok(Self::new(Some(path.to_owned()), loaded, kernel))
     }
 
@@ -250,7 +251,7 @@ pub fn embedded_scene() -> LoadedScene {
         &progress,
     );
     let loaded = loaded.expect("a test opens the embedded scene");
-    LoadedScene::of(loaded, start, FirstTree::Best, &progress).expect("nobody cancels")
+    LoadedScene::of(loaded, start, SceneOptions::default(), &progress).expect("nobody cancels")
 }
 
 #[cfg(test)]

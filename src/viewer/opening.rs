@@ -130,7 +130,8 @@ impl Loading {
     pub fn start(path: PathBuf, settings: &Settings, ctx: &egui::Context) -> Self {
         let progress = Arc::new(Progress::default());
         let (kernel, shared, file) = (settings.kernel(), Arc::clone(&progress), path.clone());
-        let load = move || Document::load(&file, kernel, &shared);
+        let options = settings.scene_options();
+        let load = move || Document::load(&file, kernel, options, &shared);
         Self {
             path,
             progress,

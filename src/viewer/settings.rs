@@ -3,10 +3,11 @@
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
+use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{
     TriangleKernel, default_triangle_kernel, exact_triangle_kernel, triangle_kernel,
 };
-use hitscope_core::scene::Shading;
+use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use serde::{Deserialize, Serialize};
 
 /// A tab of the side panel.
@@ -49,6 +50,8 @@ pub struct Settings {
     /// Whether the mesh's z axis points up. A matter of the file, so it isn't kept.
     #[serde(skip)]
     pub is_z_up: bool,
+    /// Whether files are loaded for memory rather than for speed.
+    pub is_compact: bool,
     /// The side panel.
     pub shows_panel: bool,
     /// Its tab.
@@ -71,6 +74,7 @@ impl Default for Settings {
             normal_length: 0.03,
             samples: 64,
             is_z_up: false,
+            is_compact: false,
             shows_panel: true,
             tab: Tab::View,
             theme: ThemePreference::Dark,
@@ -87,6 +91,18 @@ impl Settings {
     /// The kernel.
     pub fn kernel(&self) -> &'static TriangleKernel {
         triangle_kernel(&self.kernel).unwrap_or_else(default_triangle_kernel)
+    }
+
+    /// What a scene is made with: its first picture soon, for speed or for memory.
+    pub fn scene_options(&self) -> SceneOptions {
+        SceneOptions {
+            first_tree: FirstTree::Quick,
+            packing: if self.is_compact {
+                Packing::Compact
+            } else {
+                Packing::Full
+            },
+        }
     }
 
     /// The kernel that the view holds the chosen one against, if it compares.

@@ -6,7 +6,7 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::intersector::Intersector;
+use hitscope_core::intersector::{Intersector, Packing};
 use hitscope_core::kernel::{TriangleKernel, triangle_bounds, triangle_kernel};
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, scene, soup, torus};
@@ -166,5 +166,8 @@ fn pack(bencher: Bencher<'_, '_>, name: &str) {
     let (mesh, bvh) = (TORUS.mesh(), TORUS.bvh());
     bencher
         .counter(ItemsCount::new(mesh.triangles.len()))
-        .bench_local(|| kernel(name).intersector(mesh, Arc::clone(&bvh), SimdLevel::current()));
+        .bench_local(|| {
+            let (bvh, level) = (Arc::clone(&bvh), SimdLevel::current());
+            kernel(name).intersector(mesh, bvh, level, Packing::Full)
+        });
 }

@@ -1,10 +1,11 @@
-//! No box of a tree loses what a kernel hits, however the kernel rounds: whatever the tree, the same bits.
+//! No box of a tree loses what a kernel hits, however the kernel rounds: whatever the tree, the same bits; and
+//! whatever the triangles' packing.
 //!
 //! The yardstick is a tree whose boxes all hold everything, so that every triangle is asked about every ray.
 
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::intersector::Intersector;
+use hitscope_core::intersector::{Intersector, Packing};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_bounds};
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, soup, torus};
@@ -78,7 +79,7 @@ fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)
 }
 
 #[test]
-fn every_tree_gives_every_kernel_the_same_bits() {
+fn every_tree_and_packing_give_every_kernel_the_same_bits() {
     let mut random = Random::new(11);
     let far_ring = torus(24, 12, Place::new(1.0, 1e4));
     let meshes = [needles(&mut random), layers(&mut random), far_ring];
@@ -95,15 +96,20 @@ fn every_tree_gives_every_kernel_the_same_bits() {
         ];
         let trees = built.map(|tree| Arc::new(tree.expect("nobody cancels")));
         for kernel in TRIANGLE_KERNELS {
-            let of_tree =
-                |tree: &Arc<Bvh>| kernel.intersector(mesh, Arc::clone(tree), SimdLevel::current());
-            let expected = answers(&*of_tree(&trees[0]), &rays);
+            let of_tree = |tree: &Arc<Bvh>, packing| {
+                kernel.intersector(mesh, Arc::clone(tree), SimdLevel::current(), packing)
+            };
+            let expected = answers(&*of_tree(&trees[0], Packing::Full), &rays);
             assert!(expected.iter().filter(|(hit, _)| hit.is_some()).count() > 100);
-            for tree in &trees[1..] {
-                let found = answers(&*of_tree(tree), &rays);
+            for (tree, packing) in [
+                (&trees[1], Packing::Full),
+                (&trees[2], Packing::Full),
+                (&trees[1], Packing::Compact),
+            ] {
+                let found = answers(&*of_tree(tree, packing), &rays);
                 let differ = |i: &usize| found[*i] != expected[*i];
                 let first = (0..rays.len()).find(differ);
-                assert_eq!(first, None, "{}, mesh {m}", kernel.info.name);
+                assert_eq!(first, None, "{}, mesh {m}, {packing:?}", kernel.info.name);
             }
         }
     }

@@ -1,5 +1,6 @@
 //! The triangles of each block of the tree as a kernel keeps them, one a lane.
 
+use super::compact::{EmptyLanes, Packing, SharedCorners};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
 use crate::kernel::{Kernel, Values};
@@ -17,23 +18,54 @@ use std::sync::Arc;
 /// Blocks that a thread packs at a time.
 const BLOCKS_AT_ONCE: usize = 1024;
 
+/// As many values as any kernel keeps of a triangle.
+const MOST_VALUES: usize = 18;
+
 /// A value of the triangles in a block. Aligned, so that no row of f32 lies in two cache lines.
 #[derive(Clone, Copy)]
 #[repr(C, align(32))]
-struct Row<T>([T; BLOCK_SIZE]);
+pub(super) struct Row<T>([T; BLOCK_SIZE]);
 
 /// What a kernel keeps of the tree's triangles, and the tree.
 pub(super) struct Blocks<T> {
     pub bvh: Arc<Bvh>,
-    /// So many rows a block.
+    /// So many a block; none where corners are kept instead.
     rows: Vec<Row<T>>,
-    rows_per_block: usize,
+    /// Corners, of which rows are made when they are wanted.
+    shared: Option<SharedCorners>,
+}
+
+/// Where a block's rows are made that aren't kept. One for many rays: to zero it takes as long as a test.
+pub(super) struct Scratch<T>([Row<T>; MOST_VALUES]);
+
+impl<T: Copy + Default> Scratch<T> {
+    #[inline(always)]
+    pub fn new() -> Self {
+        Self([Row([T::default(); BLOCK_SIZE]); MOST_VALUES])
+    }
+
+    fn fill(
+        &mut self,
+        shared: &SharedCorners,
+        block: usize,
+        count: usize,
+        pack: impl Fn([Vec3; 3], &mut [T]),
+    ) {
+        let mut one = [T::default(); MOST_VALUES];
+        for lane in 0..BLOCK_SIZE {
+            pack(shared.corners(block, lane), &mut one[..count]);
+            for (row, value) in self.0[..count].iter_mut().zip(one) {
+                row.0[lane] = value;
+            }
+        }
+    }
 }
 
 /// A block's values of one lane, in every lane of a vector.
 pub(super) struct LaneValues<'a, T, S> {
     token: S,
-    one: OneLane<'a, T>,
+    rows: &'a [Row<T>],
+    lane: usize,
 }
 
 /// A block's values as vectors of `N`.
@@ -43,6 +75,17 @@ pub(super) struct BlockValues<'a, N, S, T> {
     number: PhantomData<N>,
 }
 
+impl<'a, N: Number, S: Simd, T: Stored<N>> BlockValues<'a, N, S, T> {
+    #[inline(always)]
+    pub fn new(token: S, rows: &'a [Row<T>]) -> Self {
+        Self {
+            token,
+            rows,
+            number: PhantomData,
+        }
+    }
+}
+
 impl<N: Number, S: Simd, T: Stored<N>> Values<N::Lanes<S>> for BlockValues<'_, N, S, T> {
     #[inline(always)]
     fn value(&self, index: usize) -> N::Lanes<S> {
@@ -50,148 +93,151 @@ impl<N: Number, S: Simd, T: Stored<N>> Values<N::Lanes<S>> for BlockValues<'_, N
     }
 }
 
+impl<'a, T: Stored<f32>, S: Simd> LaneValues<'a, T, S> {
+    /// Those of a lane below [`BLOCK_SIZE`].
+    #[inline(always)]
+    pub fn new(token: S, rows: &'a [Row<T>], lane: usize) -> Self {
+        Self { token, rows, lane }
+    }
+}
+
 impl<T: Stored<f32>, S: Simd> Values<f32x16<S>> for LaneValues<'_, T, S> {
     #[inline(always)]
     fn value(&self, index: usize) -> f32x16<S> {
-        SimdBase::splat(self.token, self.one.value(index).number())
-    }
-}
-
-/// The values of one lane.
-pub(super) struct OneLane<'a, T> {
-    rows: &'a [Row<T>],
-    lane: usize,
-}
-
-impl<T: Copy> OneLane<'_, T> {
-    #[inline(always)]
-    fn value(&self, index: usize) -> T {
-        self.rows[index].0[self.lane % BLOCK_SIZE]
-    }
-}
-
-impl OneLane<'_, f32> {
-    /// Three in a row.
-    #[inline(always)]
-    pub fn vector(&self, first: usize) -> Vec3 {
-        let [x, y, z] = [first, first + 1, first + 2];
-        Vec3::new(self.value(x), self.value(y), self.value(z))
+        let value = self.rows[index].0[self.lane % BLOCK_SIZE];
+        SimdBase::splat(self.token, value.number())
     }
 }
 
 impl<T: Copy + Default + Send + Sync> Blocks<T> {
-    /// `pack` makes so many values of a triangle; lanes without one hold `empty`, or the block's first
-    /// triangle again.
+    /// `pack` makes so many values of a triangle, of NaN corners what no kernel hits.
     pub fn new(
         mesh: &TriangleMesh,
         bvh: Arc<Bvh>,
+        packing: Packing,
         rows_per_block: usize,
-        empty: Option<T>,
+        empty: EmptyLanes,
         pack: impl Fn([Vec3; 3], &mut [T]) + Sync,
     ) -> Self {
-        let mut rows = vec![Row([T::default(); BLOCK_SIZE]); bvh.block_count() * rows_per_block];
-        let pack_block = |block: usize, rows: &mut [Row<T>], one: &mut [T]| {
-            for (lane, &primitive) in bvh.block(block).iter().enumerate() {
-                pack(mesh.corners(primitive), one);
-                for (value, row) in one.iter().zip(&mut *rows) {
-                    if lane == 0 {
-                        row.0 = [empty.unwrap_or(*value); BLOCK_SIZE];
-                    }
-                    row.0[lane] = *value;
-                }
-            }
+        let (rows, shared) = match packing {
+            Packing::Full => (rows_of(mesh, &bvh, rows_per_block, empty, pack), None),
+            Packing::Compact => (Vec::new(), Some(SharedCorners::of(mesh, &bvh, empty))),
         };
-        let chunks = rows.par_chunks_mut(rows_per_block * BLOCKS_AT_ONCE);
-        chunks.enumerate().for_each(|(chunk, rows)| {
-            let mut one = vec![T::default(); rows_per_block];
-            for (index, rows) in rows.chunks_exact_mut(rows_per_block).enumerate() {
-                pack_block(chunk * BLOCKS_AT_ONCE + index, rows, &mut one);
+        Self { bvh, rows, shared }
+    }
+
+    /// Whether rows are made when they are wanted.
+    pub fn are_compact(&self) -> bool {
+        self.shared.is_some()
+    }
+
+    /// The rows of a block; `count` is their number, known to the compiler. `MAYBE_COMPACT`: of packed rows
+    /// to ask where they are costs a walk 2 to 5 % (bunny, 2026-11).
+    #[inline(always)]
+    pub fn rows<'a, const MAYBE_COMPACT: bool>(
+        &'a self,
+        block: usize,
+        count: usize,
+        scratch: &'a mut Scratch<T>,
+        pack: impl Fn([Vec3; 3], &mut [T]),
+    ) -> &'a [Row<T>] {
+        match &self.shared {
+            Some(shared) if MAYBE_COMPACT => {
+                scratch.fill(shared, block, count, pack);
+                &scratch.0[..count]
             }
-        });
-        Self {
-            bvh,
-            rows,
-            rows_per_block,
+            _ => &self.rows[block * count..][..count],
         }
-    }
-
-    /// The values of a block; `count` is their number, known to the compiler.
-    #[inline(always)]
-    pub fn values<N, S: Simd>(
-        &self,
-        token: S,
-        block: usize,
-        count: usize,
-    ) -> BlockValues<'_, N, S, T> {
-        debug_assert_eq!(count, self.rows_per_block);
-        BlockValues {
-            token,
-            rows: &self.rows[block * count..][..count],
-            number: PhantomData,
-        }
-    }
-
-    /// The values of one lane of a block, below [`BLOCK_SIZE`].
-    #[inline(always)]
-    pub fn lane_values<S: Simd>(
-        &self,
-        token: S,
-        block: usize,
-        count: usize,
-        lane: usize,
-    ) -> LaneValues<'_, T, S> {
-        LaneValues {
-            token,
-            one: self.lane(block, lane, count),
-        }
-    }
-
-    /// The box around each of a block's triangles, as the kernel `K` takes their corners to be.
-    #[inline(always)]
-    pub fn boxes<K: Kernel<Stored<N> = T>, N: Number, S: Simd>(
-        &self,
-        token: S,
-        block: usize,
-    ) -> Planes<[f32; BLOCK_SIZE]>
-    where
-        T: Stored<f32>,
-    {
-        let values = self.values::<f32, S>(token, block, K::VALUES);
-        let [a, b, c, d, e, f] = K::bounds::<N, f32x8<S>>(&values);
-        [
-            a.to_array(),
-            b.to_array(),
-            c.to_array(),
-            d.to_array(),
-            e.to_array(),
-            f.to_array(),
-        ]
     }
 
     /// Asks the cache for a block and its primitives.
     #[inline(always)]
-    pub fn announce<S: Simd>(&self, token: S, block: usize, count: usize) {
+    pub fn announce<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        block: usize,
+        count: usize,
+    ) {
         self.bvh.announce_lanes(token, block);
-        prefetch(
-            token,
-            &self.rows,
-            block * count,
-            count * size_of::<Row<T>>(),
-        );
-    }
-
-    /// A lane's values, to be looked at one by one; `count` is their number, known to the compiler.
-    #[inline(always)]
-    pub fn lane(&self, block: usize, lane: usize, count: usize) -> OneLane<'_, T> {
-        OneLane {
-            rows: &self.rows[block * count..][..count],
-            lane,
+        match &self.shared {
+            Some(shared) if MAYBE_COMPACT => shared.announce(token, block),
+            _ => {
+                let bytes = count * size_of::<Row<T>>();
+                prefetch(token, &self.rows, block * count, bytes);
+            }
         }
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.rows[..])
+        size_of_val(&self.rows[..]) + self.shared.as_ref().map_or(0, SharedCorners::bytes)
     }
+}
+
+impl Blocks<f32> {
+    /// The corners in a lane of a block, where they are what was packed.
+    #[inline(always)]
+    pub fn corners(&self, block: usize, lane: usize) -> [Vec3; 3] {
+        match &self.shared {
+            Some(shared) => shared.corners(block, lane % BLOCK_SIZE),
+            None => {
+                let rows = &self.rows[block * CORNERS..][..CORNERS];
+                let value = |k: usize| rows[k].0[lane % BLOCK_SIZE];
+                let corner = |k: usize| Vec3::new(value(k), value(k + 1), value(k + 2));
+                [corner(0), corner(3), corner(6)]
+            }
+        }
+    }
+}
+
+/// Values that three corners have.
+const CORNERS: usize = 9;
+
+/// The box around each of a block's triangles, as the kernel `K` takes their corners to be.
+#[inline(always)]
+pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
+    token: S,
+    rows: &[Row<K::Stored<N>>],
+) -> Planes<[f32; BLOCK_SIZE]> {
+    let values = BlockValues::<f32, S, K::Stored<N>>::new(token, rows);
+    let [a, b, c, d, e, f] = K::bounds::<N, f32x8<S>>(&values);
+    [
+        a.to_array(),
+        b.to_array(),
+        c.to_array(),
+        d.to_array(),
+        e.to_array(),
+        f.to_array(),
+    ]
+}
+
+/// The rows of all blocks.
+fn rows_of<T: Copy + Default + Send + Sync>(
+    mesh: &TriangleMesh,
+    bvh: &Bvh,
+    rows_per_block: usize,
+    empty: EmptyLanes,
+    pack: impl Fn([Vec3; 3], &mut [T]) + Sync,
+) -> Vec<Row<T>> {
+    let mut rows = vec![Row([T::default(); BLOCK_SIZE]); bvh.block_count() * rows_per_block];
+    let chunks = rows.par_chunks_mut(rows_per_block * BLOCKS_AT_ONCE);
+    chunks.enumerate().for_each(|(chunk, rows)| {
+        let mut one = vec![T::default(); rows_per_block];
+        for (index, rows) in rows.chunks_exact_mut(rows_per_block).enumerate() {
+            let triangles = bvh.block(chunk * BLOCKS_AT_ONCE + index);
+            for lane in 0..BLOCK_SIZE {
+                let corners = match (triangles.get(lane), empty) {
+                    (Some(&triangle), _) => mesh.corners(triangle),
+                    (None, EmptyLanes::First) => mesh.corners(triangles[0]),
+                    (None, EmptyLanes::Nothing) => [Vec3::NAN; 3],
+                };
+                pack(corners, &mut one);
+                for (value, row) in one.iter().zip(&mut *rows) {
+                    row.0[lane] = *value;
+                }
+            }
+        }
+    });
+    rows
 }
 
 /// The primitives in all blocks that the ray meets.

@@ -6,10 +6,13 @@
 //! tree may be replaced.
 
 mod blocks;
+mod compact;
 pub(crate) mod exact;
 pub(crate) mod improving;
 pub(crate) mod mesh;
 mod packet;
+
+pub use compact::Packing;
 
 use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};

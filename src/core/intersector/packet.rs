@@ -2,7 +2,7 @@
 //! same way, as a camera's do.
 
 use super::Intersector;
-use super::blocks::Blocks;
+use super::blocks::{Blocks, LaneValues, Scratch, boxes};
 use super::mesh::MeshIntersector;
 use crate::bvh::{
     BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank_floor, with_stack,
@@ -18,6 +18,7 @@ use fearless_simd::{Simd, dispatch, f32x16, prelude::*, u32x8, u32x16};
 struct Nearest<'a, K: Kernel, S: Simd> {
     token: S,
     blocks: &'a Blocks<K::Stored<f32>>,
+    scratch: &'a mut Scratch<K::Stored<f32>>,
     rays: K::Prepared<f32x16<S>>,
     t_min: f32x16<S>,
     end: f32x16<S>,
@@ -31,7 +32,8 @@ struct Nearest<'a, K: Kernel, S: Simd> {
 impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
     #[inline(always)]
     fn visit(&mut self, block: usize, slabs: &Slabs<S>, farthest: f32) -> f32x16<S> {
-        let boxes = self.blocks.boxes::<K, f32, S>(self.token, block);
+        let rows = (self.blocks).rows::<false>(block, K::VALUES, self.scratch, K::pack::<f32>);
+        let boxes = boxes::<K, f32, S>(self.token, rows);
         let (_, near) = slabs.enter_any(self.token, &boxes, farthest);
         let infinity = f32x16::splat(self.token, f32::INFINITY);
         let lanes = self.blocks.bvh.lanes(block);
@@ -40,7 +42,7 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
         while near != 0 {
             let lane = near.trailing_zeros() as usize % BLOCK_SIZE;
             near &= near - 1;
-            let values = self.blocks.lane_values(self.token, block, K::VALUES, lane);
+            let values = LaneValues::new(self.token, rows, lane);
             if let Some(hit) = K::intersect(&self.rays, &values, self.t_min, self.rank) {
                 let (entry, met) = slabs.enter_one(self.token, &boxes, lane);
                 let floor = rank_floor(entry);
@@ -63,7 +65,7 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
 
     #[inline(always)]
     fn announce(&self, block: usize) {
-        self.blocks.announce(self.token, block, K::VALUES);
+        (self.blocks).announce::<false, S>(self.token, block, K::VALUES);
     }
 }
 
@@ -82,6 +84,7 @@ impl<K: Kernel> MeshIntersector<K, f32> {
         for (rays, hits) in rays.chunks(AT_ONCE).zip(hits.chunks_mut(AT_ONCE)) {
             let (packets, rest) = rays.as_chunks::<PACKET>();
             let (hits_of_packets, hits_of_rest) = hits.as_chunks_mut::<PACKET>();
+            let mut scratch = Scratch::new();
             let mut alone = with_stack(|stack| {
                 dispatch!(self.level.level(), token => {
                     let mut alone = 0u64;
@@ -89,7 +92,7 @@ impl<K: Kernel> MeshIntersector<K, f32> {
                         // A packet is done in less time than its rays take to come from memory: without
                         // this a quarter less (bunny, 2026-11).
                         prefetch(token, packets, i + 1, size_of_val(rays));
-                        alone |= u64::from(!self.packet(token, rays, hits, stack)) << i;
+                        alone |= u64::from(!self.packet(token, rays, hits, stack, &mut scratch)) << i;
                     }
                     alone
                 })
@@ -111,6 +114,7 @@ impl<K: Kernel> MeshIntersector<K, f32> {
         rays: &[Ray; PACKET],
         hits: &mut [Option<Hit>; PACKET],
         stack: &mut Stack,
+        scratch: &mut Scratch<K::Stored<f32>>,
     ) -> bool {
         let Some(packet) = RayPacket::new(token, rays) else {
             return false;
@@ -122,6 +126,7 @@ impl<K: Kernel> MeshIntersector<K, f32> {
         let mut visitor = Nearest::<K, S> {
             token,
             blocks: &self.blocks,
+            scratch,
             rays: K::prepare(&lanes),
             t_min: packet.t_min,
             end: packet.t_max,

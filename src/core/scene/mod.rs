@@ -2,7 +2,7 @@
 
 mod tree;
 
-pub use tree::FirstTree;
+pub use tree::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
@@ -43,22 +43,22 @@ impl Scene {
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn new(mesh: TriangleMesh, progress: &Progress) -> Result<Self, Cancelled> {
-        Self::with_tree(mesh, FirstTree::Best, progress)
+        Self::with_options(mesh, SceneOptions::default(), progress)
     }
 
-    /// Builds one tree or another over a mesh.
+    /// The same, for speed or for memory.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
-    pub fn with_tree(
+    pub fn with_options(
         mesh: TriangleMesh,
-        first: FirstTree,
+        options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
         Ok(Self {
             bounds: mesh.bounds(),
-            tree: Tree::build(&mesh, first, progress)?,
+            tree: Tree::build(&mesh, options, progress)?,
             mesh,
             vertex_normals: OnceLock::new(),
         })
@@ -156,22 +156,22 @@ impl LoadedScene {
     /// # Errors
     /// See [`LoadError`].
     pub fn load(path: &Path, recentre: Recentre, progress: &Progress) -> Result<Self, LoadError> {
-        Self::load_with_tree(path, recentre, FirstTree::Best, progress)
+        Self::load_with(path, recentre, SceneOptions::default(), progress)
     }
 
-    /// The same, with one tree or another.
+    /// The same, for speed or for memory.
     ///
     /// # Errors
     /// See [`LoadError`].
-    pub fn load_with_tree(
+    pub fn load_with(
         path: &Path,
         recentre: Recentre,
-        first: FirstTree,
+        options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
         let start = Instant::now();
         let loaded = obj::load(path, recentre, progress)?;
-        Self::of(loaded, start, first, progress).map_err(|Cancelled| LoadError::Cancelled {
+        Self::of(loaded, start, options, progress).map_err(|Cancelled| LoadError::Cancelled {
             path: path.to_owned(),
         })
     }
@@ -183,11 +183,11 @@ impl LoadedScene {
     pub fn of(
         loaded: Loaded,
         start: Instant,
-        first: FirstTree,
+        options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         let load_time = start.elapsed();
-        let scene = Scene::with_tree(loaded.mesh, first, progress)?;
+        let scene = Scene::with_options(loaded.mesh, options, progress)?;
         let mut warnings = loaded.warnings;
         warnings.extend(size_warning(scene.bounds()));
         Ok(Self {
@@ -232,7 +232,7 @@ mod tests {
             let loaded = LoadedScene::of(
                 loaded.expect("good"),
                 Instant::now(),
-                FirstTree::Best,
+                SceneOptions::default(),
                 &progress,
             );
             let warnings = loaded.expect("nobody cancels").warnings;

@@ -2,8 +2,8 @@
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::intersector::Intersector;
 use crate::intersector::improving::{Improving, Place, WeakPlace};
+use crate::intersector::{Intersector, Packing};
 use crate::kernel::{TriangleKernel, triangle_bounds};
 use crate::mesh::TriangleMesh;
 use crate::progress::{Cancelled, Progress};
@@ -21,6 +21,15 @@ pub enum FirstTree {
     Quick,
 }
 
+/// What a scene is to be good at.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SceneOptions {
+    /// The first picture soon, or the best tree at once.
+    pub first_tree: FirstTree,
+    /// Speed, or memory.
+    pub packing: Packing,
+}
+
 /// Fewer triangles than this have their best tree within 0.1 s on two cores (2026-11).
 const LARGE: usize = 200_000;
 
@@ -35,6 +44,7 @@ struct Built {
 #[derive(Debug)]
 pub(super) struct Tree {
     built: RwLock<Built>,
+    packing: Packing,
     /// Held by who improves it.
     turn: Mutex<()>,
     waiting: Mutex<Vec<Waiting>>,
@@ -56,13 +66,14 @@ impl std::fmt::Debug for Waiting {
 impl Tree {
     pub fn build(
         mesh: &TriangleMesh,
-        first: FirstTree,
+        options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let is_best = first == FirstTree::Best || mesh.triangles.len() < LARGE;
+        let is_best = options.first_tree == FirstTree::Best || mesh.triangles.len() < LARGE;
         let build = if is_best { built } else { built_quickly };
         Ok(Self {
             built: RwLock::new(build(mesh, progress)?),
+            packing: options.packing,
             turn: Mutex::default(),
             waiting: Mutex::default(),
         })
@@ -93,7 +104,7 @@ impl Tree {
         level: SimdLevel,
     ) -> Box<dyn Intersector> {
         let Built { bvh, is_best, .. } = self.current();
-        let packed = kernel.intersector(mesh, bvh, level);
+        let packed = kernel.intersector(mesh, bvh, level, self.packing);
         if is_best {
             return packed;
         }
@@ -131,7 +142,7 @@ impl Tree {
             level,
         } in waiting
         {
-            place.replace(|| kernel.intersector(mesh, Arc::clone(&bvh), level));
+            place.replace(|| kernel.intersector(mesh, Arc::clone(&bvh), level, self.packing));
         }
         Ok(())
     }
@@ -180,7 +191,11 @@ mod tests {
     fn large() -> Scene {
         let mesh = sphere(150, Where::UNIT);
         assert!(mesh.triangles.len() > LARGE);
-        Scene::with_tree(mesh, FirstTree::Quick, &Progress::default()).expect("nobody cancels")
+        let options = SceneOptions {
+            first_tree: FirstTree::Quick,
+            ..SceneOptions::default()
+        };
+        Scene::with_options(mesh, options, &Progress::default()).expect("nobody cancels")
     }
 
     #[test]

@@ -6,7 +6,9 @@ use clap::builder::TypedValueParser as _;
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{CameraError, Projection, Turntable};
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
+use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
+use hitscope_core::scene::SceneOptions;
 use hitscope_core::{Camera, Scene};
 
 /// From where a picture is taken. Positions are in the file's coordinates.
@@ -74,6 +76,28 @@ impl KernelArg {
     /// The kernel's row in the table.
     pub fn kernel(&self) -> &'static TriangleKernel {
         triangle_kernel(&self.kernel).expect("clap takes names from the table only")
+    }
+}
+
+/// How triangles are kept for tracing.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct PackingArg {
+    /// Keep triangles in a third less memory; rays take longer
+    #[arg(long)]
+    pub compact: bool,
+}
+
+impl PackingArg {
+    /// What a scene is made with.
+    pub fn options(self) -> SceneOptions {
+        SceneOptions {
+            packing: if self.compact {
+                Packing::Compact
+            } else {
+                Packing::Full
+            },
+            ..SceneOptions::default()
+        }
     }
 }
 

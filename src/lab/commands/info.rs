@@ -1,5 +1,6 @@
 //! `hitscope info`: what is in a file, and what it asks of a kernel.
 
+use super::args::PackingArg;
 use super::{CommandError, load};
 use crate::requirement::{Requirement, required_tier};
 use clap::Args;
@@ -17,6 +18,9 @@ use std::path::PathBuf;
 pub struct InfoArgs {
     /// The OBJ file
     pub file: PathBuf,
+    /// How triangles are kept.
+    #[command(flatten)]
+    pub packing: PackingArg,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -66,7 +70,7 @@ impl InfoArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let loaded = load(&self.file, Recentre::Auto)?;
+        let loaded = load(&self.file, Recentre::Auto, self.packing.options())?;
         let info = Info::of(&loaded);
         if self.json {
             let json = serde_json::to_string_pretty(&info);

@@ -1,6 +1,6 @@
 //! `hitscope inspect`: what happens to one pixel's ray.
 
-use super::args::{CameraArgs, KernelArg};
+use super::args::{CameraArgs, KernelArg, PackingArg};
 use super::render::ShadingArg;
 use super::{CommandError, load};
 use crate::inspection::{HitReport, Inspection};
@@ -27,6 +27,9 @@ pub struct InspectArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
+    /// How triangles are kept.
+    #[command(flatten)]
+    pub packing: PackingArg,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -47,7 +50,7 @@ impl InspectArgs {
                 height: size.y,
             });
         }
-        let scene = load(&self.file, Recentre::Auto)?.scene;
+        let scene = load(&self.file, Recentre::Auto, self.packing.options())?.scene;
         let camera = self.camera.camera(&scene)?;
         let intersector = scene.intersector(self.kernel.kernel());
         let inspection =

@@ -22,7 +22,7 @@ use hitscope_core::camera::CameraError;
 use hitscope_core::obj::{LoadError, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::RenderPanic;
-use hitscope_core::scene::LoadedScene;
+use hitscope_core::scene::{LoadedScene, SceneOptions};
 use std::io::{self, IsTerminal};
 use std::path::{Path, PathBuf};
 
@@ -86,8 +86,12 @@ fn file_error(path: &Path, source: io::Error) -> CommandError {
 ///
 /// # Errors
 /// See [`LoadError`].
-pub fn load(path: &Path, recentre: Recentre) -> Result<LoadedScene, LoadError> {
-    let loaded = LoadedScene::load(path, recentre, &Progress::default())?;
+pub fn load(
+    path: &Path,
+    recentre: Recentre,
+    options: SceneOptions,
+) -> Result<LoadedScene, LoadError> {
+    let loaded = LoadedScene::load_with(path, recentre, options, &Progress::default())?;
     if io::stderr().is_terminal() {
         let triangles = loaded.scene.mesh().triangles.len();
         let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;

@@ -1,6 +1,6 @@
 //! `hitscope render`: a picture without a window.
 
-use super::args::{CameraArgs, KernelArg, ViewArg, kernel_names};
+use super::args::{CameraArgs, KernelArg, PackingArg, ViewArg, kernel_names};
 use super::{CommandError, load};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
@@ -52,6 +52,9 @@ pub struct PictureArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
+    /// How triangles are kept.
+    #[command(flatten)]
+    pub packing: PackingArg,
     /// What the view “disagreement” holds the kernel against
     #[arg(long, value_name = "KERNEL", default_value = "exact", value_parser = kernel_names())]
     pub against: String,
@@ -104,7 +107,11 @@ impl RenderArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn trace(&self) -> Result<Rendered, CommandError> {
-        self.picture.trace(load(&self.file, Recentre::Auto)?)
+        self.picture.trace(load(
+            &self.file,
+            Recentre::Auto,
+            self.picture.packing.options(),
+        )?)
     }
 }
 

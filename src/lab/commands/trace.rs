@@ -1,6 +1,6 @@
 //! `hitscope trace`: rays in, hits out.
 
-use super::args::KernelArg;
+use super::args::{KernelArg, PackingArg};
 use super::render::default_thread_count;
 use super::{CommandError, file_error, load};
 use crate::inspection::position_in_file;
@@ -31,6 +31,9 @@ pub struct TraceArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
+    /// How triangles are kept.
+    #[command(flatten)]
+    pub packing: PackingArg,
     /// Whether positions are taken about an origin near the mesh before they are rounded to f32
     #[arg(long, default_value = "on")]
     pub recentre: RecentreArg,
@@ -111,7 +114,7 @@ impl TraceArgs {
             RecentreArg::On => Recentre::Auto,
             RecentreArg::Off => Recentre::Off,
         };
-        let scene = load(&self.file, recentre)?.scene;
+        let scene = load(&self.file, recentre, self.packing.options())?.scene;
         let intersector = scene.intersector(self.kernel.kernel());
         let tracer = Tracer {
             scene: &scene,

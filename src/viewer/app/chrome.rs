@@ -148,7 +148,10 @@ impl App {
                                 actions,
                             );
                         }
-                        Tab::Mesh => panels::mesh::mesh_ui(ui, &mut self.document),
+                        Tab::Mesh => {
+                            let document = &mut self.document;
+                            panels::mesh::mesh_ui(ui, document, &mut self.settings, actions);
+                        }
                         Tab::Trade => self.trade_ui(ui),
                     });
             });

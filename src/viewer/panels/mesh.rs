@@ -2,13 +2,20 @@
 
 use super::{lines, row_ui, section_ui};
 use crate::app::grouped;
+use crate::bindings::Action;
 use crate::document::Document;
+use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::mesh::SLIVER_ASPECT;
 use hitscope_core::scene::LoadedScene;
 
 /// Counts, place, memory, health, warnings.
-pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
+pub fn mesh_ui(
+    ui: &mut egui::Ui,
+    document: &mut Document,
+    settings: &mut Settings,
+    actions: &mut Vec<Action>,
+) {
     let findings = document.findings(ui.ctx());
     let health = findings.as_ref().map(|findings| findings.health);
     let loaded = &document.loaded;
@@ -39,6 +46,13 @@ pub fn mesh_ui(ui: &mut egui::Ui, document: &mut Document) {
     }
     place_ui(ui, loaded);
     cost_ui(ui, document);
+    // The built-in scene is made once, and small.
+    let checkbox = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
+    let hint = "A third less memory; rays take longer. Loads the file again.";
+    let checkbox = ui.add_enabled(document.path.is_some(), checkbox);
+    if checkbox.on_hover_text(hint).changed() {
+        actions.push(Action::Reload);
+    }
     let mesh = document.loaded.scene.mesh();
     section_ui(ui, "Health", |ui| {
         row_ui(

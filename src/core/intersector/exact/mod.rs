@@ -3,7 +3,8 @@
 
 mod visitors;
 
-use super::blocks::{Blocks, candidates};
+use super::blocks::{Blocks, Scratch, candidates};
+use super::compact::{EmptyLanes, Packing};
 use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, Stack, with_stack};
 use crate::kernel::exact::{Candidate, HitLanes, INFO, Judge, VALUES};
@@ -28,9 +29,10 @@ pub(crate) struct ExactIntersector {
 }
 
 impl ExactIntersector {
-    pub fn new(mesh: &TriangleMesh, bvh: Arc<Bvh>, level: SimdLevel) -> Self {
+    pub fn new(mesh: &TriangleMesh, bvh: Arc<Bvh>, level: SimdLevel, packing: Packing) -> Self {
+        let empty = EmptyLanes::First;
         Self {
-            blocks: Blocks::new(mesh, bvh, VALUES, None, pack_corners),
+            blocks: Blocks::new(mesh, bvh, packing, VALUES, empty, pack_corners),
             level,
         }
     }
@@ -38,22 +40,21 @@ impl ExactIntersector {
     /// The corners in a slot, a lane of a block. From there and not from the mesh: they are in the cache.
     #[inline(always)]
     fn corners(&self, slot: usize) -> [Vec3; 3] {
-        let values = self
-            .blocks
-            .lane(slot / BLOCK_SIZE, slot % BLOCK_SIZE, VALUES);
-        [values.vector(0), values.vector(3), values.vector(6)]
+        self.blocks.corners(slot / BLOCK_SIZE, slot % BLOCK_SIZE)
     }
 
     #[inline(always)]
-    fn tester<'a, S: Simd>(
+    fn tester<'a, const MAYBE_COMPACT: bool, S: Simd>(
         &'a self,
         token: S,
         ray: &'a Ray,
-    ) -> Tester<'a, S, impl Fn(usize) -> [Vec3; 3]> {
+        scratch: &'a mut Scratch<f32>,
+    ) -> Tester<'a, S, impl Fn(usize) -> [Vec3; 3], MAYBE_COMPACT> {
         let judge = Judge::new(ray, |slot| self.corners(slot));
         Tester {
             intersector: self,
             token,
+            scratch,
             sheared: ShearedRay::of(token, ray),
             earliest: judge.earliest(),
             judge,
@@ -62,9 +63,15 @@ impl ExactIntersector {
     }
 
     #[inline(always)]
-    fn nearest<S: Simd>(&self, token: S, ray: &Ray, stack: &mut Stack) -> Option<Candidate> {
+    fn nearest<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        ray: &Ray,
+        stack: &mut Stack,
+        scratch: &mut Scratch<f32>,
+    ) -> Option<Candidate> {
         let mut visitor = Nearest {
-            tester: self.tester(token, ray),
+            tester: self.tester::<MAYBE_COMPACT, S>(token, ray, scratch),
             best: Sighted {
                 primitive: NO_PRIMITIVE,
                 slot: 0,
@@ -80,9 +87,15 @@ impl ExactIntersector {
     }
 
     #[inline(always)]
-    fn any<S: Simd>(&self, token: S, ray: &Ray, stack: &mut Stack) -> bool {
+    fn any<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        ray: &Ray,
+        stack: &mut Stack,
+        scratch: &mut Scratch<f32>,
+    ) -> bool {
         let mut visitor = Any {
-            tester: self.tester(token, ray),
+            tester: self.tester::<MAYBE_COMPACT, S>(token, ray, scratch),
             is_hit: false,
         };
         self.blocks.bvh.walk(token, ray, stack, &mut visitor);
@@ -91,8 +104,9 @@ impl ExactIntersector {
 
     fn each(&self, ray: &Ray, kept: Kept) -> (Vec<Candidate>, Cost) {
         with_stack(|stack| {
+            let mut scratch = Scratch::new();
             let mut visitor = Each {
-                tester: self.tester(baseline(), ray),
+                tester: self.tester::<true, _>(baseline(), ray, &mut scratch),
                 kept,
                 hits: Vec::new(),
                 cost: Cost::default(),
@@ -110,7 +124,8 @@ impl ExactIntersector {
 
     #[inline(always)]
     fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
-        let mut tester = self.tester(token, ray);
+        let mut scratch = Scratch::new();
+        let mut tester = self.tester::<true, S>(token, ray, &mut scratch);
         let mut count = 0;
         for block in 0..self.blocks.bvh.block_count() {
             _ = tester.test(block, f32::INFINITY, |judge, hit| {
@@ -123,11 +138,19 @@ impl ExactIntersector {
 
     /// Finds what rays hit first, for those that don't begin behind their origins.
     #[inline(always)]
-    fn find<S: Simd>(&self, token: S, rays: &[Ray], batch: &mut Batch, stack: &mut Stack) {
+    fn find<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        rays: &[Ray],
+        batch: &mut Batch,
+        stack: &mut Stack,
+    ) {
+        let mut scratch = Scratch::new();
         let mut i = 0;
         while i < rays.len() {
             if !is_behind(&rays[i])
-                && let Some(candidate) = self.nearest(token, &rays[i], stack)
+                && let Some(candidate) =
+                    self.nearest::<MAYBE_COMPACT, S>(token, &rays[i], stack, &mut scratch)
             {
                 // Now, while the corners are in the cache.
                 let corners = self.corners(candidate.slot);
@@ -137,6 +160,23 @@ impl ExactIntersector {
                 batch.count += 1;
             }
             i += 1;
+        }
+    }
+
+    /// Whether rays hit anything, for the same.
+    #[inline(always)]
+    fn find_any<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        rays: &[Ray],
+        are_hits: &mut [bool],
+        stack: &mut Stack,
+    ) {
+        let mut scratch = Scratch::new();
+        for (ray, is_hit) in rays.iter().zip(are_hits) {
+            if !is_behind(ray) {
+                *is_hit = self.any::<MAYBE_COMPACT, S>(token, ray, stack, &mut scratch);
+            }
         }
     }
 
@@ -182,7 +222,11 @@ impl Intersector for ExactIntersector {
                     count: 0,
                 };
                 let level = self.level.level();
-                dispatch!(level, token => self.find(token, rays, &mut batch, stack));
+                if self.blocks.are_compact() {
+                    self.find::<true, _>(baseline(), rays, &mut batch, stack);
+                } else {
+                    dispatch!(level, token => self.find::<false, _>(token, rays, &mut batch, stack));
+                }
                 hits.fill(None);
                 // Apart from the search, which otherwise loses a tenth (bunny, primary rays, 2026-11).
                 dispatch!(level, token => self.round(token, rays, &batch, hits));
@@ -199,13 +243,12 @@ impl Intersector for ExactIntersector {
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         with_stack(|stack| {
-            dispatch!(self.level.level(), token => {
-                for (ray, is_hit) in rays.iter().zip(&mut *are_hits) {
-                    if !is_behind(ray) {
-                        *is_hit = self.any(token, ray, stack);
-                    }
-                }
-            });
+            if self.blocks.are_compact() {
+                self.find_any::<true, _>(baseline(), rays, are_hits, stack);
+            } else {
+                let level = self.level.level();
+                dispatch!(level, token => self.find_any::<false, _>(token, rays, are_hits, stack));
+            }
         });
         answer_behind(rays, are_hits, |ray| {
             self.closest_hit_with_cost(ray).0.is_some()

@@ -3,18 +3,19 @@
 use super::{ExactIntersector, Vector};
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor};
 use crate::intersector::Cost;
-use crate::intersector::blocks::is_asked;
-use crate::kernel::ShearedRay;
+use crate::intersector::blocks::{BlockValues, Scratch, is_asked};
 use crate::kernel::exact::{Candidate, Filtered, Judge, VALUES, filter};
+use crate::kernel::{ShearedRay, pack_corners};
 use crate::lane::{Lane, LaneMask, Number};
 use fearless_simd::Simd;
 use glam::Vec3;
 use std::ops::ControlFlow;
 
 /// One ray against blocks.
-pub(super) struct Tester<'a, S: Simd, F> {
+pub(super) struct Tester<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
     pub intersector: &'a ExactIntersector,
     pub token: S,
+    pub scratch: &'a mut Scratch<f32>,
     pub sheared: ShearedRay<Vector<S>>,
     pub judge: Judge<'a, F>,
     /// Depths below this are before the ray's interval: among them those of the triangle that it leaves.
@@ -41,7 +42,9 @@ impl Sighted {
     }
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Tester<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
+    Tester<'_, S, F, MAYBE_COMPACT>
+{
     /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to
     /// `sighted`, until that breaks.
     #[inline(always)]
@@ -52,7 +55,8 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Tester<'_, S, F> {
         mut sighted: impl FnMut(&mut Judge<'_, F>, Sighted) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let blocks = &self.intersector.blocks;
-        let values = blocks.values::<f32, S>(self.token, block, VALUES);
+        let rows = blocks.rows::<MAYBE_COMPACT>(block, VALUES, self.scratch, pack_corners);
+        let values = BlockValues::<f32, S, f32>::new(self.token, rows);
         let Some(filtered) = filter(&self.sheared, &values) else {
             return ControlFlow::Continue(());
         };
@@ -89,13 +93,13 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Tester<'_, S, F> {
 
     #[inline(always)]
     fn announce(&self, block: usize) {
-        self.intersector.blocks.announce(self.token, block, VALUES);
+        (self.intersector.blocks).announce::<MAYBE_COMPACT, S>(self.token, block, VALUES);
     }
 }
 
 /// Looks for the nearest hit.
-pub(super) struct Nearest<'a, S: Simd, F> {
-    pub tester: Tester<'a, S, F>,
+pub(super) struct Nearest<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
+    pub tester: Tester<'a, S, F, MAYBE_COMPACT>,
     /// The nearest so far, or [`NO_PRIMITIVE`] and infinity.
     pub best: Sighted,
     /// The same, where it had to be looked at more closely.
@@ -103,7 +107,9 @@ pub(super) struct Nearest<'a, S: Simd, F> {
     pub t_max: f32,
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Nearest<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
+    Nearest<'_, S, F, MAYBE_COMPACT>
+{
     /// What was found.
     #[inline(always)]
     pub fn candidate(&self) -> Option<Candidate> {
@@ -118,7 +124,9 @@ fn candidate_of(best: &Sighted, weighed: Option<Candidate>) -> Option<Candidate>
     is_hit.then(|| weighed.unwrap_or_else(|| best.candidate()))
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Nearest<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
+    for Nearest<'_, S, F, MAYBE_COMPACT>
+{
     const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = false;
 
@@ -176,12 +184,14 @@ fn nearer<F: Fn(usize) -> [Vec3; 3]>(
 }
 
 /// Looks for a hit, whichever.
-pub(super) struct Any<'a, S: Simd, F> {
-    pub tester: Tester<'a, S, F>,
+pub(super) struct Any<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
+    pub tester: Tester<'a, S, F, MAYBE_COMPACT>,
     pub is_hit: bool,
 }
 
-impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Any<'_, S, F> {
+impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
+    for Any<'_, S, F, MAYBE_COMPACT>
+{
     const IS_ORDERED: bool = false;
     const IS_BEHIND: bool = false;
 
@@ -218,7 +228,7 @@ pub(super) enum Kept {
 /// Keeps hits, and counts what they cost: for rarer questions, and rays whose interval begins behind
 /// their origin.
 pub(super) struct Each<'a, S: Simd, F> {
-    pub tester: Tester<'a, S, F>,
+    pub tester: Tester<'a, S, F, true>,
     pub kept: Kept,
     pub hits: Vec<Candidate>,
     pub cost: Cost,

@@ -16,9 +16,9 @@ pub(crate) use shear::ShearedRay;
 
 use super::{Kernel, KernelInfo, OneTriangle, RayLanes};
 use crate::bvh::Bvh;
-use crate::intersector::Intersector;
 use crate::intersector::exact::ExactIntersector;
 use crate::intersector::mesh::MeshIntersector;
+use crate::intersector::{Intersector, Packing};
 use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
@@ -36,7 +36,7 @@ use watertight::Watertight;
 pub struct TriangleKernel {
     /// What the kernel says of itself.
     pub info: &'static KernelInfo,
-    intersector: fn(&TriangleMesh, Arc<Bvh>, SimdLevel) -> Box<dyn Intersector>,
+    intersector: fn(&TriangleMesh, Arc<Bvh>, SimdLevel, Packing) -> Box<dyn Intersector>,
     one: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
 }
 
@@ -44,9 +44,9 @@ impl TriangleKernel {
     const fn in_f32<K: Kernel>() -> Self {
         Self {
             info: &K::IN_F32,
-            intersector: |mesh, bvh, level| {
+            intersector: |mesh, bvh, level, packing| {
                 let new = MeshIntersector::<K, f32>::new;
-                Box::new(new(&K::IN_F32, mesh, bvh, level))
+                Box::new(new(&K::IN_F32, mesh, bvh, level, packing))
             },
             one: intersect_one::<K, f32>,
         }
@@ -55,9 +55,9 @@ impl TriangleKernel {
     /// The same, and rays that go together are traced together.
     const fn in_f32_with_packets<K: Kernel>() -> Self {
         Self {
-            intersector: |mesh, bvh, level| {
+            intersector: |mesh, bvh, level, packing| {
                 let new = MeshIntersector::<K, f32>::new;
-                Box::new(new(&K::IN_F32, mesh, bvh, level).with_packets())
+                Box::new(new(&K::IN_F32, mesh, bvh, level, packing).with_packets())
             },
             ..Self::in_f32::<K>()
         }
@@ -66,9 +66,9 @@ impl TriangleKernel {
     const fn in_f64<K: Kernel>() -> Self {
         Self {
             info: &K::IN_F64,
-            intersector: |mesh, bvh, level| {
+            intersector: |mesh, bvh, level, packing| {
                 let new = MeshIntersector::<K, f64>::new;
-                Box::new(new(&K::IN_F64, mesh, bvh, level))
+                Box::new(new(&K::IN_F64, mesh, bvh, level, packing))
             },
             one: intersect_one::<K, f64>,
         }
@@ -77,7 +77,9 @@ impl TriangleKernel {
     const fn exact() -> Self {
         Self {
             info: &exact::INFO,
-            intersector: |mesh, bvh, level| Box::new(ExactIntersector::new(mesh, bvh, level)),
+            intersector: |mesh, bvh, level, packing| {
+                Box::new(ExactIntersector::new(mesh, bvh, level, packing))
+            },
             one: exact::intersect_one,
         }
     }
@@ -88,8 +90,9 @@ impl TriangleKernel {
         mesh: &TriangleMesh,
         bvh: Arc<Bvh>,
         level: SimdLevel,
+        packing: Packing,
     ) -> Box<dyn Intersector> {
-        (self.intersector)(mesh, bvh, level)
+        (self.intersector)(mesh, bvh, level, packing)
     }
 
     /// Tests one triangle in scalar arithmetic, with the bits that the SIMD lanes give. The hit's
