@@ -53,8 +53,6 @@ pub(crate) fn with_stack<T>(walk: impl FnOnce(&mut Stack) -> T) -> T {
 
 /// What is done with the blocks that a ray meets.
 pub(crate) trait Visitor<S: Simd> {
-    /// Whether nearer children come first; else in any order.
-    const IS_ORDERED: bool;
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
@@ -115,7 +113,7 @@ impl Bvh {
                 let b = self.next(token, &mut met, &node.child, &entries, visitor);
                 let (mut nearest, mut farther) = (a.min(b), a.max(b));
                 // Two and three are sorted without branches that nobody could foretell.
-                if V::IS_ORDERED && met != 0 {
+                if met != 0 {
                     let c = self.next(token, &mut met, &node.child, &entries, visitor);
                     stack[usize::from(depth)] = farther.max(c);
                     depth = depth.wrapping_add(1);
@@ -126,12 +124,8 @@ impl Bvh {
                 depth = depth.wrapping_add(1);
                 while met != 0 {
                     let next = self.next(token, &mut met, &node.child, &entries, visitor);
-                    if V::IS_ORDERED {
-                        insert(stack, first, depth, nearest.max(next));
-                        nearest = nearest.min(next);
-                    } else {
-                        stack[usize::from(depth)] = next;
-                    }
+                    insert(stack, first, depth, nearest.max(next));
+                    nearest = nearest.min(next);
                     depth = depth.wrapping_add(1);
                 }
                 current = nearest;

@@ -248,7 +248,6 @@ pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
         found: Vec<u32>,
     }
     impl<S: Simd> Visitor<S> for Gathered<'_> {
-        const IS_ORDERED: bool = false;
         const IS_BEHIND: bool = true;
         fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
             self.found.extend_from_slice(self.bvh.block(block));

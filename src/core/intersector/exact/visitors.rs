@@ -127,7 +127,6 @@ fn candidate_of(best: &Sighted, weighed: Option<Candidate>) -> Option<Candidate>
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
     for Nearest<'_, S, F, MAYBE_COMPACT>
 {
-    const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
@@ -192,7 +191,6 @@ pub(super) struct Any<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
     for Any<'_, S, F, MAYBE_COMPACT>
 {
-    const IS_ORDERED: bool = false;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
@@ -245,7 +243,6 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Each<'_, S, F> {
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Each<'_, S, F> {
-    const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = true;
 
     fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {

@@ -123,7 +123,6 @@ pub(super) struct Nearest<'a, K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT
 impl<K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> Visitor<S>
     for Nearest<'_, K, N, S, MAYBE_COMPACT>
 {
-    const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
@@ -150,7 +149,8 @@ impl<K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> Visitor<S>
     fn count_boxes(&mut self, _: u32) {}
 }
 
-/// Looks for a hit, whichever.
+/// Looks for a hit, whichever. The nearest child first here, too: in any order random rays take a twentieth more
+/// time (1.1 M triangles, 2026-11).
 pub(super) struct Any<'a, K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> {
     pub tester: Tester<'a, K, N, S>,
     pub t_max: f32,
@@ -160,7 +160,6 @@ pub(super) struct Any<'a, K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bo
 impl<K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> Visitor<S>
     for Any<'_, K, N, S, MAYBE_COMPACT>
 {
-    const IS_ORDERED: bool = false;
     const IS_BEHIND: bool = false;
 
     #[inline(always)]
@@ -195,7 +194,6 @@ pub(super) struct Each<'a, 'f, K: Kernel, N: Number, S: Simd> {
 }
 
 impl<K: Kernel, N: Number, S: Simd> Visitor<S> for Each<'_, '_, K, N, S> {
-    const IS_ORDERED: bool = true;
     const IS_BEHIND: bool = true;
 
     #[inline(always)]
