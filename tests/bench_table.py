@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Prints what `hitscope bench` measures as one table a mesh.
+"""Prints what `hitscope bench` measures as a table for each binary and number of threads.
 
     tests/bench_table.py [--binary HITSCOPE]... [--threads N]... MESH.obj [camera options]...
 
@@ -11,20 +11,24 @@ import argparse
 import json
 import subprocess
 
-# Kernel, the one it is held against, and how much of its rate it is to reach.
+# Kernel, the one it is held against, and how much of its rate it is to reach (README, "What speed costs").
 RATIOS = [("precise", "fast", 0.70), ("exact", "watertight", 0.87), ("watertight", "fast", 1 / 1.15)]
 
 
 def measured(binary, mesh, threads, camera):
     command = [binary, "bench", mesh, "--json", "--threads", str(threads), *camera]
-    return json.loads(subprocess.run(command, check=True, capture_output=True, text=True).stdout)
+    return json.loads(subprocess.run(command, check=True, stdout=subprocess.PIPE, text=True).stdout)
+
+
+def megabytes(count):
+    return "unknown" if count is None else f"{count / 1e6:.0f} MB"
 
 
 def print_report(title, report):
     print(f"\n## {title}: {report['triangles']} triangles, SIMD {report['simd']}\n")
     print(f"load {report['load_ms']:.0f} ms, tree {report['build_ms']:.1f} ms, quick tree "
           f"{report['quick_build_ms']:.1f} ms; {report['bytes_per_triangle']:.1f} bytes a triangle; "
-          f"peak {(report['peak_rss_bytes'] or 0) / 1e6:.0f} MB\n")
+          f"peak {megabytes(report['peak_rss_bytes'])}\n")
     names = list(dict.fromkeys(row["name"] for row in report["workloads"]))
     kernels = list(dict.fromkeys(row["kernel"] for row in report["workloads"]))
     rate = {(row["kernel"], row["name"]): row["mrays_per_s"] for row in report["workloads"]}
@@ -62,4 +66,7 @@ def main():
             print_scaling(reports[0], report, [threads[0], count])
 
 
-main()
+try:
+    main()
+except (OSError, subprocess.CalledProcessError) as error:
+    raise SystemExit(f"bench_table: {error}")

@@ -33,10 +33,10 @@ pub struct Document {
     pub loaded: LoadedScene,
     intersector: Arc<dyn Intersector>,
     /// For another kernel, while it is being made.
-    packing: Packing,
+    packing: PackingTask,
     /// What the kernel is held against by views that compare, and the next such, while it is being made.
     second: Option<Arc<dyn Intersector>>,
-    packing_second: Packing,
+    packing_second: PackingTask,
     health: HealthState,
     /// Set when the document is dropped: a better tree is then wanted no more.
     progress: Arc<Progress>,
@@ -45,7 +45,7 @@ pub struct Document {
 
 impl Drop for Document {
     fn drop(&mut self) {
-        self.progress.cancel();
+        self.stop_improving();
     }
 }
 
@@ -125,7 +125,12 @@ impl Document {
         Ok(())
     }
 
-    /// Whether the scene's tree stays as it is.
+    /// The scene keeps the tree that it has.
+    pub fn stop_improving(&self) {
+        self.progress.cancel();
+    }
+
+    /// Whether the scene's tree stays as it is, and is in use everywhere.
     pub fn has_last_tree(&self) -> bool {
         matches!(self.improvement, Improvement::Over)
     }
@@ -221,11 +226,11 @@ impl Document {
 }
 
 /// A scene that is being packed for the kernel of a name.
-type Packing = Wanted<&'static str, Box<dyn Intersector>>;
+type PackingTask = Wanted<&'static str, Box<dyn Intersector>>;
 
 /// The scene packed for a kernel, once it is; begins unless that is under way.
 fn packed(
-    packing: &mut Packing,
+    packing: &mut PackingTask,
     scene: &Arc<Scene>,
     kernel: &'static TriangleKernel,
     ctx: &egui::Context,

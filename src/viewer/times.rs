@@ -32,7 +32,7 @@ impl Times {
         sorted.get(at.saturating_sub(1)).copied()
     }
 
-    /// The half of them doesn't exceed the first, 99 of 100 the second.
+    /// Half of them don't exceed the first, 99 of 100 not the second.
     pub fn median_and_99th(&self) -> Option<[Duration; 2]> {
         Some([self.quantile(0.5)?, self.quantile(0.99)?])
     }

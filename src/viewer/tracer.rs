@@ -38,8 +38,8 @@ pub struct Request {
     pub integrator: &'static Integrator,
     /// Samples a pixel in the end.
     pub samples: u32,
-    /// Whether the view is of what the scene's best tree costs.
-    pub shows_best_tree: bool,
+    /// Whether the view is of what rays cost with the tree that stays.
+    pub shows_last_tree: bool,
 }
 
 impl PartialEq for Request {
@@ -50,7 +50,7 @@ impl PartialEq for Request {
             && Arc::ptr_eq(&a.second, &b.second)
             && (a.camera, a.shading, a.background) == (b.camera, b.shading, b.background)
             && (self.integrator.name, self.samples) == (other.integrator.name, other.samples)
-            && self.shows_best_tree == other.shows_best_tree
+            && self.shows_last_tree == other.shows_last_tree
     }
 }
 
@@ -313,10 +313,9 @@ impl Tracer {
         self.shown.as_ref()
     }
 
-    /// Whether a scene's picture is there with all its samples.
-    pub fn is_complete(&self, scene: &Arc<Scene>) -> bool {
-        let is_of_scene = |posted: &Posted| Arc::ptr_eq(&posted.request.context.scene, scene);
-        self.posted.as_ref().is_some_and(is_of_scene) && self.film.is_complete()
+    /// What was requested last and is traced.
+    pub fn posted(&self) -> Option<&Request> {
+        self.posted.as_ref().map(|posted| &posted.request)
     }
 
     /// The picture as far as it is.

@@ -12,7 +12,7 @@ use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, scene, soup, torus};
 use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
-use hitscope_core::{Hit, Ray, Scene};
+use hitscope_core::{Aabb, Hit, Ray, Scene};
 use std::sync::{Arc, LazyLock};
 
 /// The tiers, and the lecture's methods with Baldwin–Weber.
@@ -58,7 +58,10 @@ fn coherent() -> Vec<Ray> {
 fn random() -> Vec<Ray> {
     let mut random = Random::new(1);
     let mut point = || 1.5 * random.direction().as_vec3();
-    let rays = std::iter::repeat_with(|| Ray::new(point(), point()).ok());
+    let rays = std::iter::repeat_with(|| {
+        let (from, to) = (point(), point());
+        Ray::new(from, to - from).ok()
+    });
     rays.flatten().take(RAYS).collect()
 }
 
@@ -133,11 +136,7 @@ fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
 #[divan::bench]
 fn build(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build(
-            mesh.triangles.len(),
-            |i| triangle_bounds(mesh.corners(i)),
-            &|| Ok(()),
-        )
+        Bvh::build(mesh.triangles.len(), bounds_in(mesh), &|| Ok(()))
     });
 }
 
@@ -145,11 +144,7 @@ fn build(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn build_quickly(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build_quickly(
-            mesh.triangles.len(),
-            |i| triangle_bounds(mesh.corners(i)),
-            &|| Ok(()),
-        )
+        Bvh::build_quickly(mesh.triangles.len(), bounds_in(mesh), &|| Ok(()))
     });
 }
 
@@ -170,4 +165,8 @@ fn pack(bencher: Bencher<'_, '_>, name: &str) {
             let (bvh, level) = (Arc::clone(&bvh), SimdLevel::current());
             kernel(name).intersector(mesh, bvh, level, Packing::Full)
         });
+}
+
+fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
+    |triangle| triangle_bounds(mesh.corners(triangle))
 }

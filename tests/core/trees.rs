@@ -44,7 +44,8 @@ fn layers(random: &mut Random) -> TriangleMesh {
 fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
     let corner_list = mesh.corner_list();
     let aimed = (0..500).flat_map(|k| {
-        let [a, b, c] = corner_list[random.index(corner_list.len())];
+        let triangle = random.index(corner_list.len()) as u32;
+        let [a, b, c] = corner_list[triangle as usize];
         let on_edge = a.lerp(b, random.unit() as f32);
         // Every other one grazes the triangle.
         let beside = on_edge + 3.0 * (c - a) + 2.0 * (b - a);
@@ -57,7 +58,11 @@ fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
         let targets: Vec<Vec3> = near.collect();
         let t_min = if k % 8 < 2 { -2.0 } else { 0.0 };
         targets.into_iter().map(move |target| {
-            Ray::with_interval(origin, target - origin, t_min, f32::INFINITY).ok()
+            // One in eight ends near its target, and one in eight leaves a triangle.
+            let t_max = if k % 8 == 3 { 1.0 } else { f32::INFINITY };
+            let ray = Ray::with_interval(origin, target - origin, t_min, t_max).ok()?;
+            let exclude = (k % 8 == 5).then_some(triangle);
+            Some(Ray { exclude, ..ray })
         })
     });
     aimed.flatten().collect()
@@ -75,6 +80,13 @@ fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)
     tree.coherent_hits(rays, &mut together);
     tree.any_hits(rays, &mut any);
     assert!(hits.iter().map(bits).eq(together.iter().map(bits)));
+    for (ray, hit) in rays.iter().zip(&hits).step_by(7) {
+        assert_eq!(bits(&tree.closest_hit_with_cost(ray).0), bits(hit));
+    }
+    assert!(
+        any.iter()
+            .eq(hits.iter().map(Option::is_some).collect::<Vec<_>>().iter())
+    );
     hits.iter().map(bits).zip(any).collect()
 }
 

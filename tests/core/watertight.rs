@@ -31,6 +31,9 @@ fn inside_torus(random: &mut Random) -> DVec3 {
     in_torus(random.unit(), random.unit(), 0.5 * random.unit())
 }
 
+/// How many times as long as wide.
+const DRAWN_OUT: f64 = 1e5;
+
 fn inside_sphere(random: &mut Random) -> DVec3 {
     0.4 * random.in_cube()
 }
@@ -59,6 +62,18 @@ fn cases() -> Vec<Case> {
             rays: 40_000,
         });
     }
+    // A ring drawn out to needles, which many of the rays see along their length.
+    let mut drawn_out = torus(32, 16, Place::UNIT);
+    for position in &mut drawn_out.positions {
+        position.x *= DRAWN_OUT as f32;
+    }
+    cases.push(Case {
+        name: "torus drawn out to needles".to_owned(),
+        mesh: drawn_out,
+        place: Place::UNIT,
+        inside: |random| DVec3::new(DRAWN_OUT, 1.0, 1.0) * inside_torus(random),
+        rays: 60_000,
+    });
     // A place where fixed epsilons are known to fail.
     let place = Place {
         scale: 2.0,

@@ -56,6 +56,13 @@ impl Folder {
             .collect()
     }
 
+    /// What a command prints.
+    fn text(&self, run: impl FnOnce(&Self, &mut Vec<u8>) -> Result<(), CommandError>) -> String {
+        let mut out = Vec::new();
+        run(self, &mut out).expect("done");
+        String::from_utf8(out).expect("UTF-8")
+    }
+
     fn json(&self, run: impl FnOnce(&Self, &mut Vec<u8>) -> Result<(), CommandError>) -> Value {
         let mut out = Vec::new();
         run(self, &mut out).expect("done");
@@ -291,4 +298,32 @@ fn bench_prints_a_row_for_each_workload_and_kernel() {
         }
     }
     assert_eq!(rows[0]["rays"], 24 * 16);
+}
+
+#[test]
+fn compact_triangles_give_the_same_answers_in_less_memory() {
+    let folder = Folder::new();
+    folder.write(
+        "rays.txt",
+        "0.3 0.4 5 0 0 -1\n0.5 0.5 0.5 1 1 1\n9 9 9 1 0 0\n",
+    );
+    for kernel in ["fast", "watertight", "precise", "exact", "baldwin-weber"] {
+        let trace = |more: &str| {
+            folder.text(|folder, out| {
+                let line = format!("@cube.obj --rays @rays.txt --all --kernel {kernel}{more}");
+                folder.args::<TraceArgs>(&line).run(out)
+            })
+        };
+        assert_eq!(trace(""), trace(" --compact"), "{kernel}");
+    }
+    let packed = |more: &str| {
+        let info = folder.json(|folder, out| {
+            let line = format!("@cube.obj --json{more}");
+            folder.args::<InfoArgs>(&line).run(out)
+        });
+        info["bytes"]["packed triangles"]
+            .as_u64()
+            .expect("a number")
+    };
+    assert!(packed(" --compact") < packed(""));
 }

@@ -263,6 +263,25 @@ fn the_picture_converges_and_pause_holds_it() {
 }
 
 #[test]
+fn t_goes_round_the_mesh_until_it_is_pressed_again() {
+    let Some(mut window) = bare() else { return };
+    let before = *window.state().turntable();
+    press(&mut window, Key::T);
+    window.run_steps(5);
+    let turned = *window.state().turntable();
+    assert_ne!(turned, before);
+    assert_eq!(
+        (turned.pivot, turned.distance),
+        (before.pivot, before.distance)
+    );
+    press(&mut window, Key::T);
+    window.run_steps(2);
+    let stopped = *window.state().turntable();
+    window.run_steps(5);
+    assert_eq!(*window.state().turntable(), stopped);
+}
+
+#[test]
 fn a_window_of_one_pixel_lives() {
     let Some(mut window) = app(None) else { return };
     window.set_size(egui::vec2(1.0, 1.0));

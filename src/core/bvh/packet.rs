@@ -11,7 +11,9 @@
 //! meets the triangle's own box, in a packet or alone.
 
 use super::slab::{AHEAD, MOST_INVERSE, at_least, at_most};
-use super::walk::{Stack, child_of, end_slackened, entry_of, insert, key, start_slackened};
+use super::walk::{
+    NOTHING, Stack, child_of, end_slackened, entry_of, insert, key, start_slackened,
+};
 use super::{Bvh, Child, Node, WIDTH};
 use crate::aabb::Planes;
 use crate::lane::PACKET;
@@ -228,13 +230,13 @@ impl Bvh {
             while !current.is_leaf() {
                 let node = &self.nodes[current.node_index()];
                 let (entries, mut met) = slabs.enter_any(token, &node.planes, farthest);
-                let (first, mut nearest) = (depth, u64::MAX);
+                let (first, mut nearest) = (depth, NOTHING);
                 while met != 0 {
                     let slot = met.trailing_zeros() as usize % WIDTH;
                     met &= met - 1;
                     self.announce(token, node.child[slot], visitor);
                     let key = key(entries[slot], node.child[slot]);
-                    if nearest == u64::MAX {
+                    if nearest == NOTHING {
                         nearest = key;
                     } else {
                         insert(stack, first, depth, nearest.max(key));

@@ -11,11 +11,12 @@
 //! Both are of the ray and the triangle alone. A box of the tree holds the boxes of the triangles below it, and
 //! each operation that tells where a ray enters and leaves it is monotone in its planes, rounded or not: so
 //! the ray meets it, too, and enters it no later. The walk puts it aside only if the ray enters it behind the
-//! best rank so far, and with it only hits that rank behind that. That a box is padded enough for what its
+//! best rank so far, and with it only hits that rank behind that. The exact kernel's hits lie in their boxes
+//! and are ordered exactly: it needs neither. That a box is padded enough for what its
 //! triangles' kernels are right to accept is another matter: see `slab`.
 
 use super::slab::SlabRay;
-use super::{Bvh, Child, MAX_DEPTH, WIDTH};
+use super::{Bvh, Child, MAX_DEPTH, Node, WIDTH};
 use crate::lane::Lane;
 use crate::ray::Ray;
 use crate::simd::prefetch;
@@ -33,7 +34,7 @@ const SLACK: f32 = 24.0 * f32::EPSILON;
 /// A kernel's t is rounded some nine times and an entry three, so that of hits at equal t in two boxes one
 /// may be reported before its box is entered, and the lowest triangle is to count. Measured on overlapping
 /// triangles in one plane, where that shows: of 5 M rays the lowest triangle lost 15 with 3 ulp, 9 with
-/// 4, 5 with 8, none with 16 (the leaf's box in place of the triangle's, 2026-11).
+/// 4, 5 with 8, none with 16 (with the leaf's box, which is entered no later, 2026-11).
 const RANK_SLACK: f32 = 16.0 * f32::EPSILON;
 
 /// Children that were put off: the bits of where the ray enters them, above the child. Nearer ones are
@@ -67,10 +68,16 @@ pub(crate) trait Visitor<S: Simd> {
     fn count_boxes(&mut self, count: u32);
 }
 
-/// What a hit at `t` is ranked by, in a box entered at `entry`.
+/// The least that a hit is ranked by in a box entered at `entry`.
 #[inline(always)]
 pub(crate) fn rank_floor<L: Lane>(entry: L) -> L {
     entry - entry.abs() * L::of(entry.token(), RANK_SLACK)
+}
+
+/// What a hit is ranked by; see [`rank_floor`].
+#[inline(always)]
+pub(crate) fn rank<L: Lane>(t: L, floor: L) -> L {
+    L::select(t.lt(floor), floor, t)
 }
 
 impl Bvh {
@@ -95,40 +102,18 @@ impl Bvh {
             while !child_of(current).is_leaf() {
                 let node = &self.nodes[child_of(current).node_index()];
                 visitor.count_boxes(WIDTH as u32);
-                let (entries, mut met) = if V::IS_BEHIND {
+                let (entries, bits) = if V::IS_BEHIND {
                     slabs.enter::<true>(token, &node.planes, far)
                 } else {
                     slabs.enter::<false>(token, &node.planes, far)
                 };
-                if met == 0 {
-                    current = NOTHING;
-                    break;
-                }
-                let a = self.next(token, &mut met, &node.child, &entries, visitor);
-                if met == 0 {
-                    current = a;
-                    continue;
-                }
-                let first = depth;
-                let b = self.next(token, &mut met, &node.child, &entries, visitor);
-                let (mut nearest, mut farther) = (a.min(b), a.max(b));
-                // Two and three are sorted without branches that nobody could foretell.
-                if met != 0 {
-                    let c = self.next(token, &mut met, &node.child, &entries, visitor);
-                    stack[usize::from(depth)] = farther.max(c);
-                    depth = depth.wrapping_add(1);
-                    let middle = farther.min(c);
-                    (nearest, farther) = (nearest.min(middle), nearest.max(middle));
-                }
-                stack[usize::from(depth)] = farther;
-                depth = depth.wrapping_add(1);
-                while met != 0 {
-                    let next = self.next(token, &mut met, &node.child, &entries, visitor);
-                    insert(stack, first, depth, nearest.max(next));
-                    nearest = nearest.min(next);
-                    depth = depth.wrapping_add(1);
-                }
-                current = nearest;
+                let children = &node.child;
+                let met = Met {
+                    bits,
+                    entries,
+                    children,
+                };
+                current = self.nearest_of(token, met, stack, &mut depth, visitor);
             }
             if current != NOTHING {
                 let leaf = child_of(current);
@@ -155,31 +140,65 @@ impl Bvh {
         }
     }
 
-    /// Takes the lowest child out of `met`, and asks for it.
+    /// The nearest of the children that are met; the others are put off, the nearest of them last.
     #[inline(always)]
-    fn next<S: Simd, V: Visitor<S>>(
+    fn nearest_of<S: Simd, V: Visitor<S>>(
         &self,
         token: S,
-        met: &mut u32,
-        child: &[Child; WIDTH],
-        entries: &[f32; WIDTH],
+        mut met: Met<'_>,
+        stack: &mut Stack,
+        depth: &mut u8,
         visitor: &V,
     ) -> u64 {
-        let lane = met.trailing_zeros() as usize % WIDTH;
-        *met &= *met - 1;
-        let child = child[lane];
+        if met.bits == 0 {
+            return NOTHING;
+        }
+        let a = self.next(token, &mut met, visitor);
+        if met.bits == 0 {
+            return a;
+        }
+        let first = *depth;
+        let b = self.next(token, &mut met, visitor);
+        let (mut nearest, mut farther) = (a.min(b), a.max(b));
+        // Two and three are sorted without branches that nobody could foretell.
+        if met.bits != 0 {
+            let c = self.next(token, &mut met, visitor);
+            stack[usize::from(*depth)] = farther.max(c);
+            *depth = depth.wrapping_add(1);
+            let middle = farther.min(c);
+            (nearest, farther) = (nearest.min(middle), nearest.max(middle));
+        }
+        stack[usize::from(*depth)] = farther;
+        *depth = depth.wrapping_add(1);
+        while met.bits != 0 {
+            let next = self.next(token, &mut met, visitor);
+            insert(stack, first, *depth, nearest.max(next));
+            nearest = nearest.min(next);
+            *depth = depth.wrapping_add(1);
+        }
+        nearest
+    }
+
+    /// Takes one out of the children that are met, and asks the cache for it.
+    #[inline(always)]
+    fn next<S: Simd, V: Visitor<S>>(&self, token: S, met: &mut Met<'_>, visitor: &V) -> u64 {
+        let lane = met.bits.trailing_zeros() as usize % WIDTH;
+        met.bits &= met.bits - 1;
+        let child = met.children[lane];
         if child.is_leaf() {
             visitor.announce(child.first_block());
         } else {
-            prefetch(
-                token,
-                &self.nodes,
-                child.node_index(),
-                size_of::<super::Node>(),
-            );
+            prefetch(token, &self.nodes, child.node_index(), size_of::<Node>());
         }
-        key(entries[lane], child)
+        key(met.entries[lane], child)
     }
+}
+
+/// The children of a node that a ray meets: a bit each, and where it enters them.
+struct Met<'a> {
+    bits: u32,
+    entries: [f32; WIDTH],
+    children: &'a [Child; WIDTH],
 }
 
 /// Puts a key among those from `first` to `depth`, the nearest last.
@@ -193,8 +212,8 @@ pub(super) fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
     stack[usize::from(at)] = key;
 }
 
-/// No ray gets there.
-const NOTHING: u64 = Child::NONE.0 as u64;
+/// No child: behind all others.
+pub(super) const NOTHING: u64 = u64::MAX;
 
 #[inline(always)]
 pub(super) fn key(entry: f32, child: Child) -> u64 {

@@ -1,9 +1,10 @@
 //! The triangles of each block of the tree as a kernel keeps them, one a lane.
 
-use super::compact::{EmptyLanes, Packing, SharedCorners};
+use super::compact::{BLOCKS_AT_ONCE, EmptyLanes, Packing, SharedCorners};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
-use crate::kernel::{Kernel, Values};
+use crate::kernel::exact::VALUES as CORNERS;
+use crate::kernel::{Kernel, MOST_VALUES, Values};
 use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::Ray;
@@ -14,12 +15,6 @@ use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-
-/// Blocks that a thread packs at a time.
-const BLOCKS_AT_ONCE: usize = 1024;
-
-/// As many values as any kernel keeps of a triangle.
-const MOST_VALUES: usize = 18;
 
 /// A value of the triangles in a block. Aligned, so that no row of f32 lies in two cache lines.
 #[derive(Clone, Copy)]
@@ -188,9 +183,6 @@ impl Blocks<f32> {
         }
     }
 }
-
-/// Values that three corners have.
-const CORNERS: usize = 9;
 
 /// The box around each of a block's triangles, as the kernel `K` takes their corners to be.
 #[inline(always)]

@@ -1,4 +1,4 @@
-//! Triangles in two thirds of the memory: a block's corners once each, and which of them its triangles have.
+//! Triangles in half the memory: a block's corners once each, and which of them its triangles have.
 //!
 //! A block's values are made of them anew for every test.
 
@@ -29,7 +29,7 @@ pub(super) enum EmptyLanes {
 }
 
 /// Blocks that a thread packs at a time.
-const BLOCKS_AT_ONCE: usize = 1024;
+pub(super) const BLOCKS_AT_ONCE: usize = 1024;
 
 /// A block's triangles: for A, B and C the corner in each lane, counted from the block's first one.
 struct Picks {

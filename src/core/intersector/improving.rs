@@ -7,32 +7,36 @@ use std::sync::{Arc, PoisonError, RwLock, Weak};
 
 /// Where the intersector is found that answers at present.
 #[derive(Clone)]
-pub(crate) struct Place(Arc<RwLock<Arc<dyn Intersector>>>);
+pub(crate) struct Current(Arc<RwLock<Arc<dyn Intersector>>>);
 
 /// The same, for whoever replaces it while it is still used.
-pub(crate) struct WeakPlace(Weak<RwLock<Arc<dyn Intersector>>>);
+pub(crate) struct WeakCurrent(Weak<RwLock<Arc<dyn Intersector>>>);
 
-impl Place {
+impl Current {
     pub fn new(first: Box<dyn Intersector>) -> Self {
         Self(Arc::new(RwLock::new(Arc::from(first))))
     }
 
-    pub fn downgrade(&self) -> WeakPlace {
-        WeakPlace(Arc::downgrade(&self.0))
+    pub fn downgrade(&self) -> WeakCurrent {
+        WeakCurrent(Arc::downgrade(&self.0))
     }
 
     /// A pointer, so that no lock is held while tracing.
-    fn current(&self) -> Arc<dyn Intersector> {
+    fn get(&self) -> Arc<dyn Intersector> {
         Arc::clone(&self.0.read().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
-impl WeakPlace {
+impl WeakCurrent {
     /// The next one answers from now on; it is made only if it is still wanted.
     pub fn replace(&self, next: impl FnOnce() -> Box<dyn Intersector>) {
-        if let Some(place) = self.0.upgrade() {
+        if let Some(current) = self.0.upgrade() {
             let next = Arc::from(next());
-            *place.write().unwrap_or_else(PoisonError::into_inner) = next;
+            let mut place = current.write().unwrap_or_else(PoisonError::into_inner);
+            let last = std::mem::replace(&mut *place, next);
+            // Its memory is freed when nobody waits for the lock.
+            drop(place);
+            drop(last);
         }
     }
 }
@@ -40,7 +44,7 @@ impl WeakPlace {
 /// Asks the one that answers at present.
 pub(crate) struct Improving {
     pub kernel: &'static KernelInfo,
-    pub place: Place,
+    pub current: Current,
 }
 
 impl Intersector for Improving {
@@ -49,38 +53,38 @@ impl Intersector for Improving {
     }
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        self.place.current().closest_hits(rays, hits);
+        self.current.get().closest_hits(rays, hits);
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        self.place.current().coherent_hits(rays, hits);
+        self.current.get().coherent_hits(rays, hits);
     }
 
     fn rays_together(&self) -> usize {
-        self.place.current().rays_together()
+        self.current.get().rays_together()
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
-        self.place.current().closest_hit_with_cost(ray)
+        self.current.get().closest_hit_with_cost(ray)
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        self.place.current().any_hits(rays, are_hits);
+        self.current.get().any_hits(rays, are_hits);
     }
 
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
-        self.place.current().all_hits(ray)
+        self.current.get().all_hits(ray)
     }
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
-        self.place.current().candidates(ray)
+        self.current.get().candidates(ray)
     }
 
     fn count_hits(&self, ray: &Ray) -> usize {
-        self.place.current().count_hits(ray)
+        self.current.get().count_hits(ray)
     }
 
     fn bytes(&self) -> usize {
-        self.place.current().bytes()
+        self.current.get().bytes()
     }
 }

@@ -1,6 +1,7 @@
 //! Where does a ray meet the scene? The tree and one kernel together.
 //!
-//! Kernel and CPU level are chosen when the intersector is made; a ray then costs one virtual call.
+//! Kernel and CPU level are chosen when the intersector is made; a batch of rays then costs one virtual call,
+//! or two while a better tree is to come.
 //! `mesh` is for kernels that decide about each triangle by itself, `packet` for several rays of theirs at a
 //! time; `exact` for the one that weighs hits against each other; `improving` asks another one, under which the
 //! tree may be replaced.
@@ -45,6 +46,10 @@ pub struct Crossing {
 /// Rays come from [`Ray::new`] or a [`Camera`](crate::Camera), so they hold no NaN. A ray's interval and
 /// hits are compared in the kernel's own precision; of hits at equal t the lowest primitive counts. A hit
 /// whose t is beyond f32's largest number is a miss.
+///
+/// A hit counts only where the ray meets the box around the triangle, and comes no nearer than that box: the
+/// first of [`all_hits`](Self::all_hits), by t alone, may be another one where t errs by more than the box is
+/// large. So the tree changes no answer.
 pub trait Intersector: Send + Sync {
     /// The kernel that it was made with.
     fn kernel(&self) -> &'static KernelInfo;
@@ -89,8 +94,8 @@ pub trait Intersector: Send + Sync {
     /// could hit, whatever the kernel says.
     fn candidates(&self, ray: &Ray) -> Vec<u32>;
 
-    /// Tests the ray against every triangle, the tree aside, and counts the hits: for measurements. What
-    /// the ray excludes is not excluded, and an end of its interval may count.
+    /// Tests the ray against every triangle, tree and boxes aside, and counts the hits: for measurements.
+    /// What the ray excludes is not excluded, and an end of its interval may count.
     fn count_hits(&self, ray: &Ray) -> usize;
 
     /// Bytes that the packed triangles take, the tree not counted.

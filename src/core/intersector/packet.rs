@@ -5,7 +5,7 @@ use super::Intersector;
 use super::blocks::{Blocks, LaneValues, Scratch, boxes};
 use super::mesh::MeshIntersector;
 use crate::bvh::{
-    BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank_floor, with_stack,
+    BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank, rank_floor, with_stack,
 };
 use crate::kernel::{Kernel, RayLanes};
 use crate::lane::PACKET;
@@ -47,12 +47,12 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
                 let (entry, met) = slabs.enter_one(self.token, &boxes, lane);
                 let floor = rank_floor(entry);
                 let primitive = u32x16::splat(self.token, lanes[lane]);
-                let rank = hit.t.simd_lt(floor).select(floor, hit.t);
-                let is_asked = hit.mask & met & rank.simd_lt(self.end) & hit.t.simd_lt(infinity);
+                let rank = rank(hit.t, floor);
+                let counts = hit.mask & met & rank.simd_lt(self.end) & hit.t.simd_lt(infinity);
                 let is_lower = hit.t.simd_lt(self.t)
                     | (hit.t.simd_eq(self.t) & primitive.simd_lt(self.primitive));
                 let is_before = rank.simd_lt(self.rank) | (rank.simd_eq(self.rank) & is_lower);
-                let is_best = is_asked & is_before;
+                let is_best = counts & is_before;
                 self.rank = is_best.select(rank, self.rank);
                 self.t = is_best.select(hit.t, self.t);
                 self.u = is_best.select(hit.u, self.u);

@@ -193,6 +193,9 @@ pub(crate) trait Kernel: Send + Sync + 'static {
     ) -> Option<LaneHit<L>>;
 }
 
+/// As many values as any kernel keeps of a triangle.
+pub(crate) const MOST_VALUES: usize = 18;
+
 /// Packs the corners as they are: the x, y and z of A, of B, of C.
 pub(crate) fn pack_corners(corners: [Vec3; 3], values: &mut [f32]) {
     for (corner, kept) in corners.iter().zip(values.chunks_exact_mut(3)) {

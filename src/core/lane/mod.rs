@@ -104,8 +104,6 @@ pub trait Number:
 /// What a kernel that works in `N` may keep its triangles as: `N`, or f32 where it keeps nothing but
 /// corners, which are f32 in the mesh and widened exactly.
 pub trait Stored<N>: Copy + Default + Send + Sync + 'static {
-    /// Marks lanes that hold no triangle: no kernel hits those.
-    const NO_TRIANGLE: Self;
     /// One of them, in `N`.
     fn number(self) -> N;
     /// [`LANES`] of them, in `N`.

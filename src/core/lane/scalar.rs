@@ -126,7 +126,6 @@ impl Number for f64 {
 }
 
 impl<N: Number> Stored<N> for f32 {
-    const NO_TRIANGLE: Self = f32::NAN;
     #[inline(always)]
     fn number(self) -> N {
         N::from(self)
@@ -139,7 +138,6 @@ impl<N: Number> Stored<N> for f32 {
 
 /// For those that f32 holds.
 impl Stored<f32> for f64 {
-    const NO_TRIANGLE: Self = f64::NAN;
     #[inline(always)]
     fn number(self) -> f32 {
         self.to_f32()
@@ -157,7 +155,6 @@ impl Stored<f32> for f64 {
 }
 
 impl Stored<f64> for f64 {
-    const NO_TRIANGLE: Self = f64::NAN;
     #[inline(always)]
     fn number(self) -> f64 {
         self

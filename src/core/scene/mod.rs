@@ -46,7 +46,7 @@ impl Scene {
         Self::with_options(mesh, SceneOptions::default(), progress)
     }
 
-    /// The same, for speed or for memory.
+    /// A scene for speed or for memory, with its first picture soon or at its best.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
@@ -99,7 +99,7 @@ impl Scene {
     /// happens; where another thread is at it, this one waits.
     ///
     /// # Errors
-    /// [`Cancelled`] if `progress` was cancelled.
+    /// [`Cancelled`] if `progress` was cancelled; another call goes on from there.
     pub fn improve(&self, progress: &Progress) -> Result<(), Cancelled> {
         self.tree.improve(&self.mesh, progress)
     }
@@ -159,7 +159,7 @@ impl LoadedScene {
         Self::load_with(path, recentre, SceneOptions::default(), progress)
     }
 
-    /// The same, for speed or for memory.
+    /// Loads an OBJ file as a scene with these options.
     ///
     /// # Errors
     /// See [`LoadError`].

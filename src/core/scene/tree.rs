@@ -2,7 +2,7 @@
 
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
-use crate::intersector::improving::{Improving, Place, WeakPlace};
+use crate::intersector::improving::{Current, Improving, WeakCurrent};
 use crate::intersector::{Intersector, Packing};
 use crate::kernel::{TriangleKernel, triangle_bounds};
 use crate::mesh::TriangleMesh;
@@ -52,7 +52,7 @@ pub(super) struct Tree {
 
 /// An intersector made with the first tree.
 struct Waiting {
-    place: WeakPlace,
+    current: WeakCurrent,
     kernel: &'static TriangleKernel,
     level: SimdLevel,
 }
@@ -108,7 +108,7 @@ impl Tree {
         if is_best {
             return packed;
         }
-        let place = Place::new(packed);
+        let current = Current::new(packed);
         let mut waiting = locked(&self.waiting);
         if self.is_best() {
             // The better tree came meanwhile, and nobody looks at the list any more.
@@ -116,35 +116,36 @@ impl Tree {
             return self.intersector(mesh, kernel, level);
         }
         waiting.push(Waiting {
-            place: place.downgrade(),
+            current: current.downgrade(),
             kernel,
             level,
         });
         Box::new(Improving {
             kernel: kernel.info,
-            place,
+            current,
         })
     }
 
     pub fn improve(&self, mesh: &TriangleMesh, progress: &Progress) -> Result<(), Cancelled> {
         // One builds, others wait for it.
         let _turn = locked(&self.turn);
-        if self.is_best() {
-            return Ok(());
+        if !self.is_best() {
+            let better = built(mesh, progress)?;
+            *self.built.write().unwrap_or_else(PoisonError::into_inner) = better;
         }
-        let better = built(mesh, progress)?;
-        let bvh = Arc::clone(&better.bvh);
-        *self.built.write().unwrap_or_else(PoisonError::into_inner) = better;
-        let waiting = std::mem::take(&mut *locked(&self.waiting));
-        for Waiting {
-            place,
-            kernel,
-            level,
-        } in waiting
-        {
-            place.replace(|| kernel.intersector(mesh, Arc::clone(&bvh), level, self.packing));
+        loop {
+            progress.check()?;
+            let next = locked(&self.waiting).pop();
+            let Some(Waiting {
+                current,
+                kernel,
+                level,
+            }) = next
+            else {
+                return Ok(());
+            };
+            current.replace(|| kernel.intersector(mesh, self.bvh(), level, self.packing));
         }
-        Ok(())
     }
 }
 
@@ -182,14 +183,14 @@ fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
 mod tests {
     use super::*;
     use crate::kernel::{default_triangle_kernel, triangle_kernel};
-    use crate::mesh::shapes::{Place as Where, sphere};
+    use crate::mesh::shapes::{Place, sphere};
     use crate::ray::Ray;
     use crate::scene::Scene;
     use glam::Vec3;
 
     /// 12·150² triangles.
     fn large() -> Scene {
-        let mesh = sphere(150, Where::UNIT);
+        let mesh = sphere(150, Place::UNIT);
         assert!(mesh.triangles.len() > LARGE);
         let options = SceneOptions {
             first_tree: FirstTree::Quick,

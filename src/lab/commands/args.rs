@@ -82,7 +82,7 @@ impl KernelArg {
 /// How triangles are kept for tracing.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct PackingArg {
-    /// Keep triangles in a third less memory; rays take longer
+    /// Keep triangles and their tree in a third less memory; rays take longer
     #[arg(long)]
     pub compact: bool,
 }

@@ -125,8 +125,7 @@ impl App {
             },
             integrator: self.settings.integrator(),
             samples: self.settings.samples,
-            shows_best_tree: self.settings.integrator().depends_on_tree()
-                && self.document.loaded.scene.has_best_tree(),
+            shows_last_tree: self.shows_last_tree(),
         }
     }
 

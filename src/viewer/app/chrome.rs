@@ -200,7 +200,10 @@ impl App {
             format!("{:.1} s", status.lasted.as_secs_f64()),
         ];
         // Both as the median, and what 99 of 100 don't exceed.
-        for (name, times) in [("frame", status.frame_interval), ("UI", self.ui_time())] {
+        for (name, times) in [
+            ("frame", status.frame_interval),
+            ("UI", self.ui_times.median_and_99th()),
+        ] {
             if let Some([median, most]) = times.map(|times| times.map(|t| t.as_secs_f64() * 1e3)) {
                 parts.push(format!("{name} {median:.0}, 99 % {most:.0} ms"));
             }

@@ -20,7 +20,7 @@ use crate::overlay::OverlayLayer;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::times::Times;
-use crate::tracer::Tracer;
+use crate::tracer::{Request, Tracer};
 use crate::trade::Trade;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
@@ -139,14 +139,19 @@ impl App {
 
     /// Whether the picture has all its samples and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
+        let is_wanted = |request: &Request| {
+            Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
+                && request.shows_last_tree == self.shows_last_tree()
+        };
         self.loading.is_none()
             && self.document.has_last_tree()
-            && self.tracer.is_complete(&self.document.loaded.scene)
+            && self.tracer.posted().is_some_and(is_wanted)
+            && self.tracer.film().is_complete()
     }
 
-    /// What the window's thread spends on a frame: the median, and what 99 of 100 don't exceed.
-    fn ui_time(&self) -> Option<[Duration; 2]> {
-        self.ui_times.median_and_99th()
+    /// Whether the view is of what rays cost with the tree that stays.
+    fn shows_last_tree(&self) -> bool {
+        self.settings.integrator().depends_on_tree() && self.document.has_last_tree()
     }
 
     /// Whether refinement stands still by the user's wish.
@@ -228,6 +233,7 @@ impl App {
             loading.cancel();
         }
         self.trade = None;
+        self.document.stop_improving();
         self.tracer.stop();
     }
 

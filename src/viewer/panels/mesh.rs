@@ -46,11 +46,7 @@ pub fn mesh_ui(
     }
     place_ui(ui, loaded);
     cost_ui(ui, document);
-    // The built-in scene is made once, and small.
-    let checkbox = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
-    let hint = "A third less memory; rays take longer. Loads the file again.";
-    let checkbox = ui.add_enabled(document.path.is_some(), checkbox);
-    if checkbox.on_hover_text(hint).changed() {
+    if packing_ui(ui, document, settings) {
         actions.push(Action::Reload);
     }
     let mesh = document.loaded.scene.mesh();
@@ -96,6 +92,15 @@ fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
             format!("{:.1e} at most", loaded.max_rounding),
         );
     });
+}
+
+/// Speed or memory; whether the choice changed.
+fn packing_ui(ui: &mut egui::Ui, document: &Document, settings: &mut Settings) -> bool {
+    let hint = "Tree and triangles take a third less memory, rays more time. Loads the file again.";
+    let checkbox = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
+    // The built-in scene is made once, and small.
+    let response = ui.add_enabled(document.path.is_some(), checkbox);
+    response.on_hover_text(hint).changed()
 }
 
 fn cost_ui(ui: &mut egui::Ui, document: &Document) {

@@ -6,7 +6,7 @@ use super::blocks::{BlockValues, Blocks, Scratch, candidates};
 use super::compact::{EmptyLanes, Packing};
 use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
 use crate::bvh::{Bvh, Stack, with_stack};
-use crate::kernel::{Kernel, KernelInfo, RayLanes};
+use crate::kernel::{Kernel, KernelInfo, MOST_VALUES, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, PACKET};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
@@ -35,6 +35,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         level: SimdLevel,
         packing: Packing,
     ) -> Self {
+        const { assert!(K::VALUES <= MOST_VALUES) };
         let empty = EmptyLanes::Nothing;
         Self {
             blocks: Blocks::new(mesh, bvh, packing, K::VALUES, empty, K::pack::<N>),
@@ -146,12 +147,8 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
 
     #[inline(always)]
     fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
-        let Tester {
-            ray: prepared,
-            t_min,
-            ..
-        } = self.tester(token, ray, &mut Scratch::new());
-        let t_max = Lane::of(token, ray.t_max);
+        let prepared = K::prepare(&RayLanes::of(token, ray));
+        let (t_min, t_max) = (Lane::of(token, ray.t_min), Lane::of(token, ray.t_max));
         let (mut count, mut scratch) = (0, Scratch::new());
         // A plain loop: what an iterator calls may lose the CPU's features.
         for block in 0..self.blocks.bvh.block_count() {

@@ -1,6 +1,6 @@
 //! What is done with the blocks that a ray meets, for a kernel that decides about each triangle by itself.
 
-use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor, rank_floor};
+use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor, rank, rank_floor};
 use crate::intersector::Cost;
 use crate::intersector::blocks::{BlockValues, Blocks, Scratch, boxes, is_asked};
 use crate::kernel::Kernel;
@@ -93,7 +93,7 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
             lanes &= lanes - 1;
             let (t, primitive) = (t[lane], primitives[lane]);
             let floor = N::from(rank_floor(entries[lane]));
-            let rank = if t < floor { floor } else { t };
+            let rank = rank(t, floor);
             // What is farther than f32's largest number is a miss.
             if rank < self.end && t.to_f32() < f32::INFINITY && is_asked(primitive, self.exclude) {
                 found(Found {

@@ -14,12 +14,12 @@ mod watertight;
 pub use bounds::triangle_bounds;
 pub(crate) use shear::ShearedRay;
 
-use super::{Kernel, KernelInfo, OneTriangle, RayLanes};
+use super::{Kernel, KernelInfo, MOST_VALUES, OneTriangle, RayLanes};
 use crate::bvh::Bvh;
 use crate::intersector::exact::ExactIntersector;
 use crate::intersector::mesh::MeshIntersector;
 use crate::intersector::{Intersector, Packing};
-use crate::lane::{Number, Stored};
+use crate::lane::Number;
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::simd::SimdLevel;
@@ -96,7 +96,7 @@ impl TriangleKernel {
     }
 
     /// Tests one triangle in scalar arithmetic, with the bits that the SIMD lanes give. The hit's
-    /// `primitive` is 0; what the ray excludes is not excluded.
+    /// `primitive` is 0; what the ray excludes is not excluded, and the triangle's box isn't asked.
     pub fn intersect(&self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
         (self.one)(ray, corners)
     }
@@ -139,8 +139,7 @@ pub fn exact_triangle_kernel() -> &'static TriangleKernel {
 }
 
 fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
-    const { assert!(K::VALUES <= MOST_VALUES) };
-    let mut values = [<K::Stored<N> as Stored<N>>::NO_TRIANGLE; MOST_VALUES];
+    let mut values = [K::Stored::<N>::default(); MOST_VALUES];
     K::pack::<N>(corners, &mut values[..K::VALUES]);
     let prepared = K::prepare::<N>(&RayLanes::of((), ray));
     let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);
@@ -153,9 +152,6 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<
         primitive: 0,
     })
 }
-
-/// As many values as any kernel keeps of a triangle.
-const MOST_VALUES: usize = 18;
 
 #[cfg(test)]
 mod tests {

@@ -10,7 +10,8 @@
 //!   less than some 2⁻⁵⁰ of their length.
 //! Doesn't promise: in f32, accurate t and weights at the lower end of that, where the products are
 //!   nearly subnormal; an answer for triangles of zero area (they are dropped at load); the right
-//!   triangle of two where rounding the sheared vertices moves an edge across the ray.
+//!   triangle of two where rounding the sheared vertices moves an edge across the ray; a hit beside the box
+//!   of a needle that is seen along its length (see `bvh/slab.rs`; none was found).
 //!
 //! Why no ray slips through: a vertex is moved to 2D by the same operations whichever triangle it
 //! belongs to, and the two neighbours of an edge compute its edge function from the same two points.
