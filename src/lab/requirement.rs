@@ -9,6 +9,7 @@ use hitscope_core::camera::Turntable;
 use hitscope_core::kernel::Tier;
 use hitscope_core::mesh::{Health, SAFE_SIZE, SLIVER_ASPECT};
 use serde::Serialize;
+use std::cmp::Reverse;
 
 /// Distance over a triangle's size from which f32 decides more than one ray in a thousand wrongly.
 const FAR_FOR_F32: f64 = 1e4;
@@ -66,21 +67,28 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     }
     let offset = mesh.origin.length();
     if size > 0.0 && offset > FAR_OUT * size {
-        found.reasons.push(format!(
+        found.say(None, format!(
             "the file's coordinates lie {:.0e} sizes from (0, 0, 0): they are traced about an origin near the mesh, where no kernel minds",
             offset / size
         ));
     }
+    // What asks for the most comes first.
+    found.reasons.sort_by_key(|(tier, _)| Reverse(*tier));
+    let tier = found.reasons.first().and_then(|(tier, _)| *tier);
     Requirement {
-        tier: found.tier.unwrap_or(Tier::Fast).name(),
-        reasons: found.reasons,
+        tier: tier.unwrap_or(Tier::Fast).name(),
+        reasons: found
+            .reasons
+            .into_iter()
+            .map(|(_, reason)| reason)
+            .collect(),
     }
 }
 
 #[derive(Default)]
 struct Findings {
-    tier: Option<Tier>,
-    reasons: Vec<String>,
+    /// Which tier each asks for, if any.
+    reasons: Vec<(Option<Tier>, String)>,
 }
 
 impl Findings {
@@ -105,8 +113,11 @@ impl Findings {
     }
 
     fn add(&mut self, tier: Tier, reason: impl Into<String>) {
-        self.tier = self.tier.max(Some(tier));
-        self.reasons.push(reason.into());
+        self.say(Some(tier), reason);
+    }
+
+    fn say(&mut self, tier: Option<Tier>, reason: impl Into<String>) {
+        self.reasons.push((tier, reason.into()));
     }
 }
 

@@ -21,8 +21,6 @@ const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(
 const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration::from_millis(20);
 /// What the window spends on collecting tiles in one go.
 const COLLECTING: Duration = Duration::from_millis(6);
-/// Views that follow each other within this time are frames of a movement.
-const MOVING: Duration = Duration::from_millis(500);
 /// Refinement begins when the view has been at rest for this long; until then the processor is left
 /// to drawing the window, which takes most of it where there is no GPU.
 const REST: Duration = Duration::from_millis(80);
@@ -99,6 +97,8 @@ pub struct Tracer {
     is_paused: bool,
     /// Until the view has been at rest.
     is_held: bool,
+    /// Since the last view.
+    has_rested: bool,
     /// Whether tiles are shown before their pass is done.
     shows_parts: bool,
     non_finite: u64,
@@ -121,6 +121,7 @@ impl Tracer {
             busy_secs: 0.0,
             is_paused: false,
             is_held: false,
+            has_rested: true,
             shows_parts: false,
             non_finite: 0,
         }
@@ -162,13 +163,14 @@ impl Tracer {
         let interval = self.shown_at.map(|last| now - last);
         self.shown_at = Some(now);
         match interval {
-            Some(interval) if interval < MOVING => {
+            Some(interval) if !self.has_rested => {
                 self.frame_intervals.push(interval);
                 self.adapt(interval);
             }
             // After a rest another movement begins.
             _ => self.frame_intervals.clear(),
         }
+        self.has_rested = false;
     }
 
     /// Gives the first pass more or less time, by what a frame took with the present one.
@@ -197,6 +199,8 @@ impl Tracer {
             ctx.request_repaint_after(REST - since);
         } else {
             self.is_held = false;
+            // A first pass that takes that long is a slow frame, no rest.
+            self.has_rested = self.film.passes_done() > 0;
             self.apply_pause();
         }
     }

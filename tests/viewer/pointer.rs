@@ -1,6 +1,6 @@
 //! The pointer on the picture of the real app.
 
-use crate::harness::{Window, app, app_scaled, bare, in_picture, press};
+use crate::harness::{Window, app, app_scaled, bare, in_picture, press, wait};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2};
 use egui_kittest::kittest::Queryable as _;
 use glam::Vec2;
@@ -110,6 +110,8 @@ fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
         let (x, y) = on_the_mesh(&window);
         let place = in_picture(&window, x, y);
         click(&mut window, place);
+        wait(&mut window, "the pick", |app| app.inspection().is_some());
+        window.run_steps(2);
         let film = window.state().film().size();
         let found = window.state().inspection().expect("a pick").clone();
         let expected = (film.as_vec2() * Vec2::new(x, y)).as_uvec2();
@@ -143,6 +145,7 @@ fn a_miss_is_inspected_too_and_escape_clears_it() {
     let Some(mut window) = app(None) else { return };
     let corner = in_picture(&window, 0.01, 0.01);
     click(&mut window, corner);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
     let found = window.state().inspection().expect("a pick");
     assert!(found.hit.is_none() && found.exact.is_none());
     press(&mut window, Key::Escape);

@@ -44,7 +44,7 @@ impl App {
             || self.open_dialog.dismiss()
             || self.notice.take().is_some();
         if !is_closed {
-            self.pick = None;
+            (self.pick, self.picking) = (None, None);
         }
     }
 }

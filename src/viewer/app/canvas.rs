@@ -4,6 +4,7 @@ use super::{App, Pick};
 use crate::overlay::Options;
 use crate::overlay::wireframe::Edges;
 use crate::settings::Tab;
+use crate::task::Task;
 use crate::tracer::Request;
 use egui::{Color32, PointerButton, Pos2, Rect, Response, Sense};
 use glam::{DVec2, DVec3, UVec2, Vec3};
@@ -163,7 +164,7 @@ impl App {
                 self.turntable.set_pivot(point);
             }
         } else if response.clicked() {
-            self.inspect(canvas.pixel_of(pos));
+            self.inspect(canvas.pixel_of(pos), ui.ctx());
         }
     }
 
@@ -174,23 +175,39 @@ impl App {
         Some(ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3())
     }
 
-    fn inspect(&mut self, at_px: DVec2) {
+    fn inspect(&mut self, at_px: DVec2, ctx: &egui::Context) {
         let pixel = at_px.max(DVec2::ZERO).as_uvec2().min(self.resolution - 1);
-        let scene = &self.document.loaded.scene;
-        let inspection = Inspection::of_pixel(
-            scene,
-            &**self.document.intersector(),
+        let scene = Arc::clone(&self.document.loaded.scene);
+        let intersector = Arc::clone(self.document.intersector());
+        let (shading, camera) = (
             self.settings.shading(),
-            &self.turntable.camera(self.resolution),
-            pixel,
+            self.turntable.camera(self.resolution),
         );
-        let origin = scene.mesh().origin;
-        let point = inspection
-            .hit
-            .as_ref()
-            .map(|hit| DVec3::from_array(hit.position) - origin);
-        self.pick = Some(Pick { inspection, point });
+        // Every kernel on every triangle that the ray comes near: a hostile mesh has a million of them.
+        let inspect = move || Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+        self.picking = Some(Task::spawn("inspect", ctx, inspect));
         self.settings.tab = Tab::Inspect;
+    }
+
+    /// Takes over what is known of the pixel that was clicked last.
+    pub(super) fn poll_picking(&mut self) {
+        let result = match self.picking.as_ref().map(Task::poll) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(inspection))) => Ok(inspection),
+            Some(Err(broken)) => Err(broken),
+        };
+        self.picking = None;
+        match result {
+            Ok(inspection) => {
+                let origin = self.document.loaded.scene.mesh().origin;
+                let point = inspection
+                    .hit
+                    .as_ref()
+                    .map(|hit| DVec3::from_array(hit.position) - origin);
+                self.pick = Some(Pick { inspection, point });
+            }
+            Err(broken) => self.error(broken),
+        }
     }
 
     /// Traced picture, overlay, marker.

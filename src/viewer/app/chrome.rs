@@ -137,6 +137,9 @@ impl App {
                     .auto_shrink(false)
                     .show(ui, |ui| match self.settings.tab {
                         Tab::Inspect => {
+                            if self.picking.is_some() {
+                                ui.spinner();
+                            }
                             let inspection = self.pick.as_ref().map(|pick| &pick.inspection);
                             panels::inspect::inspect_ui(ui, inspection);
                         }
@@ -167,7 +170,8 @@ impl App {
                 return;
             }
         }
-        if self.resolution != UVec2::ZERO {
+        // As it is seen, and by the tree that stays.
+        if self.resolution != UVec2::ZERO && !self.is_unframed && self.document.has_last_tree() {
             let camera = self.turntable.camera(self.resolution);
             let axis = self
                 .trade

@@ -19,6 +19,7 @@ use crate::opening::{Loading, OpenDialog};
 use crate::overlay::OverlayLayer;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
+use crate::task::Task;
 use crate::times::Times;
 use crate::tracer::{Request, Tracer};
 use crate::trade::Trade;
@@ -71,6 +72,8 @@ pub struct App {
     picture: Picture,
     overlay: OverlayLayer,
     pick: Option<Pick>,
+    /// The next one, while it is looked into.
+    picking: Option<Task<Inspection>>,
     /// Made when its tab is first shown.
     trade: Option<Trade>,
     notice: Option<Notice>,
@@ -119,6 +122,7 @@ impl App {
             picture: Picture::new(&render_state),
             overlay: OverlayLayer::new(render_state),
             pick: None,
+            picking: None,
             trade: None,
             notice: None,
             shows_help: false,
@@ -240,7 +244,7 @@ impl App {
     fn show(&mut self, document: Document, ctx: &egui::Context) {
         let is_same_file = self.document.path == document.path;
         self.document = document;
-        self.pick = None;
+        (self.pick, self.picking) = (None, None);
         self.trade = None;
         if is_same_file {
             self.turntable
@@ -290,6 +294,7 @@ impl eframe::App for App {
         }
         self.poll_loading(ctx);
         self.poll_gpu_errors();
+        self.poll_picking();
         if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
             self.error(broken);
             self.settings.kernel = self.document.intersector().kernel().name.to_owned();
