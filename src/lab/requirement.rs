@@ -158,7 +158,7 @@ mod tests {
         assert_eq!(required(sphere(4, Place::UNIT)).tier, "watertight");
         let tiny = required(sphere(4, Place::new(1e-20, 0.0)));
         assert_eq!(tiny.tier, "precise");
-        assert!(tiny.reasons[1].contains("f32's range"), "{tiny:?}");
+        assert!(tiny.reasons[0].contains("f32's range"), "{tiny:?}");
         let thin = Vec3::new(0.5, 1e-5, 0.0);
         let sliver = required(soup(&[[Vec3::ZERO, Vec3::X, thin], corners]));
         assert_eq!(sliver.tier, "precise");

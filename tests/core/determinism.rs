@@ -5,9 +5,14 @@ use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::INTEGRATORS;
+use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::mesh::shapes::{Place, sphere};
+use hitscope_core::progress::Progress;
 use hitscope_core::render::plan::{Plan, STEPS};
 use hitscope_core::render::{Job, Message, Renderer, render};
-use hitscope_core::scene::Shading;
+use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
+use hitscope_core::{Intersector, Scene};
+use std::sync::Arc;
 
 /// Several tiles, the last ones cut off.
 const SIZE: UVec2 = UVec2::new(131, 101);
@@ -81,4 +86,36 @@ fn what_was_rendered_before_leaves_no_trace() {
     assert_eq!(forwards, pictures);
     let alone = views.map(|view| rendered(picture(view, 8), 1));
     assert_eq!(forwards, alone);
+}
+
+/// A picture of a large mesh, which begins with one tree or another.
+fn large_picture(first_tree: FirstTree) -> Job {
+    let options = SceneOptions {
+        first_tree,
+        ..SceneOptions::default()
+    };
+    let mesh = sphere(150, Place::UNIT);
+    let scene = Scene::with_options(mesh, options, &Progress::default()).expect("nobody cancels");
+    let scene = Arc::new(scene);
+    let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
+    let mut picture = picture("shaded", 4);
+    picture.context.second = Arc::clone(&intersector);
+    picture.context.intersector = intersector;
+    picture.context.scene = scene;
+    picture
+}
+
+#[test]
+fn a_better_tree_takes_the_first_ones_place_under_a_running_picture() {
+    let expected = rendered(large_picture(FirstTree::Best), 2);
+    assert!(expected.iter().any(|pixel| *pixel != expected[0]));
+    let job = large_picture(FirstTree::Quick);
+    let scene = Arc::clone(&job.context.scene);
+    assert!(!scene.has_best_tree());
+    let found = std::thread::scope(|threads| {
+        threads.spawn(|| scene.improve(&Progress::default()));
+        rendered(job, 2)
+    });
+    assert!(scene.has_best_tree());
+    assert!(found == expected);
 }

@@ -110,7 +110,7 @@ impl Turntable {
     /// Turns by a drag, in pixels to the right and down.
     pub fn orbit(&mut self, drag_px: DVec2, resolution: UVec2) {
         let angle = drag_px * Self::RADIANS_PER_HEIGHT / f64::from(resolution.y.max(1));
-        self.yaw_radians = (self.yaw_radians - angle.x).rem_euclid(TAU);
+        self.turn(-angle.x);
         self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
@@ -388,11 +388,8 @@ mod tests {
 
     #[test]
     fn a_scene_of_one_point_or_of_nothing_can_be_looked_at() {
-        for bounds in [
-            Aabb::EMPTY,
-            Aabb::around([Vec3::ZERO]),
-            Aabb::around([Vec3::splat(1e7)]),
-        ] {
+        let points = [Vec3::ZERO, Vec3::splat(1e7)].map(|point| Aabb::around([point]));
+        for bounds in [Aabb::EMPTY, points[0], points[1]] {
             let turntable = Turntable::framing(bounds, SIZE);
             assert!(turntable.distance > 0.0);
             turntable.camera(UVec2::ZERO);
