@@ -4,8 +4,9 @@
     tests/bench_table.py [--binary HITSCOPE]... [--threads N]... MESH.obj [camera options]...
 
 Several binaries (say, one built for any CPU and one with RUSTFLAGS=-Ctarget-cpu=native) and several thread
-counts are measured in turn. Rates are million rays a second and thread, by CPU time, medians; the ratios
-are of kernels measured in the same run. Camera options are those of `hitscope bench --help`.
+counts are measured in turn. Rates are million rays a second of all threads, by their CPU time, medians;
+the ratios are of kernels measured in the same run, rays one by one. Camera options are those of
+`hitscope bench --help`.
 """
 import argparse
 import json
@@ -24,21 +25,28 @@ def megabytes(count):
     return "unknown" if count is None else f"{count / 1e6:.0f} MB"
 
 
+def workload(row):
+    """The rays' name; those that go through the tree together are another workload."""
+    return row["name"] if row["rays_together"] == 1 else f"{row['name']} × {row['rays_together']}"
+
+
 def print_report(title, report):
     print(f"\n## {title}: {report['triangles']} triangles, SIMD {report['simd']}\n")
     print(f"load {report['load_ms']:.0f} ms, tree {report['build_ms']:.1f} ms, quick tree "
           f"{report['quick_build_ms']:.1f} ms; {report['bytes_per_triangle']:.1f} bytes a triangle; "
           f"peak {megabytes(report['peak_rss_bytes'])}\n")
-    names = list(dict.fromkeys(row["name"] for row in report["workloads"]))
+    names = list(dict.fromkeys(workload(row) for row in report["workloads"]))
     kernels = list(dict.fromkeys(row["kernel"] for row in report["workloads"]))
-    rate = {(row["kernel"], row["name"]): row["mrays_per_s"] for row in report["workloads"]}
+    rate = {(row["kernel"], workload(row)): row["mrays_per_s"] for row in report["workloads"]}
+    rate_text = lambda key: f"{rate[key]:.2f}" if key in rate else "–"
+    ratio_text = lambda a, b: f"{rate[a] / rate[b]:.2f}" if a in rate and b in rate else "–"
     print("| Mrays/s | " + " | ".join(names) + " |")
     print("|---|" + "---|" * len(names))
     for kernel in kernels:
-        print(f"| {kernel} | " + " | ".join(f"{rate[kernel, name]:.2f}" for name in names) + " |")
+        print(f"| {kernel} | " + " | ".join(rate_text((kernel, name)) for name in names) + " |")
     for kernel, base, bar in RATIOS:
         if kernel in kernels and base in kernels:
-            ratios = (f"{rate[kernel, name] / rate[base, name]:.2f}" for name in names)
+            ratios = (ratio_text((kernel, name), (base, name)) for name in names)
             print(f"| {kernel} / {base}, to reach {bar:.2f} | " + " | ".join(ratios) + " |")
 
 
@@ -46,7 +54,7 @@ def print_scaling(first, other, threads):
     print(f"\n{threads[1]} threads against {threads[0]}, all together:", end=" ")
     for a, b in zip(first["workloads"], other["workloads"]):
         ratio = b["mrays_per_s_wall"] / a["mrays_per_s_wall"]
-        print(f"{a['kernel']} {a['name']} {ratio:.2f}", end="; ")
+        print(f"{a['kernel']} {workload(a)} {ratio:.2f}", end="; ")
     print()
 
 

@@ -21,6 +21,8 @@ const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(
 const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration::from_millis(20);
 /// What the window spends on collecting tiles in one go.
 const COLLECTING: Duration = Duration::from_millis(6);
+/// A picture that stands for longer ends a movement.
+const LOOK: Duration = Duration::from_millis(250);
 /// Refinement begins when the view has been at rest for this long; until then the processor is left
 /// to drawing the window, which takes most of it where there is no GPU.
 const REST: Duration = Duration::from_millis(80);
@@ -97,7 +99,7 @@ pub struct Tracer {
     is_paused: bool,
     /// Until the view has been at rest.
     is_held: bool,
-    /// Since the last view.
+    /// Whether the last view was looked at before the next one was asked for.
     has_rested: bool,
     /// Whether tiles are shown before their pass is done.
     shows_parts: bool,
@@ -170,7 +172,6 @@ impl Tracer {
             // After a rest another movement begins.
             _ => self.frame_intervals.clear(),
         }
-        self.has_rested = false;
     }
 
     /// Gives the first pass more or less time, by what a frame took with the present one.
@@ -199,8 +200,6 @@ impl Tracer {
             ctx.request_repaint_after(REST - since);
         } else {
             self.is_held = false;
-            // A first pass that takes that long is a slow frame, no rest.
-            self.has_rested = self.film.passes_done() > 0;
             self.apply_pause();
         }
     }
@@ -251,6 +250,8 @@ impl Tracer {
             self.shows_parts = true;
         }
         self.non_finite = 0;
+        // Until then it took as long as it took: that is a slow frame, no rest.
+        self.has_rested = self.shown_at.is_none_or(|at| at.elapsed() > LOOK);
         self.is_held = true;
         self.apply_pause();
         self.renderer.post(Job {

@@ -38,7 +38,7 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     };
     ui.label(
         RichText::new(format!(
-            "{} camera and bounce rays against exact arithmetic; speed in CPU time of one thread.",
+            "{} camera and bounce rays against exact arithmetic. Speed: CPU time beside that of fast, a mean of camera, bounce and random rays.",
             first.n
         ))
         .weak(),
