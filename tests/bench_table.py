@@ -12,7 +12,7 @@ import argparse
 import json
 import subprocess
 
-# Kernel, the one it is held against, and how much of its rate it is to reach (README, "What speed costs").
+# Kernel, the one it is held against, and how much of its rate hitscope wants it to reach.
 RATIOS = [("precise", "fast", 0.70), ("exact", "watertight", 0.87), ("watertight", "fast", 1 / 1.15)]
 
 
