@@ -73,7 +73,7 @@ impl Document {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
-        let loaded = LoadedScene::load_with(path, Recentre::Auto, options, progress)?;
+        let loaded = LoadedScene::load(path, Recentre::Auto, options, progress)?;
         Ok(Self::new(Some(path.to_owned()), loaded, kernel))
     }
 

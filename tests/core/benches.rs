@@ -7,12 +7,12 @@ use divan::{Bencher, black_box};
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
 use hitscope_core::intersector::{Intersector, Packing};
-use hitscope_core::kernel::{TriangleKernel, triangle_bounds, triangle_kernel};
+use hitscope_core::kernel::{TriangleKernel, bounds_in, triangle_kernel};
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, scene, soup, torus};
 use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
-use hitscope_core::{Aabb, Hit, Ray, Scene};
+use hitscope_core::{Hit, Ray, Scene};
 use std::sync::{Arc, LazyLock};
 
 /// The tiers, and the lecture's methods with Baldwin–Weber.
@@ -165,8 +165,4 @@ fn pack(bencher: Bencher<'_, '_>, name: &str) {
             let (bvh, level) = (Arc::clone(&bvh), SimdLevel::current());
             kernel(name).intersector(mesh, bvh, level, Packing::Full)
         });
-}
-
-fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
-    |triangle| triangle_bounds(mesh.corners(triangle))
 }

@@ -10,7 +10,7 @@ use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Camera, Hit, Ray, Scene};
 
 /// A hit's bits, so that a −0 isn't a 0 and a NaN is one.
-fn bits(hit: &Option<Hit>) -> Option<[u32; 4]> {
+pub fn bits(hit: &Option<Hit>) -> Option<[u32; 4]> {
     hit.map(|h| [h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.primitive])
 }
 

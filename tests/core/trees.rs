@@ -3,15 +3,16 @@
 //!
 //! The yardstick is a tree whose boxes all hold everything, so that every triangle is asked about every ray.
 
+use crate::simd::bits;
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
 use hitscope_core::intersector::{Intersector, Packing};
-use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_bounds};
+use hitscope_core::kernel::{TRIANGLE_KERNELS, bounds_in, triangle_bounds};
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Place, soup, torus};
 use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
-use hitscope_core::{Aabb, Hit, Ray};
+use hitscope_core::{Aabb, Ray};
 use std::sync::Arc;
 
 /// Long thin triangles across each other, at all angles and of all sizes: what f32 kernels are worst at.
@@ -68,10 +69,6 @@ fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
     aimed.flatten().collect()
 }
 
-fn bits(hit: &Option<Hit>) -> Option<[u32; 4]> {
-    hit.map(|h| [h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.primitive])
-}
-
 /// What a tree gives: the nearest hits, one by one and together, and whether there are any.
 fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)> {
     let (mut hits, mut together) = (vec![None; rays.len()], vec![None; rays.len()]);
@@ -83,10 +80,7 @@ fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)
     for (ray, hit) in rays.iter().zip(&hits).step_by(7) {
         assert_eq!(bits(&tree.closest_hit_with_cost(ray).0), bits(hit));
     }
-    assert!(
-        any.iter()
-            .eq(hits.iter().map(Option::is_some).collect::<Vec<_>>().iter())
-    );
+    assert!(hits.iter().map(Option::is_some).eq(any.iter().copied()));
     hits.iter().map(bits).zip(any).collect()
 }
 
@@ -97,14 +91,13 @@ fn every_tree_and_packing_give_every_kernel_the_same_bits() {
     let meshes = [needles(&mut random), layers(&mut random), far_ring];
     for (m, mesh) in meshes.iter().enumerate() {
         let rays = rays(mesh, &mut random);
-        let bounds_of = |triangle| triangle_bounds(mesh.corners(triangle));
         let count = mesh.triangles.len();
-        let all = (0..count as u32).map(bounds_of);
+        let all = (0..count as u32).map(bounds_in(mesh));
         let everything = all.fold(Aabb::EMPTY, Aabb::union);
         let built = [
             Bvh::build(count, |_| everything, &|| Ok(())),
-            Bvh::build(count, bounds_of, &|| Ok(())),
-            Bvh::build_quickly(count, bounds_of, &|| Ok(())),
+            Bvh::build(count, bounds_in(mesh), &|| Ok(())),
+            Bvh::build_quickly(count, bounds_in(mesh), &|| Ok(())),
         ];
         let trees = built.map(|tree| Arc::new(tree.expect("nobody cancels")));
         for kernel in TRIANGLE_KERNELS {

@@ -10,7 +10,7 @@ pub(crate) use ray_lanes::{RayLanes, axes_of};
 pub use triangle::exact::exact_answer;
 pub(crate) use triangle::{ShearedRay, exact};
 pub use triangle::{
-    TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, exact_triangle_kernel,
+    TRIANGLE_KERNELS, TriangleKernel, bounds_in, default_triangle_kernel, exact_triangle_kernel,
     triangle_bounds, triangle_kernel,
 };
 

@@ -155,15 +155,7 @@ impl LoadedScene {
     ///
     /// # Errors
     /// See [`LoadError`].
-    pub fn load(path: &Path, recentre: Recentre, progress: &Progress) -> Result<Self, LoadError> {
-        Self::load_with(path, recentre, SceneOptions::default(), progress)
-    }
-
-    /// Loads an OBJ file as a scene with these options.
-    ///
-    /// # Errors
-    /// See [`LoadError`].
-    pub fn load_with(
+    pub fn load(
         path: &Path,
         recentre: Recentre,
         options: SceneOptions,

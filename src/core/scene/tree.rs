@@ -1,10 +1,9 @@
 //! The tree over a scene's triangles, and the better one that takes its place.
 
-use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::improving::{Current, Improving, WeakCurrent};
 use crate::intersector::{Intersector, Packing};
-use crate::kernel::{TriangleKernel, triangle_bounds};
+use crate::kernel::{TriangleKernel, bounds_in};
 use crate::mesh::TriangleMesh;
 use crate::progress::{Cancelled, Progress};
 use crate::simd::SimdLevel;
@@ -69,10 +68,14 @@ impl Tree {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let is_best = options.first_tree == FirstTree::Best || mesh.triangles.len() < LARGE;
-        let build = if is_best { built } else { built_quickly };
+        let is_large = mesh.triangles.len() >= LARGE;
+        let first = if is_large {
+            options.first_tree
+        } else {
+            FirstTree::Best
+        };
         Ok(Self {
-            built: RwLock::new(build(mesh, progress)?),
+            built: RwLock::new(built(mesh, first, progress)?),
             packing: options.packing,
             turn: Mutex::default(),
             waiting: Mutex::default(),
@@ -130,7 +133,7 @@ impl Tree {
         // One builds, others wait for it.
         let _turn = locked(&self.turn);
         if !self.is_best() {
-            let better = built(mesh, progress)?;
+            let better = built(mesh, FirstTree::Best, progress)?;
             *self.built.write().unwrap_or_else(PoisonError::into_inner) = better;
         }
         loop {
@@ -154,29 +157,18 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn built(mesh: &TriangleMesh, progress: &Progress) -> Result<Built, Cancelled> {
-    let start = Instant::now();
-    let bvh = Bvh::build(mesh.triangles.len(), bounds_in(mesh), &|| progress.check())?;
+fn built(mesh: &TriangleMesh, tree: FirstTree, progress: &Progress) -> Result<Built, Cancelled> {
+    let (start, count) = (Instant::now(), mesh.triangles.len());
+    let (bounds_of, keep_going) = (bounds_in(mesh), || progress.check());
+    let bvh = match tree {
+        FirstTree::Best => Bvh::build(count, bounds_of, &keep_going)?,
+        FirstTree::Quick => Bvh::build_quickly(count, bounds_of, &keep_going)?,
+    };
     Ok(Built {
         bvh: Arc::new(bvh),
         time: start.elapsed(),
-        is_best: true,
+        is_best: tree == FirstTree::Best,
     })
-}
-
-fn built_quickly(mesh: &TriangleMesh, progress: &Progress) -> Result<Built, Cancelled> {
-    let start = Instant::now();
-    let count = mesh.triangles.len();
-    let bvh = Bvh::build_quickly(count, bounds_in(mesh), &|| progress.check())?;
-    Ok(Built {
-        bvh: Arc::new(bvh),
-        time: start.elapsed(),
-        is_best: false,
-    })
-}
-
-fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
-    |triangle| triangle_bounds(mesh.corners(triangle))
 }
 
 #[cfg(test)]

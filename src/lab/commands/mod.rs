@@ -91,7 +91,7 @@ pub fn load(
     recentre: Recentre,
     options: SceneOptions,
 ) -> Result<LoadedScene, LoadError> {
-    let loaded = LoadedScene::load_with(path, recentre, options, &Progress::default())?;
+    let loaded = LoadedScene::load(path, recentre, options, &Progress::default())?;
     if io::stderr().is_terminal() {
         let triangles = loaded.scene.mesh().triangles.len();
         let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;

@@ -7,6 +7,7 @@
 use crate::aabb::{Aabb, Planes};
 use crate::kernel::Values;
 use crate::lane::{Lane, Number, plus};
+use crate::mesh::TriangleMesh;
 use glam::Vec3;
 
 /// The box of a triangle in the tree: around its corners, and around those that a kernel finds again from
@@ -15,11 +16,15 @@ pub fn triangle_bounds([a, b, c]: [Vec3; 3]) -> Aabb {
     Aabb::around([a, b, c, a + (b - a), a + (c - a)])
 }
 
-/// The box around corners that were packed from `first` on.
+/// [`triangle_bounds`] of each of a mesh's triangles: what a tree over it is built from.
+pub fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
+    |triangle| triangle_bounds(mesh.corners(triangle))
+}
+
+/// The box around A, B and C, packed from the first value on.
 #[inline(always)]
-pub(super) fn around_corners<L: Lane>(triangles: &impl Values<L>, first: usize) -> Planes<L> {
-    let corner = |k: usize| triangles.three(first + 3 * k);
-    around([corner(0), corner(1), corner(2)])
+pub(super) fn around_corners<L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
+    around([triangles.three(0), triangles.three(3), triangles.three(6)])
 }
 
 /// The box around A, A + e1 and A + e2, packed from the first value on.

@@ -11,7 +11,7 @@ mod plane_projection;
 mod shear;
 mod watertight;
 
-pub use bounds::triangle_bounds;
+pub use bounds::{bounds_in, triangle_bounds};
 pub(crate) use shear::ShearedRay;
 
 use super::{Kernel, KernelInfo, MOST_VALUES, OneTriangle, RayLanes};

@@ -53,7 +53,7 @@ impl Kernel for MollerTrumbore {
     #[inline(always)]
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
         if N::HOLDS_PRODUCTS {
-            bounds::around_corners(triangles, 0)
+            bounds::around_corners(triangles)
         } else {
             bounds::around_edges(triangles)
         }

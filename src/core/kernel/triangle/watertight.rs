@@ -70,7 +70,7 @@ impl Kernel for Watertight {
 
     #[inline(always)]
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        bounds::around_corners(triangles, 0)
+        bounds::around_corners(triangles)
     }
 
     #[inline(always)]
