@@ -1,8 +1,9 @@
 //! What is the surface like at a hit?
 
+use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
 
 /// A hit, and what the mesh says of that place.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -25,7 +26,7 @@ impl SurfaceInteraction {
         let shading_normal = match shading {
             Shading::Flat => geometric_normal,
             Shading::Smooth => {
-                let corners = scene.vertex_normals().of_triangle(hit.primitive);
+                let corners = scene.vertex_normals().of_triangle(mesh, hit.primitive);
                 weighted(weights, corners)
                     .try_normalize()
                     .unwrap_or(geometric_normal)
@@ -34,11 +35,7 @@ impl SurfaceInteraction {
         Self {
             geometric_normal,
             shading_normal,
-            material: mesh
-                .material
-                .get(hit.primitive as usize)
-                .copied()
-                .unwrap_or(0),
+            material: mesh.material.of(hit.primitive),
         }
     }
 
@@ -52,6 +49,24 @@ impl SurfaceInteraction {
     }
 }
 
+/// Where on a texture a hit lies, if the file says so.
+pub fn texture_coordinates(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec2> {
+    let corners = mesh.corner_textures.get(hit.primitive as usize)?;
+    let [a, b, c] = corners.map(|index| mesh.texture_coordinates.get(index as usize).copied());
+    let [l1, l2, l3] = hit.barycentric();
+    Some(l1 * a? + l2 * b? + l3 * c?)
+}
+
+/// The colour of the vertices around a hit, sRGB, if the file gives them one.
+pub fn vertex_colour(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec3> {
+    if mesh.colours.is_empty() {
+        return None;
+    }
+    let corners = mesh.triangles[hit.primitive as usize];
+    let colours = corners.map(|vertex| mesh.colours[vertex as usize]);
+    Some(weighted(hit.barycentric(), colours))
+}
+
 /// l1·a + l2·b + l3·c.
 fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
     l1 * a + l2 * b + l3 * c
@@ -60,7 +75,6 @@ fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::TriangleMesh;
     use crate::progress::Progress;
 
     /// A triangle in z = 0 whose corners have normals of their own.

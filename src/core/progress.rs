@@ -57,8 +57,7 @@ impl Progress {
         }
     }
 
-    /// Asks the loading thread to stop. It looks every few thousand steps, but not while tobj numbers
-    /// the vertices at the end of the file: there it may take a second for a million triangles.
+    /// Asks the loading thread to stop. It looks every few thousand steps.
     pub fn cancel(&self) {
         self.cancelled.store(true, Relaxed);
     }
@@ -81,6 +80,11 @@ impl Progress {
 
     pub(crate) fn add_read(&self, bytes: u64) {
         self.bytes_read.fetch_add(bytes, Relaxed);
+    }
+
+    /// The file is read once more.
+    pub(crate) fn restart(&self) {
+        self.bytes_read.store(0, Relaxed);
     }
 
     pub(crate) fn enter(&self, phase: Phase) {

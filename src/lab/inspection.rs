@@ -166,18 +166,21 @@ impl HitReport {
     pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
         let surface = SurfaceInteraction::new(scene, hit, shading);
-        let index = hit.primitive as usize;
+        let material = mesh.material_of(hit.primitive);
+        let group = mesh.groups.get(mesh.group.of(hit.primitive) as usize);
         Self {
             t: hit.t,
             barycentric: hit.barycentric(),
             triangle: hit.primitive,
-            face: mesh.faces[index],
+            face: mesh.face_of(hit.primitive),
             position: position_in_file(mesh, &hit),
             geometric_normal: surface.geometric_normal.to_array(),
             shading_normal: surface.shading_normal.to_array(),
-            vertices: mesh.corners(hit.primitive).map(|p| in_file(mesh, p)),
-            material: mesh.materials[mesh.material[index] as usize].name.clone(),
-            group: mesh.groups[mesh.group[index] as usize].clone(),
+            vertices: mesh
+                .corners(hit.primitive)
+                .map(|p| mesh.vertex_in_file(p).to_array()),
+            material: material.map_or_else(String::new, |material| material.name.clone()),
+            group: group.cloned().unwrap_or_default(),
         }
     }
 }

@@ -7,7 +7,7 @@ use glam::UVec2;
 use hitscope_core::Scene;
 use hitscope_core::camera::Turntable;
 use hitscope_core::kernel::Tier;
-use hitscope_core::mesh::{Health, SAFE_SIZE, SLIVER_ASPECT};
+use hitscope_core::mesh::{Flaw, Health, SAFE_SIZE, SLIVER_ASPECT};
 use serde::Serialize;
 use std::cmp::Reverse;
 
@@ -50,7 +50,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
         };
         found.add(tier, format!(
             "{} sliver(s), up to {:.0e} times longer than high: f32 decides some of their rays wrongly",
-            health.slivers, health.max_aspect
+            health.count(Flaw::Sliver), health.max_aspect
         ));
     }
     if let Some(distance) = distance_in_triangles(scene)
@@ -93,12 +93,12 @@ struct Findings {
 
 impl Findings {
     fn add_for_edges(&mut self, health: &Health, triangles: usize) {
-        let (tier, reason) = if triangles > 0 && health.open_edges == 3 * triangles {
+        let (tier, reason) = if triangles > 0 && health.count(Flaw::OpenEdge) == 3 * triangles {
             (
                 Tier::Fast,
                 "no two triangles share an edge: there are no gaps to be seen",
             )
-        } else if health.open_edges + health.non_manifold_edges == 0 {
+        } else if health.count(Flaw::OpenEdge) + health.count(Flaw::NonManifoldEdge) == 0 {
             (
                 Tier::Watertight,
                 "the mesh is closed: a gap between triangles would show",

@@ -2,6 +2,7 @@
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 use hitscope_core::camera::StandardView;
+use hitscope_core::mesh::Flaw;
 
 /// What a key, a button or a menu entry asks for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -12,6 +13,10 @@ pub enum Action {
     Reload,
     /// Show the whole mesh.
     Frame,
+    /// Mark where flaws of a kind are and show them, or mark none.
+    ShowFlaw(Option<Flaw>),
+    /// Load the file again whenever it changes, or don't.
+    ToggleWatch,
     /// Look along an axis.
     LookFrom(StandardView),
     /// Go round the mesh or stand still.
@@ -124,6 +129,11 @@ pub static KEYS: &[Binding] = &[
         &[key(Key::P)],
         Action::TogglePause,
         "Pause or resume refinement",
+    ),
+    binding(
+        &[ctrl(Key::R)],
+        Action::ToggleWatch,
+        "Load the file again whenever it changes",
     ),
     binding(&[key(Key::I)], Action::TogglePanel, "Side panel"),
     binding(

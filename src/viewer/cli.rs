@@ -8,6 +8,7 @@ use crate::overlay::wireframe::Edges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use hitscope_core::obj::{Faults, LoadOptions};
 use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
@@ -32,6 +33,9 @@ struct Cli {
     /// Take the picture after so many seconds instead
     #[arg(long, value_name = "SECONDS", requires = "screenshot", value_parser = parse_seconds)]
     after: Option<Duration>,
+    /// Refuse a file that takes more memory to load than this
+    #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
+    max_memory: u64,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -107,8 +111,14 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
 /// Opens the window; without a display, renders what it would have shown.
 fn window(cli: &Cli) -> Result<(), CommandError> {
     let outcome = Outcome::default();
+    let load_options = LoadOptions {
+        faults: Faults::Lenient,
+        max_memory: cli.max_memory << 20,
+        ..LoadOptions::default()
+    };
     let start = StartOptions {
         file: cli.file.clone(),
+        load_options,
         screenshot: cli.screenshot.clone().map(|output| ScreenshotOptions {
             output,
             after: cli.after,
@@ -145,7 +155,7 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
         (Err(error), Some(_)) => Err(CommandError::Other(no_window(&error))),
         (Err(error), None) => {
             eprintln!("hitscope: {}", no_window(&error));
-            render_instead(cli.file.as_deref())
+            render_instead(cli.file.as_deref(), load_options)
         }
     }
 }
@@ -159,15 +169,11 @@ fn no_window(error: &eframe::Error) -> String {
 }
 
 /// The file or the embedded scene as a picture in the current folder.
-fn render_instead(file: Option<&Path>) -> Result<(), CommandError> {
+fn render_instead(file: Option<&Path>, load_options: LoadOptions) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
     let input = file.unwrap_or(Path::new("the built-in scene"));
     let loaded = match file {
-        Some(path) => load(
-            path,
-            hitscope_core::obj::Recentre::Auto,
-            SceneOptions::default(),
-        )?,
+        Some(path) => load(path, load_options, SceneOptions::default())?,
         None => embedded_scene(),
     };
     let rendered = PictureDefaults::parse_from(["hitscope"])

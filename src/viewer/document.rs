@@ -2,8 +2,8 @@
 
 use crate::task::{Broken, Task, Wanted};
 use hitscope_core::kernel::TriangleKernel;
-use hitscope_core::mesh::Health;
-use hitscope_core::obj::{self, LoadError, Recentre};
+use hitscope_core::mesh::{Crease, Health};
+use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Intersector, Scene};
@@ -20,7 +20,7 @@ const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
 #[derive(Clone, Debug)]
 pub struct Findings {
     /// The mesh's health.
-    pub health: Health,
+    pub health: Arc<Health>,
     /// The tier that the scene requires.
     pub requirement: Requirement,
 }
@@ -70,10 +70,11 @@ impl Document {
     pub fn load(
         path: &Path,
         kernel: &'static TriangleKernel,
+        load_options: LoadOptions,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
-        let loaded = LoadedScene::load(path, Recentre::Auto, options, progress)?;
+        let loaded = LoadedScene::load(path, load_options, options, progress)?;
         Ok(Self::new(Some(path.to_owned()), loaded, kernel))
     }
 
@@ -143,6 +144,16 @@ impl Document {
         })
     }
 
+    /// Moves the edges of smooth shading; whether they weren't there.
+    pub fn use_crease(&mut self, crease: Crease) -> bool {
+        let scene = &mut self.loaded.scene;
+        let is_other = scene.crease() != crease;
+        if is_other {
+            *scene = Arc::new(scene.with_crease(crease));
+        }
+        is_other
+    }
+
     /// Answers this scene's rays, with the kernel that was last ready.
     pub fn intersector(&self) -> &Arc<dyn Intersector> {
         &self.intersector
@@ -202,7 +213,7 @@ impl Document {
             HealthState::Unasked => {
                 let scene = Arc::clone(&self.loaded.scene);
                 let check = move || {
-                    let health = Health::of(scene.mesh());
+                    let health = Arc::new(Health::of(scene.mesh()));
                     let requirement = required_tier(&scene, &health);
                     Findings {
                         health,
@@ -218,6 +229,11 @@ impl Document {
             },
             HealthState::Known(_) | HealthState::Broken => {}
         }
+        self.known_findings()
+    }
+
+    /// The same, but only if somebody asked before.
+    pub fn known_findings(&self) -> Option<Arc<Findings>> {
         match &self.health {
             HealthState::Known(findings) => Some(Arc::clone(findings)),
             _ => None,
@@ -249,9 +265,9 @@ pub fn embedded_scene() -> LoadedScene {
     let (start, progress) = (Instant::now(), Progress::default());
     let path = Path::new("the embedded scene");
     let loaded = obj::parse(
-        DEFAULT_OBJ.as_bytes(),
+        || Ok(DEFAULT_OBJ.as_bytes()),
         path,
-        Recentre::Auto,
+        LoadOptions::default(),
         &library,
         &progress,
     );

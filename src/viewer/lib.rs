@@ -6,7 +6,7 @@
 //! | [`cli`] | what was asked for on the command line? |
 //! | [`app`] | what is in the window, and what does a frame do? |
 //! | [`bindings`] | which key does what? |
-//! | [`document`], [`opening`] | what is open, and how does a file get there? |
+//! | [`document`], [`opening`], [`watch`] | what is open, how does a file get there, and when again? |
 //! | [`tracer`] | what is being traced? |
 //! | [`trade`] | what does speed cost in accuracy in this scene? |
 //! | [`task`] | what runs in the background? |
@@ -29,3 +29,4 @@ pub mod task;
 mod times;
 pub mod tracer;
 pub mod trade;
+pub mod watch;

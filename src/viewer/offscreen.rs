@@ -5,7 +5,7 @@ use crate::gpu::lines::Visibility;
 use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
 use crate::overlay::wireframe::{self, Edges};
-use crate::overlay::{Options, normals};
+use crate::overlay::{Options, marks, normals};
 use glam::UVec2;
 use hitscope_core::scene::Shading;
 use hitscope_lab::commands::Rendered;
@@ -28,8 +28,9 @@ pub fn draw_over(
         wire_colour: crate::settings::Settings::default().wire_colour,
         normals,
         normal_length: crate::settings::Settings::default().normal_length,
-        picked: None,
+        elements: scene.mesh().has_elements(),
         line_width_px: 1.0,
+        ..Options::NOTHING
     };
     let mut overlay = Overlay::new(device);
     let mut sets = Vec::new();
@@ -47,6 +48,14 @@ pub fn draw_over(
             overlay
                 .lines()
                 .upload(device, queue, &lines, &options.normal_style())?,
+        );
+    }
+    if options.elements {
+        let lines = marks::elements(scene);
+        sets.push(
+            overlay
+                .lines()
+                .upload(device, queue, &lines, &options.element_style())?,
         );
     }
     let sets: Vec<_> = sets.iter().map(|set| (set, Visibility::Hidden)).collect();

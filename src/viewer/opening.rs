@@ -3,7 +3,7 @@
 use crate::document::Document;
 use crate::settings::Settings;
 use crate::task::{Broken, Task};
-use hitscope_core::obj::LoadError;
+use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -34,7 +34,7 @@ impl OpenDialog {
         }
         let mut dialog = rfd::AsyncFileDialog::new()
             .set_title("Open a mesh")
-            .add_filter("Wavefront OBJ", &["obj"])
+            .add_filter("Wavefront OBJ", &["obj", "OBJ", "obj.gz", "gz"])
             .add_filter("All files", &["*"])
             .set_parent(frame);
         if let Some(folder) = folder {
@@ -127,11 +127,16 @@ pub struct Loading {
 
 impl Loading {
     /// Starts the thread that loads.
-    pub fn start(path: PathBuf, settings: &Settings, ctx: &egui::Context) -> Self {
+    pub fn start(
+        path: PathBuf,
+        load_options: LoadOptions,
+        settings: &Settings,
+        ctx: &egui::Context,
+    ) -> Self {
         let progress = Arc::new(Progress::default());
         let (kernel, shared, file) = (settings.kernel(), Arc::clone(&progress), path.clone());
         let options = settings.scene_options();
-        let load = move || Document::load(&file, kernel, options, &shared);
+        let load = move || Document::load(&file, kernel, load_options, options, &shared);
         Self {
             path,
             progress,

@@ -7,6 +7,7 @@ use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{
     TriangleKernel, default_triangle_kernel, exact_triangle_kernel, triangle_kernel,
 };
+use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use serde::{Deserialize, Serialize};
 
@@ -50,6 +51,12 @@ pub struct Settings {
     /// Whether the mesh's z axis points up. A matter of the file, so it isn't kept.
     #[serde(skip)]
     pub is_z_up: bool,
+    /// Whether smooth shading has edges by angle, and not where the file says.
+    pub has_crease: bool,
+    /// From which angle on.
+    pub crease_degrees: f32,
+    /// Whether the file is loaded again when it changes.
+    pub watches: bool,
     /// Whether files are loaded for memory rather than for speed.
     pub is_compact: bool,
     /// The side panel.
@@ -74,6 +81,10 @@ impl Default for Settings {
             normal_length: 0.03,
             samples: 64,
             is_z_up: false,
+            has_crease: false,
+            // What modelling programs begin with.
+            crease_degrees: 30.0,
+            watches: false,
             is_compact: false,
             shows_panel: true,
             tab: Tab::View,
@@ -117,6 +128,15 @@ impl Settings {
             Shading::Smooth
         } else {
             Shading::Flat
+        }
+    }
+
+    /// Where smooth shading has edges.
+    pub fn crease(&self) -> Crease {
+        if self.has_crease {
+            Crease::Above(self.crease_degrees.to_radians())
+        } else {
+            Crease::FromFile
         }
     }
 

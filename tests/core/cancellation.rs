@@ -8,7 +8,7 @@ use hitscope_core::camera::Projection;
 use hitscope_core::intersector::{Cost, Crossing};
 use hitscope_core::kernel::KernelInfo;
 use hitscope_core::mesh::shapes::{Place, torus};
-use hitscope_core::obj::{self, LoadError, Recentre};
+use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::plan::{Pass, Plan, Unit};
 use hitscope_core::render::{Job, Message, Renderer, render};
@@ -306,12 +306,15 @@ impl Read for Endless {
     }
 }
 
-fn parse(bytes: impl Read, progress: &Progress) -> Result<obj::Loaded, LoadError> {
+fn parse<R: Read>(
+    open: impl Fn() -> io::Result<R>,
+    progress: &Progress,
+) -> Result<obj::Loaded, LoadError> {
     let no_library = |_: &str| Err(io::ErrorKind::NotFound.into());
     obj::parse(
-        bytes,
+        open,
         Path::new("x.obj"),
-        Recentre::Auto,
+        LoadOptions::default(),
         &no_library,
         progress,
     )
@@ -321,11 +324,13 @@ fn parse(bytes: impl Read, progress: &Progress) -> Result<obj::Loaded, LoadError
 fn a_cancelled_load_ends_and_says_so_even_if_the_file_does_not_end() {
     let result = in_time("a cancelled load", || {
         let progress = Arc::new(Progress::default());
-        let file = Endless {
-            progress: Arc::clone(&progress),
-            given: 0,
+        let open = || {
+            Ok(Endless {
+                progress: Arc::clone(&progress),
+                given: 0,
+            })
         };
-        parse(file, &progress).map(|loaded| loaded.vertex_count)
+        parse(open, &progress).map(|loaded| loaded.vertex_count)
     });
     let is_cancelled =
         matches!(&result, Err(LoadError::Cancelled { path }) if path == Path::new("x.obj"));
@@ -336,9 +341,9 @@ fn a_cancelled_load_ends_and_says_so_even_if_the_file_does_not_end() {
 fn a_load_cancelled_before_it_began_gives_no_mesh() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let progress = Progress::default();
-    assert!(parse(text.as_bytes(), &progress).is_ok());
+    assert!(parse(|| Ok(text.as_bytes()), &progress).is_ok());
     progress.cancel();
-    let result = parse(text.as_bytes(), &progress);
+    let result = parse(|| Ok(text.as_bytes()), &progress);
     assert!(
         matches!(result, Err(LoadError::Cancelled { .. })),
         "{result:?}"

@@ -5,7 +5,7 @@
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes::{scene, soup};
-use hitscope_core::obj::{self, Recentre};
+use hitscope_core::obj::{self, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::ray::RayError;
@@ -265,9 +265,9 @@ fn triangles_that_no_ray_can_hit_are_dropped_at_load() {
     let no_library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
     let progress = Progress::default();
     let loaded = obj::parse(
-        text.as_bytes(),
+        || Ok(text.as_bytes()),
         Path::new("x.obj"),
-        Recentre::Off,
+        LoadOptions::default(),
         &no_library,
         &progress,
     );

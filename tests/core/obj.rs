@@ -1,6 +1,6 @@
 //! Any bytes are a mesh or an error, never a panic.
 
-use hitscope_core::obj::{Recentre, parse};
+use hitscope_core::obj::{LoadOptions, parse};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use std::io;
@@ -53,8 +53,8 @@ const WORDS: [&str; 40] = [
 fn parse_without_panic(bytes: &[u8]) {
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
     let progress = Progress::default();
-    let path = Path::new("x.obj");
-    if let Ok(loaded) = parse(bytes, path, Recentre::Auto, &library, &progress) {
+    let (path, options) = (Path::new("x.obj"), LoadOptions::default());
+    if let Ok(loaded) = parse(|| Ok(bytes), path, options, &library, &progress) {
         let mesh = loaded.mesh;
         assert!(!mesh.triangles.is_empty());
         for triangle in 0..mesh.triangles.len() as u32 {

@@ -4,8 +4,8 @@
 
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
-use hitscope_core::mesh::Health;
 use hitscope_core::mesh::shapes::{Place, cube, flat_grid, in_torus, scene, sphere, torus};
+use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::random::Random;
 use hitscope_core::{Intersector, Ray, TriangleMesh};
 use std::thread;
@@ -118,7 +118,12 @@ fn no_ray_leaves_a_closed_mesh_through_an_edge_or_a_corner() {
     assert!(cases.iter().map(|case| case.rays).sum::<usize>() >= 1_000_000);
     for kernel in watertight_kernels() {
         let check = |(k, case): (usize, &Case)| {
-            assert_eq!(Health::of(&case.mesh).open_edges, 0, "{}", case.name);
+            assert_eq!(
+                Health::of(&case.mesh).count(Flaw::OpenEdge),
+                0,
+                "{}",
+                case.name
+            );
             let intersector = scene(case.mesh.clone()).intersector(kernel);
             let (count, first) = leaks(case, &*intersector, k as u64);
             (count > 0).then(|| {

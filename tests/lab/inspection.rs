@@ -21,12 +21,7 @@ fn square() -> Scene {
         triangles: vec![[0, 1, 2], [0, 2, 3]],
         faces: vec![0, 0],
         outline: vec![0b011, 0b110],
-        material: vec![0, 0],
-        group: vec![0, 0],
-        materials: vec![Material {
-            name: String::new(),
-            diffuse: None,
-        }],
+        materials: vec![Material::default()],
         groups: vec![String::new()],
         face_count: 1,
         ..TriangleMesh::default()

@@ -13,7 +13,7 @@ use hitscope::offscreen::read_back;
 use hitscope_core::Scene;
 use hitscope_core::camera::{Camera, Projection};
 use hitscope_core::kernel::triangle_kernel;
-use hitscope_core::obj::{Recentre, parse};
+use hitscope_core::obj::{LoadOptions, parse};
 use hitscope_core::progress::Progress;
 use std::path::Path;
 use wgpu::util::DeviceExt as _;
@@ -53,9 +53,9 @@ fn far_blob() -> Scene {
     let progress = Progress::default();
     let library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
     let loaded = parse(
-        text.as_bytes(),
+        || Ok(text.as_bytes()),
         Path::new("blob"),
-        Recentre::Auto,
+        LoadOptions::default(),
         &library,
         &progress,
     );

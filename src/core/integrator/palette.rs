@@ -3,31 +3,7 @@
 use crate::sampler::mix;
 use glam::Vec3;
 
-/// Linear RGB of a colour that is to be seen as these sRGB values in 0…1; outside, clamped.
-///
-/// Source: IEC 61966-2-1.
-pub fn from_display(srgb: Vec3) -> Vec3 {
-    let linear = |s: f32| {
-        if s <= 0.040_45 {
-            s / 12.92
-        } else {
-            ((s + 0.055) / 1.055).powf(2.4)
-        }
-    };
-    Vec3::from_array(srgb.clamp(Vec3::ZERO, Vec3::ONE).to_array().map(linear))
-}
-
-/// sRGB value in 0…1 of a linear one, clamped. The inverse of [`from_display`].
-///
-/// Source: IEC 61966-2-1.
-pub fn to_display(linear: f32) -> f32 {
-    let x = linear.clamp(0.0, 1.0);
-    if x <= 0.003_130_8 {
-        12.92 * x
-    } else {
-        1.055 * x.powf(1.0 / 2.4) - 0.055
-    }
-}
+pub use crate::srgb::{from_display, to_display};
 
 /// A colour for an id; neighbours' ids get different ones.
 pub fn id_colour(id: u32) -> Vec3 {

@@ -1,11 +1,14 @@
-//! A clay model under a studio light fixed to the camera.
+//! A model of the file's materials, of clay where it has none, under a studio light fixed to the camera.
 
 use super::Context;
-use crate::interaction::SurfaceInteraction;
+use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
+use crate::mesh::{Illumination, Material, TriangleMesh};
 use crate::ray::{Hit, Ray};
+use crate::spawn::{Departure, default_spawn_policy};
+use crate::srgb::from_display;
 use glam::Vec3;
 
-/// Reflectance of faces whose material names none.
+/// Reflectance of faces of which the file says nothing.
 const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
 /// Light from everywhere; the rest comes from the two lamps.
 const AMBIENT: f32 = 0.10;
@@ -15,23 +18,207 @@ const LAMPS: [(Vec3, f32); 2] = [
     (Vec3::new(-0.45, 0.65, 0.62), 0.85),
     (Vec3::new(0.80, -0.10, 0.60), 0.22),
 ];
+/// Surfaces that a ray goes through, at most.
+const MOST_LAYERS: usize = 32;
+/// What is left of a ray that can't be seen any more: half a step of eight bits.
+const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// Diffuse reflection of the lamps; both sides of a triangle are lit. No ray is cast to the lamps:
-/// they cast no shadows.
+/// Reflection of the lamps on both sides of triangles, and the light of their own; through surfaces that aren't
+/// opaque also what is behind. No ray is cast to the lamps: they cast no shadows.
 pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
-    let Some(hit) = hit else {
-        return context.background;
-    };
+    let (mut ray, mut hit) = (*ray, hit);
+    let (mut light, mut left) = (Vec3::ZERO, 1.0);
+    for _ in 0..MOST_LAYERS {
+        let Some(nearest) = hit else { break };
+        let (of_surface, opacity) = reflection(context, &ray, nearest);
+        light += left * opacity * of_surface;
+        left *= 1.0 - opacity;
+        if left < INVISIBLE {
+            return light;
+        }
+        let departure = Departure {
+            arrived_by: &ray,
+            hit: &nearest,
+            corners: context.scene.mesh().corners(nearest.primitive),
+            dir: ray.dir,
+        };
+        let Ok(onward) = default_spawn_policy().spawn(&departure) else {
+            break;
+        };
+        ray = onward;
+        hit = context.intersector.closest_hit(&ray);
+    }
+    light + left * context.background
+}
+
+/// The light that a surface sends back along a ray, and its opacity.
+///
+/// Source: Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977, for the
+/// highlights.
+fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
+    let mesh = context.scene.mesh();
     let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+    let material = mesh.materials.get(surface.material as usize);
+    let diffuse = diffuse(mesh, material, &hit);
+    let emission = material.map_or(Vec3::ZERO, |m| m.emission);
+    let opacity = material.map_or(1.0, |m| m.opacity);
+    let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
+    if illumination == Illumination::Constant {
+        return (diffuse + emission, opacity);
+    }
+
     let normal = surface.facing_normal(ray);
     let camera = &context.camera;
     let axes = [camera.right(), camera.up(), camera.back()].map(|axis| axis.as_vec3());
-    let lamp = |(dir, strength): (Vec3, f32)| {
-        let dir = (dir.x * axes[0] + dir.y * axes[1] + dir.z * axes[2]).normalize();
-        strength * normal.dot(dir).max(0.0)
-    };
-    let light = AMBIENT + LAMPS.into_iter().map(lamp).sum::<f32>();
-    let materials = &context.scene.mesh().materials;
-    let material = materials.get(surface.material as usize);
-    light * material.and_then(|m| m.diffuse).unwrap_or(CLAY)
+    let to_lamp = |dir: Vec3| (dir.x * axes[0] + dir.y * axes[1] + dir.z * axes[2]).normalize();
+    let of_lamp = |(dir, strength): (Vec3, f32)| strength * normal.dot(to_lamp(dir)).max(0.0);
+    let light = AMBIENT + LAMPS.into_iter().map(of_lamp).sum::<f32>();
+    let mut sum = light * diffuse + emission;
+    if let Some(material) = material
+        && illumination == Illumination::Highlights
+        && material.specular != Vec3::ZERO
+    {
+        let to_eye = (-ray.dir).normalize_or_zero();
+        let highlight = |(dir, strength): (Vec3, f32)| {
+            let dir = to_lamp(dir);
+            let halfway = (dir + to_eye).normalize_or_zero();
+            let is_lit = normal.dot(dir) > 0.0;
+            let size = normal.dot(halfway).max(0.0).powf(material.shininess);
+            if is_lit { strength * size } else { 0.0 }
+        };
+        sum += material.specular * LAMPS.into_iter().map(highlight).sum::<f32>();
+    }
+    (sum, opacity)
+}
+
+/// The material's colour, times its texture's, times the vertices'; clay if there is none of them.
+fn diffuse(mesh: &TriangleMesh, material: Option<&Material>, hit: &Hit) -> Vec3 {
+    let map = material.and_then(|material| material.diffuse_map.as_ref());
+    let of_texture = map.map(|map| {
+        let uv = texture_coordinates(mesh, hit).unwrap_or_default();
+        map.colour(&mesh.textures, uv)
+    });
+    let of_vertices = vertex_colour(mesh, hit).map(from_display);
+    let of_material = material.and_then(|material| material.diffuse);
+    [of_material, of_texture, of_vertices]
+        .into_iter()
+        .flatten()
+        .reduce(|a, b| a * b)
+        .unwrap_or(CLAY)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::camera::{Camera, Projection};
+    use crate::kernel::default_triangle_kernel;
+    use crate::mesh::{Texture, TextureMap, shapes};
+    use crate::scene::Shading;
+    use glam::{DVec3, UVec2, Vec2};
+    use std::sync::Arc;
+
+    const BACKGROUND: Vec3 = Vec3::new(0.0, 0.25, 0.0);
+
+    /// What a ray straight down brings back from layers of triangles, each of its own material, the
+    /// first one on top.
+    fn seen(materials: &[Material], change: impl Fn(&mut TriangleMesh)) -> Vec3 {
+        let layer = |k: usize| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p - Vec3::Z * k as f32);
+        let corners: Vec<_> = (0..materials.len()).map(layer).collect();
+        let mut mesh = shapes::soup(&corners);
+        mesh.materials = materials.to_vec();
+        for k in 0..materials.len() as u32 {
+            mesh.material.begin(k, k);
+        }
+        change(&mut mesh);
+        let scene = Arc::new(shapes::scene(mesh));
+        let intersector: Arc<dyn crate::Intersector> =
+            Arc::from(scene.intersector(default_triangle_kernel()));
+        let projection = Projection::Perspective { fov_y_radians: 1.0 };
+        let (eye, middle) = (DVec3::new(0.25, 0.25, 1.0), DVec3::new(0.25, 0.25, 0.0));
+        let camera = Camera::look_at(eye, middle, DVec3::Y, projection, UVec2::splat(2));
+        let context = Context {
+            second: Arc::clone(&intersector),
+            intersector,
+            scene,
+            camera: camera.expect("a camera"),
+            shading: Shading::Flat,
+            background: BACKGROUND,
+        };
+        let ray = Ray::new(eye.as_vec3(), Vec3::NEG_Z).expect("a ray");
+        radiance(&context, &ray, context.intersector.closest_hit(&ray))
+    }
+
+    fn constant(diffuse: Vec3, opacity: f32) -> Material {
+        Material {
+            diffuse: Some(diffuse),
+            opacity,
+            illumination: Illumination::Constant,
+            ..Material::default()
+        }
+    }
+
+    #[test]
+    fn what_is_behind_shines_through_in_order() {
+        let (red, blue) = (constant(Vec3::X, 0.5), constant(Vec3::Z, 0.25));
+        let light = seen(&[red, blue], |_| {});
+        let expected = 0.5 * Vec3::X + 0.5 * (0.25 * Vec3::Z + 0.75 * BACKGROUND);
+        assert!((light - expected).length() < 1e-6, "{light}");
+        assert_eq!(seen(&[constant(Vec3::X, 1.0)], |_| {}), Vec3::X);
+    }
+
+    #[test]
+    fn highlights_and_own_light_are_added_as_the_material_says() {
+        let plain = Material {
+            diffuse: Some(Vec3::splat(0.5)),
+            ..Material::default()
+        };
+        let shiny = Material {
+            specular: Vec3::ONE,
+            ..plain.clone()
+        };
+        let matt = Material {
+            illumination: Illumination::Diffuse,
+            ..shiny.clone()
+        };
+        let glowing = Material {
+            emission: Vec3::Y,
+            ..plain.clone()
+        };
+        let of = |material: &Material| seen(std::slice::from_ref(material), |_| {});
+        let base = of(&plain);
+        assert_eq!(of(&matt), base);
+        assert!(of(&shiny).min_element() > base.max_element());
+        assert_eq!(of(&glowing), base + Vec3::Y);
+    }
+
+    #[test]
+    fn texture_and_vertex_colours_multiply_the_materials() {
+        let map = TextureMap {
+            texture: 0,
+            scale: Vec2::ONE,
+            offset: Vec2::ZERO,
+        };
+        let mapped = Material {
+            diffuse_map: Some(map),
+            ..constant(Vec3::new(1.0, 0.5, 1.0), 1.0)
+        };
+        let paint = |mesh: &mut TriangleMesh| {
+            // Magenta to the left of x = 0.5, where the ray comes down.
+            let texels = vec![[255, 0, 255], [255, 0, 255], [0; 3], [0; 3]];
+            mesh.textures = Texture::new("t", UVec2::new(4, 1), texels)
+                .into_iter()
+                .collect();
+            mesh.texture_coordinates = vec![Vec2::ZERO, Vec2::X, Vec2::Y];
+            mesh.corner_textures = vec![[0, 1, 2]];
+        };
+        assert_eq!(
+            seen(std::slice::from_ref(&mapped), paint),
+            Vec3::new(1.0, 0.0, 1.0)
+        );
+        let both = |mesh: &mut TriangleMesh| {
+            paint(mesh);
+            mesh.colours = vec![Vec3::X; 3];
+        };
+        assert_eq!(seen(&[mapped], both), Vec3::X);
+    }
 }

@@ -4,22 +4,27 @@
 //! triangle the polygon that it came from, so that a wireframe can hide triangulation diagonals.
 
 mod area;
+mod edges;
 mod health;
+mod material;
 mod normals;
+mod runs;
 pub mod shapes;
+pub mod strips;
+mod texture;
+mod weld;
 
 pub use area::has_zero_area;
-pub use health::{Health, SLIVER_ASPECT};
-pub use normals::VertexNormals;
+pub use health::{FLAWS, Flaw, FlawInfo, Health, Places, SLIVER_ASPECT};
+pub use material::{Illumination, Material, TextureMap};
+pub use normals::{Crease, VertexNormals};
+pub use runs::Runs;
+pub use texture::Texture;
+pub use weld::Welded;
 
 use crate::aabb::Aabb;
-use glam::{DVec3, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
-
-/// A place as bits that can be compared and hashed; −0 is the same place as 0.
-fn place(p: Vec3) -> [u32; 3] {
-    (p + Vec3::ZERO).to_array().map(f32::to_bits)
-}
 
 /// Sizes of a mesh for which f32 kernels are at their best: seen from ten times as far, the products of
 /// two lengths then stay well inside f32's range.
@@ -36,15 +41,6 @@ pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
 /// Marks a corner without a normal in [`TriangleMesh::corner_normals`].
 pub const NO_NORMAL: u32 = u32::MAX;
 
-/// What a face looks like.
-#[derive(Clone, Debug, PartialEq)]
-pub struct Material {
-    /// As the file calls it.
-    pub name: String,
-    /// Diffuse reflectance in linear RGB, where the material library gives one.
-    pub diffuse: Option<Vec3>,
-}
-
 /// Why triangles are missing that the file has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dropped {
@@ -52,34 +48,60 @@ pub struct Dropped {
     pub zero_area: usize,
     /// A corner is NaN or infinite, or too large for f32.
     pub non_finite: usize,
+    /// Faces whose indices name nothing.
+    pub bad_index: usize,
+}
+
+/// Smoothing groups: triangles of one group are smooth where they meet, others have an edge there.
+#[derive(Clone, Debug, Default)]
+pub struct Smoothing {
+    /// Whether the file says anything of them; else all triangles are smooth.
+    pub has_groups: bool,
+    /// The group of each triangle; 0 is flat.
+    pub groups: Runs,
 }
 
 /// An indexed triangle mesh. Its positions are f32 about an f64 origin: that is what rays are asked
 /// against, exactly.
 ///
-/// All lists that go by triangle have the same length.
+/// A list is empty where the file has nothing that it would hold. Those that go by triangle have else the same
+/// length.
 #[derive(Clone, Debug, Default)]
 pub struct TriangleMesh {
     /// Where (0, 0, 0) of the positions lies in the file's coordinates.
     pub origin: DVec3,
-    /// The vertices, relative to [`origin`](Self::origin).
+    /// The vertices that something uses, relative to [`origin`](Self::origin), in the file's order.
     pub positions: Vec<Vec3>,
     /// Three indices into the positions; no triangle has zero area or a non-finite corner.
     pub triangles: Vec<[u32; 3]>,
-    /// The file's face (counted from 0) that a triangle is part of.
+    /// See [`face_of`](Self::face_of). Empty if triangle k is face k.
     pub faces: Vec<u32>,
-    /// Bit k: the edge from corner k to the next one is an edge of the polygon, no diagonal.
+    /// See [`outline_of`](Self::outline_of). Empty if all faces are triangles.
     pub outline: Vec<u8>,
-    /// Index into [`materials`](Self::materials).
-    pub material: Vec<u32>,
-    /// Index into [`groups`](Self::groups).
-    pub group: Vec<u32>,
-    /// The file's normals, as given: not always unit length. Empty if it has none.
+    /// Index of each triangle into [`materials`](Self::materials).
+    pub material: Runs,
+    /// Index of each triangle into [`groups`](Self::groups).
+    pub group: Runs,
+    /// Which triangles are smooth where they meet.
+    pub smoothing: Smoothing,
+    /// Colours of the vertices, sRGB from 0 to 1. As many as positions, or none.
+    pub colours: Vec<Vec3>,
+    /// The file's normals, as given: not always unit length.
     pub normals: Vec<Vec3>,
-    /// Indices into the normals, or [`NO_NORMAL`]. Empty if the file has no normals.
+    /// Indices of each triangle's corners into the normals, or [`NO_NORMAL`].
     pub corner_normals: Vec<[u32; 3]>,
+    /// Places in textures. Empty if no material has a texture.
+    pub texture_coordinates: Vec<Vec2>,
+    /// Indices of each triangle's corners into the texture coordinates; [`NO_NORMAL`] where there are none.
+    pub corner_textures: Vec<[u32; 3]>,
+    /// The ends of straight lines that are no edges.
+    pub lines: Vec<[u32; 2]>,
+    /// Vertices that stand alone.
+    pub points: Vec<u32>,
     /// The materials that faces name; the first one is for faces that name none.
     pub materials: Vec<Material>,
+    /// The pictures of materials.
+    pub textures: Vec<Texture>,
     /// The groups and objects that faces lie in; the first one is for faces outside any.
     pub groups: Vec<String>,
     /// How many polygons the triangles come from, those that were dropped not counted.
@@ -92,6 +114,43 @@ impl TriangleMesh {
     /// The corners of a triangle.
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// The file's face (counted from 0) that a triangle is part of.
+    pub fn face_of(&self, triangle: u32) -> u32 {
+        self.faces
+            .get(triangle as usize)
+            .copied()
+            .unwrap_or(triangle)
+    }
+
+    /// Bit k: the edge from corner k to the next one is an edge of the polygon, no diagonal.
+    pub fn outline_of(&self, triangle: u32) -> u8 {
+        self.outline
+            .get(triangle as usize)
+            .copied()
+            .unwrap_or(0b111)
+    }
+
+    /// What a triangle looks like, where that is known.
+    pub fn material_of(&self, triangle: u32) -> Option<&Material> {
+        self.materials.get(self.material.of(triangle) as usize)
+    }
+
+    /// Appends a triangle of a face, with the edges that are edges of the face; see
+    /// [`outline_of`](Self::outline_of).
+    pub(crate) fn add_triangle(&mut self, corners: [u32; 3], face: u32, outline: u8) {
+        let index = self.triangles.len();
+        self.triangles.push(corners);
+        // Lists begin when they have something to say.
+        if !self.faces.is_empty() || face as usize != index {
+            self.faces.extend(self.faces.len() as u32..index as u32);
+            self.faces.push(face);
+        }
+        if !self.outline.is_empty() || outline != 0b111 {
+            self.outline.resize(index, 0b111);
+            self.outline.push(outline);
+        }
     }
 
     /// The box around all triangles.
@@ -114,9 +173,30 @@ impl TriangleMesh {
         p + self.origin
     }
 
+    /// A vertex as the file spells it: of all coordinates that would have been loaded as these, those with
+    /// the fewest digits.
+    pub fn vertex_in_file(&self, p: Vec3) -> DVec3 {
+        let shortest = |axis: usize| {
+            let (origin, own) = (self.origin[axis], p[axis]);
+            let exact = f64::from(own) + origin;
+            // 17 digits tell each f64 from all others.
+            let rounded = (0..17).filter_map(|digits| format!("{exact:.digits$e}").parse().ok());
+            rounded
+                .into_iter()
+                .find(|x: &f64| (x - origin) as f32 == own)
+                .unwrap_or(exact)
+        };
+        DVec3::new(shortest(0), shortest(1), shortest(2))
+    }
+
     /// [`unit_normal`], rounded to f32.
     pub fn geometric_normal(&self, triangle: u32) -> Vec3 {
         unit_normal(self.corners(triangle)).as_vec3()
+    }
+
+    /// Whether there are lines or points besides triangles.
+    pub fn has_elements(&self) -> bool {
+        !self.lines.is_empty() || !self.points.is_empty()
     }
 
     /// How many materials faces name.
@@ -130,7 +210,7 @@ impl TriangleMesh {
     }
 
     /// Bytes taken by each part: name and size.
-    pub fn bytes(&self) -> [(&'static str, usize); 4] {
+    pub fn bytes(&self) -> [(&'static str, usize); 6] {
         [
             ("positions", size_of_val(&self.positions[..])),
             ("triangles", size_of_val(&self.triangles[..])),
@@ -142,9 +222,56 @@ impl TriangleMesh {
                 "faces",
                 size_of_val(&self.faces[..])
                     + size_of_val(&self.outline[..])
-                    + size_of_val(&self.material[..])
-                    + size_of_val(&self.group[..]),
+                    + self.material.bytes()
+                    + self.group.bytes()
+                    + self.smoothing.groups.bytes(),
+            ),
+            (
+                "colours and textures",
+                size_of_val(&self.colours[..])
+                    + size_of_val(&self.texture_coordinates[..])
+                    + size_of_val(&self.corner_textures[..])
+                    + self.textures.iter().map(Texture::bytes).sum::<usize>(),
+            ),
+            (
+                "lines and points",
+                size_of_val(&self.lines[..]) + size_of_val(&self.points[..]),
             ),
         ]
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_vertex_is_spelt_as_in_the_file_far_from_the_origin_and_near_it() {
+        for (origin, written) in [
+            (500_000.0, 500_000.001),
+            (4_649_776.0, 4_649_776.25),
+            (0.0, 0.1),
+            (0.0, -1.234_567e-20),
+        ] {
+            let mesh = TriangleMesh {
+                origin: DVec3::splat(origin),
+                ..TriangleMesh::default()
+            };
+            let own = Vec3::splat((written - origin) as f32);
+            assert_eq!(mesh.vertex_in_file(own), DVec3::splat(written));
+        }
+    }
+
+    #[test]
+    fn lists_by_triangle_begin_when_they_have_something_to_say() {
+        let mut mesh = TriangleMesh::default();
+        mesh.add_triangle([0, 1, 2], 0, 0b111);
+        mesh.add_triangle([0, 1, 2], 1, 0b111);
+        assert!(mesh.faces.is_empty() && mesh.outline.is_empty());
+        mesh.add_triangle([0, 1, 2], 3, 0b011);
+        mesh.add_triangle([0, 1, 2], 3, 0b110);
+        assert_eq!([0, 1, 2, 3].map(|t| mesh.face_of(t)), [0, 1, 3, 3]);
+        let outlines = [0, 1, 2, 3].map(|t| mesh.outline_of(t));
+        assert_eq!(outlines, [0b111, 0b111, 0b011, 0b110]);
     }
 }

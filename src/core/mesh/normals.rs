@@ -1,14 +1,35 @@
 //! Normals at vertices, for smooth shading and to be shown.
 
-use super::{NO_NORMAL, TriangleMesh, place};
+use super::edges::{EdgeUse, Edges, Fans};
+use super::{NO_NORMAL, TriangleMesh, Welded, unit_normal};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// A unit normal for each corner that has one.
-#[derive(Clone, Debug, Default)]
+/// Where smooth shading has edges.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Crease {
+    /// Where the file says so, by its normals and smoothing groups; where it says nothing, nowhere.
+    #[default]
+    FromFile,
+    /// Where two triangles' normals are more than so many radians apart; what the file says doesn't count.
+    Above(f32),
+}
+
+/// A unit normal for each corner; zero where the faces around cancel out.
+#[derive(Clone, Debug)]
 pub struct VertexNormals {
-    /// The file's where it has them, else computed; zero where the faces around cancel out.
-    corners: Vec<[Vec3; 3]>,
+    normals: Vec<Vec3>,
+    indices: Indices,
+}
+
+/// Which corner has which normal.
+#[derive(Clone, Debug)]
+enum Indices {
+    /// The one of its vertex.
+    OfVertices,
+    /// The one that the file says.
+    OfFile,
+    Own(Vec<[u32; 3]>),
 }
 
 impl VertexNormals {
@@ -17,67 +38,170 @@ impl VertexNormals {
     ///
     /// Vertices at the same place count as one, so that a seam doesn't show.
     /// Source: Thürmer, Wüthrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998.
-    pub fn of(mesh: &TriangleMesh) -> Self {
-        let has_normal = |triangle: usize| {
-            mesh.corner_normals
-                .get(triangle)
-                .is_some_and(|corners| !corners.contains(&NO_NORMAL))
-        };
-        let is_complete = (0..mesh.triangles.len()).all(has_normal);
-        let computed = if is_complete {
-            Vec::new()
-        } else {
-            computed(mesh)
-        };
-        // In f64, where the length of an f32 vector neither under- nor overflows.
-        let from_file = |index: u32| {
-            let normal = mesh.normals[index as usize].as_dvec3();
-            normal.normalize_or_zero().as_vec3()
-        };
-        let corners = mesh.triangles.iter().enumerate().map(|(triangle, corner)| {
-            if has_normal(triangle) {
-                mesh.corner_normals[triangle].map(from_file)
-            } else {
-                corner.map(|vertex| computed[vertex as usize])
-            }
-        });
-        Self {
-            corners: corners.collect(),
+    pub fn of(mesh: &TriangleMesh, crease: Crease) -> Self {
+        if let Crease::Above(radians) = crease {
+            return creased(mesh, radians);
         }
+        let triangles = 0..mesh.triangles.len() as u32;
+        if !mesh.corner_normals.is_empty() && triangles.clone().all(|t| has_normals(mesh, t)) {
+            return Self {
+                normals: from_file(mesh).map(DVec3::as_vec3).collect(),
+                indices: Indices::OfFile,
+            };
+        }
+        if mesh.corner_normals.is_empty() && !mesh.smoothing.has_groups {
+            return of_vertices(mesh);
+        }
+        mixed(mesh)
     }
 
-    /// The normals at a triangle's corners.
-    pub fn of_triangle(&self, triangle: u32) -> [Vec3; 3] {
-        self.corners[triangle as usize]
+    /// The normals at a triangle's corners; `mesh` is the one that they were computed for.
+    pub fn of_triangle(&self, mesh: &TriangleMesh, triangle: u32) -> [Vec3; 3] {
+        let lists = match &self.indices {
+            Indices::OfVertices => &mesh.triangles,
+            Indices::OfFile => &mesh.corner_normals,
+            Indices::Own(corners) => corners,
+        };
+        lists[triangle as usize].map(|index| self.normals[index as usize])
+    }
+
+    /// Bytes taken.
+    pub fn bytes(&self) -> usize {
+        let own = match &self.indices {
+            Indices::Own(corners) => size_of_val(&corners[..]),
+            Indices::OfVertices | Indices::OfFile => 0,
+        };
+        size_of_val(&self.normals[..]) + own
     }
 }
 
-/// One normal for each vertex, from the faces around it.
-fn computed(mesh: &TriangleMesh) -> Vec<Vec3> {
-    let place = places(&mesh.positions);
+/// Whether the file has a normal for each corner of a triangle.
+fn has_normals(mesh: &TriangleMesh, triangle: u32) -> bool {
+    let corners = mesh.corner_normals.get(triangle as usize);
+    corners.is_some_and(|corners| !corners.contains(&NO_NORMAL))
+}
+
+/// The file's normals at unit length. In f64, where the length of an f32 vector neither under- nor
+/// overflows.
+fn from_file(mesh: &TriangleMesh) -> impl Iterator<Item = DVec3> {
+    mesh.normals
+        .iter()
+        .map(|normal| normal.as_dvec3().normalize_or_zero())
+}
+
+/// A triangle's normal, weighted by the angle at each corner.
+fn weighted(mesh: &TriangleMesh, triangle: u32) -> [DVec3; 3] {
+    let corners = mesh.corners(triangle);
+    let (normal, p) = (unit_normal(corners), corners.map(Vec3::as_dvec3));
+    [0, 1, 2].map(|k| {
+        let (next, last) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
+        normal * next.angle_between(last)
+    })
+}
+
+fn normalized(sums: Vec<DVec3>) -> Vec<Vec3> {
+    let normal = |sum: DVec3| sum.normalize_or_zero().as_vec3();
+    sums.into_iter().map(normal).collect()
+}
+
+/// One normal for each vertex.
+fn of_vertices(mesh: &TriangleMesh) -> VertexNormals {
+    let welded = Welded::of(mesh);
     let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
-    for corner in &mesh.triangles {
-        let p = corner.map(|v| mesh.positions[v as usize].as_dvec3());
-        let normal = (p[1] - p[0]).cross(p[2] - p[0]).normalize_or_zero();
-        for k in 0..3 {
-            let (next, last) = (p[(k + 1) % 3] - p[k], p[(k + 2) % 3] - p[k]);
-            sums[place[corner[k] as usize] as usize] += normal * next.angle_between(last);
+    for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
+        for (vertex, normal) in vertices.into_iter().zip(weighted(mesh, triangle)) {
+            sums[welded.vertex(vertex) as usize] += normal;
         }
     }
-    let normal = |&at: &u32| sums[at as usize].normalize_or_zero().as_vec3();
-    place.iter().map(normal).collect()
+    for vertex in 0..sums.len() as u32 {
+        sums[vertex as usize] = sums[welded.vertex(vertex) as usize];
+    }
+    VertexNormals {
+        normals: normalized(sums),
+        indices: Indices::OfVertices,
+    }
 }
 
-/// For each vertex the first one at the same place.
-fn places(positions: &[Vec3]) -> Vec<u32> {
-    let mut first = HashMap::with_capacity(positions.len());
-    let first = |(vertex, &p): (usize, &Vec3)| *first.entry(place(p)).or_insert(vertex as u32);
-    positions.iter().enumerate().map(first).collect()
+/// The file's normals where a triangle has them. Else one for each vertex and smoothing group; that of
+/// its triangle for what is in no group.
+fn mixed(mesh: &TriangleMesh) -> VertexNormals {
+    let welded = Welded::of(mesh);
+    let mut sums: Vec<DVec3> = from_file(mesh).collect();
+    let mut by_group: HashMap<(u32, u32), u32> = HashMap::new();
+    let mut own = Vec::with_capacity(mesh.triangles.len());
+    let group_of = |triangle: u32| mesh.smoothing.groups.of(triangle);
+    let is_flat = |triangle: u32| mesh.smoothing.has_groups && group_of(triangle) == 0;
+    for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
+        own.push(if has_normals(mesh, triangle) {
+            mesh.corner_normals[triangle as usize]
+        } else if is_flat(triangle) {
+            sums.push(unit_normal(mesh.corners(triangle)));
+            [sums.len() as u32 - 1; 3]
+        } else {
+            vertices.map(|vertex| {
+                let key = (welded.vertex(vertex), group_of(triangle));
+                *by_group.entry(key).or_insert_with(|| {
+                    sums.push(DVec3::ZERO);
+                    sums.len() as u32 - 1
+                })
+            })
+        });
+    }
+    // Faces that have normals of their own shape those of their neighbours, too.
+    for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
+        if is_flat(triangle) {
+            continue;
+        }
+        for (vertex, normal) in vertices.into_iter().zip(weighted(mesh, triangle)) {
+            let key = (welded.vertex(vertex), group_of(triangle));
+            if let Some(&index) = by_group.get(&key) {
+                sums[index as usize] += normal;
+            }
+        }
+    }
+    VertexNormals {
+        normals: normalized(sums),
+        indices: Indices::Own(own),
+    }
+}
+
+/// One normal for each fan of triangles around a vertex with no crease between them.
+fn creased(mesh: &TriangleMesh, radians: f32) -> VertexNormals {
+    let welded = Welded::of(mesh);
+    let normal_of = |triangle| unit_normal(mesh.corners(triangle));
+    let is_smooth = |a: &EdgeUse, b: &EdgeUse| {
+        let angle = normal_of(a.triangle).angle_between(normal_of(b.triangle));
+        angle <= f64::from(radians)
+    };
+    let mut fans = Fans::of(
+        mesh,
+        &Edges::of(mesh, |vertex| welded.vertex(vertex)),
+        is_smooth,
+    );
+    let (mut sums, mut of_fan) = (Vec::new(), vec![NO_NORMAL; 3 * mesh.triangles.len()]);
+    let mut own = Vec::with_capacity(mesh.triangles.len());
+    for triangle in 0..mesh.triangles.len() as u32 {
+        let weighted = weighted(mesh, triangle);
+        own.push([0, 1, 2].map(|k| {
+            let index = &mut of_fan[fans.find(3 * triangle + k) as usize];
+            if *index == NO_NORMAL {
+                *index = sums.len() as u32;
+                sums.push(DVec3::ZERO);
+            }
+            sums[*index as usize] += weighted[k as usize];
+            *index
+        }));
+    }
+    VertexNormals {
+        normals: normalized(sums),
+        indices: Indices::Own(own),
+    }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use std::f32::consts::PI;
 
     /// Two sides of a roof that meet in the ridge from (0, 0, 1) to (0, 1, 1).
     fn roof() -> TriangleMesh {
@@ -94,14 +218,21 @@ mod tests {
         }
     }
 
+    fn normals(mesh: &TriangleMesh, crease: Crease) -> [[Vec3; 3]; 2] {
+        let normals = VertexNormals::of(mesh, crease);
+        [0, 1].map(|triangle| normals.of_triangle(mesh, triangle))
+    }
+
+    fn is_near(a: Vec3, b: Vec3) -> bool {
+        (a - b.normalize()).length() < 1e-6
+    }
+
     #[test]
     fn a_seam_of_doubled_vertices_does_not_show() {
-        let normals = VertexNormals::of(&roof());
-        let [left, right] = [normals.of_triangle(0), normals.of_triangle(1)];
+        let [left, right] = normals(&roof(), Crease::FromFile);
         assert_eq!(left[1], right[2]);
-        assert!(left[1].x.abs() < 1e-7 && left[1].z > 0.999, "{left:?}");
-        let flat = Vec3::new(-1.0, 0.0, 1.0).normalize();
-        assert!((left[2] - flat).length() < 1e-6);
+        assert!(is_near(left[1], Vec3::Z), "{left:?}");
+        assert!(is_near(left[2], Vec3::new(-1.0, 0.0, 1.0)));
     }
 
     #[test]
@@ -109,15 +240,52 @@ mod tests {
         let mut mesh = roof();
         mesh.normals = vec![Vec3::Y * 2.0];
         mesh.corner_normals = vec![[0; 3], [NO_NORMAL; 3]];
-        let normals = VertexNormals::of(&mesh);
-        assert_eq!(normals.of_triangle(0), [Vec3::Y; 3]);
-        assert_ne!(normals.of_triangle(1)[0], Vec3::Y);
+        let [left, right] = normals(&mesh, Crease::FromFile);
+        assert_eq!(left, [Vec3::Y; 3]);
+        // Computed, with the other face's part.
+        assert!(is_near(right[0], Vec3::Z), "{right:?}");
+        mesh.corner_normals[1] = [0; 3];
+        assert_eq!(normals(&mesh, Crease::FromFile), [[Vec3::Y; 3]; 2]);
+    }
+
+    #[test]
+    fn smoothing_groups_are_smooth_inside_and_creased_between() {
+        let (left, right) = (Vec3::new(-1.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 1.0));
+        for (groups, ridge) in [
+            ([2, 2], [Vec3::Z, Vec3::Z]),
+            ([1, 2], [left, right]),
+            ([0, 0], [left, right]),
+            ([0, 1], [left, right]),
+        ] {
+            let mut mesh = roof();
+            mesh.smoothing.has_groups = true;
+            for (triangle, group) in (0..).zip(groups) {
+                mesh.smoothing.groups.begin(triangle, group);
+            }
+            let found = normals(&mesh, Crease::FromFile).map(|corners| corners[0]);
+            let is_right = is_near(found[0], ridge[0]) && is_near(found[1], ridge[1]);
+            assert!(is_right, "{groups:?}: {found:?}");
+        }
+    }
+
+    #[test]
+    fn an_edge_is_a_crease_above_its_angle_whatever_the_file_says() {
+        let mut mesh = roof();
+        mesh.normals = vec![Vec3::Y];
+        mesh.corner_normals = vec![[0; 3]; 2];
+        let ridge = |degrees: f32| normals(&mesh, Crease::Above(degrees * PI / 180.0))[0][0];
+        assert!(is_near(ridge(91.0), Vec3::Z), "{}", ridge(91.0));
+        assert!(
+            is_near(ridge(89.0), Vec3::new(-1.0, 0.0, 1.0)),
+            "{}",
+            ridge(89.0)
+        );
     }
 
     #[test]
     fn faces_that_cancel_out_leave_a_zero_normal() {
         let mut mesh = roof();
         mesh.triangles = vec![[0, 1, 2], [0, 2, 1]];
-        assert_eq!(VertexNormals::of(&mesh).of_triangle(0)[0], Vec3::ZERO);
+        assert_eq!(normals(&mesh, Crease::FromFile)[0][0], Vec3::ZERO);
     }
 }

@@ -1,146 +1,194 @@
-//! From tobj's numbers to a mesh.
+//! From the file's numbers to a mesh.
 
 use super::error::{Problem, Warning};
-use super::facts::Facts;
+use super::facts::{Element, Facts, NO_INDEX, Tally};
+use super::fence::fenced;
+use super::numbers::Numbers;
+use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
-use super::{Library, Loaded, Recentre, mtl};
-use crate::mesh::{Dropped, Material, NO_NORMAL, TriangleMesh, has_zero_area};
+use super::{Beside, LoadOptions, Loaded, materials};
+use crate::mesh::{Dropped, NO_NORMAL, Runs, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
-use glam::{DVec3, Vec3};
+use glam::DVec3;
+use std::ops::Range;
 
-/// Faces between two looks at whether the load is still wanted.
-const FACES_PER_CHECK: usize = 1 << 14;
+/// Elements between two looks at whether the load is still wanted.
+const ELEMENTS_PER_CHECK: usize = 1 << 14;
+
+// A missing index of the file's is a missing normal of the mesh's.
+const _: () = assert!(NO_INDEX == NO_NORMAL);
 
 pub(super) fn assemble(
-    parsed: &tobj::Mesh,
+    mut numbers: Numbers,
     facts: &Facts,
-    recentre: Recentre,
-    library: Library,
+    options: &LoadOptions,
+    beside: Beside,
     progress: &Progress,
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
-    let mut warnings: Vec<Warning> = facts.ignored_statements().collect();
-    let exact: Vec<DVec3> = points(&parsed.positions);
-    let (materials, face_material) = materials(facts, library, &mut warnings);
-    let (groups, face_group) = named_runs(&facts.face_groups, "");
-
-    let mut mesh = TriangleMesh {
-        origin: origin(&exact, recentre),
-        normals: points(&parsed.normals)
-            .into_iter()
-            .map(DVec3::as_vec3)
-            .collect(),
-        materials,
-        groups,
+    let mut warnings = facts.warnings();
+    let looks = materials::look_up(facts, beside, options.max_memory, &mut warnings);
+    if looks.textures.is_empty() {
+        // Nothing asks where on a picture a corner lies.
+        numbers.textures = Vec::new();
+        numbers.corners[1] = Vec::new();
+    }
+    let origin = origin(&numbers.positions, options.recentre);
+    let positions = numbers.positions.iter().map(|&p| (p - origin).as_vec3());
+    let mesh = TriangleMesh {
+        origin,
+        positions: positions.collect(),
+        colours: std::mem::take(&mut numbers.colours),
+        normals: std::mem::take(&mut numbers.normals),
+        texture_coordinates: std::mem::take(&mut numbers.textures),
+        materials: looks.materials,
+        textures: looks.textures,
+        groups: facts.groups.names.clone(),
         ..TriangleMesh::default()
     };
-    mesh.positions = exact.iter().map(|&p| (p - mesh.origin).as_vec3()).collect();
-    add_triangles(&mut mesh, parsed, &exact, facts, &mut warnings, progress)?;
-    for &face in &mesh.faces {
-        mesh.material.push(face_material.of(face as usize));
-        mesh.group.push(face_group.of(face as usize));
-    }
+    let mut assembly = Assembly {
+        mesh,
+        numbers: &numbers,
+        oddities: Oddities::default(),
+        triangulator: Triangulator::new(),
+        polygon: Vec::new(),
+    };
+    assembly.add_elements(facts, progress)?;
+    let (mut mesh, oddities) = (assembly.mesh, assembly.oddities);
+    mesh.dropped.bad_index = facts.dropped.count;
+    mesh.smoothing.has_groups = !facts.smoothing.is_empty();
+    warnings.extend(oddities.warnings(mesh.dropped));
+    shrink(&mut mesh);
     require_content(&mesh, facts)?;
     Ok(Loaded {
-        max_rounding: max_rounding(&mesh, &exact),
+        max_rounding: max_rounding(&mesh, &numbers.positions),
         mesh,
         warnings,
-        vertex_count: facts.vertex_count,
+        vertex_count: facts.counts[0],
+        files: Vec::new(),
     })
 }
 
-fn points(numbers: &[f64]) -> Vec<DVec3> {
-    numbers.chunks_exact(3).map(DVec3::from_slice).collect()
+/// A mesh that grows element by element.
+struct Assembly<'n> {
+    mesh: TriangleMesh,
+    numbers: &'n Numbers,
+    oddities: Oddities,
+    triangulator: Triangulator,
+    /// The corners of the face that is being cut.
+    polygon: Vec<DVec3>,
 }
 
-/// A point near the mesh whose coordinates have few bits, so that subtracting it in f64 is exact for
-/// coordinates of up to some 29 bits below the mesh's size; zero if the mesh isn't far away.
-fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
-    /// Nearer than this many sizes, f32 loses at most two bits more than at the origin.
-    const NEAR: f64 = 4.0;
-    let finite = points.iter().filter(|p| p.is_finite());
-    let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {
-        (min.min(p), max.max(p))
-    });
-    let size = (max - min).max_element();
-    let centre = 0.5 * min + 0.5 * max;
-    if recentre == Recentre::Off || !centre.is_finite() || centre.abs().max_element() <= NEAR * size
-    {
-        return DVec3::ZERO;
-    }
-    // A mesh of one point: its own coordinates, as f32 holds them.
-    if size == 0.0 {
-        return centre.as_vec3().as_dvec3();
-    }
-    let grid = 2f64.powi(size.log2().floor() as i32);
-    let origin = (centre / grid).round() * grid;
-    if origin.is_finite() {
-        origin
-    } else {
-        DVec3::ZERO
-    }
-}
-
-/// Triangulates the faces, and leaves out triangles that no ray can hit.
-fn add_triangles(
-    mesh: &mut TriangleMesh,
-    parsed: &tobj::Mesh,
-    exact: &[DVec3],
-    facts: &Facts,
-    warnings: &mut Vec<Warning>,
-    progress: &Progress,
-) -> Result<(), Problem> {
-    let has_normals = facts.face_has_normals.contains(&true);
-    let mut triangulator = Triangulator::new();
-    let (mut dropped, mut first) = (Dropped::default(), FirstFaces::default());
-    let mut polygon: Vec<DVec3> = Vec::new();
-    let mut start = 0;
-    for face in 0..facts.face_count {
-        if face % FACES_PER_CHECK == 0 {
-            progress.check()?;
+impl Assembly<'_> {
+    fn add_elements(&mut self, facts: &Facts, progress: &Progress) -> Result<(), Problem> {
+        let mut materials = FaceRuns::new(&facts.materials.runs);
+        let mut groups = FaceRuns::new(&facts.groups.runs);
+        let mut smoothing = FaceRuns::new(&facts.smoothing);
+        let mut no_faces = facts.no_faces.iter().peekable();
+        let (mut start, mut face) = (0, 0);
+        for element in 0..facts.element_count {
+            if element % ELEMENTS_PER_CHECK == 0 {
+                progress.check()?;
+            }
+            let count = self.numbers.arities.get(element).map_or(3, |&n| n as usize);
+            let corners = start..start + count;
+            start += count;
+            if let Some(&(_, kind)) = no_faces.next_if(|(at, _)| *at == element) {
+                self.add_lines_or_points(kind, corners);
+                continue;
+            }
+            let triangle = self.mesh.triangles.len() as u32;
+            materials.step(face, triangle, &mut self.mesh.material);
+            groups.step(face, triangle, &mut self.mesh.group);
+            smoothing.step(face, triangle, &mut self.mesh.smoothing.groups);
+            self.add_face(face, facts, corners)?;
+            face += 1;
         }
-        let count = parsed.face_arities.get(face).map_or(3, |&n| n as usize);
-        let corners = start..start + count;
-        start += count;
-        let indices = &parsed.indices[corners.clone()];
-        polygon.clear();
-        polygon.extend(indices.iter().map(|&v| exact[v as usize]));
-        if !indices
-            .iter()
-            .all(|&v| mesh.positions[v as usize].is_finite())
-        {
-            dropped.non_finite += count - 2;
-            first.non_finite.get_or_insert(face);
-            continue;
-        }
+        Ok(())
+    }
 
+    fn add_lines_or_points(&mut self, kind: Element, corners: Range<usize>) {
+        let mesh = &mut self.mesh;
+        let vertices = &self.numbers.corners[0][corners];
+        let is_finite = |v: &u32| mesh.positions[*v as usize].is_finite();
+        match kind {
+            Element::Points => mesh.points.extend(vertices.iter().filter(|v| is_finite(v))),
+            Element::Line => {
+                let pairs = vertices.windows(2).map(|pair| [pair[0], pair[1]]);
+                mesh.lines
+                    .extend(pairs.filter(|pair| pair.iter().all(is_finite)));
+            }
+        }
+    }
+
+    /// Triangulates a face, and leaves out triangles that no ray can hit.
+    fn add_face(
+        &mut self,
+        face: usize,
+        facts: &Facts,
+        corners: Range<usize>,
+    ) -> Result<(), Problem> {
+        let (mesh, oddities) = (&mut self.mesh, &mut self.oddities);
+        let vertices = &self.numbers.corners[0][corners.clone()];
+        let is_finite = |v: &u32| mesh.positions[*v as usize].is_finite();
+        if !vertices.iter().all(is_finite) {
+            mesh.dropped.non_finite += vertices.len() - 2;
+            oddities.non_finite.add(facts.face_line(face));
+            return Ok(());
+        }
+        let [_, textures, normals] = &self.numbers.corners;
         let before = mesh.triangles.len();
-        let how = triangulator.cut(&polygon, |local| {
-            let triangle = local.map(|k| indices[k]);
+        let mut add = |local: [usize; 3]| {
+            let triangle = local.map(|k| vertices[k]);
             if has_zero_area(triangle.map(|v| mesh.positions[v as usize])) {
-                dropped.zero_area += 1;
-                first.zero_area.get_or_insert(face);
+                mesh.dropped.zero_area += 1;
+                oddities.zero_area.add(facts.face_line(face));
                 return;
             }
-            mesh.triangles.push(triangle);
-            mesh.faces.push(face as u32);
-            mesh.outline.push(outline(local, count));
-            if has_normals {
-                let normals = &parsed.normal_indices[corners.clone()];
-                let has_normal = facts.face_has_normals[face];
-                let of_corner = |k: usize| if has_normal { normals[k] } else { NO_NORMAL };
-                mesh.corner_normals.push(local.map(of_corner));
+            mesh.add_triangle(triangle, face as u32, outline(local, vertices.len()));
+            if let Some(normals) = normals.get(corners.clone()) {
+                mesh.corner_normals.push(local.map(|k| normals[k]));
             }
-        });
+            if let Some(textures) = textures.get(corners.clone()) {
+                mesh.corner_textures.push(local.map(|k| textures[k]));
+            }
+        };
+        if vertices.len() == 3 {
+            add([0, 1, 2]);
+        } else {
+            let exact = |&v: &u32| self.numbers.positions[v as usize];
+            self.polygon.clear();
+            self.polygon.extend(vertices.iter().map(exact));
+            let (triangulator, polygon) = (&mut self.triangulator, &self.polygon);
+            let how = fenced("cutting a polygon", || triangulator.cut(polygon, &mut add))?;
+            if how == Cut::Fan {
+                oddities.fan.add(facts.face_line(face));
+            }
+        }
         mesh.face_count += usize::from(mesh.triangles.len() > before);
-        if how == Cut::Fan {
-            first.fans += 1;
-            first.fan.get_or_insert(face);
+        Ok(())
+    }
+}
+
+/// Numbers of faces, becoming numbers of triangles.
+struct FaceRuns<'r> {
+    rest: &'r [(usize, u32)],
+}
+
+impl<'r> FaceRuns<'r> {
+    fn new(runs: &'r [(usize, u32)]) -> Self {
+        Self { rest: runs }
+    }
+
+    /// A face begins whose first triangle this would be.
+    fn step(&mut self, face: usize, triangle: u32, of_triangles: &mut Runs) {
+        while let [(first, number), rest @ ..] = self.rest
+            && *first <= face
+        {
+            of_triangles.begin(triangle, *number);
+            self.rest = rest;
         }
     }
-    mesh.dropped = dropped;
-    warnings.extend(first.warnings(dropped, facts));
-    Ok(())
 }
 
 /// Which of a triangle's edges are edges of its polygon of `count` corners.
@@ -153,111 +201,38 @@ fn outline(local: [usize; 3], count: usize) -> u8 {
         .fold(0, |bits, k| bits | 1 << k)
 }
 
-/// The first face of each kind of oddity.
+/// Where each kind of oddity begins.
 #[derive(Default)]
-struct FirstFaces {
-    non_finite: Option<usize>,
-    zero_area: Option<usize>,
-    fan: Option<usize>,
-    fans: usize,
+struct Oddities {
+    non_finite: Tally,
+    zero_area: Tally,
+    fan: Tally,
 }
 
-impl FirstFaces {
-    fn warnings(&self, dropped: Dropped, facts: &Facts) -> impl Iterator<Item = Warning> {
-        let warning = |face: Option<usize>, message: String| {
-            face.map(|face| Warning {
-                line: Some(facts.face_line(face)),
-                message,
-            })
-        };
+impl Oddities {
+    fn warnings(self, dropped: Dropped) -> impl Iterator<Item = Warning> {
+        let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
         [
-            warning(
-                self.non_finite,
-                format!(
-                    "{} triangle(s) dropped: a corner is not finite",
-                    dropped.non_finite
-                ),
-            ),
-            warning(
-                self.zero_area,
-                format!(
-                    "{} triangle(s) dropped: their area is zero",
-                    dropped.zero_area
-                ),
-            ),
-            warning(
-                self.fan,
-                format!(
-                    "{} polygon(s) cross themselves or have no plane: cut as a fan",
-                    self.fans
-                ),
-            ),
+            self.non_finite
+                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite")),
+            self.zero_area
+                .warning(|_| format!("{zero_area} triangle(s) dropped: their area is zero")),
+            self.fan.warning(|fans| {
+                format!("{fans} polygon(s) cross themselves or have no plane: cut as a fan")
+            }),
         ]
         .into_iter()
         .flatten()
     }
 }
 
-/// Which name a run of faces goes by: index into a list of names.
-struct Runs(Vec<(usize, u32)>);
-
-impl Runs {
-    fn of(&self, face: usize) -> u32 {
-        let run = self.0.partition_point(|(first, _)| *first <= face);
-        run.checked_sub(1).map_or(0, |run| self.0[run].1)
-    }
-}
-
-/// The distinct names, the first one for faces before any run, and the runs by index.
-fn named_runs(runs: &[(usize, String)], default: &str) -> (Vec<String>, Runs) {
-    let mut names = vec![default.to_owned()];
-    let mut index = std::collections::HashMap::from([(default.to_owned(), 0)]);
-    let numbered = runs.iter().map(|(first, name)| {
-        let number = *index.entry(name.clone()).or_insert_with(|| {
-            names.push(name.clone());
-            names.len() as u32 - 1
-        });
-        (*first, number)
-    });
-    let numbered = numbered.collect();
-    (names, Runs(numbered))
-}
-
-fn materials(
-    facts: &Facts,
-    library: Library,
-    warnings: &mut Vec<Warning>,
-) -> (Vec<Material>, Runs) {
-    let mut known: Vec<Material> = Vec::new();
-    for (line, name) in &facts.libraries {
-        match library(name) {
-            Ok(bytes) => known.extend(mtl::parse(&bytes)),
-            Err(error) => warnings.push(Warning {
-                line: Some(*line),
-                message: format!("material library “{name}”: {error}"),
-            }),
-        }
-    }
-    let (names, runs) = named_runs(&facts.face_materials, "");
-    let is_unknown = |name: &&String| !name.is_empty() && known.iter().all(|m| m.name != **name);
-    let unknown: Vec<&String> = names.iter().filter(is_unknown).collect();
-    if let Some(first) = unknown.first() {
-        warnings.push(Warning {
-            line: None,
-            message: format!(
-                "{} material(s) without a definition, “{first}” first",
-                unknown.len()
-            ),
-        });
-    }
-    let materials = names.into_iter().map(|name| Material {
-        diffuse: known
-            .iter()
-            .find(|m| m.name == name)
-            .and_then(|m| m.diffuse),
-        name,
-    });
-    (materials.collect(), runs)
+/// Gives back what lists took beyond their length as they grew.
+fn shrink(mesh: &mut TriangleMesh) {
+    mesh.triangles.shrink_to_fit();
+    mesh.faces.shrink_to_fit();
+    mesh.outline.shrink_to_fit();
+    mesh.corner_normals.shrink_to_fit();
+    mesh.corner_textures.shrink_to_fit();
 }
 
 /// A mesh without triangles is an error that says why.
@@ -268,30 +243,29 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
     let Dropped {
         zero_area,
         non_finite,
+        bad_index,
     } = mesh.dropped;
     let message = if zero_area + non_finite > 0 {
         let message = format!(
             "no triangle is left: {zero_area} have zero area, {non_finite} a corner that is NaN, infinite or too large for f32"
         );
-        return Err(Problem::Line(facts.face_line(0), message));
-    } else if facts.vertex_count > 0 {
+        return Err(Problem::line(facts.face_line(0), message));
+    } else if bad_index > 0 {
+        format!(
+            "no face is left: the indices of {bad_index} are out of range, or they are too short"
+        )
+    } else if facts.element_count > 0 {
+        format!(
+            "there are lines or points ({}), but no faces: nothing that a ray could hit",
+            facts.element_count
+        )
+    } else if facts.counts[0] > 0 {
         format!(
             "there are vertices ({}), but no faces: nothing to show",
-            facts.vertex_count
+            facts.counts[0]
         )
     } else {
         "no vertices and no faces: this is not an OBJ file, or an empty one".to_owned()
     };
     Err(Problem::Content(message))
-}
-
-/// What recentring and rounding to f32 moved a coordinate by, at most.
-fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3]) -> f64 {
-    let moved = |(p, q): (&Vec3, &DVec3)| (p.as_dvec3() + mesh.origin - *q).abs().max_element();
-    let finite = mesh
-        .positions
-        .iter()
-        .zip(exact)
-        .filter(|(p, _)| p.is_finite());
-    finite.map(moved).fold(0.0, f64::max)
 }

@@ -23,16 +23,18 @@ pub enum LoadError {
         path: PathBuf,
     },
     /// A line can't be understood.
-    #[error("{}:{line}: {message}", path.display())]
+    #[error("{}:{line}{}: {message}", path.display(), column.map(|c| format!(":{c}")).unwrap_or_default())]
     Line {
         /// The file.
         path: PathBuf,
         /// The line, counted from 1.
         line: usize,
+        /// The character where the word begins that is wrong, counted from 1.
+        column: Option<usize>,
         /// What is wrong there.
         message: String,
     },
-    /// The file as a whole holds nothing to show.
+    /// The file as a whole holds nothing to show, or too much.
     #[error("{}: {message}", path.display())]
     Content {
         /// The file.
@@ -51,19 +53,47 @@ pub enum LoadError {
 /// An error before the file's name is known.
 #[derive(Debug)]
 pub(super) enum Problem {
-    Line(usize, String),
+    Line {
+        line: usize,
+        column: Option<usize>,
+        message: String,
+    },
     Content(String),
     Read(io::Error),
     Cancelled,
 }
 
 impl Problem {
+    pub(super) fn line(line: usize, message: String) -> Self {
+        Self::Line {
+            line,
+            column: None,
+            message,
+        }
+    }
+
+    /// What is wrong with a word that begins at `offset` in a line's bytes.
+    pub(super) fn word(line: usize, bytes: &[u8], offset: usize, message: String) -> Self {
+        let is_start = |b: &&u8| **b & 0xC0 != 0x80;
+        let characters = bytes[..offset].iter().filter(is_start).count();
+        Self::Line {
+            line,
+            column: Some(characters + 1),
+            message,
+        }
+    }
+
     pub(super) fn in_file(self, path: &Path) -> LoadError {
         let path = path.to_owned();
         match self {
-            Self::Line(line, message) => LoadError::Line {
+            Self::Line {
+                line,
+                column,
+                message,
+            } => LoadError::Line {
                 path,
                 line,
+                column,
                 message,
             },
             Self::Content(message) => LoadError::Content { path, message },
@@ -86,6 +116,22 @@ pub struct Warning {
     pub line: Option<usize>,
     /// What it is, with how often.
     pub message: String,
+}
+
+impl Warning {
+    pub(crate) fn at(line: usize, message: String) -> Self {
+        Self {
+            line: Some(line),
+            message,
+        }
+    }
+
+    pub(crate) fn of_file(message: String) -> Self {
+        Self {
+            line: None,
+            message,
+        }
+    }
 }
 
 impl fmt::Display for Warning {

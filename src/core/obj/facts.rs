@@ -1,28 +1,72 @@
-//! What the reader learns of a file besides what it passes on.
+//! What the reader learns of a file besides the numbers that it passes on.
 
-use super::error::{Problem, Warning};
-use std::collections::BTreeMap;
+use super::error::Warning;
+use std::collections::{BTreeMap, HashMap};
 
-/// What the reader learnt on the way.
+/// Marks a corner without an index in one of the lists of [`Facts::corners`].
+pub(super) const NO_INDEX: u32 = u32::MAX;
+
+/// What an element is, if it is no face.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Element {
+    /// A line through its corners.
+    Line,
+    /// Its corners are points.
+    Points,
+}
+
+/// How often something happened, and on which line first.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pub count: usize,
+    first_line: usize,
+}
+
+impl Tally {
+    pub(super) fn add(&mut self, line: usize) {
+        if self.count == 0 {
+            self.first_line = line;
+        }
+        self.count += 1;
+    }
+
+    /// What it says of itself, if it happened at all.
+    pub(super) fn warning(self, message: impl FnOnce(usize) -> String) -> Option<Warning> {
+        (self.count > 0).then(|| Warning::at(self.first_line, message(self.count)))
+    }
+}
+
+/// What the reader learnt on the way. Vertices, texture coordinates and normals are lists 0, 1 and 2.
 #[derive(Debug, Default)]
 pub(super) struct Facts {
-    pub vertex_count: usize,
+    /// How many there are in each list.
+    pub counts: [usize; 3],
+    /// For each corner of each element its index, from 0, in each list. The second and the third are empty
+    /// while no corner names one.
+    pub corners: [Vec<u32>; 3],
+    /// Faces, lines and points together.
+    pub element_count: usize,
+    /// Elements that are no faces, in their order.
+    pub no_faces: Vec<(usize, Element)>,
     pub face_count: usize,
-    pub normal_count: usize,
-    /// Whether a face has a normal at each corner.
-    pub face_has_normals: Vec<bool>,
-    /// Runs of faces: the first one, and what it and those after it use.
-    pub face_materials: Vec<(usize, String)>,
-    pub face_groups: Vec<(usize, String)>,
+    pub face_lines: LineRuns,
+    pub materials: NamedRuns,
+    pub groups: NamedRuns,
+    /// Runs of faces, and their smoothing group; 0 is none. Empty if the file has no `s`.
+    pub smoothing: Vec<(usize, u32)>,
     /// Names of material libraries, with the line.
     pub libraries: Vec<(usize, String)>,
-    pub face_lines: LineRuns,
-    /// Line and text of the statement that was passed on last.
-    pub current: (usize, String),
-    /// The highest index of a vertex and a normal, and the line of the face that has it.
-    pub highest: [(usize, usize); 2],
-    /// Statements that were left out: first line and count, by keyword.
-    pub ignored: BTreeMap<String, (usize, usize)>,
+    /// Of each vertex, as far as there are any.
+    pub colours: Vec<[f32; 3]>,
+    pub coloured: usize,
+    /// The highest index of each list, from 1, and the line of the element that has it.
+    pub highest: [(usize, usize); 3],
+    /// Statements that were left out.
+    pub ignored: BTreeMap<String, Tally>,
+    /// Elements left out, as they have an impossible index or too few corners.
+    pub dropped: Tally,
+    /// Corners without the texture coordinates or the normal that they name, as there is none.
+    pub bare: Tally,
 }
 
 impl Facts {
@@ -31,26 +75,107 @@ impl Facts {
         self.face_lines.line(face)
     }
 
-    /// What was left out, a warning a keyword.
-    pub(super) fn ignored_statements(&self) -> impl Iterator<Item = Warning> {
-        self.ignored.iter().map(|(keyword, (line, count))| Warning {
-            line: Some(*line),
-            message: format!("{count} “{keyword}” statement(s) ignored"),
-        })
+    /// Whether each index so far names something that was read.
+    pub(super) fn is_complete(&self) -> bool {
+        let lists = self.highest.iter().zip(self.counts);
+        lists
+            .into_iter()
+            .all(|((highest, _), count)| *highest <= count)
     }
 
-    /// What tobj objected to: the numbers on the line that it read last.
-    pub(super) fn unexplained(&self, error: &tobj::LoadError) -> Problem {
-        let (line, text) = &self.current;
-        let words: Vec<&str> = text.split_whitespace().skip(1).collect();
-        let message = match words.iter().find(|word| word.parse::<f64>().is_err()) {
-            Some(word) => format!("“{}” is not a number", shortened(word)),
-            None if words.len() < 3 => {
-                format!("three coordinates are needed, here are {}", words.len())
-            }
-            None => error.to_string(),
-        };
-        Problem::Line(*line, message)
+    /// Some exporters number texture coordinates that they don't write. No list is no reason to refuse a file.
+    pub(super) fn forget_idle_textures(&mut self) {
+        let (highest, line) = self.highest[1];
+        if self.counts[1] == 0 && highest > 0 {
+            self.highest[1] = (0, 0);
+            self.corners[1] = Vec::new();
+            self.bare.add(line);
+        }
+    }
+
+    /// What was left out, in the order in which it began.
+    pub(super) fn warnings(&self) -> Vec<Warning> {
+        let ignored = self.ignored.iter().filter_map(|(keyword, tally)| {
+            tally.warning(|count| format!("{count} “{keyword}” statement(s) ignored"))
+        });
+        let colourless = self.counts[0] - self.coloured;
+        let uncoloured = (self.coloured > 0 && colourless > 0)
+            .then(|| Warning::of_file(format!("{colourless} vertices without a colour are white")));
+        let mut warnings: Vec<Warning> = ignored
+            .chain(self.dropped.warning(|count| {
+                format!("{count} face(s) dropped: an index is out of range, or there are fewer than three corners")
+            }))
+            .chain(self.bare.warning(|count| {
+                format!("{count} or more texture or normal indices ignored: there are no such")
+            }))
+            .chain(uncoloured)
+            .collect();
+        warnings.sort_by_key(|warning| warning.line.unwrap_or(usize::MAX));
+        warnings
+    }
+
+    /// What loading takes in memory, with what was read so far: an upper bound that is good for files that
+    /// are large.
+    pub(super) fn bytes(&self) -> usize {
+        /// tobj's list in f64, doubled as it grows, its copy for faces, ours, and what remains in f32.
+        const OF_VERTEX: usize = 48 + 48 + 24 + 12;
+        /// Ours doubled as it grows, tobj's, and what remains.
+        const OF_CORNER: usize = 8 + 8 + 4;
+        let entries: usize = self.counts.iter().sum();
+        let corners: usize = self.corners.iter().map(Vec::len).sum();
+        let names = self.materials.bytes() + self.groups.bytes();
+        let runs = 16 * (self.smoothing.capacity() + self.no_faces.capacity());
+        entries * OF_VERTEX
+            + corners * OF_CORNER
+            + size_of_val(&self.colours[..]) * 2
+            + names
+            + runs
+            + self.face_lines.bytes()
+    }
+}
+
+/// Runs of faces that go by a name: the faces of a group, or of a material.
+#[derive(Debug)]
+pub(super) struct NamedRuns {
+    /// Distinct names; the first one, empty, is for faces before any run.
+    pub names: Vec<String>,
+    by_name: HashMap<String, u32>,
+    /// The first face, and the index of the name that it and those after it have.
+    pub runs: Vec<(usize, u32)>,
+    text_bytes: usize,
+}
+
+impl Default for NamedRuns {
+    fn default() -> Self {
+        Self {
+            names: vec![String::new()],
+            by_name: HashMap::from([(String::new(), 0)]),
+            runs: Vec::new(),
+            text_bytes: 0,
+        }
+    }
+}
+
+impl NamedRuns {
+    /// From this face on.
+    pub(super) fn begin(&mut self, face: usize, name: String) {
+        let next = self.names.len() as u32;
+        let index = *self.by_name.entry(name).or_insert_with_key(|name| {
+            self.names.push(name.clone());
+            self.text_bytes += 2 * name.len();
+            next
+        });
+        // A run without a face is none.
+        match self.runs.last_mut() {
+            Some((first, last)) if *first == face => *last = index,
+            _ => self.runs.push((face, index)),
+        }
+    }
+
+    fn bytes(&self) -> usize {
+        /// Two strings and an entry of a hash map that is half full.
+        const OF_NAME: usize = 24 + 2 * 32 + 32;
+        self.names.len() * OF_NAME + self.text_bytes + 16 * self.runs.capacity()
     }
 }
 
@@ -78,6 +203,15 @@ impl LineRuns {
             None => 0,
         }
     }
+
+    pub(super) fn clear(&mut self) {
+        self.runs.clear();
+        (self.count, self.next_line) = (0, 0);
+    }
+
+    fn bytes(&self) -> usize {
+        16 * self.runs.capacity()
+    }
 }
 
 /// A word fit for a message.
@@ -104,5 +238,15 @@ mod tests {
             .collect();
         assert_eq!(found, lines);
         assert_eq!(runs.runs.len(), 3);
+    }
+
+    #[test]
+    fn a_name_that_comes_back_is_one_name() {
+        let mut runs = NamedRuns::default();
+        for (face, name) in [(0, "a"), (2, "b"), (2, "c"), (4, "a")] {
+            runs.begin(face, name.to_owned());
+        }
+        assert_eq!(runs.names, ["", "a", "b", "c"]);
+        assert_eq!(runs.runs, [(0, 1), (2, 3), (4, 1)]);
     }
 }

@@ -1,24 +1,40 @@
 //! What does this OBJ file hold?
 //!
-//! Three steps: `reader` sees every line, checks faces, notes groups and materials and passes on
-//! plain `v`, `vn` and `f` statements; tobj reads their numbers, in f64; `assemble` recentres the
-//! vertices, triangulates the polygons and drops what no ray can hit.
+//! | step | file |
+//! |---|---|
+//! | bytes become statements: compression, encodings, line ends | `lines` |
+//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `statement`, `corner`, `facts`, `reader` |
+//! | tobj reads their numbers, in f64 | here |
+//! | its lists of some ten thousand faces become one | `numbers` |
+//! | vertices are recentred, polygons cut, and what no ray can hit is dropped | `assemble`, `place`, `polygon` |
+//! | names become materials and textures | `materials`, `mtl`, `beside` |
 
 mod assemble;
+mod beside;
+mod corner;
 mod error;
 mod facts;
+mod fence;
+mod lines;
+mod materials;
 mod mtl;
+mod numbers;
+mod place;
 mod polygon;
 mod reader;
+mod statement;
 
+pub use beside::Beside;
 pub use error::{LoadError, Warning};
 
 use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};
-use reader::NormalisingReader;
-use std::fs::File;
+use error::Problem;
+use fence::fenced;
+use reader::{NormalisingReader, Outcome};
+use std::fs::{File, Metadata};
 use std::io::{self, Read};
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 /// Where a mesh's origin is put.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,6 +44,39 @@ pub enum Recentre {
     Auto,
     /// At (0, 0, 0): positions are the file's numbers rounded to f32.
     Off,
+}
+
+/// What is done with a face whose indices name nothing.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Faults {
+    /// The file is refused.
+    #[default]
+    Strict,
+    /// The face is dropped, or what its corner lacks left out; a warning tells how many.
+    Lenient,
+}
+
+/// How a file is loaded.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct LoadOptions {
+    /// Where the mesh's origin is put.
+    pub recentre: Recentre,
+    /// What is done with faces whose indices name nothing.
+    pub faults: Faults,
+    /// Bytes that loading may take; a file that needs more is refused.
+    pub max_memory: u64,
+}
+
+impl Default for LoadOptions {
+    fn default() -> Self {
+        /// Room for some 80 million triangles.
+        const MAX_MEMORY: u64 = 8 << 30;
+        Self {
+            recentre: Recentre::default(),
+            faults: Faults::default(),
+            max_memory: MAX_MEMORY,
+        }
+    }
 }
 
 /// A mesh, and what was odd about its file.
@@ -41,81 +90,126 @@ pub struct Loaded {
     pub vertex_count: usize,
     /// The largest distance, in a coordinate, between the file's numbers in f64 and what is traced.
     pub max_rounding: f64,
+    /// The libraries and textures that were looked for, whether or not they are there.
+    pub files: Vec<PathBuf>,
 }
 
-/// Where `mtllib` files come from.
-pub type Library<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
-
-/// Loads an OBJ file and the material libraries beside it.
+/// Loads an OBJ file, perhaps a gzipped one, and the material libraries and textures beside it.
 ///
 /// # Errors
 /// See [`LoadError`]: what is wrong, and on which line.
-pub fn load(path: &Path, recentre: Recentre, progress: &Progress) -> Result<Loaded, LoadError> {
+pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Loaded, LoadError> {
     let unreadable = |source| LoadError::Unreadable {
         path: path.to_owned(),
         source,
     };
-    let info = std::fs::metadata(path).map_err(unreadable)?;
-    if info.is_dir() {
+    let before = std::fs::metadata(path).map_err(unreadable)?;
+    if before.is_dir() {
         return Err(LoadError::Directory {
             path: path.to_owned(),
         });
     }
-    progress.set_total(info.len());
-    let file = File::open(path).map_err(unreadable)?;
-    let folder = path.parent().unwrap_or(Path::new("")).to_owned();
-    let library = |name: &str| read_library(&folder.join(name.replace('\\', "/")));
-    parse(file, path, recentre, &library, progress)
+    progress.set_total(before.len());
+    let folder = beside::Folder::of(path);
+    let options = LoadOptions {
+        // What comes through a pipe can't be read again.
+        faults: if before.is_file() {
+            options.faults
+        } else {
+            Faults::Strict
+        },
+        ..options
+    };
+    let open = || File::open(path);
+    let mut loaded = parse(open, path, options, &|name| folder.read(name), progress)?;
+    let after = std::fs::metadata(path).map_err(unreadable)?;
+    if is_changed(&before, &after) {
+        return Err(LoadError::Content {
+            path: path.to_owned(),
+            message: "the file changed while it was read; load it again".to_owned(),
+        });
+    }
+    loaded.files = folder.into_wanted();
+    Ok(loaded)
 }
 
-/// A material library; only a regular file of sensible size, so that loading ends.
-fn read_library(path: &Path) -> io::Result<Vec<u8>> {
-    /// A thousand times the largest one seen.
-    const LARGEST: u64 = 64 << 20;
-    let info = std::fs::metadata(path)?;
-    if !info.is_file() || info.len() > LARGEST {
-        return Err(io::Error::other("not a file of at most 64 MB"));
-    }
-    std::fs::read(path)
+fn is_changed(before: &Metadata, after: &Metadata) -> bool {
+    before.is_file()
+        && (before.len(), before.modified().ok()) != (after.len(), after.modified().ok())
 }
 
 /// Parses an OBJ from bytes; `path` is what errors call it.
 ///
+/// `open` gives the bytes, from their beginning. It is called a second time if a lenient reading found
+/// that faces name vertices which never came.
+///
 /// # Errors
 /// See [`LoadError`].
-pub fn parse(
-    bytes: impl Read,
+pub fn parse<R: Read>(
+    open: impl Fn() -> io::Result<R>,
     path: &Path,
-    recentre: Recentre,
-    library: Library,
+    options: LoadOptions,
+    beside: Beside,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
+    let loaded = match read(&open, options, None, beside, progress) {
+        Ok(Reading::Loaded(loaded)) => Ok(loaded),
+        Ok(Reading::Again(counts)) => {
+            progress.restart();
+            match read(&open, options, Some(counts), beside, progress) {
+                Ok(Reading::Loaded(loaded)) => Ok(loaded),
+                Ok(Reading::Again(_)) => Err(Problem::Content(
+                    "the file changed while it was read; load it again".to_owned(),
+                )),
+                Err(problem) => Err(problem),
+            }
+        }
+        Err(problem) => Err(problem),
+    };
+    loaded
+        .map(|loaded| *loaded)
+        .map_err(|problem| problem.in_file(path))
+}
+
+/// What came of reading a file once.
+enum Reading {
+    Loaded(Box<Loaded>),
+    /// Some indices are too high for these counts of vertices, texture coordinates and normals.
+    Again([usize; 3]),
+}
+
+fn read<R: Read>(
+    open: &impl Fn() -> io::Result<R>,
+    options: LoadOptions,
+    known_counts: Option<[usize; 3]>,
+    beside: Beside,
+    progress: &Progress,
+) -> Result<Reading, Problem> {
     progress.enter(Phase::Reading);
-    let mut reader = NormalisingReader::new(bytes, progress);
-    let options = tobj::LoadOptions {
+    let bytes = open().map_err(Problem::Read)?;
+    let mut reader = NormalisingReader::new(bytes, &options, known_counts, progress)?;
+    let tobjs = tobj::LoadOptions {
         triangulate: false,
         single_index: false,
         ..tobj::LoadOptions::default()
     };
     // The reader passes on no `mtllib`: materials are looked up by name afterwards.
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let parsed = tobj::load_obj_buf(&mut reader, &options, no_library);
-
-    // The reader knows the line and the reason; tobj only that there is an error.
-    let facts = reader.finish().map_err(|problem| problem.in_file(path))?;
-    let models = match parsed {
-        Ok((models, _)) => models,
-        Err(error) => return Err(facts.unexplained(&error).in_file(path)),
+    let parsed = fenced("reading", || {
+        tobj::load_obj_buf(&mut reader, &tobjs, no_library)
+    })?;
+    let (models, error) = match parsed {
+        Ok((models, _)) => (models, None),
+        Err(error) => (Vec::new(), Some(error)),
     };
-    let model = models.into_iter().next().map(|model| model.mesh);
-    assemble::assemble(
-        &model.unwrap_or_default(),
-        &facts,
-        recentre,
-        library,
-        progress,
-    )
-    .map_err(|problem| problem.in_file(path))
+    // The reader knows the line and the reason; tobj only that there is an error.
+    let mut facts = match reader.finish(error.as_ref())? {
+        Outcome::Read(facts) => facts,
+        Outcome::Again(counts) => return Ok(Reading::Again(counts)),
+    };
+    let numbers = numbers::Numbers::gather(models, &mut facts, progress)?;
+    assemble::assemble(numbers, &facts, &options, beside, progress)
+        .map(|loaded| Reading::Loaded(Box::new(loaded)))
 }
 
 #[cfg(test)]

@@ -1,66 +1,278 @@
-//! Materials from a library: their names and diffuse colours, which is all that shading asks for.
+//! What does a material library say of its materials?
+//!
+//! Read here and not by tobj, which panics on the legal `Kd 0.5` and drops a whole library for a
+//! statement that it doesn't know. One bad line costs that line.
+//!
+//! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
-use super::reader::statement_of;
-use crate::mesh::Material;
-use glam::Vec3;
+use super::Warning;
+use super::facts::{Tally, shortened};
+use super::lines::Lines;
+use super::statement::{name, without_comment};
+use crate::mesh::{Illumination, Material};
+use crate::progress::Progress;
+use glam::{Vec2, Vec3};
+use std::collections::BTreeMap;
 
-/// Reads the materials of an MTL file.
-///
-/// tobj sees only `newmtl` and a `Kd` of three numbers: it panics on the legal `Kd 0.5` and drops
-/// the whole library for statements that it doesn't know. A colour that can't be read is left out.
-pub(super) fn parse(bytes: &[u8]) -> Vec<Material> {
-    let bytes = bytes.strip_prefix(b"\xEF\xBB\xBF").unwrap_or(bytes);
-    let mut plain = String::new();
-    for line in bytes.split(|b| matches!(b, b'\n' | b'\r')) {
-        let statement = statement_of(line);
-        let (keyword, rest) = statement
-            .split_once(char::is_whitespace)
-            .unwrap_or_default();
-        let rest = rest.trim();
-        match keyword {
-            "newmtl" if !rest.is_empty() => plain += &format!("newmtl {rest}\n"),
-            "Kd" => {
-                if let Some([r, g, b]) = colour(rest) {
-                    plain += &format!("Kd {r} {g} {b}\n");
-                }
-            }
-            _ => {}
-        }
-    }
-    let (materials, _) = tobj::load_mtl_buf(&mut plain.as_bytes()).unwrap_or_default();
-    let material = |m: tobj::Material| Material {
-        name: m.name,
-        diffuse: m.diffuse.map(|c| Vec3::from_array(c.map(|x| x as f32))),
-    };
-    materials.into_iter().map(material).collect()
+/// A material, and the picture that it names.
+#[derive(Clone, Debug, Default)]
+pub(super) struct Definition {
+    pub material: Material,
+    pub diffuse_map: Option<MapFile>,
+    /// Whether a `d` was read, which counts more than a `Tr`.
+    has_opacity: bool,
 }
 
-/// Three numbers, or one for all three channels.
-fn colour(rest: &str) -> Option<[f64; 3]> {
-    let numbers: Result<Vec<f64>, _> = rest.split_whitespace().map(str::parse).collect();
-    let colour = match numbers.ok()?[..] {
-        [grey] => [grey; 3],
-        [r, g, b] => [r, g, b],
+/// A `map_Kd`: a file's name, and how it lies on the surface.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct MapFile {
+    pub name: String,
+    pub scale: Vec2,
+    pub offset: Vec2,
+}
+
+/// Statements that shading has no use for and nobody would miss.
+const SILENT: [&str; 3] = ["Ka", "Ni", "sharpness"];
+
+/// The materials of a library, and what was odd about it.
+pub(super) fn parse(bytes: &[u8], library: &str) -> (Vec<Definition>, Vec<Warning>) {
+    let progress = Progress::default();
+    let mut materials: Vec<Definition> = Vec::new();
+    let mut skipped: BTreeMap<String, Tally> = BTreeMap::new();
+    let mut failure = None;
+    let Ok(mut lines) = Lines::new(bytes, &progress) else {
+        return Default::default();
+    };
+    loop {
+        let statement = match lines.next() {
+            Ok(Some(statement)) => statement,
+            Ok(None) => break,
+            Err(problem) => {
+                failure = Some(problem.in_file(library.as_ref()).to_string());
+                break;
+            }
+        };
+        let text = name(statement.bytes);
+        let (keyword, rest) = text.split_once([' ', '\t']).unwrap_or((&text, ""));
+        if keyword.is_empty() || keyword.starts_with('#') || SILENT.contains(&keyword) {
+            continue;
+        }
+        if keyword == "newmtl" {
+            materials.push(Definition {
+                material: Material::named(rest.trim()),
+                ..Definition::default()
+            });
+            continue;
+        }
+        let rest = name(without_comment(rest.as_bytes()));
+        let is_read = materials
+            .last_mut()
+            .is_some_and(|material| material.read(keyword, &rest).is_some());
+        if !is_read {
+            let keyword = shortened(keyword);
+            skipped.entry(keyword).or_default().add(statement.line);
+        }
+    }
+    let skipped = skipped.into_iter().filter_map(|(keyword, tally)| {
+        let Warning { line, .. } = tally.warning(|_| String::new())?;
+        let (line, count) = (line.unwrap_or(0), tally.count);
+        Some(format!(
+            "material library “{library}”: {count} “{keyword}” statement(s) skipped, line {line} first"
+        ))
+    });
+    let warnings = skipped.chain(failure).map(Warning::of_file).collect();
+    (materials, warnings)
+}
+
+impl Definition {
+    /// Reads a statement; `None` if it can't be read or isn't known.
+    fn read(&mut self, keyword: &str, rest: &str) -> Option<()> {
+        let material = &mut self.material;
+        match keyword {
+            "Kd" => material.diffuse = Some(colour(rest)?),
+            "Ks" => material.specular = colour(rest)?,
+            "Ke" => material.emission = light(rest)?,
+            "Ns" => material.shininess = number(rest)?.max(0.0),
+            "d" => {
+                // With -halo, the given opacity is the one in the middle.
+                let value = rest.strip_prefix("-halo").unwrap_or(rest);
+                material.opacity = part(value)?;
+                self.has_opacity = true;
+            }
+            "Tr" => {
+                let opacity = 1.0 - part(rest)?;
+                if !self.has_opacity {
+                    material.opacity = opacity;
+                }
+            }
+            "illum" => {
+                material.illumination = match rest.parse().ok()? {
+                    0u8 => Illumination::Constant,
+                    1 => Illumination::Diffuse,
+                    2..=10 => Illumination::Highlights,
+                    _ => return None,
+                };
+            }
+            "map_Kd" | "map_kd" => self.diffuse_map = Some(map_file(rest)?),
+            _ => return None,
+        }
+        Some(())
+    }
+}
+
+/// Three numbers, or one for all three channels, of no channel less than 0.
+fn light(rest: &str) -> Option<Vec3> {
+    let numbers: Option<Vec<f32>> = rest.split_whitespace().map(number).collect();
+    let light = match numbers?[..] {
+        [grey] => Vec3::splat(grey),
+        [r, g, b] => Vec3::new(r, g, b),
         _ => return None,
     };
-    colour
-        .iter()
-        .all(|x| (0.0..=1.0).contains(x))
-        .then_some(colour)
+    light.cmpge(Vec3::ZERO).all().then_some(light)
+}
+
+/// A reflectance: from 0 to 1 in each channel.
+fn colour(rest: &str) -> Option<Vec3> {
+    light(rest).filter(|colour| colour.cmple(Vec3::ONE).all())
+}
+
+/// A number from 0 to 1.
+fn part(word: &str) -> Option<f32> {
+    number(word).filter(|x| (0.0..=1.0).contains(x))
+}
+
+/// A finite number.
+fn number(word: &str) -> Option<f32> {
+    let number: f32 = word.trim().parse().ok()?;
+    number.is_finite().then_some(number)
+}
+
+/// `-option value… name with spaces`. Options that shading has no use for are stepped over.
+fn map_file(rest: &str) -> Option<MapFile> {
+    let mut map = MapFile {
+        name: String::new(),
+        scale: Vec2::ONE,
+        offset: Vec2::ZERO,
+    };
+    let mut rest = rest.trim();
+    while rest.starts_with('-') {
+        let (option, mut after) = word(rest);
+        let least_most = match option {
+            "-s" | "-o" | "-t" => (1, 3),
+            "-mm" => (2, 2),
+            "-blendu" | "-blendv" | "-cc" | "-clamp" | "-boost" | "-bm" | "-texres"
+            | "-imfchan" | "-type" => (1, 1),
+            // A name may begin with a dash.
+            _ => break,
+        };
+        let mut values = Vec::new();
+        for k in 0..least_most.1 {
+            let (value, next) = word(after);
+            let is_number = number(value).is_some();
+            if k >= least_most.0 && !is_number {
+                break;
+            }
+            values.push(number(value).unwrap_or(0.0));
+            after = next;
+        }
+        let pair = Vec2::new(values[0], values.get(1).copied().unwrap_or(values[0]));
+        match option {
+            "-s" => map.scale = pair,
+            "-o" => map.offset = Vec2::new(values[0], values.get(1).copied().unwrap_or(0.0)),
+            _ => {}
+        }
+        rest = after;
+    }
+    map.name = rest.trim_matches('"').replace('\\', "/");
+    (!map.name.is_empty()).then_some(map)
+}
+
+/// The first word, and what follows it.
+fn word(text: &str) -> (&str, &str) {
+    let text = text.trim_start();
+    let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
+    (word, rest.trim_start())
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
+        let (materials, warnings) = parse(text.as_bytes(), "m.mtl");
+        let warnings = warnings.iter().map(ToString::to_string);
+        (materials, warnings.collect())
+    }
+
     #[test]
     fn odd_statements_do_not_cost_the_other_materials() {
-        let text = "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\n";
-        let materials = parse(text.as_bytes());
-        let names: Vec<&str> = materials.iter().map(|m| m.name.as_str()).collect();
-        assert_eq!(names, ["a #1", "c", "d"]);
-        assert_eq!(materials[0].diffuse, Some(Vec3::splat(0.5)));
-        assert_eq!(materials[1].diffuse, Some(Vec3::X));
-        assert_eq!(materials[2].diffuse, None);
+        let (materials, warnings) = messages(
+            "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\nPr 1\n",
+        );
+        let named: Vec<&str> = materials.iter().map(|m| m.material.name.as_str()).collect();
+        assert_eq!(named, ["a #1", "c", "d"]);
+        let diffuse: Vec<_> = materials.iter().map(|m| m.material.diffuse).collect();
+        assert_eq!(diffuse, [Some(Vec3::splat(0.5)), Some(Vec3::X), None]);
+        let skipped = |n: u32, keyword: &str, line: u32| {
+            format!(
+                "material library “m.mtl”: {n} “{keyword}” statement(s) skipped, line {line} first"
+            )
+        };
+        assert_eq!(
+            warnings,
+            [
+                skipped(3, "Kd", 3),
+                skipped(1, "Pr", 11),
+                skipped(1, "illum", 4),
+                skipped(1, "map_Kd", 5)
+            ]
+        );
+    }
+
+    #[test]
+    fn everything_that_shading_uses_is_read() {
+        let (materials, warnings) = messages(
+            "newmtl glass\nKs .1 .2 .3\nKe 2 0 0\nNs 50\nillum 1\nTr 0.75\nnewmtl b\nd -halo 0.5\nTr 1\nKa 1 1 1\nNi 1.5\n",
+        );
+        assert_eq!(warnings, [""; 0]);
+        let expected = Material {
+            specular: Vec3::new(0.1, 0.2, 0.3),
+            emission: Vec3::new(2.0, 0.0, 0.0),
+            shininess: 50.0,
+            illumination: Illumination::Diffuse,
+            opacity: 0.25,
+            ..Material::named("glass")
+        };
+        assert_eq!(materials[0].material, expected);
+        assert_eq!(materials[1].material.opacity, 0.5);
+    }
+
+    #[test]
+    fn a_map_has_options_before_its_name() {
+        let map = |name: &str, scale, offset| {
+            Some(MapFile {
+                name: name.to_owned(),
+                scale,
+                offset,
+            })
+        };
+        let (one, zero) = (Vec2::ONE, Vec2::ZERO);
+        for (text, expected) in [
+            ("wood.png", map("wood.png", one, zero)),
+            ("maps\\old wood.png", map("maps/old wood.png", one, zero)),
+            (
+                "-s 2 3 1 a b.png",
+                map("a b.png", Vec2::new(2.0, 3.0), zero),
+            ),
+            ("-s 2 a.png", map("a.png", Vec2::splat(2.0), zero)),
+            (
+                "-o 0.5 -bm 1 -clamp on -mm 0 1 a.png",
+                map("a.png", one, Vec2::new(0.5, 0.0)),
+            ),
+            ("-odd-name.png", map("-odd-name.png", one, zero)),
+            ("-s 2 3", None),
+        ] {
+            assert_eq!(map_file(text), expected, "{text}");
+        }
     }
 }

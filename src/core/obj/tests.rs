@@ -1,4 +1,5 @@
 use super::*;
+use crate::mesh::NO_NORMAL;
 use glam::{DVec3, Vec3};
 
 fn load_text(text: &str) -> Result<Loaded, String> {
@@ -11,14 +12,9 @@ fn load_bytes(bytes: &[u8]) -> Result<Loaded, String> {
         _ => Err(io::ErrorKind::NotFound.into()),
     };
     let progress = Progress::default();
-    parse(
-        bytes,
-        Path::new("x.obj"),
-        Recentre::Auto,
-        &library,
-        &progress,
-    )
-    .map_err(|e| e.to_string())
+    let path = Path::new("x.obj");
+    let options = LoadOptions::default();
+    parse(|| Ok(bytes), path, options, &library, &progress).map_err(|e| e.to_string())
 }
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -48,11 +44,11 @@ fn errors_name_the_line_and_the_word() {
     let cases = [
         (
             "f 1 2 6148914691236517206",
-            "x.obj:4: vertex index 6148914691236517206 is out of range: there are 3",
+            "x.obj:4:7: vertex index 6148914691236517206 is out of range: there are 3",
         ),
         (
             "vn 0 0 1\nf 1//6148914691236517206 2//1 3//1",
-            "x.obj:5: normal index 6148914691236517206 is out of range: there are 1",
+            "x.obj:5:3: normal index 6148914691236517206 is out of range: there are 1",
         ),
         (
             "f 1 2 4",
@@ -60,12 +56,12 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1 2 -4",
-            "x.obj:4: vertex index -4 is out of range: there are 3",
+            "x.obj:4:7: vertex index -4 is out of range: there are 3",
         ),
-        ("f 0 1 2", "x.obj:4: vertex index 0; indices start at 1"),
+        ("f 0 1 2", "x.obj:4:3: vertex index 0; indices start at 1"),
         (
             "f 1//-5 2 3",
-            "x.obj:4: normal index -5 is out of range: there are 0",
+            "x.obj:4:3: normal index -5 is out of range: there are 0",
         ),
         (
             "f 1//1 2//1 3//1",
@@ -73,20 +69,30 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1/1/1/1 2 3",
-            "x.obj:4: “1/1/1/1” has more than vertex/texture/normal",
+            "x.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
         ),
-        ("f 1.0 2 3", "x.obj:4: “1.0” in “1.0” is not an index"),
-        ("f 1/x 2 3", "x.obj:4: “x” in “1/x” is not an index"),
+        ("f 1.0 2 3", "x.obj:4:3: “1.0” in “1.0” is not an index"),
+        ("f 1/x 2 3", "x.obj:4:3: “x” in “1/x” is not an index"),
         (
             "f 1 2",
             "x.obj:4: a face needs three corners, this one has 2",
         ),
-        ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5: “1,5” is not a number"),
+        ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5:5: “1,5” is not a number"),
         (
             "v 0 1\nf 1 2 3",
-            "x.obj:4: three coordinates are needed, here are 2",
+            "x.obj:4: three numbers are needed, here are 2",
         ),
-        ("vn a b c", "x.obj:4: “a” is not a number"),
+        ("vn a b c", "x.obj:4:4: “a” is not a number"),
+        (
+            " v 0 1.2.3 0\nf 1 2 3",
+            "x.obj:4:6: “1.2.3” is not a number",
+        ),
+        ("g é\nv é 1e 0\nf 1 2 3", "x.obj:5:3: “é” is not a number"),
+        ("vn 0 1 1e\nf 1 2 3", "x.obj:4:8: “1e” is not a number"),
+        (
+            "l 1 2",
+            "x.obj: there are lines or points (1), but no faces: nothing that a ray could hit",
+        ),
         (
             "",
             "x.obj: there are vertices (3), but no faces: nothing to show",
@@ -131,7 +137,7 @@ fn what_is_no_obj_is_called_by_its_name() {
     }
     let missing = load(
         Path::new("/no/such.obj"),
-        Recentre::Auto,
+        LoadOptions::default(),
         &Progress::default(),
     );
     assert!(
@@ -140,7 +146,7 @@ fn what_is_no_obj_is_called_by_its_name() {
             .to_string()
             .starts_with("/no/such.obj: ")
     );
-    let folder = load(Path::new("/"), Recentre::Auto, &Progress::default());
+    let folder = load(Path::new("/"), LoadOptions::default(), &Progress::default());
     assert!(
         folder
             .expect_err("folder")
@@ -191,8 +197,8 @@ fn an_ordinary_mesh_keeps_the_files_numbers() {
 fn polygons_keep_their_id_and_hide_their_diagonals() {
     let text = format!("{TRIANGLE}v 1 1 0\nf 1 2 3\nf 1 2 4 3\n");
     let mesh = load_text(&text).expect("good").mesh;
-    assert_eq!(mesh.faces, [0, 1, 1]);
-    assert_eq!(mesh.outline, [0b111, 0b011, 0b110]);
+    assert_eq!([0, 1, 2].map(|t| mesh.face_of(t)), [0, 1, 1]);
+    assert_eq!([0, 1, 2].map(|t| mesh.outline_of(t)), [0b111, 0b011, 0b110]);
     assert_eq!(mesh.face_count, 2);
 }
 
@@ -203,24 +209,27 @@ fn names_normals_and_materials_go_to_their_faces() {
     );
     let loaded = load_text(&text).expect("good");
     let mesh = &loaded.mesh;
-    let material = |t: usize| &mesh.materials[mesh.material[t] as usize];
+    let material = |t: u32| mesh.material_of(t).expect("one of the list");
     assert_eq!(
         [0, 1, 2].map(|t| material(t).name.as_str()),
         ["", "red", "blue"]
     );
     assert_eq!(material(1).diffuse, Some(Vec3::X));
     assert_eq!(material(2).diffuse, None);
-    assert_eq!(mesh.groups[mesh.group[1] as usize], "left side #2");
-    assert_eq!(mesh.corner_normals, [[u32::MAX; 3], [0; 3], [u32::MAX; 3]]);
-    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-    assert_eq!(warnings.len(), 4, "{warnings:?}");
-    assert_eq!(warnings[0], "line 15: 1 “curv” statement(s) ignored");
-    assert_eq!(warnings[1], "line 13: 2 “l” statement(s) ignored");
+    assert_eq!(mesh.groups[mesh.group.of(1) as usize], "left side #2");
     assert_eq!(
-        warnings[3],
+        mesh.corner_normals,
+        [[NO_NORMAL; 3], [0; 3], [0, NO_NORMAL, 0]]
+    );
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert_eq!(mesh.lines, [[0, 1], [1, 2]]);
+    assert_eq!(warnings.len(), 3, "{warnings:?}");
+    assert_eq!(warnings[0], "line 15: 1 “curv” statement(s) ignored");
+    assert!(warnings[1].starts_with("line 2: material library “missing.mtl”: "));
+    assert_eq!(
+        warnings[2],
         "1 material(s) without a definition, “blue” first"
     );
-    assert!(warnings[2].starts_with("line 2: material library “missing.mtl”: "));
 }
 
 #[test]
@@ -229,9 +238,9 @@ fn a_cancelled_load_says_so() {
     progress.cancel();
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
     let result = parse(
-        TRIANGLE.as_bytes(),
+        || Ok(TRIANGLE.as_bytes()),
         Path::new("x.obj"),
-        Recentre::Auto,
+        LoadOptions::default(),
         &library,
         &progress,
     );
@@ -240,13 +249,12 @@ fn a_cancelled_load_says_so() {
 
 #[test]
 fn an_endless_line_is_given_up() {
-    let endless = io::repeat(b'1');
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
     let progress = Progress::default();
     let result = parse(
-        endless,
+        || Ok(io::repeat(b'1')),
         Path::new("x.obj"),
-        Recentre::Auto,
+        LoadOptions::default(),
         &library,
         &progress,
     );
@@ -256,9 +264,9 @@ fn an_endless_line_is_given_up() {
         "{error}"
     );
     let zeros = parse(
-        io::repeat(0),
+        || Ok(io::repeat(0)),
         Path::new("x.obj"),
-        Recentre::Auto,
+        LoadOptions::default(),
         &library,
         &progress,
     );

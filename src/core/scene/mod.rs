@@ -8,11 +8,11 @@ use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::Intersector;
 use crate::kernel::TriangleKernel;
-use crate::mesh::{SAFE_SIZE, TriangleMesh, VertexNormals};
-use crate::obj::{self, LoadError, Loaded, Recentre, Warning};
+use crate::mesh::{Crease, SAFE_SIZE, TriangleMesh, VertexNormals};
+use crate::obj::{self, LoadError, LoadOptions, Loaded, Warning};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::simd::SimdLevel;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 use tree::Tree;
@@ -30,9 +30,10 @@ pub enum Shading {
 /// A mesh with its tree. Immutable, as far as rays can tell: another scene replaces it.
 #[derive(Debug)]
 pub struct Scene {
-    mesh: TriangleMesh,
+    mesh: Arc<TriangleMesh>,
     bounds: Aabb,
-    tree: Tree,
+    tree: Arc<Tree>,
+    crease: Crease,
     /// Made when smooth shading first asks for it.
     vertex_normals: OnceLock<VertexNormals>,
 }
@@ -58,10 +59,28 @@ impl Scene {
         progress.enter(Phase::Building);
         Ok(Self {
             bounds: mesh.bounds(),
-            tree: Tree::build(&mesh, options, progress)?,
-            mesh,
+            tree: Arc::new(Tree::build(&mesh, options, progress)?),
+            mesh: Arc::new(mesh),
+            crease: Crease::default(),
             vertex_normals: OnceLock::new(),
         })
+    }
+
+    /// The same triangles and the same tree, with other edges in smooth shading.
+    #[must_use]
+    pub fn with_crease(&self, crease: Crease) -> Self {
+        Self {
+            mesh: Arc::clone(&self.mesh),
+            bounds: self.bounds,
+            tree: Arc::clone(&self.tree),
+            crease,
+            vertex_normals: OnceLock::new(),
+        }
+    }
+
+    /// Where smooth shading has edges.
+    pub fn crease(&self) -> Crease {
+        self.crease
     }
 
     /// Only some of a mesh's triangles, in their order, without what is known of their faces.
@@ -117,7 +136,7 @@ impl Scene {
     /// Normals at the corners, computed at the first call.
     pub fn vertex_normals(&self) -> &VertexNormals {
         self.vertex_normals
-            .get_or_init(|| VertexNormals::of(&self.mesh))
+            .get_or_init(|| VertexNormals::of(&self.mesh, self.crease))
     }
 
     /// Packs the scene for a kernel.
@@ -146,6 +165,8 @@ pub struct LoadedScene {
     pub vertex_count: usize,
     /// The largest distance, in a coordinate, between the file's decimals and what is traced.
     pub max_rounding: f64,
+    /// The libraries and textures that were looked for, whether or not they are there.
+    pub files: Vec<PathBuf>,
     /// How long reading, parsing and checking took; the tree's time is the scene's.
     pub load_time: Duration,
 }
@@ -157,12 +178,12 @@ impl LoadedScene {
     /// See [`LoadError`].
     pub fn load(
         path: &Path,
-        recentre: Recentre,
+        load_options: LoadOptions,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
         let start = Instant::now();
-        let loaded = obj::load(path, recentre, progress)?;
+        let loaded = obj::load(path, load_options, progress)?;
         Self::of(loaded, start, options, progress).map_err(|Cancelled| LoadError::Cancelled {
             path: path.to_owned(),
         })
@@ -187,6 +208,7 @@ impl LoadedScene {
             warnings,
             vertex_count: loaded.vertex_count,
             max_rounding: loaded.max_rounding,
+            files: loaded.files,
             load_time,
         })
     }
@@ -220,7 +242,8 @@ mod tests {
             ("1e30", true),
         ] {
             let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
-            let loaded = obj::parse(text.as_bytes(), path, Recentre::Auto, &library, &progress);
+            let open = || Ok(text.as_bytes());
+            let loaded = obj::parse(open, path, LoadOptions::default(), &library, &progress);
             let loaded = LoadedScene::of(
                 loaded.expect("good"),
                 Instant::now(),

@@ -1,5 +1,6 @@
 //! Arguments that several commands share.
 
+use super::load;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
@@ -8,8 +9,12 @@ use hitscope_core::camera::{CameraError, Projection, Turntable};
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
-use hitscope_core::scene::SceneOptions;
+use hitscope_core::mesh::Crease;
+use hitscope_core::obj::{Faults, LoadError, LoadOptions, Recentre};
+use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Camera, Scene};
+use std::path::Path;
+use std::sync::Arc;
 
 /// From where a picture is taken. Positions are in the file's coordinates.
 #[derive(Args, Clone, Debug)]
@@ -79,24 +84,62 @@ impl KernelArg {
     }
 }
 
-/// How triangles are kept for tracing.
+/// How a mesh is loaded, and kept for tracing.
 #[derive(Args, Clone, Copy, Debug)]
-pub struct PackingArg {
+pub struct MeshArgs {
+    /// Drop faces whose indices name nothing, and say how many, instead of refusing the file
+    #[arg(long)]
+    pub lenient: bool,
+    /// Refuse a file that takes more memory to load than this
+    #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
+    pub max_memory: u64,
     /// Keep triangles and their tree in a third less memory; rays take longer
     #[arg(long)]
     pub compact: bool,
 }
 
-impl PackingArg {
-    /// What a scene is made with.
-    pub fn options(self) -> SceneOptions {
-        SceneOptions {
+impl MeshArgs {
+    /// Loads a scene, with a line about it on a terminal's stderr.
+    ///
+    /// # Errors
+    /// See [`LoadError`].
+    pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, LoadError> {
+        let load_options = LoadOptions {
+            recentre,
+            faults: if self.lenient {
+                Faults::Lenient
+            } else {
+                Faults::Strict
+            },
+            max_memory: self.max_memory << 20,
+        };
+        let options = SceneOptions {
             packing: if self.compact {
                 Packing::Compact
             } else {
                 Packing::Full
             },
             ..SceneOptions::default()
+        };
+        load(path, load_options, options)
+    }
+}
+
+/// Where smooth shading has edges.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct CreaseArg {
+    /// Smooth shading has an edge where triangles meet at a larger angle than this; the file's normals and
+    /// smoothing groups don't count then
+    #[arg(long, value_name = "DEGREES", value_parser = parse_crease)]
+    pub crease: Option<f32>,
+}
+
+impl CreaseArg {
+    /// The scene with its edges there.
+    pub fn apply(self, scene: Arc<Scene>) -> Arc<Scene> {
+        match self.crease {
+            Some(degrees) => Arc::new(scene.with_crease(Crease::Above(degrees.to_radians()))),
+            None => scene,
         }
     }
 }
@@ -152,6 +195,14 @@ fn parse_fov(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
         _ => Err("expected degrees between 0 and 180".to_owned()),
+    }
+}
+
+/// `30`.
+fn parse_crease(text: &str) -> Result<f32, String> {
+    match text.parse() {
+        Ok(degrees) if (0.0..=180.0).contains(&degrees) => Ok(degrees),
+        _ => Err("expected degrees from 0 to 180".to_owned()),
     }
 }
 

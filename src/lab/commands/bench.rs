@@ -1,7 +1,7 @@
 //! `hitscope bench`: how fast is a file loaded, its tree built, and the rays of each workload traced?
 
-use super::args::{CameraArgs, PackingArg, kernel_names};
-use super::{CommandError, default_thread_count, load};
+use super::args::{CameraArgs, MeshArgs, kernel_names};
+use super::{CommandError, default_thread_count};
 use crate::measure::speed::{RAYS_AT_ONCE, median};
 use crate::measure::workloads::{WORKLOADS, workloads};
 use clap::Args;
@@ -36,9 +36,9 @@ pub struct BenchArgs {
     /// Kernel or tier, several times for several [default: the four tiers]
     #[arg(long = "kernel", value_name = "KERNEL", value_parser = kernel_names())]
     pub kernels: Vec<String>,
-    /// How triangles are kept.
+    /// How the mesh is loaded.
     #[command(flatten)]
-    pub packing: PackingArg,
+    pub mesh: MeshArgs,
     /// Threads that trace [default: as many as there are cores]
     #[arg(long, value_name = "N")]
     pub threads: Option<NonZeroUsize>,
@@ -106,7 +106,7 @@ impl BenchArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let loaded = load(&self.file, Recentre::Auto, self.packing.options())?;
+        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene)?;
         let triangles = scene.mesh().triangles.len();

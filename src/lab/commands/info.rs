@@ -1,11 +1,13 @@
 //! `hitscope info`: what is in a file, and what it asks of a kernel.
 
-use super::args::PackingArg;
-use super::{CommandError, load};
+use super::CommandError;
+use super::args::MeshArgs;
 use crate::requirement::{Requirement, required_tier};
 use clap::Args;
+use hitscope_core::TriangleMesh;
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::mesh::{Health, SLIVER_ASPECT};
+use hitscope_core::mesh::strips::strips;
+use hitscope_core::mesh::{FLAWS, Health};
 use hitscope_core::obj::Recentre;
 use hitscope_core::scene::LoadedScene;
 use serde::Serialize;
@@ -18,9 +20,9 @@ use std::path::PathBuf;
 pub struct InfoArgs {
     /// The OBJ file
     pub file: PathBuf,
-    /// How triangles are kept.
+    /// How the mesh is loaded.
     #[command(flatten)]
-    pub packing: PackingArg,
+    pub mesh: MeshArgs,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -38,6 +40,8 @@ struct Info {
     /// Largest distance, in a coordinate, between the file's decimals and what is traced.
     max_rounding: f64,
     bytes: BTreeMap<&'static str, usize>,
+    /// What the same surface takes in each way of writing it.
+    bytes_as: BTreeMap<&'static str, usize>,
     dropped: BTreeMap<&'static str, usize>,
     warnings: Vec<String>,
     health: HealthReport,
@@ -57,10 +61,10 @@ struct Bounds {
 struct HealthReport {
     degenerate: usize,
     non_finite: usize,
-    non_manifold_edges: usize,
-    open_edges: usize,
-    slivers: usize,
-    flipped_edges: usize,
+    bad_index: usize,
+    /// How many there are of each of [`FLAWS`]; null where nobody looked.
+    #[serde(flatten)]
+    flaws: BTreeMap<&'static str, Option<usize>>,
     max_aspect: f64,
 }
 
@@ -70,7 +74,7 @@ impl InfoArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let loaded = load(&self.file, Recentre::Auto, self.packing.options())?;
+        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let info = Info::of(&loaded);
         if self.json {
             let json = serde_json::to_string_pretty(&info);
@@ -87,7 +91,7 @@ impl Info {
         let scene = &loaded.scene;
         let mesh = scene.mesh();
         let bounds = scene.bounds();
-        let in_file = |p: glam::Vec3| mesh.in_file(p.as_dvec3()).to_array();
+        let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         let intersector = scene.intersector(default_triangle_kernel());
         let mut bytes = BTreeMap::from(mesh.bytes());
         bytes.insert("tree", scene.bvh().bytes());
@@ -109,16 +113,19 @@ impl Info {
             dropped: BTreeMap::from([
                 ("zero_area", mesh.dropped.zero_area),
                 ("non_finite", mesh.dropped.non_finite),
+                ("bad_index", mesh.dropped.bad_index),
             ]),
+            bytes_as: BTreeMap::from(ways_of_writing(mesh)),
             warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
             tier: required_tier(scene, &health),
             health: HealthReport {
                 degenerate: mesh.dropped.zero_area,
                 non_finite: mesh.dropped.non_finite,
-                non_manifold_edges: health.non_manifold_edges,
-                open_edges: health.open_edges,
-                slivers: health.slivers,
-                flipped_edges: health.flipped_edges,
+                bad_index: mesh.dropped.bad_index,
+                flaws: FLAWS
+                    .iter()
+                    .map(|info| (info.name, health.places(info.flaw).count()))
+                    .collect(),
                 max_aspect: health.max_aspect,
             },
             load_ms: loaded.load_time.as_secs_f64() * 1e3,
@@ -127,42 +134,57 @@ impl Info {
     }
 
     fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
-        writeln!(out, "vertices      {}", self.vertices)?;
-        writeln!(out, "triangles     {}", self.triangles)?;
-        writeln!(out, "polygons      {}", self.polygons)?;
-        writeln!(out, "materials     {}", self.materials)?;
-        writeln!(out, "groups        {}", self.groups)?;
-        writeln!(out, "bounds        {:?}", self.bounds.min)?;
-        writeln!(out, "              {:?}", self.bounds.max)?;
-        writeln!(out, "origin        {:?}", self.origin)?;
-        writeln!(out, "rounded by    {:e} at most", self.max_rounding)?;
+        writeln!(out, "vertices            {}", self.vertices)?;
+        writeln!(out, "triangles           {}", self.triangles)?;
+        writeln!(out, "polygons            {}", self.polygons)?;
+        writeln!(out, "materials           {}", self.materials)?;
+        writeln!(out, "groups              {}", self.groups)?;
+        writeln!(out, "bounds              {:?}", self.bounds.min)?;
+        writeln!(out, "                    {:?}", self.bounds.max)?;
+        writeln!(out, "origin              {:?}", self.origin)?;
+        writeln!(out, "rounded by          {:e} at most", self.max_rounding)?;
         for (part, bytes) in &self.bytes {
-            writeln!(out, "bytes         {bytes} {part}")?;
+            writeln!(out, "bytes               {bytes} {part}")?;
+        }
+        for (way, bytes) in &self.bytes_as {
+            writeln!(out, "{:<20}{bytes} bytes", format!("as {way}"))?;
         }
         for (reason, count) in &self.dropped {
-            writeln!(out, "dropped       {count} {reason}")?;
+            writeln!(out, "dropped             {count} {reason}")?;
         }
-        let health = &self.health;
-        writeln!(out, "open edges    {}", health.open_edges)?;
-        writeln!(out, "non-manifold  {}", health.non_manifold_edges)?;
-        writeln!(out, "flipped       {}", health.flipped_edges)?;
+        for info in &FLAWS {
+            let title = info.title.to_lowercase();
+            match self.health.flaws[info.name] {
+                Some(count) => writeln!(out, "{title:<20}{count}")?,
+                None => writeln!(out, "{title:<20}not looked for: the border is too long")?,
+            }
+        }
         writeln!(
             out,
-            "slivers       {} (longer than {SLIVER_ASPECT} times their height)",
-            health.slivers
-        )?;
-        writeln!(
-            out,
-            "load, build   {:.1} ms, {:.1} ms",
+            "load, build         {:.1} ms, {:.1} ms",
             self.load_ms, self.build_ms
         )?;
-        writeln!(out, "tier          {}", self.tier.tier)?;
+        writeln!(out, "tier                {}", self.tier.tier)?;
         for reason in &self.tier.reasons {
-            writeln!(out, "              {reason}")?;
+            writeln!(out, "                    {reason}")?;
         }
         for warning in &self.warnings {
-            writeln!(out, "warning       {warning}")?;
+            writeln!(out, "warning             {warning}")?;
         }
         Ok(())
     }
+}
+
+/// The lecture's three: each corner of each triangle by itself; each vertex once, and three indices a triangle;
+/// each vertex once, and strips of indices.
+fn ways_of_writing(mesh: &TriangleMesh) -> [(&'static str, usize); 3] {
+    let positions = size_of_val(&mesh.positions[..]);
+    [
+        (
+            "triangle list",
+            mesh.triangles.len() * size_of::<[glam::Vec3; 3]>(),
+        ),
+        ("indexed", positions + size_of_val(&mesh.triangles[..])),
+        ("strips", positions + strips(mesh).len() * size_of::<u32>()),
+    ]
 }

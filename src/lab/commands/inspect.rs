@@ -1,8 +1,8 @@
 //! `hitscope inspect`: what happens to one pixel's ray.
 
-use super::args::{CameraArgs, KernelArg, PackingArg};
+use super::CommandError;
+use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs};
 use super::render::ShadingArg;
-use super::{CommandError, load};
 use crate::inspection::{HitReport, Inspection};
 use clap::Args;
 use glam::UVec2;
@@ -27,9 +27,12 @@ pub struct InspectArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
-    /// How triangles are kept.
+    /// Where smooth shading has edges.
     #[command(flatten)]
-    pub packing: PackingArg,
+    pub crease: CreaseArg,
+    /// How the mesh is loaded.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -50,7 +53,8 @@ impl InspectArgs {
                 height: size.y,
             });
         }
-        let scene = load(&self.file, Recentre::Auto, self.packing.options())?.scene;
+        let scene = self.mesh.load(&self.file, Recentre::Auto)?.scene;
+        let scene = self.crease.apply(scene);
         let camera = self.camera.camera(&scene)?;
         let intersector = scene.intersector(self.kernel.kernel());
         let inspection =

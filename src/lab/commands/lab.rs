@@ -9,7 +9,7 @@ use crate::measure::{self, Advance, Measurements, Sizes};
 use crate::report::{self, About};
 use clap::Args;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::obj::Recentre;
+use hitscope_core::obj::LoadOptions;
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
@@ -164,7 +164,7 @@ impl LabArgs {
     }
 
     fn measure_scene(&self, file: &Path, out: &mut dyn Write) -> Result<(), CommandError> {
-        let scene = load(file, Recentre::Auto, SceneOptions::default())?.scene;
+        let scene = load(file, LoadOptions::default(), SceneOptions::default())?.scene;
         let camera = self.camera.camera(&scene)?;
         let progress = Progress::default();
         let sizes = if self.quick {

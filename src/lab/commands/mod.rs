@@ -19,7 +19,7 @@ pub use render::{
 pub use trace::TraceArgs;
 
 use hitscope_core::camera::CameraError;
-use hitscope_core::obj::{LoadError, Recentre};
+use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::RenderPanic;
 use hitscope_core::scene::{LoadedScene, SceneOptions};
@@ -88,10 +88,10 @@ fn file_error(path: &Path, source: io::Error) -> CommandError {
 /// See [`LoadError`].
 pub fn load(
     path: &Path,
-    recentre: Recentre,
+    load_options: LoadOptions,
     options: SceneOptions,
 ) -> Result<LoadedScene, LoadError> {
-    let loaded = LoadedScene::load(path, recentre, options, &Progress::default())?;
+    let loaded = LoadedScene::load(path, load_options, options, &Progress::default())?;
     if io::stderr().is_terminal() {
         let triangles = loaded.scene.mesh().triangles.len();
         let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;

@@ -1,7 +1,7 @@
 //! `hitscope render`: a picture without a window.
 
-use super::args::{CameraArgs, KernelArg, PackingArg, ViewArg, kernel_names};
-use super::{CommandError, load};
+use super::CommandError;
+use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::integrator::Context;
@@ -52,9 +52,12 @@ pub struct PictureArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
-    /// How triangles are kept.
+    /// Where smooth shading has edges.
     #[command(flatten)]
-    pub packing: PackingArg,
+    pub crease: CreaseArg,
+    /// How the mesh is loaded.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
     /// What the view “disagreement” holds the kernel against
     #[arg(long, value_name = "KERNEL", default_value = "exact", value_parser = kernel_names())]
     pub against: String,
@@ -107,11 +110,8 @@ impl RenderArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn trace(&self) -> Result<Rendered, CommandError> {
-        self.picture.trace(load(
-            &self.file,
-            Recentre::Auto,
-            self.picture.packing.options(),
-        )?)
+        let loaded = self.picture.mesh.load(&self.file, Recentre::Auto)?;
+        self.picture.trace(loaded)
     }
 }
 
@@ -120,7 +120,8 @@ impl PictureArgs {
     ///
     /// # Errors
     /// See [`CommandError`].
-    pub fn trace(&self, loaded: LoadedScene) -> Result<Rendered, CommandError> {
+    pub fn trace(&self, mut loaded: LoadedScene) -> Result<Rendered, CommandError> {
+        loaded.scene = self.crease.apply(loaded.scene);
         let camera = self.camera.camera(&loaded.scene)?;
         let shading = self.shading.into();
         let intersector: Arc<dyn Intersector> =

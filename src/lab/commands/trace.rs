@@ -1,8 +1,8 @@
 //! `hitscope trace`: rays in, hits out.
 
-use super::args::{KernelArg, PackingArg};
+use super::args::{KernelArg, MeshArgs};
 use super::render::default_thread_count;
-use super::{CommandError, file_error, load};
+use super::{CommandError, file_error};
 use crate::inspection::position_in_file;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -31,9 +31,9 @@ pub struct TraceArgs {
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
-    /// How triangles are kept.
+    /// How the mesh is loaded.
     #[command(flatten)]
-    pub packing: PackingArg,
+    pub mesh: MeshArgs,
     /// Whether positions are taken about an origin near the mesh before they are rounded to f32
     #[arg(long, default_value = "on")]
     pub recentre: RecentreArg,
@@ -114,7 +114,7 @@ impl TraceArgs {
             RecentreArg::On => Recentre::Auto,
             RecentreArg::Off => Recentre::Off,
         };
-        let scene = load(&self.file, recentre, self.packing.options())?.scene;
+        let scene = self.mesh.load(&self.file, recentre)?.scene;
         let intersector = scene.intersector(self.kernel.kernel());
         let tracer = Tracer {
             scene: &scene,
@@ -305,7 +305,7 @@ impl HitLine {
             },
             barycentric: hit.barycentric(),
             triangle: hit.primitive,
-            face: mesh.faces[hit.primitive as usize],
+            face: mesh.face_of(hit.primitive),
             position: position_in_file(mesh, hit),
             also,
         }

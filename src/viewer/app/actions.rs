@@ -2,6 +2,7 @@
 
 use super::App;
 use crate::bindings::Action;
+use hitscope_core::mesh::Flaw;
 use std::path::Path;
 
 impl App {
@@ -20,6 +21,8 @@ impl App {
                 let bounds = self.document.loaded.scene.bounds();
                 self.turntable.frame(bounds, self.resolution);
             }
+            Action::ShowFlaw(flaw) => self.show_flaw(flaw),
+            Action::ToggleWatch => self.settings.watches = !self.settings.watches,
             Action::LookFrom(view) => self.turntable.look_from(view),
             Action::ToggleOrthographic => {
                 self.turntable.is_orthographic = !self.turntable.is_orthographic;
@@ -38,12 +41,23 @@ impl App {
         ctx.request_repaint();
     }
 
+    /// Marks flaws and shows them, with what surrounds them.
+    fn show_flaw(&mut self, flaw: Option<Flaw>) {
+        self.flaw = flaw;
+        if let (Some(flaw), Some(findings)) = (flaw, self.document.known_findings()) {
+            let scene = &self.document.loaded.scene;
+            let around = findings.health.bounds(scene.mesh(), flaw);
+            let bounds = around.unwrap_or(scene.bounds());
+            self.turntable.frame(bounds, self.resolution);
+        }
+    }
+
     /// Closes the topmost thing that can be closed.
     fn dismiss(&mut self) {
         let is_closed = std::mem::take(&mut self.shows_help)
             || self.open_dialog.dismiss()
             || self.notice.take().is_some();
-        if !is_closed {
+        if !is_closed && self.flaw.take().is_none() {
             (self.pick, self.picking) = (None, None);
         }
     }

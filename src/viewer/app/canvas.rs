@@ -177,35 +177,45 @@ impl App {
 
     fn inspect(&mut self, at_px: DVec2, ctx: &egui::Context) {
         let pixel = at_px.max(DVec2::ZERO).as_uvec2().min(self.resolution - 1);
+        self.start_picking(self.turntable.camera(self.resolution), pixel, ctx);
+        self.settings.tab = Tab::Inspect;
+    }
+
+    /// Asks what a picked pixel's ray meets now.
+    pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
+        let pixel = UVec2::from_array(pick.inspection.pixel);
+        self.start_picking(pick.camera, pixel, ctx);
+    }
+
+    fn start_picking(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
         let scene = Arc::clone(&self.document.loaded.scene);
         let intersector = Arc::clone(self.document.intersector());
-        let (shading, camera) = (
-            self.settings.shading(),
-            self.turntable.camera(self.resolution),
-        );
+        let shading = self.settings.shading();
         // Every kernel on every triangle that the ray comes near: a hostile mesh has a million of them.
-        let inspect = move || Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+        let inspect = move || {
+            let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+            let origin = scene.mesh().origin;
+            let hit = inspection.hit.as_ref();
+            let point = hit.map(|hit| DVec3::from_array(hit.position) - origin);
+            Pick {
+                inspection,
+                camera,
+                point,
+            }
+        };
         self.picking = Some(Task::spawn("inspect", ctx, inspect));
-        self.settings.tab = Tab::Inspect;
     }
 
     /// Takes over what is known of the pixel that was clicked last.
     pub(super) fn poll_picking(&mut self) {
         let result = match self.picking.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
-            Some(Ok(Some(inspection))) => Ok(inspection),
+            Some(Ok(Some(pick))) => Ok(pick),
             Some(Err(broken)) => Err(broken),
         };
         self.picking = None;
         match result {
-            Ok(inspection) => {
-                let origin = self.document.loaded.scene.mesh().origin;
-                let point = inspection
-                    .hit
-                    .as_ref()
-                    .map(|hit| DVec3::from_array(hit.position) - origin);
-                self.pick = Some(Pick { inspection, point });
-            }
+            Ok(pick) => self.pick = Some(pick),
             Err(broken) => self.error(broken),
         }
     }
@@ -221,13 +231,18 @@ impl App {
         };
         let mut options = self.overlay_options(canvas.pixels_per_point);
         if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
-            options.picked = None;
+            (options.picked, options.flaw) = (None, None);
         }
+        let findings = self.document.known_findings();
+        let health = findings.as_ref().map(|findings| &findings.health);
         let is_moving = is_dragging || self.tracer.is_moving();
         if is_moving && self.overlay.rests_while_moving() {
             options = Options::NOTHING;
         }
-        let (overlay, error) = match self.overlay.draw(&scene, &camera, &options, ui.ctx()) {
+        let (overlay, error) = match self
+            .overlay
+            .draw(&scene, health, &camera, &options, ui.ctx())
+        {
             Ok(texture) => (texture, None),
             Err(error) => (None, Some(error)),
         };
@@ -257,6 +272,8 @@ impl App {
             wire_colour: settings.wire_colour,
             normals: settings.shows_normals.then_some(settings.shading()),
             normal_length: settings.normal_length,
+            elements: self.document.loaded.scene.mesh().has_elements(),
+            flaw: self.flaw,
             picked: hit.map(|hit| hit.triangle),
             line_width_px: pixels_per_point.max(1.0),
         }

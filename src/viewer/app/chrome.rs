@@ -152,8 +152,8 @@ impl App {
                             );
                         }
                         Tab::Mesh => {
-                            let document = &mut self.document;
-                            panels::mesh::mesh_ui(ui, document, &mut self.settings, actions);
+                            let (document, settings) = (&mut self.document, &mut self.settings);
+                            panels::mesh::mesh_ui(ui, document, settings, self.flaw, actions);
                         }
                         Tab::Trade => self.trade_ui(ui),
                     });

@@ -5,11 +5,13 @@
 //! | this one | state, and the order of a frame |
 //! | `actions` | what keys and buttons do |
 //! | `canvas` | the picture, and the pointer on it |
+//! | `files` | what is loaded, and when again |
 //! | `chrome` | tool bar, status line, messages, help |
 
 mod actions;
 mod canvas;
 mod chrome;
+mod files;
 
 pub use chrome::grouped;
 
@@ -23,11 +25,14 @@ use crate::task::Task;
 use crate::times::Times;
 use crate::tracer::{Request, Tracer};
 use crate::trade::Trade;
+use crate::watch::Watch;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
 use glam::{DVec3, UVec2};
-use hitscope_core::Film;
 use hitscope_core::camera::Turntable;
+use hitscope_core::mesh::Flaw;
+use hitscope_core::obj::LoadOptions;
+use hitscope_core::{Camera, Film};
 use hitscope_lab::commands::default_thread_count;
 use hitscope_lab::inspection::Inspection;
 use std::path::PathBuf;
@@ -39,6 +44,8 @@ use std::time::Duration;
 pub struct StartOptions {
     /// A file to load; the embedded scene without one.
     pub file: Option<PathBuf>,
+    /// How files are loaded.
+    pub load_options: LoadOptions,
     /// Save a picture of the window, and close it.
     pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
 }
@@ -51,6 +58,8 @@ pub struct NoWgpu;
 /// A pixel that was clicked.
 struct Pick {
     inspection: Inspection,
+    /// From where it was clicked.
+    camera: Camera,
     /// Where the ray hit, in the scene's coordinates.
     point: Option<DVec3>,
 }
@@ -66,6 +75,8 @@ pub struct App {
     settings: Settings,
     document: Document,
     loading: Option<Loading>,
+    load_options: LoadOptions,
+    watch: Option<Watch>,
     open_dialog: OpenDialog,
     turntable: Turntable,
     tracer: Tracer,
@@ -73,7 +84,9 @@ pub struct App {
     overlay: OverlayLayer,
     pick: Option<Pick>,
     /// The next one, while it is looked into.
-    picking: Option<Task<Inspection>>,
+    picking: Option<Task<Pick>>,
+    /// Which flaws are marked.
+    flaw: Option<Flaw>,
     /// Made when its tab is first shown.
     trade: Option<Trade>,
     notice: Option<Notice>,
@@ -111,11 +124,13 @@ impl App {
         let document = Document::embedded(settings.kernel());
         let loading = start
             .file
-            .map(|file| Loading::start(file, &settings, &cc.egui_ctx));
+            .map(|file| Loading::start(file, start.load_options, &settings, &cc.egui_ctx));
         Ok(Self {
             turntable: Turntable::framing(document.loaded.scene.bounds(), UVec2::new(16, 9)),
             document,
             loading,
+            load_options: start.load_options,
+            watch: None,
             open_dialog: OpenDialog::default(),
             tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
@@ -123,6 +138,7 @@ impl App {
             overlay: OverlayLayer::new(render_state),
             pick: None,
             picking: None,
+            flaw: None,
             trade: None,
             notice: None,
             shows_help: false,
@@ -200,37 +216,6 @@ impl App {
         });
     }
 
-    fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
-        if let Some(loading) = &self.loading {
-            loading.cancel();
-        }
-        self.notice = None;
-        self.loading = Some(Loading::start(path, &self.settings, ctx));
-    }
-
-    /// Takes over a document that is ready; one that can't be loaded leaves the old one in place.
-    fn poll_loading(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.open_dialog.poll() {
-            self.load(path, ctx);
-        }
-        let Some(loading) = &self.loading else { return };
-        let result = match loading.poll() {
-            Ok(None) => return,
-            Ok(Some(result)) => result.map_err(|error| error.to_string()),
-            Err(broken) => Err(format!("{}: {broken}", loading.path.display())),
-        };
-        self.loading = None;
-        match result {
-            Ok(document) => self.show(document, ctx),
-            Err(message) => {
-                if let Some(screenshot) = &self.screenshot {
-                    screenshot.fail(ctx, message.clone());
-                }
-                self.error(message);
-            }
-        }
-    }
-
     /// Leaves the processor to what closing the window takes.
     fn stop_work(&mut self) {
         if let Some(loading) = self.loading.take() {
@@ -239,32 +224,6 @@ impl App {
         self.trade = None;
         self.document.stop_improving();
         self.tracer.stop();
-    }
-
-    fn show(&mut self, document: Document, ctx: &egui::Context) {
-        let is_same_file = self.document.path == document.path;
-        self.document = document;
-        (self.pick, self.picking) = (None, None);
-        self.trade = None;
-        if is_same_file {
-            self.turntable
-                .set_scene(self.document.loaded.scene.bounds());
-        } else {
-            self.is_unframed = true;
-        }
-        let title = format!("{} – hitscope", self.document.name());
-        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
-        let warnings = &self.document.loaded.warnings;
-        if let Some(first) = warnings.first() {
-            let more = match warnings.len() - 1 {
-                0 => String::new(),
-                n => format!(" (and {n} more, in the Mesh tab)"),
-            };
-            self.notice = Some(Notice {
-                text: format!("{}: {first}{more}", self.document.name()),
-                is_error: false,
-            });
-        }
     }
 
     fn poll_gpu_errors(&mut self) {
@@ -293,11 +252,16 @@ impl eframe::App for App {
             self.stop_work();
         }
         self.poll_loading(ctx);
+        self.poll_watch(ctx);
         self.poll_gpu_errors();
         self.poll_picking();
         if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
             self.error(broken);
             self.settings.kernel = self.document.intersector().kernel().name.to_owned();
+        }
+        // A slider that is being dragged would have normals computed for each step.
+        if !ctx.egui_is_using_pointer() {
+            self.document.use_crease(self.settings.crease());
         }
         let second = self.settings.second_kernel();
         if let Err(broken) = self.document.use_second(second, ctx) {

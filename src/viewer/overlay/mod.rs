@@ -1,7 +1,8 @@
-//! Wireframe, normals and the picked triangle, over the traced picture.
+//! Wireframe, normals, flaws and the picked triangle, over the traced picture.
 //!
 //! Lines are gathered from the mesh in the background, when they are first asked for.
 
+pub mod marks;
 pub mod normals;
 pub mod wireframe;
 
@@ -11,6 +12,7 @@ use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
 use crate::task::{Broken, Task, Wanted};
 use eframe::egui_wgpu::RenderState;
+use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
@@ -27,6 +29,10 @@ pub struct Options {
     pub normals: Option<Shading>,
     /// Length of the normals, as a part of the mesh's radius.
     pub normal_length: f32,
+    /// The file's own lines and points.
+    pub elements: bool,
+    /// Where flaws of this kind are.
+    pub flaw: Option<Flaw>,
     /// The picked triangle.
     pub picked: Option<u32>,
     /// Width of the wireframe's lines in pixels.
@@ -40,9 +46,19 @@ impl Options {
         wire_colour: [0; 3],
         normals: None,
         normal_length: 0.0,
+        elements: false,
+        flaw: None,
         picked: None,
         line_width_px: 1.0,
     };
+
+    fn is_nothing(&self) -> bool {
+        self.wireframe.is_none()
+            && self.normals.is_none()
+            && !self.elements
+            && self.flaw.is_none()
+            && self.picked.is_none()
+    }
 
     pub(crate) fn wire_style(&self) -> StyleUniform {
         let [r, g, b] = self.wire_colour.map(|c| f32::from(c) / 255.0);
@@ -56,10 +72,22 @@ impl Options {
         }
     }
 
+    pub(crate) fn element_style(&self) -> StyleUniform {
+        style([0.10, 0.75, 0.62, 0.95], 1.6 * self.line_width_px, 0.0)
+    }
+
+    fn flaw_style(&self, alpha: f32) -> StyleUniform {
+        style([0.95, 0.15, 0.20, alpha], 2.6 * self.line_width_px, 0.0)
+    }
+
     fn picked_style(&self, alpha: f32) -> StyleUniform {
         style([1.0, 0.55, 0.0, alpha], 2.2 * self.line_width_px, 0.0)
     }
 }
+
+/// What marks something is drawn twice: faint where the mesh hides it, strong where it doesn't.
+const FAINT_AND_STRONG: [f32; 2] = [0.3, 1.0];
+const THROUGH_AND_HIDDEN: [Visibility; 2] = [Visibility::Through, Visibility::Hidden];
 
 fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
     StyleUniform {
@@ -128,6 +156,9 @@ pub struct OverlayLayer {
     mesh: Option<DepthMesh>,
     wireframe: Lines<Edges>,
     normals: Lines<Shading>,
+    elements: Lines<()>,
+    /// Twice: faint where they are hidden, strong where they aren't.
+    flaws: [Lines<Flaw>; 2],
     /// The picked triangle, faint where it is hidden and strong where it isn't.
     picked: Option<(u32, [LineSet; 2])>,
     texture: Option<wgpu::Texture>,
@@ -146,6 +177,8 @@ impl OverlayLayer {
             mesh: None,
             wireframe: Lines::default(),
             normals: Lines::default(),
+            elements: Lines::default(),
+            flaws: Default::default(),
             picked: None,
             texture: None,
             drawn: None,
@@ -160,18 +193,22 @@ impl OverlayLayer {
     pub fn draw(
         &mut self,
         scene: &Arc<Scene>,
+        health: Option<&Arc<Health>>,
         camera: &Camera,
         options: &Options,
         ctx: &egui::Context,
     ) -> Result<Option<&wgpu::Texture>, OverlayError> {
-        if options.wireframe.is_none() && options.normals.is_none() && options.picked.is_none() {
+        if options.is_nothing() {
             return Ok(None);
         }
         self.use_scene(scene)?;
         if self.mesh.is_none() {
             return Ok(None);
         }
-        let is_new = self.prepare(scene, options, ctx)?;
+        let mut is_new = self.prepare(scene, options, ctx)?;
+        if let (Some(flaw), Some(health)) = (options.flaw, health) {
+            is_new |= self.prepare_flaws(scene, health, flaw, options, ctx)?;
+        }
         let view = ViewUniform::new(camera, &scene.bounds());
         if is_new || self.drawn != Some((view, *options)) {
             self.redraw(&view, options);
@@ -200,6 +237,8 @@ impl OverlayLayer {
         self.texture = None;
         self.wireframe = Lines::default();
         self.normals = Lines::default();
+        self.elements = Lines::default();
+        self.flaws = Default::default();
         self.picked = None;
         self.drawn = None;
         self.mesh = Some(DepthMesh::new(&self.render_state.device, scene.mesh())?);
@@ -230,6 +269,13 @@ impl OverlayLayer {
                 |lines: &[Line]| pipelines.upload(device, queue, lines, &options.normal_style());
             is_new |= self.normals.prepare(shading, ctx, gather, upload)?;
         }
+        if options.elements {
+            let shared = Arc::clone(scene);
+            let gather = move || marks::elements(&shared);
+            let upload =
+                |lines: &[Line]| pipelines.upload(device, queue, lines, &options.element_style());
+            is_new |= self.elements.prepare((), ctx, gather, upload)?;
+        }
         if let Some(triangle) = options.picked
             && self
                 .picked
@@ -239,8 +285,30 @@ impl OverlayLayer {
             let lines = wireframe::triangle_lines(scene.mesh(), triangle);
             let upload =
                 |alpha| pipelines.upload(device, queue, &lines, &options.picked_style(alpha));
-            self.picked = Some((triangle, [upload(0.3)?, upload(1.0)?]));
+            let [faint, strong] = FAINT_AND_STRONG;
+            self.picked = Some((triangle, [upload(faint)?, upload(strong)?]));
             is_new = true;
+        }
+        Ok(is_new)
+    }
+
+    fn prepare_flaws(
+        &mut self,
+        scene: &Arc<Scene>,
+        health: &Arc<Health>,
+        flaw: Flaw,
+        options: &Options,
+        ctx: &egui::Context,
+    ) -> Result<bool, OverlayError> {
+        let RenderState { device, queue, .. } = &self.render_state;
+        let pipelines = self.overlay.lines();
+        let mut is_new = false;
+        for (lines, alpha) in self.flaws.iter_mut().zip(FAINT_AND_STRONG) {
+            let (scene, health) = (Arc::clone(scene), Arc::clone(health));
+            let gather = move || marks::flaws(&scene, &health, flaw);
+            let upload =
+                |lines: &[Line]| pipelines.upload(device, queue, lines, &options.flaw_style(alpha));
+            is_new |= lines.prepare(flaw, ctx, gather, upload)?;
         }
         Ok(is_new)
     }
@@ -256,11 +324,30 @@ impl OverlayLayer {
             set.set_style(queue, &options.normal_style());
             sets.push((set, Visibility::Hidden));
         }
-        if let (Some(_), Some((_, [faint, strong]))) = (options.picked, &self.picked) {
-            faint.set_style(queue, &options.picked_style(0.3));
-            strong.set_style(queue, &options.picked_style(1.0));
-            sets.push((faint, Visibility::Through));
-            sets.push((strong, Visibility::Hidden));
+        if let (true, Some((_, set))) = (options.elements, &self.elements.ready) {
+            set.set_style(queue, &options.element_style());
+            sets.push((set, Visibility::Hidden));
+        }
+        for ((lines, alpha), visibility) in self
+            .flaws
+            .iter()
+            .zip(FAINT_AND_STRONG)
+            .zip(THROUGH_AND_HIDDEN)
+        {
+            if let Some((flaw, set)) = &lines.ready
+                && options.flaw == Some(*flaw)
+            {
+                set.set_style(queue, &options.flaw_style(alpha));
+                sets.push((set, visibility));
+            }
+        }
+        if let (Some(_), Some((_, picked))) = (options.picked, &self.picked) {
+            for ((set, alpha), visibility) in
+                picked.iter().zip(FAINT_AND_STRONG).zip(THROUGH_AND_HIDDEN)
+            {
+                set.set_style(queue, &options.picked_style(alpha));
+                sets.push((set, visibility));
+            }
         }
         let Some(mesh) = &self.mesh else { return };
         let texture = self.overlay.draw(device, queue, view, mesh, &sets);

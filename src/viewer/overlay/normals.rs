@@ -26,7 +26,7 @@ pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
             let normals = scene.vertex_normals();
             let mut corners: Vec<(u32, [u32; 3], u32, usize)> = Vec::new();
             for (triangle, vertices) in mesh.triangles.iter().enumerate() {
-                let normal = normals.of_triangle(triangle as u32);
+                let normal = normals.of_triangle(mesh, triangle as u32);
                 for k in 0..3 {
                     let bits = normal[k].to_array().map(f32::to_bits);
                     corners.push((vertices[k], bits, triangle as u32, k));

@@ -18,7 +18,7 @@ pub fn lines(mesh: &TriangleMesh, edges: Edges) -> Vec<Line> {
     let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         for k in 0..3u8 {
-            if edges == Edges::Polygons && mesh.outline[triangle] & (1 << k) == 0 {
+            if edges == Edges::Polygons && mesh.outline_of(triangle as u32) & (1 << k) == 0 {
                 continue;
             }
             let (a, b) = (corners[usize::from(k)], corners[(usize::from(k) + 1) % 3]);

@@ -6,7 +6,7 @@ use crate::bindings::Action;
 use crate::document::Document;
 use crate::settings::Settings;
 use egui::RichText;
-use hitscope_core::mesh::SLIVER_ASPECT;
+use hitscope_core::mesh::{FLAWS, Flaw, Health};
 use hitscope_core::scene::LoadedScene;
 
 /// Counts, place, memory, health, warnings.
@@ -14,10 +14,10 @@ pub fn mesh_ui(
     ui: &mut egui::Ui,
     document: &mut Document,
     settings: &mut Settings,
+    flaw: Option<Flaw>,
     actions: &mut Vec<Action>,
 ) {
     let findings = document.findings(ui.ctx());
-    let health = findings.as_ref().map(|findings| findings.health);
     let loaded = &document.loaded;
     let scene = &loaded.scene;
     let mesh = scene.mesh();
@@ -49,6 +49,11 @@ pub fn mesh_ui(
     if packing_ui(ui, document, settings) {
         actions.push(Action::Reload);
     }
+    let watch = egui::Checkbox::new(&mut settings.watches, "Load again when the file changes");
+    ui.add_enabled(document.path.is_some(), watch)
+        .on_hover_text(
+            "Also when its materials or textures do. The camera and the picked pixel stay.",
+        );
     let mesh = document.loaded.scene.mesh();
     section_ui(ui, "Health", |ui| {
         row_ui(
@@ -61,15 +66,15 @@ pub fn mesh_ui(
             "not finite",
             format!("{} dropped", mesh.dropped.non_finite),
         );
-        if let Some(health) = health {
-            row_ui(ui, "open edges", grouped(health.open_edges));
-            row_ui(ui, "non-manifold", grouped(health.non_manifold_edges));
-            row_ui(ui, "flipped", grouped(health.flipped_edges));
-            row_ui(ui, "slivers", grouped(health.slivers)).on_hover_text(format!(
-                "Triangles longer than {SLIVER_ASPECT} times their height"
-            ));
-        }
+        row_ui(
+            ui,
+            "bad index",
+            format!("{} dropped", mesh.dropped.bad_index),
+        );
     });
+    if let Some(findings) = findings {
+        actions.extend(flaws_ui(ui, &findings.health, flaw));
+    }
     if !document.loaded.warnings.is_empty() {
         ui.label(RichText::new("Warnings").strong());
         for warning in &document.loaded.warnings {
@@ -78,11 +83,40 @@ pub fn mesh_ui(
     }
 }
 
+/// Each kind of flaw with how many there are; a click marks and shows them, or ends that.
+fn flaws_ui(ui: &mut egui::Ui, health: &Health, marked: Option<Flaw>) -> Option<Action> {
+    let mut action = None;
+    for info in &FLAWS {
+        let is_marked = marked == Some(info.flaw);
+        let count = health.places(info.flaw).count();
+        ui.horizontal(|ui| {
+            let count_text = count.map_or("?".to_owned(), grouped);
+            let text = format!("{}  {count_text}", info.title);
+            let is_there = count.is_some_and(|count| count > 0);
+            let button = egui::Button::selectable(is_marked, text);
+            let hint = match count {
+                None => format!("{}\nNobody looked: the border is too long.", info.about),
+                Some(0) => info.about.to_owned(),
+                Some(_) => format!("{}\nA click shows them.", info.about),
+            };
+            let response = ui.add_enabled(is_there, button);
+            if response
+                .on_hover_text(&hint)
+                .on_disabled_hover_text(hint)
+                .clicked()
+            {
+                action = Some(Action::ShowFlaw((!is_marked).then_some(info.flaw)));
+            }
+        });
+    }
+    action
+}
+
 fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
     section_ui(ui, "Place", |ui| {
         let bounds = scene.bounds();
-        let corner = |p: glam::Vec3| mesh.in_file(p.as_dvec3()).to_array();
+        let corner = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         row_ui(ui, "lowest", lines(corner(bounds.min)));
         row_ui(ui, "highest", lines(corner(bounds.max)));
         row_ui(ui, "origin", lines(mesh.origin.to_array()));

@@ -62,6 +62,17 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         ui.label("shading");
     });
     ui.horizontal(|ui| {
+        ui.checkbox(&mut settings.has_crease, "Edges above")
+            .on_hover_text(
+                "Smooth shading has an edge where triangles meet at a larger angle. \
+             Without this, the file's normals and smoothing groups decide.",
+            );
+        let degrees = egui::DragValue::new(&mut settings.crease_degrees)
+            .range(0.0..=180.0)
+            .suffix("°");
+        ui.add_enabled(settings.has_crease, degrees);
+    });
+    ui.horizontal(|ui| {
         let label = ui.label("Samples");
         let mut power = settings.samples.max(1).ilog2();
         let slider = egui::Slider::new(&mut power, 0..=12)

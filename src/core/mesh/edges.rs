@@ -1,0 +1,107 @@
+//! Which triangles meet in an edge, and which corners in a vertex?
+
+use super::TriangleMesh;
+use rayon::prelude::*;
+
+/// One triangle at an edge.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub(crate) struct EdgeUse {
+    /// The edge's ends, the lower one first.
+    pub ends: [u32; 2],
+    /// The triangle, and from which of its corners the edge goes to the next one.
+    pub triangle: u32,
+    pub corner: u8,
+    /// Whether it goes from the lower to the higher end.
+    pub is_forward: bool,
+}
+
+/// Every triangle at every edge, by edge.
+pub(crate) struct Edges {
+    uses: Vec<EdgeUse>,
+}
+
+impl Edges {
+    /// `vertex` says which vertex stands for one, such as the first at its place.
+    pub(crate) fn of(mesh: &TriangleMesh, vertex: impl Fn(u32) -> u32 + Sync) -> Self {
+        let of_triangle = |(triangle, corners): (usize, &[u32; 3])| {
+            let ends = corners.map(&vertex);
+            [0, 1, 2].map(|k| {
+                let (from, to) = (ends[k], ends[(k + 1) % 3]);
+                EdgeUse {
+                    ends: [from.min(to), from.max(to)],
+                    triangle: triangle as u32,
+                    corner: k as u8,
+                    is_forward: from < to,
+                }
+            })
+        };
+        let triangles = mesh.triangles.par_iter().enumerate();
+        let mut uses: Vec<EdgeUse> = triangles.flat_map_iter(of_triangle).collect();
+        uses.par_sort_unstable();
+        Self { uses }
+    }
+
+    /// The triangles at each edge.
+    pub(crate) fn iter(&self) -> impl Iterator<Item = &[EdgeUse]> {
+        self.uses.chunk_by(|a, b| a.ends == b.ends)
+    }
+}
+
+impl EdgeUse {
+    /// The triangle's corners at the lower and the higher end, as [`Fans`] counts them.
+    fn corners(&self) -> [u32; 2] {
+        let k = u32::from(self.corner);
+        let [from, to] = [k, (k + 1) % 3].map(|k| 3 * self.triangle + k);
+        if self.is_forward {
+            [from, to]
+        } else {
+            [to, from]
+        }
+    }
+}
+
+/// Sets of corners around a vertex that hang together by edges. Corner k of triangle t is number 3·t + k.
+///
+/// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", JACM 22(2), 1975.
+pub(crate) struct Fans {
+    parent: Vec<u32>,
+}
+
+impl Fans {
+    /// Triangles hang together at an edge where `is_joined` says so of two that follow each other there.
+    pub(crate) fn of(
+        mesh: &TriangleMesh,
+        edges: &Edges,
+        is_joined: impl Fn(&EdgeUse, &EdgeUse) -> bool,
+    ) -> Self {
+        let count = 3 * mesh.triangles.len() as u32;
+        let mut fans = Self {
+            parent: (0..count).collect(),
+        };
+        for uses in edges.iter() {
+            for pair in uses.windows(2) {
+                if is_joined(&pair[0], &pair[1]) {
+                    let (a, b) = (pair[0].corners(), pair[1].corners());
+                    fans.join(a[0], b[0]);
+                    fans.join(a[1], b[1]);
+                }
+            }
+        }
+        fans
+    }
+
+    /// The corner that stands for a corner's set.
+    pub(crate) fn find(&mut self, mut corner: u32) -> u32 {
+        while self.parent[corner as usize] != corner {
+            let above = self.parent[self.parent[corner as usize] as usize];
+            self.parent[corner as usize] = above;
+            corner = above;
+        }
+        corner
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.find(a), self.find(b));
+        self.parent[a.max(b) as usize] = a.min(b);
+    }
+}

@@ -1,0 +1,296 @@
+//! Is a mesh healthy: closed, manifold, consistently wound, free of slivers?
+
+mod t_junctions;
+mod triangles;
+
+pub use triangles::SLIVER_ASPECT;
+
+use super::edges::{Edges, Fans};
+use super::{TriangleMesh, Welded};
+use crate::aabb::Aabb;
+use rayon::prelude::*;
+use std::collections::HashSet;
+
+/// Something unusual that a mesh can have.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Flaw {
+    /// An edge with one triangle: the mesh has a border there.
+    OpenEdge,
+    /// An edge with more than two triangles.
+    NonManifoldEdge,
+    /// An edge whose two triangles run along it in the same direction: one of them is flipped.
+    FlippedEdge,
+    /// A vertex of a border that lies inside another border's edge: the mesh looks closed there, but isn't.
+    TJunction,
+    /// A vertex in which parts of the surface touch that have no edge in common there.
+    TouchingVertex,
+    /// A triangle with the same corners as one before.
+    Duplicate,
+    /// A triangle more than [`SLIVER_ASPECT`] times longer than high.
+    Sliver,
+}
+
+/// What there is to say of a kind of flaw.
+#[derive(Clone, Copy, Debug)]
+pub struct FlawInfo {
+    /// Which.
+    pub flaw: Flaw,
+    /// As reports call them.
+    pub name: &'static str,
+    /// For menus.
+    pub title: &'static str,
+    /// What it is, in a sentence.
+    pub about: &'static str,
+}
+
+/// Every kind of flaw.
+pub static FLAWS: [FlawInfo; 7] = [
+    FlawInfo {
+        flaw: Flaw::OpenEdge,
+        name: "open_edges",
+        title: "Open edges",
+        about: "Edges with one triangle: the mesh has a border there.",
+    },
+    FlawInfo {
+        flaw: Flaw::NonManifoldEdge,
+        name: "non_manifold_edges",
+        title: "Non-manifold edges",
+        about: "Edges with more than two triangles.",
+    },
+    FlawInfo {
+        flaw: Flaw::FlippedEdge,
+        name: "flipped_edges",
+        title: "Flipped edges",
+        about: "Edges between two triangles of which one shows its back.",
+    },
+    FlawInfo {
+        flaw: Flaw::TJunction,
+        name: "t_junctions",
+        title: "T-junctions",
+        about: "Vertices of a border that lie inside another edge of a border.",
+    },
+    FlawInfo {
+        flaw: Flaw::TouchingVertex,
+        name: "touching_vertices",
+        title: "Touching vertices",
+        about: "Vertices where parts of the surface touch without an edge in common.",
+    },
+    FlawInfo {
+        flaw: Flaw::Duplicate,
+        name: "duplicates",
+        title: "Duplicates",
+        about: "Triangles with the same corners as one before.",
+    },
+    FlawInfo {
+        flaw: Flaw::Sliver,
+        name: "slivers",
+        title: "Slivers",
+        about: "Triangles longer than 1000 times their height.",
+    },
+];
+
+/// Where a kind of flaw is.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Places {
+    /// Between these vertices.
+    Edges(Vec<[u32; 2]>),
+    /// In these triangles.
+    Triangles(Vec<u32>),
+    /// At these vertices.
+    Vertices(Vec<u32>),
+    /// Nobody looked, as it would have taken too long.
+    Unknown,
+}
+
+impl Places {
+    /// How many there are, if somebody looked.
+    pub fn count(&self) -> Option<usize> {
+        match self {
+            Self::Edges(edges) => Some(edges.len()),
+            Self::Triangles(triangles) => Some(triangles.len()),
+            Self::Vertices(vertices) => Some(vertices.len()),
+            Self::Unknown => None,
+        }
+    }
+}
+
+/// What is unusual about a mesh.
+#[derive(Clone, Debug)]
+pub struct Health {
+    /// By [`Flaw`], in the order of [`FLAWS`].
+    places: [Places; 7],
+    /// The largest ratio of longest edge to height.
+    pub max_aspect: f64,
+}
+
+impl Health {
+    /// Looks at every triangle and every edge. Vertices at the same place count as one.
+    pub fn of(mesh: &TriangleMesh) -> Self {
+        let welded = Welded::of(mesh);
+        let edges = Edges::of(mesh, |vertex| welded.vertex(vertex));
+        let (mut open, mut non_manifold, mut flipped) = (Vec::new(), Vec::new(), Vec::new());
+        for uses in edges.iter() {
+            match uses {
+                [alone] => open.push(alone.ends),
+                [a, b] if a.is_forward == b.is_forward => flipped.push(a.ends),
+                [_, _] => {}
+                _ => non_manifold.push(uses[0].ends),
+            }
+        }
+        let (slivers, max_aspect) = triangles::slivers(mesh);
+        let t_junctions = t_junctions::find(mesh, &open);
+        Self {
+            places: [
+                Places::Edges(open),
+                Places::Edges(non_manifold),
+                Places::Edges(flipped),
+                t_junctions.map_or(Places::Unknown, Places::Vertices),
+                Places::Vertices(touching_vertices(mesh, &welded, &edges)),
+                Places::Triangles(triangles::duplicates(mesh, &welded)),
+                Places::Triangles(slivers),
+            ],
+            max_aspect,
+        }
+    }
+
+    /// Where flaws of a kind are.
+    pub fn places(&self, flaw: Flaw) -> &Places {
+        &self.places[flaw as usize]
+    }
+
+    /// The box around the triangles where flaws of a kind are, and those beside; `None` if there are none.
+    pub fn bounds(&self, mesh: &TriangleMesh, flaw: Flaw) -> Option<Aabb> {
+        let vertices: HashSet<u32> = match self.places(flaw) {
+            Places::Edges(edges) => edges.iter().flatten().copied().collect(),
+            Places::Vertices(vertices) => vertices.iter().copied().collect(),
+            Places::Triangles(triangles) => triangles
+                .iter()
+                .flat_map(|&triangle| mesh.triangles[triangle as usize])
+                .collect(),
+            Places::Unknown => HashSet::new(),
+        };
+        let is_there = |corners: &&[u32; 3]| corners.iter().any(|vertex| vertices.contains(vertex));
+        let there = mesh.triangles.par_iter().filter(is_there);
+        let bounds = there
+            .map(|corners| Aabb::around(corners.map(|vertex| mesh.positions[vertex as usize])))
+            .reduce(|| Aabb::EMPTY, Aabb::union);
+        (!bounds.is_empty()).then_some(bounds)
+    }
+
+    /// Whether the surface has an inside: each edge has two triangles, wound alike.
+    pub fn is_closed(&self) -> bool {
+        [Flaw::OpenEdge, Flaw::NonManifoldEdge, Flaw::FlippedEdge]
+            .into_iter()
+            .all(|flaw| self.count(flaw) == 0)
+    }
+
+    /// How many flaws of a kind there are; 0 where nobody looked.
+    pub fn count(&self, flaw: Flaw) -> usize {
+        self.places(flaw).count().unwrap_or(0)
+    }
+}
+
+/// Vertices whose corners hang together in more than one set.
+fn touching_vertices(mesh: &TriangleMesh, welded: &Welded, edges: &Edges) -> Vec<u32> {
+    let mut fans = Fans::of(mesh, edges, |_, _| true);
+    let mut fan_count = vec![0u8; mesh.positions.len()];
+    for (triangle, &corners) in (0..).zip(&mesh.triangles) {
+        for (k, vertex) in (0..).zip(welded.corners(corners)) {
+            let corner = 3 * triangle + k;
+            if fans.find(corner) == corner {
+                let count = &mut fan_count[vertex as usize];
+                *count = count.saturating_add(1);
+            }
+        }
+    }
+    let vertices = (0..).zip(fan_count);
+    vertices
+        .filter_map(|(vertex, count)| (count > 1).then_some(vertex))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+
+    fn tetrahedron() -> TriangleMesh {
+        TriangleMesh {
+            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
+            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
+            ..TriangleMesh::default()
+        }
+    }
+
+    fn counts(mesh: &TriangleMesh) -> [usize; 7] {
+        let health = Health::of(mesh);
+        FLAWS.map(|info| health.count(info.flaw))
+    }
+
+    #[test]
+    fn flaws_are_listed_in_their_order() {
+        for (index, info) in FLAWS.iter().enumerate() {
+            assert_eq!(info.flaw as usize, index, "{}", info.name);
+        }
+    }
+
+    #[test]
+    fn a_closed_mesh_is_healthy() {
+        assert_eq!(counts(&tetrahedron()), [0; 7]);
+    }
+
+    #[test]
+    fn what_is_wrong_with_edges_is_counted() {
+        let mut mesh = tetrahedron();
+        mesh.triangles.truncate(3);
+        assert_eq!(counts(&mesh), [3, 0, 0, 0, 0, 0, 0]);
+        mesh.triangles.extend([[1, 3, 2], [1, 2, 3]]);
+        assert_eq!(counts(&mesh), [0, 3, 0, 0, 0, 1, 0]);
+        let mut mesh = tetrahedron();
+        mesh.triangles[3] = [1, 3, 2];
+        assert_eq!(counts(&mesh), [0, 0, 3, 0, 0, 0, 0]);
+    }
+
+    #[test]
+    fn a_thin_triangle_is_a_sliver() {
+        let mut mesh = tetrahedron();
+        mesh.positions[3] = Vec3::new(0.5, 0.5, 1e-4);
+        assert_eq!(counts(&mesh)[6], 1);
+    }
+
+    #[test]
+    fn two_solids_that_share_a_point_touch_there() {
+        let mut mesh = tetrahedron();
+        let mirrored = [Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z, Vec3::ZERO];
+        mesh.positions.extend(mirrored);
+        let other = [[7, 4, 5], [7, 6, 4], [7, 5, 6], [4, 6, 5]];
+        mesh.triangles.extend(other);
+        assert_eq!(counts(&mesh), [0, 0, 0, 0, 1, 0, 0]);
+        let health = Health::of(&mesh);
+        assert_eq!(
+            health.places(Flaw::TouchingVertex),
+            &Places::Vertices(vec![0])
+        );
+    }
+
+    /// ```text
+    ///   3───────2
+    ///   │ \     │
+    ///   0───4───1    one triangle above the edge from 0 to 1, two below
+    ///   │ /   \ │
+    ///   5───────6
+    /// ```
+    #[test]
+    fn a_vertex_inside_a_borders_edge_is_a_t_junction() {
+        let flat = |x: f32, y: f32| Vec3::new(x, y, 0.3 * x + 0.1 * y);
+        let mesh = TriangleMesh {
+            positions: [(0, 0), (3, 0), (3, 1), (0, 1), (1, 0), (0, -1), (3, -1)]
+                .map(|(x, y)| flat(x as f32 / 3.0, y as f32))
+                .to_vec(),
+            triangles: vec![[0, 1, 3], [1, 2, 3], [0, 5, 4], [4, 5, 6], [4, 6, 1]],
+            ..TriangleMesh::default()
+        };
+        let health = Health::of(&mesh);
+        assert_eq!(health.places(Flaw::TJunction), &Places::Vertices(vec![4]));
+    }
+}

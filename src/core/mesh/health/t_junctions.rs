@@ -1,0 +1,66 @@
+//! Vertices of a border that lie inside another border's edge.
+
+use crate::mesh::TriangleMesh;
+use glam::DVec3;
+
+/// Pairs of edge and vertex that are looked at, at most: some 0.2 s.
+const MOST_PAIRS: usize = 20_000_000;
+
+/// The vertices of open edges that lie inside another open edge, as far as f32 can tell; `None` if there
+/// are too many pairs to look at.
+pub(super) fn find(mesh: &TriangleMesh, open: &[[u32; 2]]) -> Option<Vec<u32>> {
+    let at = |vertex: u32| mesh.positions[vertex as usize].as_dvec3();
+    let axis = longest_axis(open.iter().flatten().map(|&vertex| at(vertex)));
+
+    // Vertices in the order of the axis along which they lie farthest apart.
+    let mut vertices: Vec<u32> = open.as_flattened().to_vec();
+    let along = |vertex: &u32| at(*vertex)[axis];
+    vertices.sort_unstable_by(|a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
+    vertices.dedup();
+
+    let mut found = Vec::new();
+    let mut pairs = 0;
+    for edge in open {
+        let (a, b) = (at(edge[0]), at(edge[1]));
+        let slack = slack(a, b);
+        let low = a[axis].min(b[axis]) - slack;
+        let high = a[axis].max(b[axis]) + slack;
+        let first = vertices.partition_point(|vertex| along(vertex) < low);
+        let beside = vertices[first..]
+            .iter()
+            .take_while(|vertex| along(vertex) <= high);
+        for &vertex in beside {
+            pairs += 1;
+            if pairs > MOST_PAIRS {
+                return None;
+            }
+            if !edge.contains(&vertex) && is_inside(at(vertex), a, b, slack) {
+                found.push(vertex);
+            }
+        }
+    }
+    found.sort_unstable();
+    found.dedup();
+    Some(found)
+}
+
+/// How far a vertex that was meant to lie on an edge can be beside it: its coordinates, and those of the
+/// edge's ends, are each off by half an ulp, 2⁻²⁴ of the largest one; twice √3 of that is less than 2⁻²².
+fn slack(a: DVec3, b: DVec3) -> f64 {
+    a.abs().max(b.abs()).max_element() * 2f64.powi(-22)
+}
+
+fn is_inside(p: DVec3, a: DVec3, b: DVec3, slack: f64) -> bool {
+    let (edge, to_p) = (b - a, p - a);
+    let along = to_p.dot(edge) / edge.length_squared();
+    let beside = (to_p - along * edge).length();
+    let length = edge.length();
+    beside <= slack && along * length > slack && (1.0 - along) * length > slack
+}
+
+fn longest_axis(points: impl Iterator<Item = DVec3>) -> usize {
+    let (min, max) = points.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), p| {
+        (min.min(p), max.max(p))
+    });
+    (max - min).max_position()
+}

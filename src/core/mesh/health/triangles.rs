@@ -1,0 +1,46 @@
+//! Triangles that are odd by themselves.
+
+use crate::mesh::{TriangleMesh, Welded};
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+
+/// A triangle whose longest edge is more than this many times its height is counted as a sliver: from
+/// there on f32 kernels decide some rays wrongly, so the count is a warning.
+pub const SLIVER_ASPECT: f64 = 1e3;
+
+/// The slivers, and the largest aspect of any triangle.
+pub(super) fn slivers(mesh: &TriangleMesh) -> (Vec<u32>, f64) {
+    let triangles = (0..mesh.triangles.len() as u32).into_par_iter();
+    let aspects = triangles.map(|triangle| (triangle, aspect(mesh.corners(triangle))));
+    let max_aspect = aspects.clone().map(|(_, aspect)| aspect);
+    let max_aspect = max_aspect.reduce(|| 0.0, f64::max);
+    let slivers = aspects.filter(|(_, aspect)| *aspect > SLIVER_ASPECT);
+    (slivers.map(|(triangle, _)| triangle).collect(), max_aspect)
+}
+
+/// Longest edge over the height on it; infinite where f64 finds no height.
+fn aspect(corners: [Vec3; 3]) -> f64 {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let longest = [b - a, c - b, a - c]
+        .map(DVec3::length_squared)
+        .into_iter()
+        .fold(0.0, f64::max);
+    longest / (b - a).cross(c - a).length()
+}
+
+/// Triangles at the same three places as one before, wound either way.
+pub(super) fn duplicates(mesh: &TriangleMesh, welded: &Welded) -> Vec<u32> {
+    let key = |(triangle, &corners): (usize, &[u32; 3])| {
+        let mut places = welded.corners(corners);
+        places.sort_unstable();
+        (places, triangle as u32)
+    };
+    let mut order: Vec<([u32; 3], u32)> = mesh.triangles.par_iter().enumerate().map(key).collect();
+    order.par_sort_unstable();
+    let same = order.chunk_by(|a, b| a.0 == b.0);
+    let mut duplicates: Vec<u32> = same
+        .flat_map(|same| same[1..].iter().map(|(_, triangle)| *triangle))
+        .collect();
+    duplicates.sort_unstable();
+    duplicates
+}

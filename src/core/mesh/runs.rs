@@ -1,0 +1,53 @@
+//! A number for each triangle that seldom changes from one to the next.
+
+/// Numbers of triangles, kept as runs of equal ones; 0 before the first run.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct Runs {
+    /// The first triangle of each run, ascending, and its number.
+    runs: Vec<(u32, u32)>,
+}
+
+impl Runs {
+    /// From this triangle on, which is beyond all runs so far.
+    pub fn begin(&mut self, triangle: u32, number: u32) {
+        // A run without a triangle is none.
+        if self
+            .runs
+            .last()
+            .is_some_and(|(first, _)| *first == triangle)
+        {
+            self.runs.pop();
+        }
+        let last = self.runs.last().map_or(0, |(_, number)| *number);
+        if number != last {
+            self.runs.push((triangle, number));
+        }
+    }
+
+    /// The number of a triangle.
+    pub fn of(&self, triangle: u32) -> u32 {
+        let run = self.runs.partition_point(|(first, _)| *first <= triangle);
+        run.checked_sub(1).map_or(0, |run| self.runs[run].1)
+    }
+
+    /// Bytes taken.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.runs[..])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn each_triangle_has_the_number_of_its_run() {
+        let mut runs = Runs::default();
+        for (triangle, number) in [(0, 0), (2, 5), (3, 5), (4, 1), (4, 7), (6, 3), (6, 7)] {
+            runs.begin(triangle, number);
+        }
+        let numbers: Vec<u32> = (0..8).map(|triangle| runs.of(triangle)).collect();
+        assert_eq!(numbers, [0, 0, 5, 5, 7, 7, 7, 7]);
+        assert_eq!(runs.bytes(), 2 * 8);
+    }
+}

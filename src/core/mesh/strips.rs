@@ -1,0 +1,212 @@
+//! How few indices can a surface be written with?
+//!
+//! ```text
+//!   b───d───f     a strip a b c d e f: each index after the second makes a triangle with the two
+//!  ╱ ╲ ╱ ╲ ╱      before it, every other one wound the other way
+//! a───c───e
+//! ```
+//!
+//! Source: Akeley, Haeberli, Burns, tomesh.c, Silicon Graphics, 1990: a strip begins at the triangle with the
+//! fewest neighbours that are left, so that none are left alone.
+//! Differs from it: of the three ways to go from there, the longest is taken.
+
+use super::TriangleMesh;
+use super::edges::Edges;
+
+/// Ends a strip in a list of indices; what GPUs take for that, too.
+pub const RESTART: u32 = u32::MAX;
+
+/// No triangle.
+const NONE: u32 = u32::MAX;
+
+/// The mesh's triangles as strips of vertices, with [`RESTART`] between two of them. Each triangle is there once,
+/// wound as it was.
+pub fn strips(mesh: &TriangleMesh) -> Vec<u32> {
+    let mut stripper = Stripper::new(mesh);
+    let mut indices = Vec::with_capacity(mesh.triangles.len() * 3 / 2);
+    while let Some(start) = stripper.next_start() {
+        let longest = (0..3)
+            .map(|corner| (stripper.walk(start, corner, |_| {}), corner))
+            .max_by_key(|&(length, corner)| (length, std::cmp::Reverse(corner)));
+        let corner = longest.map_or(0, |(_, corner)| corner);
+        if !indices.is_empty() {
+            indices.push(RESTART);
+        }
+        let mut taken = Vec::new();
+        stripper.walk(start, corner, |step| match step {
+            Step::Vertex(vertex) => indices.push(vertex),
+            Step::Triangle(triangle) => taken.push(triangle),
+        });
+        taken
+            .into_iter()
+            .for_each(|triangle| stripper.take(triangle));
+    }
+    indices
+}
+
+enum Step {
+    Vertex(u32),
+    Triangle(u32),
+}
+
+struct Stripper<'m> {
+    triangles: &'m [[u32; 3]],
+    /// The triangle beyond each edge from corner k to the next one.
+    neighbours: Vec<[u32; 3]>,
+    is_taken: Vec<bool>,
+    /// In which walk a triangle was last met.
+    met_in: Vec<u32>,
+    walk: u32,
+    /// Triangles that had so many neighbours left when they were put there.
+    waiting: [Vec<u32>; 4],
+}
+
+impl<'m> Stripper<'m> {
+    fn new(mesh: &'m TriangleMesh) -> Self {
+        let count = mesh.triangles.len();
+        let mut neighbours = vec![[NONE; 3]; count];
+        for uses in Edges::of(mesh, |vertex| vertex).iter() {
+            if let [a, b] = uses
+                && a.is_forward != b.is_forward
+            {
+                neighbours[a.triangle as usize][usize::from(a.corner)] = b.triangle;
+                neighbours[b.triangle as usize][usize::from(b.corner)] = a.triangle;
+            }
+        }
+        let mut stripper = Self {
+            triangles: &mesh.triangles,
+            neighbours,
+            is_taken: vec![false; count],
+            met_in: vec![0; count],
+            walk: 0,
+            waiting: Default::default(),
+        };
+        // The last ones in are the first ones out.
+        for triangle in (0..count as u32).rev() {
+            stripper.waiting[stripper.degree(triangle)].push(triangle);
+        }
+        stripper
+    }
+
+    /// How many of a triangle's neighbours are left.
+    fn degree(&self, triangle: u32) -> usize {
+        let is_left = |&&n: &&u32| n != NONE && !self.is_taken[n as usize];
+        self.neighbours[triangle as usize]
+            .iter()
+            .filter(is_left)
+            .count()
+    }
+
+    /// A triangle with the fewest neighbours left.
+    fn next_start(&mut self) -> Option<u32> {
+        for degree in 0..4 {
+            while let Some(triangle) = self.waiting[degree].pop() {
+                // Those that lost neighbours were put elsewhere meanwhile.
+                if !self.is_taken[triangle as usize] && self.degree(triangle) == degree {
+                    return Some(triangle);
+                }
+            }
+        }
+        None
+    }
+
+    /// Goes from a triangle as far as a strip can, which begins at one of its corners; how many triangles
+    /// there were.
+    fn walk(&mut self, start: u32, corner: usize, mut each: impl FnMut(Step)) -> usize {
+        self.walk += 1;
+        let vertices = self.triangles[start as usize];
+        let [first, mut x, mut y] = [0, 1, 2].map(|k| vertices[(corner + k) % 3]);
+        for vertex in [first, x, y] {
+            each(Step::Vertex(vertex));
+        }
+        let (mut triangle, mut length) = (start, 0);
+        loop {
+            self.met_in[triangle as usize] = self.walk;
+            each(Step::Triangle(triangle));
+            length += 1;
+            let vertices = self.triangles[triangle as usize];
+            let is_last_edge = |&k: &usize| {
+                let ends = [vertices[k], vertices[(k + 1) % 3]];
+                ends == [x, y] || ends == [y, x]
+            };
+            let beyond = (0..3).find(is_last_edge);
+            let next = beyond.map_or(NONE, |k| self.neighbours[triangle as usize][k]);
+            if next == NONE
+                || self.is_taken[next as usize]
+                || self.met_in[next as usize] == self.walk
+            {
+                return length;
+            }
+            let vertices = self.triangles[next as usize];
+            let Some(vertex) = vertices.into_iter().find(|v| ![x, y].contains(v)) else {
+                return length;
+            };
+            each(Step::Vertex(vertex));
+            (triangle, x, y) = (next, y, vertex);
+        }
+    }
+
+    fn take(&mut self, triangle: u32) {
+        self.is_taken[triangle as usize] = true;
+        for neighbour in self.neighbours[triangle as usize] {
+            if neighbour != NONE && !self.is_taken[neighbour as usize] {
+                self.waiting[self.degree(neighbour)].push(neighbour);
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::mesh::shapes::{Place, flat_grid, soup, sphere, torus};
+    use glam::Vec3;
+
+    /// The triangles that a GPU makes of strips, each beginning at its lowest vertex.
+    fn drawn(indices: &[u32]) -> Vec<[u32; 3]> {
+        let of_strip = |strip: &[u32]| -> Vec<[u32; 3]> {
+            let triangle = |(k, t): (usize, &[u32])| match k % 2 {
+                0 => from_lowest([t[0], t[1], t[2]]),
+                _ => from_lowest([t[1], t[0], t[2]]),
+            };
+            strip.windows(3).enumerate().map(triangle).collect()
+        };
+        let strips = indices.split(|&index| index == RESTART);
+        let mut triangles: Vec<_> = strips.flat_map(of_strip).collect();
+        triangles.sort_unstable();
+        triangles
+    }
+
+    fn from_lowest(mut triangle: [u32; 3]) -> [u32; 3] {
+        while triangle[0] > triangle[1] || triangle[0] > triangle[2] {
+            triangle.rotate_left(1);
+        }
+        triangle
+    }
+
+    #[test]
+    fn each_triangle_is_drawn_once_and_as_it_was_wound() {
+        let mut flipped = sphere(6, Place::UNIT);
+        (0..flipped.triangles.len())
+            .step_by(3)
+            .for_each(|k| flipped.triangles[k].swap(0, 1));
+        let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
+        for mesh in [
+            torus(16, 8, Place::UNIT),
+            flat_grid(9, Place::UNIT),
+            flipped,
+            soup(&[corners; 3]),
+        ] {
+            let mut expected: Vec<_> = mesh.triangles.iter().map(|&t| from_lowest(t)).collect();
+            expected.sort_unstable();
+            assert_eq!(drawn(&strips(&mesh)), expected);
+        }
+    }
+
+    #[test]
+    fn a_regular_surface_takes_little_more_than_an_index_a_triangle() {
+        let mesh = torus(64, 32, Place::UNIT);
+        let per_triangle = strips(&mesh).len() as f64 / mesh.triangles.len() as f64;
+        assert!(per_triangle < 1.2, "{per_triangle}");
+    }
+}

@@ -1,0 +1,101 @@
+//! Which colour has a picture at a place?
+
+use crate::srgb::from_texel;
+use glam::{UVec2, Vec2, Vec3};
+
+/// A picture that repeats over the plane, its lower left corner at (0, 0), its upper right one at (1, 1).
+#[derive(Clone, Debug, PartialEq)]
+pub struct Texture {
+    /// As the file calls it.
+    pub name: String,
+    size: UVec2,
+    /// sRGB, row by row from the top.
+    texels: Vec<[u8; 3]>,
+}
+
+impl Texture {
+    /// A picture of sRGB texels, row by row from the top; `None` if there aren't as many as `size` says.
+    pub fn new(name: &str, size: UVec2, texels: Vec<[u8; 3]>) -> Option<Self> {
+        let count = size.x as usize * size.y as usize;
+        (count > 0 && texels.len() == count).then(|| Self {
+            name: name.to_owned(),
+            size,
+            texels,
+        })
+    }
+
+    /// What stands in for a picture that is missing.
+    pub fn checker(name: &str) -> Self {
+        const SIDE: u32 = 8;
+        let texel = |k: u32| {
+            let is_dark = (k % SIDE + k / SIDE).is_multiple_of(2);
+            if is_dark {
+                [60, 60, 60]
+            } else {
+                [230, 60, 200]
+            }
+        };
+        Self {
+            name: name.to_owned(),
+            size: UVec2::splat(SIDE),
+            texels: (0..SIDE * SIDE).map(texel).collect(),
+        }
+    }
+
+    /// The colour at a place, in linear RGB, between the four texels around it. A place that isn't finite
+    /// is the corner.
+    pub fn colour(&self, uv: Vec2) -> Vec3 {
+        let size = self.size.as_vec2();
+        // The middle of a texel has its colour; rows count from the top.
+        let at = Vec2::new(uv.x, 1.0 - uv.y).map(|x| if x.is_finite() { x } else { 0.0 });
+        let at = (at - at.floor()) * size - 0.5;
+        let (corner, part) = (at.floor(), at - at.floor());
+        let texel = |dx: i32, dy: i32| {
+            let x = (corner.x as i32 + dx).rem_euclid(self.size.x as i32);
+            let y = (corner.y as i32 + dy).rem_euclid(self.size.y as i32);
+            from_texel(self.texels[y as usize * self.size.x as usize + x as usize])
+        };
+        let above = texel(0, 0).lerp(texel(1, 0), part.x);
+        let below = texel(0, 1).lerp(texel(1, 1), part.x);
+        above.lerp(below, part.y)
+    }
+
+    /// Bytes taken.
+    pub fn bytes(&self) -> usize {
+        size_of_val(&self.texels[..])
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Red and green above, blue and white below.
+    fn texture() -> Texture {
+        let texels = vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]];
+        Texture::new("t", UVec2::splat(2), texels).expect("four texels")
+    }
+
+    #[test]
+    fn the_origin_is_the_lower_left_and_the_picture_repeats() {
+        let texture = texture();
+        for (uv, colour) in [
+            ([0.25, 0.25], Vec3::Z),
+            ([0.75, 0.25], Vec3::ONE),
+            ([0.25, 0.75], Vec3::X),
+            ([1.75, -0.25], Vec3::Y),
+            ([0.5, 0.25], Vec3::new(0.5, 0.5, 1.0)),
+        ] {
+            let found = texture.colour(Vec2::from(uv));
+            assert!((found - colour).length() < 1e-5, "{uv:?}: {found}");
+        }
+        let (nan, huge) = (Vec2::NAN, Vec2::splat(f32::MAX));
+        assert!(texture.colour(nan).is_finite() && texture.colour(huge).is_finite());
+    }
+
+    #[test]
+    fn a_picture_has_as_many_texels_as_its_size_says() {
+        assert_eq!(Texture::new("t", UVec2::new(2, 1), vec![[0; 3]]), None);
+        assert_eq!(Texture::new("t", UVec2::ZERO, Vec::new()), None);
+    }
+}

@@ -1,0 +1,71 @@
+//! Which vertices are at the same place?
+
+use super::TriangleMesh;
+use glam::Vec3;
+use rayon::prelude::*;
+
+/// Vertices at exactly the same place, taken as one: the same surface, whatever seams it was cut along.
+#[derive(Clone, Debug)]
+pub struct Welded {
+    /// For each vertex the first one at its place.
+    first: Vec<u32>,
+}
+
+impl Welded {
+    /// Compares positions bit by bit, but −0 with 0.
+    pub fn of(mesh: &TriangleMesh) -> Self {
+        let place = |(vertex, &p): (usize, &Vec3)| (bits(p), vertex as u32);
+        let mut order: Vec<([u32; 3], u32)> =
+            mesh.positions.par_iter().enumerate().map(place).collect();
+        order.par_sort_unstable();
+        let mut first = vec![0; order.len()];
+        for same in order.chunk_by(|a, b| a.0 == b.0) {
+            for &(_, vertex) in same {
+                first[vertex as usize] = same[0].1;
+            }
+        }
+        Self { first }
+    }
+
+    /// The vertex that stands for all at the place of this one.
+    pub fn vertex(&self, vertex: u32) -> u32 {
+        self.first[vertex as usize]
+    }
+
+    /// A triangle's corners.
+    pub fn corners(&self, triangle: [u32; 3]) -> [u32; 3] {
+        triangle.map(|vertex| self.vertex(vertex))
+    }
+
+    /// Whether there are no two vertices at one place.
+    pub fn is_trivial(&self) -> bool {
+        (0..)
+            .zip(&self.first)
+            .all(|(vertex, &first)| vertex == first)
+    }
+}
+
+/// A place as bits that can be compared.
+fn bits(p: Vec3) -> [u32; 3] {
+    (p + Vec3::ZERO).to_array().map(f32::to_bits)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn vertices_at_one_place_are_one_and_a_bit_is_a_difference() {
+        let next = f32::from_bits(1.0f32.to_bits() + 1);
+        let points = [0.0, 1.0, -0.0, next, 1.0];
+        let mesh = TriangleMesh {
+            positions: points.map(|x| Vec3::new(x, 0.0, 2.0)).to_vec(),
+            ..TriangleMesh::default()
+        };
+        let welded = Welded::of(&mesh);
+        let first: Vec<u32> = (0..5).map(|vertex| welded.vertex(vertex)).collect();
+        assert_eq!(first, [0, 1, 0, 3, 1]);
+        assert!(!welded.is_trivial());
+        assert_eq!(welded.corners([4, 2, 3]), [1, 0, 3]);
+    }
+}

@@ -1,0 +1,106 @@
+//! Where are the files that an OBJ names?
+
+use std::cell::RefCell;
+use std::io;
+use std::path::{Path, PathBuf};
+
+/// Reads a file that an OBJ or its material library names, by a name with `/` between folders.
+pub type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
+
+/// The files in and around an OBJ's folder.
+pub(super) struct Folder {
+    path: PathBuf,
+    /// What was looked for, whether or not it was there.
+    wanted: RefCell<Vec<PathBuf>>,
+}
+
+impl Folder {
+    pub(super) fn of(obj: &Path) -> Self {
+        Self {
+            path: obj.parent().unwrap_or(Path::new("")).to_owned(),
+            wanted: RefCell::default(),
+        }
+    }
+
+    /// Reads a file; only a regular one of sensible size, so that loading ends.
+    pub(super) fn read(&self, name: &str) -> io::Result<Vec<u8>> {
+        /// A thousand times the largest library seen, and more than the largest texture.
+        const LARGEST: u64 = 256 << 20;
+        let path = find(&self.path, name);
+        self.wanted.borrow_mut().push(path.clone());
+        let info = std::fs::metadata(&path)?;
+        if !info.is_file() || info.len() > LARGEST {
+            let message = format!("not a file of at most {} MB", LARGEST >> 20);
+            return Err(io::Error::other(message));
+        }
+        std::fs::read(path)
+    }
+
+    pub(super) fn into_wanted(self) -> Vec<PathBuf> {
+        self.wanted.into_inner()
+    }
+}
+
+/// The file of a name; one that differs in letter case, or lies in the folder itself, where there is none
+/// of just that name.
+fn find(folder: &Path, name: &str) -> PathBuf {
+    let exact = folder.join(name);
+    if exact.exists() {
+        return exact;
+    }
+    let in_folder = || Path::new(name).file_name().map(Path::new);
+    any_case(folder, Path::new(name))
+        .or_else(|| any_case(folder, in_folder()?))
+        .unwrap_or(exact)
+}
+
+/// The file whose path is this one but for letter case.
+fn any_case(folder: &Path, name: &Path) -> Option<PathBuf> {
+    name.components().try_fold(folder.to_owned(), |path, part| {
+        let exact = path.join(part);
+        if exact.exists() {
+            return Some(exact);
+        }
+        let here = if path.as_os_str().is_empty() {
+            Path::new(".")
+        } else {
+            &path
+        };
+        let wanted = part.as_os_str().to_string_lossy().to_lowercase();
+        let mut names: Vec<_> = std::fs::read_dir(here)
+            .ok()?
+            .filter_map(|entry| Some(entry.ok()?.file_name()))
+            .filter(|name| name.to_string_lossy().to_lowercase() == wanted)
+            .collect();
+        names.sort();
+        Some(path.join(names.first()?))
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn files_are_found_in_any_case_and_without_their_folder() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let sub = folder.path().join("Maps");
+        std::fs::create_dir(&sub).expect("written");
+        std::fs::write(sub.join("Wood.PNG"), "w").expect("written");
+        std::fs::write(folder.path().join("a b.mtl"), "m").expect("written");
+        let beside = Folder::of(&folder.path().join("x.obj"));
+        for (name, expected) in [
+            ("Maps/Wood.PNG", Some("w")),
+            ("maps/wood.png", Some("w")),
+            ("a b.mtl", Some("m")),
+            ("C:/models/A b.mtl", Some("m")),
+            ("missing.mtl", None),
+        ] {
+            let found = beside.read(name).ok();
+            assert_eq!(found.as_deref(), expected.map(str::as_bytes), "{name}");
+        }
+        assert!(beside.read("Maps").is_err());
+        let wanted = beside.into_wanted();
+        assert!(wanted.contains(&folder.path().join("missing.mtl")));
+    }
+}

@@ -1,0 +1,162 @@
+//! What does one corner of a face name?
+
+use super::facts::shortened;
+
+/// The three lists that a corner's indices count in, in the order in which it names them.
+pub(super) const LISTS: [&str; 3] = ["vertex", "texture", "normal"];
+
+/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn` as it is written: indices from 1 or, negative, from the end.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Corner {
+    pub indices: [Option<i64>; 3],
+    /// Where it begins in the line.
+    pub offset: usize,
+}
+
+/// A word that is no corner, where it begins, and why it isn't.
+#[derive(Debug, PartialEq)]
+pub(super) struct Malformed {
+    pub offset: usize,
+    pub message: String,
+}
+
+/// The corners in a line from `at` on.
+pub(super) struct Corners<'l> {
+    pub line: &'l [u8],
+    pub at: usize,
+}
+
+impl Iterator for Corners<'_> {
+    type Item = Result<Corner, Malformed>;
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while is_blank(*self.line.get(self.at)?) {
+            self.at += 1;
+        }
+        let offset = self.at;
+        let mut corner = Corner {
+            indices: [None; 3],
+            offset,
+        };
+        for (list, place) in corner.indices.iter_mut().enumerate() {
+            let start = self.at;
+            *place = self.index();
+            let next = self.line.get(self.at).copied();
+            let is_left_out = self.at == start && list > 0;
+            match next {
+                None if place.is_some() || is_left_out => return Some(Ok(corner)),
+                Some(b) if is_blank(b) && (place.is_some() || is_left_out) => {
+                    return Some(Ok(corner));
+                }
+                Some(b'/') if place.is_some() || is_left_out => self.at += 1,
+                _ => return Some(Err(self.malformed(offset, start))),
+            }
+        }
+        Some(Err(Malformed {
+            offset,
+            message: format!(
+                "“{}” has more than vertex/texture/normal",
+                shortened(&self.word(offset))
+            ),
+        }))
+    }
+}
+
+impl Corners<'_> {
+    /// The number that begins here; `None` if there is none, or one that is too long for any list.
+    fn index(&mut self) -> Option<i64> {
+        let sign = self.line.get(self.at);
+        let is_negative = sign == Some(&b'-');
+        let first = self.at + usize::from(matches!(sign, Some(b'-' | b'+')));
+        let (mut at, mut value) = (first, 0i64);
+        while let Some(digit) = self.line.get(at).map(|b| b.wrapping_sub(b'0'))
+            && digit < 10
+        {
+            value = value.checked_mul(10)?.checked_add(digit.into())?;
+            at += 1;
+        }
+        if at == first {
+            return None;
+        }
+        self.at = at;
+        Some(if is_negative { -value } else { value })
+    }
+
+    /// The word that begins here.
+    fn word(&self, offset: usize) -> String {
+        let word = self.line[offset..].split(|&b| is_blank(b)).next();
+        String::from_utf8_lossy(word.unwrap_or_default()).into_owned()
+    }
+
+    fn malformed(&self, offset: usize, part: usize) -> Malformed {
+        let (word, part) = (self.word(offset), self.word(part));
+        let part = part.split('/').next().unwrap_or_default();
+        Malformed {
+            offset,
+            message: format!(
+                "“{}” in “{}” is not an index",
+                shortened(part),
+                shortened(&word)
+            ),
+        }
+    }
+}
+
+/// Between words.
+pub(super) fn is_blank(b: u8) -> bool {
+    matches!(b, b' ' | b'\t' | 0x0B | 0x0C)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn corners(line: &str) -> Vec<Result<[Option<i64>; 3], String>> {
+        let corners = Corners {
+            line: line.as_bytes(),
+            at: 0,
+        };
+        // A malformed word isn't stepped over.
+        let mut found = Vec::new();
+        for corner in corners {
+            let is_last = corner.is_err();
+            found.push(corner.map(|c| c.indices).map_err(|e| e.message));
+            if is_last {
+                break;
+            }
+        }
+        found
+    }
+
+    #[test]
+    fn every_form_of_a_corner_is_read() {
+        let read = corners(" 1\t+2/3 4//-5 6/7/8 9/ 1// ");
+        let expected = [
+            [Some(1), None, None],
+            [Some(2), Some(3), None],
+            [Some(4), None, Some(-5)],
+            [Some(6), Some(7), Some(8)],
+            [Some(9), None, None],
+            [Some(1), None, None],
+        ];
+        assert_eq!(read, expected.map(Ok));
+    }
+
+    #[test]
+    fn what_is_no_corner_is_named() {
+        for (line, message) in [
+            ("1/1/1/1", "“1/1/1/1” has more than vertex/texture/normal"),
+            ("1.0", "“1.0” in “1.0” is not an index"),
+            ("1/x/2", "“x” in “1/x/2” is not an index"),
+            ("/1", "“” in “/1” is not an index"),
+            ("-", "“-” in “-” is not an index"),
+            (
+                "99999999999999999999",
+                "“99999999999999999999” in “99999999999999999999” is not an index",
+            ),
+            ("é", "“é” in “é” is not an index"),
+        ] {
+            assert_eq!(corners(line), [Err(message.to_owned())], "{line}");
+        }
+    }
+}

@@ -1,0 +1,242 @@
+//! Where does a statement begin and end?
+//!
+//! Lines end in LF, CR or CRLF; a backslash at the end joins the next one. A byte order mark is taken
+//! away, UTF-16 read as UTF-8, gzip unpacked.
+
+use super::error::Problem;
+use crate::progress::{Phase, Progress};
+use encoding_rs_io::DecodeReaderBytesBuilder;
+use flate2::bufread::MultiGzDecoder;
+use memchr::{memchr, memchr2};
+use std::io::{self, BufRead, BufReader, Read};
+
+/// Read in pieces of this size, between which a cancel is noticed.
+const PIECE: usize = 1 << 18;
+/// A longer line isn't read to its end: a polygon of ten million corners would fit.
+pub(super) const LONGEST_LINE: usize = 128 << 20;
+
+/// The statements of a text, one after the other.
+pub(super) struct Lines<'p> {
+    source: Box<dyn Read + 'p>,
+    progress: &'p Progress,
+    /// Bytes read and not yet split into lines, from `start` on.
+    buffer: Vec<u8>,
+    start: usize,
+    is_at_end: bool,
+    line: usize,
+    /// A statement of several lines.
+    joined: Vec<u8>,
+}
+
+/// A statement as it stands in the file, and the line on which it begins, counted from 1.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct Statement<'l> {
+    pub line: usize,
+    pub bytes: &'l [u8],
+}
+
+impl<'p> Lines<'p> {
+    /// # Errors
+    /// What the source says to its first bytes.
+    pub(super) fn new(bytes: impl Read + 'p, progress: &'p Progress) -> Result<Self, Problem> {
+        let counted = Counted { bytes, progress };
+        let mut source = BufReader::with_capacity(PIECE, counted);
+        let is_gzip = source
+            .fill_buf()
+            .map_err(Problem::Read)?
+            .starts_with(&[0x1F, 0x8B]);
+        let source: Box<dyn Read> = if is_gzip {
+            Box::new(MultiGzDecoder::new(source))
+        } else {
+            Box::new(source)
+        };
+        let decoded = DecodeReaderBytesBuilder::new()
+            .bom_sniffing(true)
+            .utf8_passthru(true)
+            .strip_bom(true)
+            .build(source);
+        Ok(Self {
+            source: Box::new(decoded),
+            progress,
+            buffer: Vec::new(),
+            start: 0,
+            is_at_end: false,
+            line: 0,
+            joined: Vec::new(),
+        })
+    }
+
+    /// The next statement; `None` at the end.
+    pub(super) fn next(&mut self) -> Result<Option<Statement<'_>>, Problem> {
+        let Some((from, to)) = self.next_line()? else {
+            return Ok(None);
+        };
+        let line = self.line;
+        if self.buffer[from..to].last() != Some(&b'\\') {
+            let bytes = &self.buffer[from..to];
+            return Ok(Some(Statement { line, bytes }));
+        }
+        self.joined.clear();
+        self.joined.extend(&self.buffer[from..to]);
+        while self.joined.last() == Some(&b'\\') {
+            self.joined.pop();
+            let Some((from, to)) = self.next_line()? else {
+                break;
+            };
+            self.joined.push(b' ');
+            self.joined.extend(&self.buffer[from..to]);
+            if self.joined.len() > LONGEST_LINE {
+                return Err(too_long(line));
+            }
+        }
+        let bytes = &self.joined[..];
+        Ok(Some(Statement { line, bytes }))
+    }
+
+    /// Whether the whole text was read.
+    pub(super) fn is_at_end(&self) -> bool {
+        self.is_at_end
+    }
+
+    /// Where the next line stands in the buffer, without its end.
+    fn next_line(&mut self) -> Result<Option<(usize, usize)>, Problem> {
+        let mut searched = 0;
+        let (length, step) = loop {
+            let rest = &self.buffer[self.start..];
+            match memchr2(b'\n', b'\r', &rest[searched..]).map(|at| at + searched) {
+                // A CR at the very end may be half of a CRLF: read on to know.
+                Some(at) if rest[at] == b'\n' || at + 1 < rest.len() || self.is_at_end => {
+                    let is_pair = rest[at] == b'\r' && rest.get(at + 1) == Some(&b'\n');
+                    break (at, at + 1 + usize::from(is_pair));
+                }
+                _ if self.is_at_end && rest.is_empty() => return Ok(None),
+                _ if self.is_at_end => break (rest.len(), rest.len()),
+                found => searched = found.unwrap_or(rest.len()),
+            }
+            self.fill()?;
+        };
+        let from = self.start;
+        self.line += 1;
+        self.start += step;
+        Ok(Some((from, from + length)))
+    }
+
+    fn fill(&mut self) -> Result<(), Problem> {
+        self.progress.check()?;
+        self.buffer.drain(..self.start);
+        self.start = 0;
+        let before = self.buffer.len();
+        if before > LONGEST_LINE {
+            return Err(too_long(self.line + 1));
+        }
+        self.buffer.resize(before + PIECE, 0);
+        let count = loop {
+            match self.source.read(&mut self.buffer[before..]) {
+                Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
+                other => break other.map_err(Problem::Read)?,
+            }
+        };
+        self.buffer.truncate(before + count);
+        self.is_at_end = count == 0;
+        if self.is_at_end {
+            self.progress.enter(Phase::Checking);
+        }
+        if self.line == 0
+            && let Some(message) = not_an_obj(&self.buffer)
+        {
+            return Err(Problem::Content(message.to_owned()));
+        }
+        Ok(())
+    }
+}
+
+fn too_long(line: usize) -> Problem {
+    Problem::line(
+        line,
+        format!("a line of more than {} MB", LONGEST_LINE >> 20),
+    )
+}
+
+/// Says how many bytes were read, and stops when they are wanted no more.
+struct Counted<'p, R> {
+    bytes: R,
+    progress: &'p Progress,
+}
+
+impl<R: Read> Read for Counted<'_, R> {
+    fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        let count = self.bytes.read(out)?;
+        self.progress.add_read(count as u64);
+        Ok(count)
+    }
+}
+
+/// What a file is, if its first bytes show that it is no OBJ.
+fn not_an_obj(first_bytes: &[u8]) -> Option<&'static str> {
+    let start = first_bytes.trim_ascii_start();
+    let begins =
+        |with: &[u8]| start.len() >= with.len() && start[..with.len()].eq_ignore_ascii_case(with);
+    if begins(b"<!doctype") || begins(b"<html") {
+        Some("this is an HTML page, not an OBJ file")
+    } else if begins(b"<?xml") {
+        Some("this is an XML file, not an OBJ file")
+    } else if memchr(0, first_bytes).is_some() {
+        Some("this is a binary file, not an OBJ file")
+    } else {
+        None
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::io::Write;
+
+    fn lines_of(bytes: &[u8]) -> Vec<(usize, String)> {
+        let progress = Progress::default();
+        let mut lines = Lines::new(bytes, &progress).expect("bytes");
+        let mut found = Vec::new();
+        while let Some(Statement { line, bytes }) = lines.next().expect("good") {
+            found.push((line, String::from_utf8_lossy(bytes).into_owned()));
+        }
+        found
+    }
+
+    fn gzipped(bytes: &[u8]) -> Vec<u8> {
+        let mut encoder = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
+        encoder.write_all(bytes).expect("memory");
+        encoder.finish().expect("memory")
+    }
+
+    #[test]
+    fn lines_end_in_any_way_and_continue_after_a_backslash() {
+        let expected = [(1, "v 1"), (2, ""), (3, "f 1  2 3"), (5, "g a")];
+        let expected: Vec<(usize, String)> = expected.map(|(n, text)| (n, text.to_owned())).into();
+        for end in ["\n", "\r", "\r\n"] {
+            let text = ["v 1", "", "f 1 \\", "2 3", "g a"].join(end);
+            assert_eq!(lines_of(text.as_bytes()), expected);
+            let marked = [b"\xEF\xBB\xBF", text.as_bytes()].concat();
+            assert_eq!(lines_of(&marked), expected);
+            assert_eq!(lines_of(&gzipped(&marked)), expected);
+            let wide = text.encode_utf16().flat_map(u16::to_le_bytes);
+            let wide: Vec<u8> = [0xFF, 0xFE].into_iter().chain(wide).collect();
+            assert_eq!(lines_of(&wide), expected);
+        }
+        assert_eq!(lines_of(b"f 1 \\"), [(1, "f 1 ".to_owned())]);
+    }
+
+    #[test]
+    fn half_a_gzip_file_is_an_error() {
+        let whole = gzipped(&b"v 0 0 0\n".repeat(1000));
+        let progress = Progress::default();
+        let mut lines = Lines::new(&whole[..whole.len() / 2], &progress).expect("bytes");
+        let error = loop {
+            match lines.next() {
+                Ok(Some(_)) => {}
+                Ok(None) => panic!("read to an end that isn't there"),
+                Err(error) => break error,
+            }
+        };
+        assert!(matches!(error, Problem::Read(e) if e.kind() == io::ErrorKind::UnexpectedEof));
+    }
+}

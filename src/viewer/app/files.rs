@@ -1,0 +1,97 @@
+//! What is loaded, and when again.
+
+use super::{App, Notice};
+use crate::document::Document;
+use crate::opening::Loading;
+use crate::watch::Watch;
+use std::path::PathBuf;
+
+impl App {
+    pub(super) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
+        if let Some(loading) = &self.loading {
+            loading.cancel();
+        }
+        self.notice = None;
+        self.loading = Some(Loading::start(path, self.load_options, &self.settings, ctx));
+    }
+
+    /// Takes over a document that is ready; one that can't be loaded leaves the old one in place.
+    pub(super) fn poll_loading(&mut self, ctx: &egui::Context) {
+        if let Some(path) = self.open_dialog.poll() {
+            self.load(path, ctx);
+        }
+        let Some(loading) = &self.loading else { return };
+        let result = match loading.poll() {
+            Ok(None) => return,
+            Ok(Some(result)) => result.map_err(|error| error.to_string()),
+            Err(broken) => Err(format!("{}: {broken}", loading.path.display())),
+        };
+        self.loading = None;
+        match result {
+            Ok(document) => self.show(document, ctx),
+            Err(message) => {
+                if let Some(screenshot) = &self.screenshot {
+                    screenshot.fail(ctx, message.clone());
+                }
+                self.error(message);
+            }
+        }
+    }
+
+    fn show(&mut self, document: Document, ctx: &egui::Context) {
+        let is_same_file = self.document.path == document.path;
+        self.document = document;
+        self.document.use_crease(self.settings.crease());
+        let pick = self.pick.take();
+        (self.picking, self.flaw) = (None, None);
+        self.trade = None;
+        if is_same_file {
+            self.turntable
+                .set_scene(self.document.loaded.scene.bounds());
+            if let Some(pick) = pick {
+                self.inspect_again(&pick, ctx);
+            }
+        } else {
+            self.is_unframed = true;
+        }
+        let title = format!("{} – hitscope", self.document.name());
+        ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
+        let warnings = &self.document.loaded.warnings;
+        if let Some(first) = warnings.first() {
+            let more = match warnings.len() - 1 {
+                0 => String::new(),
+                n => format!(" (and {n} more, in the Mesh tab)"),
+            };
+            self.notice = Some(Notice {
+                text: format!("{}: {first}{more}", self.document.name()),
+                is_error: false,
+            });
+        }
+    }
+
+    /// Loads the file again when it has changed, if the user wants that.
+    pub(super) fn poll_watch(&mut self, ctx: &egui::Context) {
+        let Some(path) = self.document.path.clone().filter(|_| self.settings.watches) else {
+            self.watch = None;
+            return;
+        };
+        let named = &self.document.loaded.files;
+        if self
+            .watch
+            .as_ref()
+            .is_none_or(|watch| !watch.is_of(&path, named))
+        {
+            match Watch::of(&path, named, ctx) {
+                Ok(watch) => self.watch = Some(watch),
+                Err(error) => {
+                    self.settings.watches = false;
+                    self.error(format!("{} can't be watched: {error}", path.display()));
+                    return;
+                }
+            }
+        }
+        if self.watch.as_mut().is_some_and(|watch| watch.poll(ctx)) {
+            self.load(path, ctx);
+        }
+    }
+}
