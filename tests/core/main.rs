@@ -19,7 +19,7 @@ mod watertight;
 
 // What holds for any triangle and ray: scaling, permuting, reversing.
 mod properties;
-// Any bytes are a mesh or an error, never a panic.
+// Any file that people have is a mesh or a clear error.
 mod obj;
 
 // 64×64 pictures, compared exactly.

@@ -3,7 +3,7 @@
 //! | step | file |
 //! |---|---|
 //! | bytes become statements: compression, encodings, line ends | `lines` |
-//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `statement`, `corner`, `facts`, `reader` |
+//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `statement`, `words`, `corner`, `facts`, `reader` |
 //! | tobj reads their numbers, in f64 | here |
 //! | its lists of some ten thousand faces become one | `numbers` |
 //! | vertices are recentred, polygons cut, and what no ray can hit is dropped | `assemble`, `place`, `polygon` |
@@ -23,6 +23,7 @@ mod place;
 mod polygon;
 mod reader;
 mod statement;
+mod words;
 
 pub use beside::Beside;
 pub use error::{LoadError, Warning};

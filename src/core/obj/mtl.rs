@@ -8,7 +8,7 @@
 use super::Warning;
 use super::facts::{Tally, shortened};
 use super::lines::Lines;
-use super::statement::{name, without_comment};
+use super::words::{name, without_comment};
 use crate::mesh::{Illumination, Material};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3};

@@ -8,7 +8,7 @@ use super::corner::{Corner, Corners, LISTS, is_blank};
 use super::error::Problem;
 use super::facts::{Element, Facts, LineRuns, NO_INDEX, shortened};
 use super::lines::Statement;
-use memchr::memchr;
+use super::words::{Words, is_of_number, name, number, text, without_comment};
 use std::io::Write as _;
 
 /// Statements on their way to tobj.
@@ -109,7 +109,7 @@ impl Sorter {
         } else {
             self.out.extend([&b"v"[..], b"vt", b"vn"][list]);
             for (offset, word) in words().take(wanted) {
-                number::<f64>(line, bytes, offset, word)?;
+                number::<f64>(line, bytes, (offset, word))?;
                 self.out.push(b' ');
                 self.out.extend(word);
             }
@@ -123,7 +123,7 @@ impl Sorter {
         if list == 0 && word_count >= 6 {
             let mut colour = [0.0; 3];
             for (channel, (offset, word)) in colour.iter_mut().zip(words().skip(3)) {
-                *channel = number(line, bytes, offset, word)?;
+                *channel = number(line, bytes, (offset, word))?;
             }
             let facts = &mut self.facts;
             facts.colours.resize(facts.counts[0] - 1, [1.0; 3]);
@@ -307,7 +307,7 @@ impl Sorter {
         let bytes = &read[start..];
         let words = Words { line: bytes, at: 0 }.skip(1);
         for (offset, word) in words {
-            if let Err(problem) = number::<f64>(line, bytes, offset, word) {
+            if let Err(problem) = number::<f64>(line, bytes, (offset, word)) {
                 return problem;
             }
         }
@@ -324,44 +324,6 @@ enum Resolved {
     Impossible,
 }
 
-/// The words of a line from `at` on, and where they begin.
-struct Words<'l> {
-    line: &'l [u8],
-    at: usize,
-}
-
-impl<'l> Iterator for Words<'l> {
-    type Item = (usize, &'l [u8]);
-
-    fn next(&mut self) -> Option<Self::Item> {
-        while is_blank(*self.line.get(self.at)?) {
-            self.at += 1;
-        }
-        let (start, rest) = (self.at, &self.line[self.at..]);
-        let length = rest.iter().position(|&b| is_blank(b)).unwrap_or(rest.len());
-        self.at += length;
-        Some((start, &rest[..length]))
-    }
-}
-
-/// Whether a byte can be part of a decimal number.
-fn is_of_number(b: u8) -> bool {
-    matches!(b, b'0'..=b'9' | b'-' | b'.' | b'e' | b'E' | b'+')
-}
-
-fn number<T: std::str::FromStr>(
-    line: usize,
-    bytes: &[u8],
-    offset: usize,
-    word: &[u8],
-) -> Result<T, Problem> {
-    let parsed = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
-    parsed.ok_or_else(|| {
-        let message = format!("“{}” is not a number", shortened(&text(word)));
-        Problem::word(line, bytes, offset, message)
-    })
-}
-
 pub(super) fn out_of_range(list: usize, written: i64, count: usize) -> String {
     let what = LISTS[list];
     match written {
@@ -375,23 +337,5 @@ fn smoothing_group(word: &str) -> u32 {
     match word {
         "on" => 1,
         _ => word.parse().unwrap_or(0),
-    }
-}
-
-/// A line up to its comment.
-pub(super) fn without_comment(bytes: &[u8]) -> &[u8] {
-    memchr(b'#', bytes).map_or(bytes, |at| &bytes[..at])
-}
-
-/// A name keeps its `#`, as exporters write `usemtl Material #27`.
-pub(super) fn name(bytes: &[u8]) -> String {
-    text(bytes).trim().to_owned()
-}
-
-/// Bytes that aren't UTF-8 are read as Latin-1.
-fn text(bytes: &[u8]) -> String {
-    match str::from_utf8(bytes) {
-        Ok(text) => text.to_owned(),
-        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
     }
 }

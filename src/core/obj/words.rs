@@ -1,0 +1,84 @@
+//! The words of a line.
+
+use super::corner::is_blank;
+use super::error::Problem;
+use super::facts::shortened;
+use memchr::memchr;
+use std::str::FromStr;
+
+/// The words of a line from `at` on, and where they begin.
+pub(super) struct Words<'l> {
+    pub line: &'l [u8],
+    pub at: usize,
+}
+
+impl<'l> Iterator for Words<'l> {
+    type Item = (usize, &'l [u8]);
+
+    fn next(&mut self) -> Option<Self::Item> {
+        while is_blank(*self.line.get(self.at)?) {
+            self.at += 1;
+        }
+        let (start, rest) = (self.at, &self.line[self.at..]);
+        let length = rest.iter().position(|&b| is_blank(b)).unwrap_or(rest.len());
+        self.at += length;
+        Some((start, &rest[..length]))
+    }
+}
+
+/// Whether a byte can be part of a decimal number.
+pub(super) fn is_of_number(b: u8) -> bool {
+    matches!(b, b'0'..=b'9' | b'-' | b'.' | b'e' | b'E' | b'+')
+}
+
+/// The number that a word is which begins at `offset` in a line.
+pub(super) fn number<T: FromStr>(
+    line: usize,
+    bytes: &[u8],
+    (offset, word): (usize, &[u8]),
+) -> Result<T, Problem> {
+    let parsed = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+    parsed.ok_or_else(|| {
+        let message = format!("“{}” is not a number", shortened(&text(word)));
+        Problem::word(line, bytes, offset, message)
+    })
+}
+
+/// A line up to its comment.
+pub(super) fn without_comment(bytes: &[u8]) -> &[u8] {
+    memchr(b'#', bytes).map_or(bytes, |at| &bytes[..at])
+}
+
+/// A name keeps its `#`, as exporters write `usemtl Material #27`.
+pub(super) fn name(bytes: &[u8]) -> String {
+    text(bytes).trim().to_owned()
+}
+
+/// Bytes that aren't UTF-8 are read as Latin-1.
+pub(super) fn text(bytes: &[u8]) -> String {
+    match str::from_utf8(bytes) {
+        Ok(text) => text.to_owned(),
+        Err(_) => bytes.iter().map(|&b| char::from(b)).collect(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn words_stand_between_blanks() {
+        let line = b"v  1\t2.5 ";
+        let words: Vec<_> = Words { line, at: 1 }.collect();
+        assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
+        assert_eq!(number::<f64>(1, line, words[1]).expect("a number"), 2.5);
+        assert!(number::<f64>(1, b"v x", (2, b"x")).is_err());
+    }
+
+    #[test]
+    fn names_may_have_any_bytes() {
+        assert_eq!(name(b" caf\xe9 #2 "), "café #2");
+        assert_eq!(name("café".as_bytes()), "café");
+        assert_eq!(without_comment(b"1 2 # 3"), b"1 2 ");
+    }
+}

@@ -1,0 +1,411 @@
+//! A file for each oddity, and what becomes of it.
+
+use super::{LENIENT, STRICT, files, load, load_path, warnings};
+use glam::{DVec3, Vec2, Vec3};
+use hitscope_core::mesh::{Crease, Material, NO_NORMAL, VertexNormals};
+use hitscope_core::obj::{self, Loaded};
+use hitscope_core::progress::Progress;
+use std::collections::BTreeMap;
+use std::fmt::Write as _;
+use std::path::Path;
+
+/// The message about a file that isn't loaded, without the folder's name.
+fn error(name: &str) -> String {
+    let error = load_path(&files().join(name), STRICT).expect_err(name);
+    let folder = format!("{}/", files().display());
+    error.to_string().replace(&folder, "")
+}
+
+/// Files that are one triangle, however they are spelt.
+#[test]
+fn odd_spelling_is_read() {
+    for name in [
+        "mark.obj",
+        "crlf.obj",
+        "cr.obj",
+        "continued.obj",
+        "comments.obj",
+        "latin1.obj",
+        "utf16.obj",
+        "spelling.obj",
+        "early.obj",
+        "no_textures.obj",
+        "packed.obj.gz",
+    ] {
+        let loaded = load(name);
+        assert_eq!(loaded.mesh.triangles.len(), 1, "{name}");
+        let corners = loaded.mesh.corners(0);
+        assert_eq!(corners, [Vec3::ZERO, Vec3::X, Vec3::Y], "{name}");
+        let warned = usize::from(name == "no_textures.obj");
+        assert_eq!(
+            loaded.warnings.len(),
+            warned,
+            "{name}: {:?}",
+            loaded.warnings
+        );
+    }
+    for name in ["latin1.obj", "utf16.obj"] {
+        assert_eq!(load(name).mesh.groups, ["", "café"], "{name}");
+    }
+}
+
+fn areas_by_group(loaded: &Loaded) -> BTreeMap<&str, f64> {
+    let mesh = &loaded.mesh;
+    let mut areas = BTreeMap::new();
+    for triangle in 0..mesh.triangles.len() as u32 {
+        let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
+        // All polygons of the file run to the left around +z.
+        let area = 0.5 * (b - a).cross(c - a).dot(DVec3::Z);
+        assert!(area > 0.0, "triangle {triangle} is flipped");
+        let group = &mesh.groups[mesh.group.of(triangle) as usize];
+        *areas.entry(group.as_str()).or_default() += area;
+    }
+    areas
+}
+
+#[test]
+fn concave_polygons_and_holes_keep_their_area_and_hide_their_diagonals() {
+    let loaded = load("concave.obj");
+    let expected = [("arrow", 1.0), ("frame", 12.0), ("l", 3.0), ("u", 7.0)];
+    assert_eq!(areas_by_group(&loaded), BTreeMap::from(expected));
+    assert_eq!(warnings(&loaded), [""; 0]);
+    let mesh = &loaded.mesh;
+    assert_eq!(mesh.face_count, 4);
+    // The arrow: both triangles of face 0 have two edges of it, and share the diagonal.
+    let of_arrow = (0..2).map(|t| (mesh.face_of(t), mesh.outline_of(t).count_ones()));
+    assert!(of_arrow.eq([(0, 2), (0, 2)]));
+}
+
+#[test]
+fn polygons_without_a_plane_are_cut_the_same_way_each_time() {
+    let first = load("not_flat.obj");
+    assert_eq!(
+        warnings(&first),
+        ["line 11: 1 polygon(s) cross themselves or have no plane: cut as a fan"]
+    );
+    assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(load("not_flat.obj").mesh.triangles, first.mesh.triangles);
+}
+
+fn materials(loaded: &Loaded) -> BTreeMap<&str, &Material> {
+    let materials = loaded.mesh.materials.iter();
+    materials.map(|m| (m.name.as_str(), m)).collect()
+}
+
+#[test]
+fn legal_but_unusual_materials_are_read_and_what_is_skipped_is_said() {
+    let loaded = load("unusual.obj");
+    let materials = materials(&loaded);
+    assert_eq!(materials["grey"].diffuse, Some(Vec3::splat(0.5)));
+    assert_eq!(materials["spectral"].diffuse, Some(Vec3::X));
+    assert_eq!(materials["halo"].opacity, 0.5);
+    assert_eq!(materials["dim"].opacity, 0.75);
+    let map = materials["mapped"].diffuse_map.expect("a map");
+    assert_eq!(
+        (map.scale, map.offset),
+        (Vec2::splat(2.0), Vec2::new(0.5, 0.0))
+    );
+    // Half of texel.png is red, half is green; (0.375, 0) of the surface is at 1.25 of it.
+    let colour = map.colour(&loaded.mesh.textures, Vec2::new(0.375, 0.0));
+    assert_eq!(colour, Vec3::X);
+    let skipped = ["Kd", "Pm", "Pr", "illum", "map_Kd", "map_Ke"];
+    let warnings = warnings(&loaded);
+    assert_eq!(warnings.len(), skipped.len(), "{warnings:?}");
+    for (warning, keyword) in warnings.iter().zip(skipped) {
+        let expected =
+            format!("material library “unusual.mtl”: 1 “{keyword}” statement(s) skipped");
+        assert!(warning.starts_with(&expected), "{warning}");
+    }
+}
+
+#[test]
+fn libraries_are_found_by_several_odd_and_miscased_names() {
+    let loaded = load("libraries.obj");
+    assert_eq!(warnings(&loaded), [""; 0]);
+    let materials = materials(&loaded);
+    let diffuse = |name: &str| materials[name].diffuse;
+    assert_eq!(diffuse("first"), Some(Vec3::X));
+    assert_eq!(diffuse("second"), Some(Vec3::Y));
+    assert_eq!(diffuse("spaced"), Some(Vec3::Z));
+    assert_eq!(diffuse("inner"), Some(Vec3::new(1.0, 1.0, 0.0)));
+    assert_eq!(diffuse("capital"), Some(Vec3::new(0.0, 1.0, 1.0)));
+    // The library in the folder names a picture that lies beside the mesh.
+    assert_eq!(loaded.mesh.textures.len(), 1);
+    let names: Vec<_> = loaded
+        .files
+        .iter()
+        .filter_map(|path| path.file_name())
+        .collect();
+    assert!(names.contains(&"inner.mtl".as_ref()) && names.contains(&"texel.png".as_ref()));
+}
+
+#[test]
+fn a_missing_library_or_texture_is_named_and_the_mesh_opens() {
+    let loaded = load("missing.obj");
+    let warnings = warnings(&loaded);
+    assert_eq!(loaded.mesh.triangles.len(), 2);
+    assert!(
+        warnings[0].starts_with("line 1: material library “nowhere.mtl”: "),
+        "{warnings:?}"
+    );
+    assert!(
+        warnings[1].starts_with("texture “lost.png”: "),
+        "{warnings:?}"
+    );
+    assert!(
+        warnings[1].ends_with("; shown as a checker"),
+        "{warnings:?}"
+    );
+    assert_eq!(
+        warnings[2],
+        "1 material(s) without a definition, “nobody” first"
+    );
+    // What may come later can be watched for.
+    let looked_for = |name: &str| loaded.files.iter().any(|path| path.ends_with(name));
+    assert!(looked_for("nowhere.mtl") && looked_for("lost.png"));
+    let map = materials(&loaded)["picture"].diffuse_map.expect("a map");
+    let of = |x| map.colour(&loaded.mesh.textures, Vec2::new(x, 1.0 / 16.0));
+    assert_ne!(of(1.0 / 16.0), of(3.0 / 16.0));
+}
+
+#[test]
+fn lines_and_points_are_kept_apart_from_faces() {
+    let mesh = load("elements.obj").mesh;
+    assert_eq!(mesh.triangles, [[0, 1, 2]]);
+    assert_eq!(mesh.lines, [[0, 1], [1, 3], [3, 4], [0, 1], [4, 3]]);
+    assert_eq!(mesh.points, [3, 4]);
+    // The vertex that nothing uses isn't kept.
+    assert_eq!(mesh.positions.len(), 5);
+    assert_eq!((mesh.face_of(0), mesh.face_count), (0, 1));
+}
+
+#[test]
+fn normals_are_taken_where_they_are_and_computed_elsewhere() {
+    let mesh = load("mixed.obj").mesh;
+    assert_eq!(mesh.corner_normals[0], [0; 3]);
+    assert_eq!(mesh.corner_normals[2], [NO_NORMAL; 3]);
+    assert_eq!(mesh.corner_normals[4], [0, NO_NORMAL, NO_NORMAL]);
+    let normals = VertexNormals::of(&mesh, Crease::FromFile);
+    assert_eq!(normals.of_triangle(&mesh, 0), [Vec3::Y; 3]);
+    // The second quad's own ones lean to the other side of the ridge where the quads meet.
+    let right = normals.of_triangle(&mesh, 2);
+    assert!(right[0].z > 0.9 && right[1].x > 0.7, "{right:?}");
+}
+
+#[test]
+fn smoothing_groups_are_obeyed_across_seams() {
+    let mesh = load("smoothing.obj").mesh;
+    let normals = VertexNormals::of(&mesh, Crease::FromFile);
+    // Corner 1 of the even ones and corner 0 of the odd ones are at the ridge.
+    let ridge = |roof: u32| {
+        let [left, right] = [2 * roof, 2 * roof + 1].map(|t| normals.of_triangle(&mesh, t));
+        [left[1], right[0]]
+    };
+    let [smooth, creased, flat] = [0, 1, 2].map(ridge);
+    assert_eq!(smooth[0], smooth[1]);
+    assert!((smooth[0] - Vec3::Z).length() < 1e-6, "{smooth:?}");
+    let faces = [Vec3::new(-1.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 1.0)];
+    for found in [creased, flat] {
+        for (found, face) in found.into_iter().zip(faces) {
+            assert!((found - face.normalize()).length() < 1e-6, "{found}");
+        }
+    }
+}
+
+#[test]
+fn colours_stay_with_their_vertices() {
+    let loaded = load("colours.obj");
+    let expected = [Vec3::ONE, Vec3::X, Vec3::new(0.0, 0.5, 0.0), Vec3::ONE];
+    assert_eq!(loaded.mesh.colours, expected);
+    assert_eq!(warnings(&loaded), ["2 vertices without a colour are white"]);
+    let all = load("all_coloured.obj");
+    assert_eq!(all.mesh.colours, [Vec3::X, Vec3::Y, Vec3::Z]);
+    assert_eq!(warnings(&all), [""; 0]);
+}
+
+#[test]
+fn faces_with_a_vertex_that_is_not_finite_are_dropped_and_counted() {
+    let loaded = load("not_finite.obj");
+    assert_eq!(loaded.mesh.triangles.len(), 1);
+    assert_eq!(loaded.mesh.dropped.non_finite, 4);
+    assert_eq!(
+        warnings(&loaded),
+        ["line 8: 4 triangle(s) dropped: a corner is not finite"]
+    );
+}
+
+#[test]
+fn an_index_that_names_nothing_is_an_error_or_costs_its_face() {
+    for (name, message, dropped) in [
+        (
+            "too_high.obj",
+            "too_high.obj:5: vertex index 9 is out of range: there are 3",
+            1,
+        ),
+        (
+            "zero.obj",
+            "zero.obj:5:3: vertex index 0; indices start at 1",
+            1,
+        ),
+        (
+            "too_far_back.obj",
+            "too_far_back.obj:5:3: vertex index -4 is out of range: there are 3",
+            1,
+        ),
+        (
+            "too_short.obj",
+            "too_short.obj:5: a face needs three corners, this one has 2",
+            2,
+        ),
+        (
+            "no_normal.obj",
+            "no_normal.obj:6: normal index 7 is out of range: there are 1",
+            0,
+        ),
+    ] {
+        assert_eq!(error(name), message);
+        let loaded = load_path(&files().join(name), LENIENT).expect(name);
+        assert_eq!(loaded.mesh.dropped.bad_index, dropped, "{name}");
+        assert_eq!(loaded.warnings.len(), 1, "{name}: {:?}", loaded.warnings);
+        assert!(loaded.warnings[0].line.is_some(), "{name}");
+    }
+    let loaded = load_path(&files().join("too_high.obj"), LENIENT).expect("lenient");
+    assert_eq!(loaded.mesh.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 1]]);
+    let loaded = load_path(&files().join("no_normal.obj"), LENIENT).expect("lenient");
+    assert_eq!(loaded.mesh.corner_normals, [[0; 3], [0, NO_NORMAL, 0]]);
+}
+
+#[test]
+fn a_word_where_a_number_belongs_is_named_with_its_place() {
+    for (name, message) in [
+        (
+            "four_parts.obj",
+            "four_parts.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
+        ),
+        ("comma.obj", "comma.obj:2:3: “0,5” is not a number"),
+        ("word.obj", "word.obj:3:5: “one” is not a number"),
+        (
+            "fraction.obj",
+            "fraction.obj:4:3: “1.0” in “1.0” is not an index",
+        ),
+    ] {
+        assert_eq!(error(name), message);
+        let lenient = load_path(&files().join(name), LENIENT);
+        assert!(
+            lenient.is_err(),
+            "{name}: the vertices after it would be others"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_obj_is_called_by_its_name() {
+    let nothing = "no vertices and no faces: this is not an OBJ file, or an empty one";
+    for (name, message) in [
+        ("empty.obj", nothing),
+        ("prose.obj", nothing),
+        ("page.obj", "this is an HTML page, not an OBJ file"),
+        ("program.obj", "this is a binary file, not an OBJ file"),
+        ("sub", "this is a directory, not an OBJ file"),
+    ] {
+        assert_eq!(error(name), format!("{name}: {message}"));
+    }
+    assert!(error("nowhere.obj").starts_with("nowhere.obj: "));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_may_not_be_read_says_so() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("secret.obj");
+    std::fs::copy(files().join("crlf.obj"), &path).expect("copied");
+    let nobody = std::fs::Permissions::from_mode(0o000);
+    std::fs::set_permissions(&path, nobody).expect("changed");
+    if std::fs::File::open(&path).is_ok() {
+        eprintln!("skipped: this user may read everything");
+        return;
+    }
+    let error = load_path(&path, STRICT)
+        .expect_err("unreadable")
+        .to_string();
+    assert!(error.contains("ermission denied"), "{error}");
+}
+
+#[test]
+fn free_form_statements_are_named_and_counted() {
+    let loaded = load("free_form.obj");
+    assert_eq!(loaded.mesh.triangles.len(), 1);
+    let ignored = [
+        (5, 1, "cstype"),
+        (6, 1, "deg"),
+        (7, 2, "curv"),
+        (9, 1, "parm"),
+        (10, 1, "end"),
+        (11, 1, "surf"),
+    ];
+    let expected = ignored.map(|(line, count, keyword)| {
+        format!("line {line}: {count} “{keyword}” statement(s) ignored")
+    });
+    assert_eq!(warnings(&loaded), expected);
+}
+
+#[test]
+fn half_a_packed_file_is_an_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("half.obj.gz");
+    let whole = std::fs::read(files().join("packed.obj.gz")).expect("there");
+    std::fs::write(&path, &whole[..whole.len() - 9]).expect("written");
+    assert!(load_path(&path, STRICT).is_err());
+}
+
+/// The file grows while it is read: an error, or the whole of it if reading was quicker.
+#[test]
+fn a_file_that_changes_while_it_is_read_is_never_half_a_mesh() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("growing.obj");
+    let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    for _ in 0..200_000 {
+        text += "f 1 2 3\n";
+    }
+    std::fs::write(&path, &text).expect("written");
+    let progress = Progress::default();
+    let result = std::thread::scope(|threads| {
+        let loading = threads.spawn(|| obj::load(&path, STRICT, &progress));
+        while progress.bytes().0 == 0 && !loading.is_finished() {
+            std::thread::yield_now();
+        }
+        text += "f 1 3 2\n";
+        std::fs::write(&path, &text).expect("written");
+        loading.join().expect("no panic")
+    });
+    match result {
+        Ok(loaded) => assert!(loaded.mesh.triangles.len() >= 200_000),
+        Err(error) => assert!(error.to_string().contains("changed"), "{error}"),
+    }
+}
+
+/// Vertices a millimetre apart, as a surveyor has them.
+#[test]
+fn a_millimetre_in_utm_coordinates_is_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("utm.obj");
+    let mut text = String::new();
+    for k in 0..3 {
+        let x = f64::from(k) * 0.001;
+        writeln!(text, "v {:.3} 4649776.000 100.000", 500_000.0 + x).expect("memory");
+        writeln!(text, "v {:.3} 4649776.001 100.000", 500_000.0 + x).expect("memory");
+    }
+    text += "f 1 3 4 2\nf 3 5 6 4\n";
+    std::fs::write(&path, text).expect("written");
+    let loaded = load_path(Path::new(&path), STRICT).expect("good");
+    let mesh = &loaded.mesh;
+    assert!(loaded.max_rounding < 1e-9, "{}", loaded.max_rounding);
+    let spelt: Vec<DVec3> = mesh
+        .positions
+        .iter()
+        .map(|&p| mesh.vertex_in_file(p))
+        .collect();
+    assert_eq!(spelt[0], DVec3::new(500_000.0, 4_649_776.0, 100.0));
+    assert_eq!(spelt[5], DVec3::new(500_000.002, 4_649_776.001, 100.0));
+}
