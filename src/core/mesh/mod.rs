@@ -30,7 +30,8 @@ use rayon::prelude::*;
 /// two lengths then stay well inside f32's range.
 pub const SAFE_SIZE: std::ops::RangeInclusive<f64> = 1e-15..=1e16;
 
-/// The unit normal by the right-hand rule over A, B, C; zero for a triangle of zero area.
+/// The unit normal by the right-hand rule over A, B, C; zero for a triangle of zero area, and for one so thin
+/// that f64 finds none.
 ///
 /// In f64, where neither a product nor a length of f32 numbers under- or overflows.
 pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {

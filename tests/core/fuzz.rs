@@ -1,0 +1,292 @@
+//! Any bytes are a mesh or a clear error: no panic, no endless work, no more memory than the file's size allows.
+//!
+//! `cargo test -p hitscope-core --test fuzz` tries some thousand inputs;
+//! `cargo test --release -p hitscope-core --test fuzz -- 10000000 SEED` as many as asked for. A program of its
+//! own, as the memory of all threads is counted.
+
+use glam::Vec3;
+use hitscope_core::mesh::{Crease, Health, VertexNormals};
+use hitscope_core::obj::{self, Faults, LoadOptions, Recentre};
+use hitscope_core::progress::Progress;
+use hitscope_core::random::Random;
+use peak_alloc::PeakAlloc;
+use std::io;
+use std::path::Path;
+use std::time::{Duration, Instant};
+
+#[global_allocator]
+static MEMORY: PeakAlloc = PeakAlloc;
+
+/// Inputs where the command line says nothing.
+const INPUTS: u64 = 30_000;
+/// What loading may take for each byte of the file, and whatever the size is: buffers, and the machinery of
+/// gzip. The hungriest bytes are short faces: `f 1 1 1` and its line end are 8, and 80 in tobj's list, which
+/// has room for twice as many.
+const BYTES_PER_BYTE: usize = 64;
+const BYTES_ANYHOW: usize = 2 << 20;
+/// One input in so many is a large one.
+const LARGE_EVERY: u64 = 1000;
+const LARGE_BYTES: usize = 1 << 20;
+/// Longer is a hang.
+const LONGEST: Duration = Duration::from_secs(1);
+
+/// Words that OBJ and MTL files are made of, legal and not.
+const WORDS: [&[u8]; 64] = [
+    b"v",
+    b"vn",
+    b"vt",
+    b"f",
+    b"o",
+    b"g",
+    b"usemtl",
+    b"mtllib",
+    b"s",
+    b"l",
+    b"p",
+    b"#",
+    b"\\",
+    b"\\\n",
+    b"\n",
+    b"\n",
+    b"\r\n",
+    b"\r",
+    b"0",
+    b"1",
+    b"2",
+    b"3",
+    b"-1",
+    b"-3",
+    b"1e400",
+    b"nan",
+    b"-inf",
+    b"1.5",
+    b"1e-45",
+    b"3e38",
+    b"1//1",
+    b"2//1",
+    b"3/1",
+    b"1/1/1",
+    b"-1/-1/-1",
+    b"/",
+    b"4294967295",
+    b"4294967296",
+    b"6148914691236517206",
+    b"-9223372036854775808",
+    b"x",
+    b"1,5",
+    b"\xEF\xBB\xBF",
+    b"\0",
+    b"\xE9",
+    b"\xC2\xA0",
+    b"off",
+    b"m.mtl",
+    b"newmtl",
+    b"Kd",
+    b"Ks",
+    b"Ke",
+    b"Ns",
+    b"d",
+    b"-halo",
+    b"Tr",
+    b"illum",
+    b"map_Kd",
+    b"-s",
+    b"-o",
+    b"-bm",
+    b"t.png",
+    b"a",
+    b"\x1F\x8B",
+];
+
+const MESH: &[u8] = b"mtllib m.mtl\nv 0 0 0\nv 1 0 0 1 0 0\nv 0 1 0\nv 0 0 1\nvt 0 0\nvt 1 1\nvn 0 0 1\n\
+    g a\ns 1\nusemtl a\nf 1 2 3\nf 1/1/1 2/2/1 4/1/1\nf 1//1 3 2 4\nusemtl b\nl 1 2 3\np 4\nf -1 -2 -3\ns off\nf 1 2 3 4 2\n";
+const LIBRARY: &[u8] =
+    b"newmtl a\nKd 0.5 0.5 0.5\nmap_Kd -s 2 2 t.png\nd 0.5\nnewmtl b\nKs 1 1 1\nNs 20\nillum 2\n";
+const TEXTURE: &[u8] = include_bytes!("obj/files/texel.png");
+
+fn main() {
+    let mut arguments = std::env::args()
+        .skip(1)
+        .filter_map(|word| word.parse().ok());
+    let inputs: u64 = arguments.next().unwrap_or(INPUTS);
+    let seed: u64 = arguments.next().unwrap_or(1);
+    let mut totals = Totals::default();
+    for input in 0..inputs {
+        // Each has its own seed, to be tried again alone.
+        let mut fuzzer = Fuzzer(Random::new(seed.wrapping_mul(1 << 32) + input));
+        let mut case = fuzzer.case();
+        if input % LARGE_EVERY == LARGE_EVERY - 1 {
+            case.mesh = case.mesh.repeat(1 + LARGE_BYTES / case.mesh.len().max(1));
+        }
+        totals.try_one(&case, &format!("seed {seed}, input {input}"));
+    }
+    eprintln!("{inputs} inputs, seed {seed}: {totals:?}");
+    let is_good = totals.failures == 0;
+    std::process::exit(i32::from(!is_good));
+}
+
+/// A mesh's file, and those beside it.
+#[derive(Clone)]
+struct Case {
+    mesh: Vec<u8>,
+    library: Vec<u8>,
+    texture: Vec<u8>,
+    options: LoadOptions,
+}
+
+struct Fuzzer(Random);
+
+impl Fuzzer {
+    fn below(&mut self, count: usize) -> usize {
+        ((self.0.unit() * count as f64) as usize).min(count.saturating_sub(1))
+    }
+
+    fn case(&mut self) -> Case {
+        let mut case = Case {
+            mesh: MESH.to_vec(),
+            library: LIBRARY.to_vec(),
+            texture: TEXTURE.to_vec(),
+            options: LoadOptions {
+                recentre: [Recentre::Auto, Recentre::Off][self.below(2)],
+                faults: [Faults::Strict, Faults::Lenient][self.below(2)],
+                max_memory: 64 << 20,
+            },
+        };
+        let victim = match self.below(10) {
+            0 | 1 => &mut case.library,
+            2 => &mut case.texture,
+            _ => &mut case.mesh,
+        };
+        let mut bytes = std::mem::take(victim);
+        for _ in 0..=self.below(8) {
+            self.change(&mut bytes);
+        }
+        *victim = bytes;
+        case
+    }
+
+    /// One change: a byte, a word more, a piece less or twice, an end.
+    fn change(&mut self, bytes: &mut Vec<u8>) {
+        if bytes.is_empty() {
+            bytes.extend(MESH);
+        }
+        let at = self.below(bytes.len());
+        let length = self.below(24).min(bytes.len() - at);
+        match self.below(8) {
+            0 => bytes[at] = self.below(256) as u8,
+            1 => bytes[at] ^= 1 << self.below(8),
+            2 => drop(bytes.drain(at..at + length)),
+            3 => {
+                let piece = bytes[at..at + length].to_vec();
+                let to = self.below(bytes.len());
+                bytes.splice(to..to, piece);
+            }
+            4 if self.below(4) == 0 => bytes.truncate(at),
+            _ => {
+                let word = WORDS[self.below(WORDS.len())];
+                bytes.splice(at..at, [b" ", word, b" "].concat());
+            }
+        }
+    }
+}
+
+#[derive(Debug, Default)]
+struct Totals {
+    meshes: u64,
+    errors: u64,
+    failures: u64,
+    slowest: Duration,
+    /// Memory beyond [`BYTES_ANYHOW`], for each byte of the file, at most.
+    most_bytes_per_byte: usize,
+}
+
+impl Totals {
+    fn try_one(&mut self, case: &Case, place: &str) {
+        let files = |name: &str| match name {
+            "m.mtl" => Ok(case.library.clone()),
+            "t.png" => Ok(case.texture.clone()),
+            _ => Err(io::ErrorKind::NotFound.into()),
+        };
+        let (path, open) = (Path::new("x.obj"), || Ok(&case.mesh[..]));
+        MEMORY.reset_peak_usage();
+        let (before, start) = (MEMORY.current_usage(), Instant::now());
+        let result = obj::parse(open, path, case.options, &files, &Progress::default());
+        let (took, peak) = (start.elapsed(), MEMORY.peak_usage() - before);
+        self.slowest = self.slowest.max(took);
+        let size = case.mesh.len() + case.library.len();
+        let per_byte = peak.saturating_sub(BYTES_ANYHOW) / size.max(1);
+        // What a picture takes is bounded by the limit on memory alone.
+        if case.texture == TEXTURE {
+            self.most_bytes_per_byte = self.most_bytes_per_byte.max(per_byte);
+            if per_byte > BYTES_PER_BYTE {
+                self.fail(place, case, &format!("{peak} bytes for a file of {size}"));
+            }
+        }
+        if took > LONGEST {
+            self.fail(place, case, &format!("took {took:?}"));
+        }
+        match result {
+            Ok(loaded) => {
+                self.meshes += 1;
+                if let Some(fault) = fault_of(&loaded) {
+                    self.fail(place, case, &fault);
+                }
+            }
+            Err(error) => {
+                self.errors += 1;
+                let message = error.to_string();
+                if message.contains("unexpectedly") {
+                    self.fail(place, case, &message);
+                }
+            }
+        }
+    }
+
+    fn fail(&mut self, place: &str, case: &Case, what: &str) {
+        self.failures += 1;
+        if self.failures <= 5 {
+            eprintln!("{place}: {what}");
+            for bytes in [&case.mesh, &case.library] {
+                let shown = &bytes[..bytes.len().min(600)];
+                eprintln!("--- {}", shown.escape_ascii());
+            }
+        }
+    }
+}
+
+/// What a mesh must not be.
+fn fault_of(loaded: &obj::Loaded) -> Option<String> {
+    let mesh = &loaded.mesh;
+    if mesh.triangles.is_empty() {
+        return Some("a mesh without triangles".to_owned());
+    }
+    for triangle in 0..mesh.triangles.len() as u32 {
+        if !mesh.corners(triangle).iter().all(|p| p.is_finite()) {
+            return Some(format!("triangle {triangle} isn't finite"));
+        }
+        // It may be zero: of the thinnest triangles f64 finds no area.
+        let normal = mesh.geometric_normal(triangle);
+        if !normal.is_normalized() && normal != Vec3::ZERO {
+            return Some(format!("triangle {triangle} has the normal {normal}"));
+        }
+        if mesh.material_of(triangle).is_none() {
+            return Some(format!("triangle {triangle} has no material"));
+        }
+    }
+    let lists = [mesh.corner_normals.len(), mesh.corner_textures.len()];
+    if lists
+        .iter()
+        .any(|&length| length != 0 && length != mesh.triangles.len())
+    {
+        return Some("a list isn't as long as that of the triangles".to_owned());
+    }
+    // They may not panic, either.
+    for crease in [Crease::FromFile, Crease::Above(0.5)] {
+        let normals = VertexNormals::of(mesh, crease);
+        if !normals.of_triangle(mesh, 0).iter().all(|n| n.is_finite()) {
+            return Some("a normal isn't finite".to_owned());
+        }
+    }
+    _ = Health::of(mesh);
+    None
+}
