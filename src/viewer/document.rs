@@ -2,6 +2,7 @@
 
 use crate::task::{Broken, Task, Wanted};
 use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::mesh::strips::bytes_as;
 use hitscope_core::mesh::{Crease, Health};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::{Cancelled, Progress};
@@ -23,6 +24,8 @@ pub struct Findings {
     pub health: Arc<Health>,
     /// The tier that the scene requires.
     pub requirement: Requirement,
+    /// Bytes by the ways of writing the surface.
+    pub bytes_as: [(&'static str, usize); 3],
 }
 
 /// A scene that can be traced. Made by a loading thread.
@@ -218,6 +221,7 @@ impl Document {
                     Findings {
                         health,
                         requirement,
+                        bytes_as: bytes_as(scene.mesh()),
                     }
                 };
                 self.health = HealthState::Checking(Task::spawn("health", ctx, check));

@@ -9,9 +9,13 @@
 //! Source: Akeley, Haeberli, Burns, tomesh.c, Silicon Graphics, 1990: a strip begins at the triangle with the
 //! fewest neighbours that are left, so that none are left alone.
 //! Differs from it: of the three ways to go from there, the longest is taken.
+//!
+//! The overlay draws indexed triangles all the same: with software Vulkan strips took 0.7 times as long on 69 thousand
+//! triangles, but 1.05 to 1.25 times on 1.1 million, and making them 0.2 s (2026-11).
 
 use super::TriangleMesh;
 use super::edges::Edges;
+use glam::Vec3;
 
 /// Ends a strip in a list of indices; what GPUs take for that, too.
 pub const RESTART: u32 = u32::MAX;
@@ -42,6 +46,18 @@ pub fn strips(mesh: &TriangleMesh) -> Vec<u32> {
             .for_each(|triangle| stripper.take(triangle));
     }
     indices
+}
+
+/// What the mesh's surface takes, by the ways of writing it that a lecture teaches: each corner of each triangle by
+/// itself; each vertex once, and three indices a triangle; each vertex once, and strips.
+pub fn bytes_as(mesh: &TriangleMesh) -> [(&'static str, usize); 3] {
+    let positions = size_of_val(&mesh.positions[..]);
+    let list = mesh.triangles.len() * size_of::<[Vec3; 3]>();
+    [
+        ("triangle list", list),
+        ("indexed", positions + size_of_val(&mesh.triangles[..])),
+        ("strips", positions + size_of_val(&strips(mesh)[..])),
+    ]
 }
 
 enum Step {
@@ -160,7 +176,6 @@ impl<'m> Stripper<'m> {
 mod tests {
     use super::*;
     use crate::mesh::shapes::{Place, flat_grid, soup, sphere, torus};
-    use glam::Vec3;
 
     /// The triangles that a GPU makes of strips, each beginning at its lowest vertex.
     fn drawn(indices: &[u32]) -> Vec<[u32; 3]> {

@@ -26,9 +26,10 @@ impl Texture {
 
     /// What stands in for a picture that is missing.
     pub fn checker(name: &str) -> Self {
-        const SIDE: u32 = 8;
+        const SIDE: u32 = 64;
+        const FIELD: u32 = 8;
         let texel = |k: u32| {
-            let is_dark = (k % SIDE + k / SIDE).is_multiple_of(2);
+            let is_dark = (k % SIDE / FIELD + k / SIDE / FIELD).is_multiple_of(2);
             if is_dark {
                 [60, 60, 60]
             } else {

@@ -24,7 +24,8 @@ pub(super) fn look_up(
     max_memory: u64,
     warnings: &mut Vec<Warning>,
 ) -> Looks {
-    let known = definitions(facts, beside, warnings);
+    let mut oddities = Vec::new();
+    let known = definitions(facts, beside, warnings, &mut oddities);
     let mut unknown: Vec<&str> = Vec::new();
     let mut textures = Textures {
         beside,
@@ -51,6 +52,7 @@ pub(super) fn look_up(
             unknown.len()
         )));
     }
+    warnings.extend(oddities);
     Looks {
         materials,
         textures: textures.list,
@@ -58,10 +60,12 @@ pub(super) fn look_up(
 }
 
 /// Every material of every library, with the library's folder. Of several by one name the first one counts.
+/// What is missing goes to the warnings, what was skipped to the oddities.
 fn definitions(
     facts: &Facts,
     beside: Beside,
     warnings: &mut Vec<Warning>,
+    oddities: &mut Vec<Warning>,
 ) -> HashMap<String, (String, Definition)> {
     let mut known = HashMap::new();
     for (line, names) in &facts.libraries {
@@ -74,8 +78,8 @@ fn definitions(
                     continue;
                 }
             };
-            let (materials, oddities) = mtl::parse(&bytes, &library);
-            warnings.extend(oddities);
+            let (materials, skipped) = mtl::parse(&bytes, &library);
+            oddities.extend(skipped);
             let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
             for definition in materials {
                 let name = definition.material.name.clone();

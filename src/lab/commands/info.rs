@@ -4,9 +4,8 @@ use super::CommandError;
 use super::args::MeshArgs;
 use crate::requirement::{Requirement, required_tier};
 use clap::Args;
-use hitscope_core::TriangleMesh;
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::mesh::strips::strips;
+use hitscope_core::mesh::strips::bytes_as;
 use hitscope_core::mesh::{FLAWS, Health};
 use hitscope_core::obj::Recentre;
 use hitscope_core::scene::LoadedScene;
@@ -115,7 +114,7 @@ impl Info {
                 ("non_finite", mesh.dropped.non_finite),
                 ("bad_index", mesh.dropped.bad_index),
             ]),
-            bytes_as: BTreeMap::from(ways_of_writing(mesh)),
+            bytes_as: BTreeMap::from(bytes_as(mesh)),
             warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
             tier: required_tier(scene, &health),
             health: HealthReport {
@@ -173,18 +172,4 @@ impl Info {
         }
         Ok(())
     }
-}
-
-/// The lecture's three: each corner of each triangle by itself; each vertex once, and three indices a triangle;
-/// each vertex once, and strips of indices.
-fn ways_of_writing(mesh: &TriangleMesh) -> [(&'static str, usize); 3] {
-    let positions = size_of_val(&mesh.positions[..]);
-    [
-        (
-            "triangle list",
-            mesh.triangles.len() * size_of::<[glam::Vec3; 3]>(),
-        ),
-        ("indexed", positions + size_of_val(&mesh.triangles[..])),
-        ("strips", positions + strips(mesh).len() * size_of::<u32>()),
-    ]
 }

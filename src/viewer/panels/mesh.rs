@@ -3,7 +3,7 @@
 use super::{lines, row_ui, section_ui};
 use crate::app::grouped;
 use crate::bindings::Action;
-use crate::document::Document;
+use crate::document::{Document, Findings};
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::mesh::{FLAWS, Flaw, Health};
@@ -36,69 +36,60 @@ pub fn mesh_ui(
         row_ui(ui, "materials", mesh.named_material_count());
         row_ui(ui, "groups", mesh.named_group_count());
     });
-    if let Some(requirement) = findings.as_ref().map(|findings| &findings.requirement) {
+    if !loaded.warnings.is_empty() {
+        ui.label(RichText::new("Warnings").strong());
+        for warning in &loaded.warnings {
+            ui.label(RichText::new(warning.to_string()).color(ui.visuals().warn_fg_color));
+        }
+        ui.add_space(4.0);
+    }
+    section_ui(ui, "Health", |ui| {
+        let dropped = [
+            ("zero area", mesh.dropped.zero_area),
+            ("not finite", mesh.dropped.non_finite),
+            ("bad index", mesh.dropped.bad_index),
+        ];
+        for (reason, count) in dropped {
+            row_ui(ui, reason, format!("{} dropped", grouped(count)));
+        }
+    });
+    if let Some(findings) = &findings {
+        actions.extend(flaws_ui(ui, &findings.health, flaw));
         section_ui(ui, "Required kernel", |ui| {
-            row_ui(ui, "tier", requirement.tier);
+            row_ui(ui, "tier", findings.requirement.tier);
         });
-        for reason in &requirement.reasons {
+        for reason in &findings.requirement.reasons {
             ui.label(RichText::new(format!("{reason}.")).weak().size(11.5));
         }
-    }
-    place_ui(ui, loaded);
-    cost_ui(ui, document);
-    if packing_ui(ui, document, settings) {
-        actions.push(Action::Reload);
     }
     let watch = egui::Checkbox::new(&mut settings.watches, "Load again when the file changes");
     ui.add_enabled(document.path.is_some(), watch)
         .on_hover_text(
             "Also when its materials or textures do. The camera and the picked pixel stay.",
         );
-    let mesh = document.loaded.scene.mesh();
-    section_ui(ui, "Health", |ui| {
-        row_ui(
-            ui,
-            "zero area",
-            format!("{} dropped", mesh.dropped.zero_area),
-        );
-        row_ui(
-            ui,
-            "not finite",
-            format!("{} dropped", mesh.dropped.non_finite),
-        );
-        row_ui(
-            ui,
-            "bad index",
-            format!("{} dropped", mesh.dropped.bad_index),
-        );
-    });
-    if let Some(findings) = findings {
-        actions.extend(flaws_ui(ui, &findings.health, flaw));
+    if packing_ui(ui, document, settings) {
+        actions.push(Action::Reload);
     }
-    if !document.loaded.warnings.is_empty() {
-        ui.label(RichText::new("Warnings").strong());
-        for warning in &document.loaded.warnings {
-            ui.label(warning.to_string());
-        }
-    }
+    place_ui(ui, loaded);
+    cost_ui(ui, document, findings.as_deref());
 }
 
 /// Each kind of flaw with how many there are; a click marks and shows them, or ends that.
 fn flaws_ui(ui: &mut egui::Ui, health: &Health, marked: Option<Flaw>) -> Option<Action> {
     let mut action = None;
-    for info in &FLAWS {
-        let is_marked = marked == Some(info.flaw);
-        let count = health.places(info.flaw).count();
-        ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
+        for info in &FLAWS {
+            let is_marked = marked == Some(info.flaw);
+            let count = health.places(info.flaw).count();
             let count_text = count.map_or("?".to_owned(), grouped);
             let text = format!("{}  {count_text}", info.title);
-            let is_there = count.is_some_and(|count| count > 0);
-            let button = egui::Button::selectable(is_marked, text);
             let hint = match count {
                 None => format!("{}\nNobody looked: the border is too long.", info.about),
                 Some(0) => info.about.to_owned(),
                 Some(_) => format!("{}\nA click shows them.", info.about),
             };
+            let is_there = count.is_some_and(|count| count > 0);
+            let button = egui::Button::new(text).selected(is_marked);
             let response = ui.add_enabled(is_there, button);
             if response
                 .on_hover_text(&hint)
@@ -107,8 +98,8 @@ fn flaws_ui(ui: &mut egui::Ui, health: &Health, marked: Option<Flaw>) -> Option<
             {
                 action = Some(Action::ShowFlaw((!is_marked).then_some(info.flaw)));
             }
-        });
-    }
+        }
+    });
     action
 }
 
@@ -137,18 +128,28 @@ fn packing_ui(ui: &mut egui::Ui, document: &Document, settings: &mut Settings) -
     response.on_hover_text(hint).changed()
 }
 
-fn cost_ui(ui: &mut egui::Ui, document: &Document) {
+fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&Findings>) {
     let loaded = &document.loaded;
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
-    section_ui(ui, "Time and memory", |ui| {
+    let kb = |bytes: usize| format!("{} kB", grouped(bytes.div_ceil(1000)));
+    section_ui(ui, "Time", |ui| {
         let ms = |time: std::time::Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
         row_ui(ui, "load", ms(loaded.load_time));
         row_ui(ui, "tree", ms(scene.build_time()));
-        let kb = |bytes: usize| format!("{:.0} kB", bytes as f64 / 1e3);
-        for (part, bytes) in mesh.bytes() {
+    });
+    section_ui(ui, "In memory", |ui| {
+        let parts = mesh.bytes().into_iter();
+        for (part, bytes) in parts.filter(|(_, bytes)| *bytes > 0) {
             row_ui(ui, part, kb(bytes));
         }
         row_ui(ui, "tree", kb(scene.bvh().bytes()));
-        row_ui(ui, "packed", kb(document.intersector().bytes()));
+        row_ui(ui, "packed triangles", kb(document.intersector().bytes()));
     });
+    if let Some(findings) = findings {
+        section_ui(ui, "The surface would take", |ui| {
+            for (way, bytes) in findings.bytes_as {
+                row_ui(ui, &format!("as {way}"), kb(bytes));
+            }
+        });
+    }
 }
