@@ -8,7 +8,7 @@ use crate::overlay::wireframe::Edges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use hitscope_core::obj::{Faults, LoadOptions};
+use hitscope_core::obj::LoadOptions;
 use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
@@ -112,9 +112,8 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
 fn window(cli: &Cli) -> Result<(), CommandError> {
     let outcome = Outcome::default();
     let load_options = LoadOptions {
-        faults: Faults::Lenient,
         max_memory: cli.max_memory << 20,
-        ..LoadOptions::default()
+        ..StartOptions::default().load_options
     };
     let start = StartOptions {
         file: cli.file.clone(),

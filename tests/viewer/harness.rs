@@ -1,6 +1,6 @@
 //! The app in a harness, and the gate for tests that need a GPU.
 
-use egui::Key;
+use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
@@ -81,7 +81,7 @@ pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> 
 }
 
 /// A point of the picture, from its top left (0, 0) to its bottom right (1, 1).
-pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> egui::Pos2 {
+pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> Pos2 {
     let rect = harness.get_by_label("Rendered picture").rect();
     rect.lerp_inside(egui::vec2(x, y))
 }
@@ -98,5 +98,32 @@ pub fn bare() -> Option<Window> {
 /// Presses and releases a key.
 pub fn press(window: &mut Window, key: Key) {
     window.key_press(key);
+    window.run_steps(2);
+}
+
+/// Presses or releases a button of the pointer.
+pub fn pointer(
+    window: &Window,
+    pos: Pos2,
+    button: PointerButton,
+    pressed: bool,
+    modifiers: Modifiers,
+) {
+    let event = Event::PointerButton {
+        pos,
+        button,
+        pressed,
+        modifiers,
+    };
+    window.event_modifiers(event, modifiers);
+}
+
+/// Clicks once.
+pub fn click(window: &mut Window, at: Pos2) {
+    window.event(Event::PointerMoved(at));
+    window.step();
+    pointer(window, at, PointerButton::Primary, true, Modifiers::NONE);
+    window.step();
+    pointer(window, at, PointerButton::Primary, false, Modifiers::NONE);
     window.run_steps(2);
 }

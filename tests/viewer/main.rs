@@ -6,6 +6,8 @@ mod app;
 mod cli;
 // The app in a harness, and the gate for tests that need a GPU.
 mod harness;
+// What is made of the file: flaws, changes, creases.
+mod mesh;
 // The pointer on its picture.
 mod pointer;
 // Every shader parses and validates, without a GPU.

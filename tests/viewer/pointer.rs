@@ -1,19 +1,9 @@
 //! The pointer on the picture of the real app.
 
-use crate::harness::{Window, app, app_scaled, bare, in_picture, press, wait};
-use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton, Pos2};
+use crate::harness::{Window, app, app_scaled, bare, click, in_picture, pointer, press, wait};
+use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::Vec2;
-
-fn pointer(window: &Window, pos: Pos2, button: PointerButton, pressed: bool, modifiers: Modifiers) {
-    let event = Event::PointerButton {
-        pos,
-        button,
-        pressed,
-        modifiers,
-    };
-    window.event_modifiers(event, modifiers);
-}
 
 /// Drags from the picture's middle by (60, 30) points.
 fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers) {
@@ -35,15 +25,6 @@ fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers) {
         false,
         modifiers,
     );
-    window.run_steps(2);
-}
-
-fn click(window: &mut Window, at: Pos2) {
-    window.event(Event::PointerMoved(at));
-    window.step();
-    pointer(window, at, PointerButton::Primary, true, Modifiers::NONE);
-    window.step();
-    pointer(window, at, PointerButton::Primary, false, Modifiers::NONE);
     window.run_steps(2);
 }
 

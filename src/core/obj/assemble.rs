@@ -4,6 +4,7 @@ use super::error::{Problem, Warning};
 use super::facts::{Element, Facts, NO_INDEX, Tally};
 use super::fence::fenced;
 use super::numbers::Numbers;
+use super::outline::Outline;
 use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
 use super::{Beside, LoadOptions, Loaded, materials};
@@ -51,6 +52,7 @@ pub(super) fn assemble(
         numbers: &numbers,
         oddities: Oddities::default(),
         triangulator: Triangulator::new(),
+        outline: Outline::default(),
         polygon: Vec::new(),
     };
     assembly.add_elements(facts, progress)?;
@@ -75,6 +77,7 @@ struct Assembly<'n> {
     numbers: &'n Numbers,
     oddities: Oddities,
     triangulator: Triangulator,
+    outline: Outline,
     /// The corners of the face that is being cut.
     polygon: Vec<DVec3>,
 }
@@ -136,6 +139,7 @@ impl Assembly<'_> {
             oddities.non_finite.add(facts.face_line(face));
             return Ok(());
         }
+        self.outline.prepare(vertices);
         let [_, textures, normals] = &self.numbers.corners;
         let before = mesh.triangles.len();
         let mut add = |local: [usize; 3]| {
@@ -145,7 +149,8 @@ impl Assembly<'_> {
                 oddities.zero_area.add(facts.face_line(face));
                 return;
             }
-            mesh.add_triangle(triangle, face as u32, outline(local, vertices.len()));
+            let outline = self.outline.of(local, vertices);
+            mesh.add_triangle(triangle, face as u32, outline);
             if let Some(normals) = normals.get(corners.clone()) {
                 mesh.corner_normals.push(local.map(|k| normals[k]));
             }
@@ -189,16 +194,6 @@ impl<'r> FaceRuns<'r> {
             self.rest = rest;
         }
     }
-}
-
-/// Which of a triangle's edges are edges of its polygon of `count` corners.
-fn outline(local: [usize; 3], count: usize) -> u8 {
-    (0..3)
-        .filter(|&k| {
-            let (from, to) = (local[k], local[(k + 1) % 3]);
-            (from + 1) % count == to || (to + 1) % count == from
-        })
-        .fold(0, |bits, k| bits | 1 << k)
 }
 
 /// Where each kind of oddity begins.
@@ -251,9 +246,10 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
         );
         return Err(Problem::line(facts.face_line(0), message));
     } else if bad_index > 0 {
-        format!(
-            "no face is left: the indices of {bad_index} are out of range, or they are too short"
-        )
+        let message = format!(
+            "no face is left: {bad_index} have an index that is out of range, or fewer than three corners"
+        );
+        return Err(Problem::line(facts.dropped.first_line, message));
     } else if facts.element_count > 0 {
         format!(
             "there are lines or points ({}), but no faces: nothing that a ray could hit",

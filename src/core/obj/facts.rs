@@ -19,7 +19,7 @@ pub(super) enum Element {
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
     pub count: usize,
-    first_line: usize,
+    pub first_line: usize,
 }
 
 impl Tally {

@@ -7,7 +7,7 @@ use super::{Beside, Warning};
 use crate::mesh::{Material, Texture, TextureMap};
 use glam::UVec2;
 use image::{ImageReader, Limits};
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::io::{self, Cursor};
 
 /// What faces look like: for each name that they use, in order, and the textures of these.
@@ -67,8 +67,11 @@ fn definitions(
     warnings: &mut Vec<Warning>,
     oddities: &mut Vec<Warning>,
 ) -> HashMap<String, (String, Definition)> {
-    let mut known = HashMap::new();
+    let (mut known, mut seen) = (HashMap::new(), HashSet::new());
     for (line, names) in &facts.libraries {
+        if !seen.insert(names) {
+            continue;
+        }
         for (library, read) in libraries(names, beside) {
             let bytes = match read {
                 Ok(bytes) => bytes,

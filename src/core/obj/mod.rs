@@ -6,7 +6,7 @@
 //! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `statement`, `words`, `corner`, `facts`, `reader` |
 //! | tobj reads their numbers, in f64 | here |
 //! | its lists of some ten thousand faces become one | `numbers` |
-//! | vertices are recentred, polygons cut, and what no ray can hit is dropped | `assemble`, `place`, `polygon` |
+//! | vertices are recentred, polygons cut, and what no ray can hit is dropped | `assemble`, `place`, `polygon`, `outline` |
 //! | names become materials and textures | `materials`, `mtl`, `beside` |
 
 mod assemble;
@@ -19,6 +19,7 @@ mod lines;
 mod materials;
 mod mtl;
 mod numbers;
+mod outline;
 mod place;
 mod polygon;
 mod reader;

@@ -9,6 +9,7 @@ use crate::tracer::Request;
 use egui::{Color32, PointerButton, Pos2, Rect, Response, Sense};
 use glam::{DVec2, DVec3, UVec2, Vec3};
 use hitscope_core::Camera;
+use hitscope_core::camera::Turntable;
 use hitscope_core::integrator::Context;
 use hitscope_core::integrator::palette::from_display;
 use hitscope_lab::commands::DARK_BACKGROUND;
@@ -177,29 +178,37 @@ impl App {
 
     fn inspect(&mut self, at_px: DVec2, ctx: &egui::Context) {
         let pixel = at_px.max(DVec2::ZERO).as_uvec2().min(self.resolution - 1);
-        self.start_picking(self.turntable.camera(self.resolution), pixel, ctx);
+        self.start_picking(self.turntable, self.resolution, pixel, ctx);
         self.settings.tab = Tab::Inspect;
     }
 
     /// Asks what a picked pixel's ray meets now.
     pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
         let pixel = UVec2::from_array(pick.inspection.pixel);
-        self.start_picking(pick.camera, pixel, ctx);
+        self.start_picking(pick.turntable, pick.resolution, pixel, ctx);
     }
 
-    fn start_picking(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
+    fn start_picking(
+        &mut self,
+        turntable: Turntable,
+        resolution: UVec2,
+        pixel: UVec2,
+        ctx: &egui::Context,
+    ) {
         let scene = Arc::clone(&self.document.loaded.scene);
         let intersector = Arc::clone(self.document.intersector());
         let shading = self.settings.shading();
         // Every kernel on every triangle that the ray comes near: a hostile mesh has a million of them.
         let inspect = move || {
+            let camera = turntable.camera(resolution);
             let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
             let origin = scene.mesh().origin;
             let hit = inspection.hit.as_ref();
             let point = hit.map(|hit| DVec3::from_array(hit.position) - origin);
             Pick {
                 inspection,
-                camera,
+                turntable,
+                resolution,
                 point,
             }
         };

@@ -40,6 +40,8 @@ impl App {
 
     fn show(&mut self, document: Document, ctx: &egui::Context) {
         let is_same_file = self.document.path == document.path;
+        let origin = |document: &Document| document.loaded.scene.mesh().origin;
+        let shift = origin(&self.document) - origin(&document);
         self.document = document;
         self.document.use_crease(self.settings.crease());
         let pick = self.pick.take();
@@ -48,7 +50,10 @@ impl App {
         if is_same_file {
             self.turntable
                 .set_scene(self.document.loaded.scene.bounds());
-            if let Some(pick) = pick {
+            // The camera stays where it is in the file.
+            self.turntable.pivot += shift;
+            if let Some(mut pick) = pick {
+                pick.turntable.pivot += shift;
                 self.inspect_again(&pick, ctx);
             }
         } else {

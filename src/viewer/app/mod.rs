@@ -29,10 +29,10 @@ use crate::watch::Watch;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
 use glam::{DVec3, UVec2};
+use hitscope_core::Film;
 use hitscope_core::camera::Turntable;
 use hitscope_core::mesh::Flaw;
-use hitscope_core::obj::LoadOptions;
-use hitscope_core::{Camera, Film};
+use hitscope_core::obj::{Faults, LoadOptions};
 use hitscope_lab::commands::default_thread_count;
 use hitscope_lab::inspection::Inspection;
 use std::path::PathBuf;
@@ -40,7 +40,7 @@ use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// How the window starts.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct StartOptions {
     /// A file to load; the embedded scene without one.
     pub file: Option<PathBuf>,
@@ -48,6 +48,20 @@ pub struct StartOptions {
     pub load_options: LoadOptions,
     /// Save a picture of the window, and close it.
     pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
+}
+
+impl Default for StartOptions {
+    fn default() -> Self {
+        Self {
+            file: None,
+            // Who looks at a mesh wants to see what can be seen of it.
+            load_options: LoadOptions {
+                faults: Faults::Lenient,
+                ..LoadOptions::default()
+            },
+            screenshot: None,
+        }
+    }
 }
 
 /// Why the window can't start.
@@ -58,8 +72,9 @@ pub struct NoWgpu;
 /// A pixel that was clicked.
 struct Pick {
     inspection: Inspection,
-    /// From where it was clicked.
-    camera: Camera,
+    /// From where it was clicked, and the picture's size.
+    turntable: Turntable,
+    resolution: UVec2,
     /// Where the ray hit, in the scene's coordinates.
     point: Option<DVec3>,
 }
@@ -197,6 +212,11 @@ impl App {
     /// What is known of the pixel that was clicked.
     pub fn inspection(&self) -> Option<&Inspection> {
         self.pick.as_ref().map(|pick| &pick.inspection)
+    }
+
+    /// Which flaws are marked.
+    pub fn flaw(&self) -> Option<Flaw> {
+        self.flaw
     }
 
     /// What speed costs in accuracy here, once its tab was shown.

@@ -74,6 +74,10 @@ fn concave_polygons_and_holes_keep_their_area_and_hide_their_diagonals() {
     // The arrow: both triangles of face 0 have two edges of it, and share the diagonal.
     let of_arrow = (0..2).map(|t| (mesh.face_of(t), mesh.outline_of(t).count_ones()));
     assert!(of_arrow.eq([(0, 2), (0, 2)]));
+    // The frame's eight edges, and not the bridge between its two squares.
+    let of_frame = (0..mesh.triangles.len() as u32).filter(|&t| mesh.face_of(t) == 3);
+    let edges: u32 = of_frame.map(|t| mesh.outline_of(t).count_ones()).sum();
+    assert_eq!(edges, 8);
 }
 
 #[test]

@@ -1,0 +1,79 @@
+//! Which of a triangle's edges are edges of its polygon?
+
+/// Tells edges of a polygon from diagonals, and from bridges to its holes.
+///
+/// ```text
+///   4───────────3
+///   │   6───7   │    a hole is written as a detour along a bridge, here from 1 to 5 and back:
+///   │   │   │   │    1 2 3 4 1 5 6 7 8 5
+///   │   5───8   │
+///   │ ╱         │
+///   1───────────2
+/// ```
+#[derive(Default)]
+pub(super) struct Outline {
+    /// The polygon's vertices in order of their number, to find one that comes twice.
+    sorted: Vec<u32>,
+    /// Edges along which the polygon goes both ways, each with its ends from low to high.
+    bridges: Vec<[u32; 2]>,
+}
+
+impl Outline {
+    /// Looks for bridges in a polygon.
+    pub(super) fn prepare(&mut self, vertices: &[u32]) {
+        /// The least corners that a polygon with a hole can have: three around each, and twice the bridge's.
+        const LEAST_WITH_HOLE: usize = 8;
+        self.bridges.clear();
+        if vertices.len() < LEAST_WITH_HOLE {
+            return;
+        }
+        self.sorted.clear();
+        self.sorted.extend(vertices);
+        self.sorted.sort_unstable();
+        if self.sorted.windows(2).all(|pair| pair[0] != pair[1]) {
+            return;
+        }
+        let count = vertices.len();
+        let edge = |k: usize| [vertices[k], vertices[(k + 1) % count]];
+        let mut edges: Vec<[u32; 2]> = (0..count).map(edge).collect();
+        edges.sort_unstable();
+        let is_both_ways = |[a, b]: &[u32; 2]| a < b && edges.binary_search(&[*b, *a]).is_ok();
+        self.bridges
+            .extend(edges.iter().filter(|edge| is_both_ways(edge)));
+    }
+
+    /// Bit k: the triangle's edge from corner k to the next one is an edge of the polygon. `local` are the
+    /// triangle's corners among the polygon's `vertices`.
+    pub(super) fn of(&self, local: [usize; 3], vertices: &[u32]) -> u8 {
+        let count = vertices.len();
+        let is_edge = |k: usize| {
+            let (from, to) = (local[k], local[(k + 1) % 3]);
+            let is_neighbour = (from + 1) % count == to || (to + 1) % count == from;
+            let [a, b] = [vertices[from], vertices[to]];
+            is_neighbour && !self.bridges.contains(&[a.min(b), a.max(b)])
+        };
+        (0..3).fold(0, |bits, k| bits | u8::from(is_edge(k)) << k)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn diagonals_and_bridges_are_no_edges() {
+        let mut outline = Outline::default();
+        let quad = [7, 8, 9, 10];
+        outline.prepare(&quad);
+        assert_eq!(outline.of([0, 1, 2], &quad), 0b011);
+        assert_eq!(outline.of([0, 2, 3], &quad), 0b110);
+        let frame = [1, 2, 3, 4, 1, 5, 6, 7, 8, 5];
+        outline.prepare(&frame);
+        // 1 2 8: from 2 to 8 and from 8 to 1 are diagonals.
+        assert_eq!(outline.of([0, 1, 8], &frame), 0b001);
+        // 4 1 5: from 1 to 5 is the bridge.
+        assert_eq!(outline.of([3, 4, 5], &frame), 0b001);
+        outline.prepare(&quad);
+        assert_eq!(outline.of([3, 0, 1], &quad), 0b011);
+    }
+}

@@ -1,0 +1,133 @@
+//! What the window makes of the file: its flaws, its changes, its edges in smooth shading.
+
+use crate::harness::{app, click, in_picture, press, wait};
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use hitscope::app::App;
+use hitscope_core::camera::Turntable;
+use hitscope_core::mesh::{Crease, Flaw};
+use std::path::PathBuf;
+
+fn write(folder: &tempfile::TempDir, text: &str) -> PathBuf {
+    let path = folder.path().join("mesh.obj");
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+/// A square, and a face that names nothing.
+const FLAWED: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 2 9\n";
+
+#[test]
+fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write(&folder, FLAWED);
+    let Some(mut window) = app(Some(file)) else {
+        return;
+    };
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "mesh.obj"
+    });
+    let notice = window.state().notice().expect("a warning").to_owned();
+    assert!(notice.contains("line 7: 1 face(s) dropped"), "{notice}");
+    window.get_by_label("Mesh").click();
+    wait(&mut window, "what is known of the mesh", |app| {
+        app.document().known_findings().is_some()
+    });
+    window.run_steps(3);
+    window.get_by_label("Open edges  4").click();
+    window.run_steps(3);
+    assert_eq!(window.state().flaw(), Some(Flaw::OpenEdge));
+    window.get_by_label("Open edges  4").click();
+    window.run_steps(3);
+    assert_eq!(window.state().flaw(), None);
+    // Where there is nothing to be shown, there is nothing to be pressed.
+    assert!(
+        window
+            .get_by_label("Slivers  0")
+            .accesskit_node()
+            .is_disabled()
+    );
+}
+
+#[test]
+fn a_watched_file_is_loaded_again_with_the_camera_and_the_pick_where_they_were() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write(&folder, FLAWED);
+    let Some(mut window) = app(Some(file)) else {
+        return;
+    };
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "mesh.obj"
+    });
+    let at = in_picture(&window, 0.5, 0.5);
+    click(&mut window, at);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+    window.key_press_modifiers(Modifiers::COMMAND, Key::R);
+    window.run_steps(3);
+    assert!(window.state().settings().watches);
+    let before = *window.state().turntable();
+    let raised = FLAWED.replace(" 0\n", " 0.25\n");
+    write(&folder, &raised);
+    wait(&mut window, "the new file", |app| {
+        app.document().loaded.scene.bounds().min.z == 0.25
+    });
+    wait(&mut window, "the pick in it", |app| {
+        let hit = app
+            .inspection()
+            .and_then(|inspection| inspection.hit.as_ref());
+        hit.is_some_and(|hit| hit.position[2] == 0.25)
+    });
+    let after = *window.state().turntable();
+    let of = |t: Turntable| (t.pivot, t.distance, t.yaw_radians, t.pitch_radians);
+    assert_eq!(of(after), of(before));
+}
+
+/// A mesh far away is traced about an origin that depends on where it ends.
+#[test]
+fn the_camera_stays_where_it_is_in_the_file_when_the_origin_moves() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = |x: u32| format!("v 500000 0 0\nv {x} 0 0\nv 500000 1 0\nf 1 2 3\n");
+    let file = write(&folder, &text(500_001));
+    let Some(mut window) = app(Some(file)) else {
+        return;
+    };
+    let origin = |app: &App| app.document().loaded.scene.mesh().origin;
+    wait(&mut window, "the file", |app| origin(app).x > 0.0);
+    let at = in_picture(&window, 0.5, 0.5);
+    click(&mut window, at);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+    let in_file = |app: &App| app.turntable().pivot + origin(app);
+    let (before, pivot) = (origin(window.state()), in_file(window.state()));
+    let ray = |app: &App| app.inspection().map(|inspection| inspection.ray.origin);
+    let eye = ray(window.state()).expect("a ray");
+    write(&folder, &text(500_019));
+    press(&mut window, Key::F5);
+    wait(&mut window, "the new file", |app| origin(app) != before);
+    assert_eq!(in_file(window.state()), pivot);
+    wait(&mut window, "the pick in it", |app| ray(app).is_some());
+    let eye_again = ray(window.state()).expect("a ray");
+    let moved = (0..3).map(|axis| (eye[axis] - eye_again[axis]).abs());
+    // The ray's origin is f32 about the mesh's, some 20 units away.
+    assert!(moved.fold(0.0, f64::max) < 1e-5, "{eye:?}, {eye_again:?}");
+}
+
+#[test]
+fn the_crease_angle_changes_the_scene_and_keeps_its_tree() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write(&folder, FLAWED);
+    let Some(mut window) = app(Some(file)) else {
+        return;
+    };
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "mesh.obj"
+    });
+    let tree = window.state().document().loaded.scene.bvh();
+    window.get_by_label("Edges above").click();
+    wait(&mut window, "another crease", |app| {
+        let scene = &app.document().loaded.scene;
+        scene.crease() == Crease::Above(30f32.to_radians())
+    });
+    wait(&mut window, "the picture", App::is_settled);
+    let scene = &window.state().document().loaded.scene;
+    assert!(std::sync::Arc::ptr_eq(&tree, &scene.bvh()));
+}
