@@ -2,6 +2,10 @@
 
 // What the commands print, and what they refuse.
 mod commands;
+// A folder with a mesh, for tests of commands.
+mod folder;
+// How the commands load a mesh, and what `info` tells of it.
+mod loading;
 // Inspection of single rays against the exact answer.
 mod inspection;
 
