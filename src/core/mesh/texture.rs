@@ -6,7 +6,7 @@ use glam::{UVec2, Vec2, Vec3};
 /// A picture that repeats over the plane, its lower left corner at (0, 0), its upper right one at (1, 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// As the file calls it.
+    /// As the file calls it; the checker has none.
     pub name: String,
     size: UVec2,
     /// sRGB, row by row from the top.
@@ -25,7 +25,7 @@ impl Texture {
     }
 
     /// What stands in for a picture that is missing.
-    pub fn checker(name: &str) -> Self {
+    pub fn checker() -> Self {
         const SIDE: u32 = 64;
         const FIELD: u32 = 8;
         let texel = |k: u32| {
@@ -37,7 +37,7 @@ impl Texture {
             }
         };
         Self {
-            name: name.to_owned(),
+            name: String::new(),
             size: UVec2::splat(SIDE),
             texels: (0..SIDE * SIDE).map(texel).collect(),
         }

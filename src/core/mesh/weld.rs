@@ -36,13 +36,6 @@ impl Welded {
     pub fn corners(&self, triangle: [u32; 3]) -> [u32; 3] {
         triangle.map(|vertex| self.vertex(vertex))
     }
-
-    /// Whether there are no two vertices at one place.
-    pub fn is_trivial(&self) -> bool {
-        (0..)
-            .zip(&self.first)
-            .all(|(vertex, &first)| vertex == first)
-    }
 }
 
 /// A place as bits that can be compared.
@@ -65,7 +58,6 @@ mod tests {
         let welded = Welded::of(&mesh);
         let first: Vec<u32> = (0..5).map(|vertex| welded.vertex(vertex)).collect();
         assert_eq!(first, [0, 1, 0, 3, 1]);
-        assert!(!welded.is_trivial());
         assert_eq!(welded.corners([4, 2, 3]), [1, 0, 3]);
     }
 }

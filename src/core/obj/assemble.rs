@@ -28,7 +28,8 @@ pub(super) fn assemble(
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
     let mut warnings = facts.warnings();
-    let looks = materials::look_up(facts, beside, options.max_memory, &mut warnings);
+    let looks = materials::look_up(facts, beside, options.max_memory, progress)?;
+    warnings.extend(looks.warnings);
     if looks.textures.is_empty() {
         // Nothing asks where on a picture a corner lies.
         numbers.textures = Vec::new();

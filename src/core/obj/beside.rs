@@ -1,6 +1,8 @@
 //! Where are the files that an OBJ names?
 
 use std::cell::RefCell;
+use std::collections::HashMap;
+use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -12,13 +14,19 @@ pub(super) struct Folder {
     path: PathBuf,
     /// What was looked for, whether or not it was there.
     wanted: RefCell<Vec<PathBuf>>,
+    /// What is in the folders that were looked at.
+    listings: RefCell<HashMap<PathBuf, Listing>>,
 }
+
+/// A folder's names by their lower case.
+type Listing = HashMap<String, OsString>;
 
 impl Folder {
     pub(super) fn of(obj: &Path) -> Self {
         Self {
             path: obj.parent().unwrap_or(Path::new("")).to_owned(),
             wanted: RefCell::default(),
+            listings: RefCell::default(),
         }
     }
 
@@ -26,7 +34,7 @@ impl Folder {
     pub(super) fn read(&self, name: &str) -> io::Result<Vec<u8>> {
         /// A thousand times the largest library seen, and more than the largest texture.
         const LARGEST: u64 = 256 << 20;
-        let path = find(&self.path, name);
+        let path = self.find(name);
         self.wanted.borrow_mut().push(path.clone());
         let info = std::fs::metadata(&path)?;
         if !info.is_file() || info.len() > LARGEST {
@@ -39,42 +47,49 @@ impl Folder {
     pub(super) fn into_wanted(self) -> Vec<PathBuf> {
         self.wanted.into_inner()
     }
-}
 
-/// The file of a name; one that differs in letter case, or lies in the folder itself, where there is none
-/// of just that name.
-fn find(folder: &Path, name: &str) -> PathBuf {
-    let exact = folder.join(name);
-    if exact.exists() {
-        return exact;
-    }
-    let in_folder = || Path::new(name).file_name().map(Path::new);
-    any_case(folder, Path::new(name))
-        .or_else(|| any_case(folder, in_folder()?))
-        .unwrap_or(exact)
-}
-
-/// The file whose path is this one but for letter case.
-fn any_case(folder: &Path, name: &Path) -> Option<PathBuf> {
-    name.components().try_fold(folder.to_owned(), |path, part| {
-        let exact = path.join(part);
+    /// The file of a name; one that differs in letter case, or lies in the folder itself, where there is
+    /// none of just that name.
+    fn find(&self, name: &str) -> PathBuf {
+        let exact = self.path.join(name);
         if exact.exists() {
-            return Some(exact);
+            return exact;
         }
-        let here = if path.as_os_str().is_empty() {
-            Path::new(".")
-        } else {
-            &path
-        };
-        let wanted = part.as_os_str().to_string_lossy().to_lowercase();
-        let mut names: Vec<_> = std::fs::read_dir(here)
-            .ok()?
-            .filter_map(|entry| Some(entry.ok()?.file_name()))
-            .filter(|name| name.to_string_lossy().to_lowercase() == wanted)
-            .collect();
-        names.sort();
-        Some(path.join(names.first()?))
-    })
+        let in_folder = || Path::new(name).file_name().map(Path::new);
+        self.any_case(Path::new(name))
+            .or_else(|| self.any_case(in_folder()?))
+            .unwrap_or(exact)
+    }
+
+    /// The file whose path is this one but for letter case.
+    fn any_case(&self, name: &Path) -> Option<PathBuf> {
+        name.components().try_fold(self.path.clone(), |path, part| {
+            let exact = path.join(part);
+            if exact.exists() {
+                return Some(exact);
+            }
+            let mut listings = self.listings.borrow_mut();
+            let listing = listings
+                .entry(path.clone())
+                .or_insert_with(|| listing(&path));
+            let wanted = part.as_os_str().to_string_lossy().to_lowercase();
+            Some(path.join(listing.get(&wanted)?))
+        })
+    }
+}
+
+/// What is in a folder; nothing if it can't be read. Of names that differ in letter case alone the last one by
+/// bytes counts.
+fn listing(folder: &Path) -> Listing {
+    let is_here = folder.as_os_str().is_empty();
+    let folder = if is_here { Path::new(".") } else { folder };
+    let entries = std::fs::read_dir(folder).into_iter().flatten();
+    let mut names: Vec<OsString> = entries
+        .filter_map(|entry| Some(entry.ok()?.file_name()))
+        .collect();
+    names.sort();
+    let by_lower_case = |name: OsString| (name.to_string_lossy().to_lowercase(), name);
+    names.into_iter().map(by_lower_case).collect()
 }
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! What the reader learns of a file besides the numbers that it passes on.
 
 use super::error::Warning;
-use std::collections::{BTreeMap, HashMap};
+use std::collections::{BTreeMap, HashMap, HashSet};
 
 /// Marks a corner without an index in one of the lists of [`Facts::corners`].
 pub(super) const NO_INDEX: u32 = u32::MAX;
@@ -54,8 +54,9 @@ pub(super) struct Facts {
     pub groups: NamedRuns,
     /// Runs of faces, and their smoothing group; 0 is none. Empty if the file has no `s`.
     pub smoothing: Vec<(usize, u32)>,
-    /// Names of material libraries, with the line.
+    /// Names of material libraries, each once, with the line.
     pub libraries: Vec<(usize, String)>,
+    library_names: HashSet<String>,
     /// Of each vertex, as far as there are any.
     pub colours: Vec<[f32; 3]>,
     pub coloured: usize,
@@ -73,6 +74,18 @@ impl Facts {
     /// The line, counted from 1, of an `f` statement, counted from 0.
     pub(super) fn face_line(&self, face: usize) -> usize {
         self.face_lines.line(face)
+    }
+
+    /// Notes a library, unless it was named before.
+    pub(super) fn add_library(&mut self, line: usize, name: String) {
+        if self.library_names.insert(name.clone()) {
+            self.libraries.push((line, name));
+        }
+    }
+
+    /// Counts a statement that is left out.
+    pub(super) fn ignore(&mut self, keyword: &str, line: usize) {
+        count_by_keyword(&mut self.ignored, keyword, line);
     }
 
     /// Whether each index so far names something that was read.
@@ -124,14 +137,32 @@ impl Facts {
         let entries: usize = self.counts.iter().sum();
         let corners: usize = self.corners.iter().map(Vec::len).sum();
         let names = self.materials.bytes() + self.groups.bytes();
+        let libraries: usize = self
+            .libraries
+            .iter()
+            .map(|(_, name)| 128 + 2 * name.len())
+            .sum();
         let runs = 16 * (self.smoothing.capacity() + self.no_faces.capacity());
         entries * OF_VERTEX
             + corners * OF_CORNER
             + size_of_val(&self.colours[..]) * 2
             + names
+            + libraries
             + runs
             + self.face_lines.bytes()
     }
+}
+
+/// Counts a statement by its keyword; in a file of any bytes there are too many to be told apart.
+pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, line: usize) {
+    const MOST_KEYWORDS: usize = 40;
+    let is_known = tallies.contains_key(keyword);
+    let name = if is_known || tallies.len() < MOST_KEYWORDS {
+        keyword
+    } else {
+        "…"
+    };
+    tallies.entry(name.to_owned()).or_default().add(line);
 }
 
 /// Runs of faces that go by a name: the faces of a group, or of a material.

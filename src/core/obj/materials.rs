@@ -1,10 +1,12 @@
 //! From the names that faces use to materials and textures.
 
+use super::error::Problem;
 use super::facts::Facts;
 use super::fence::fenced;
 use super::mtl::{self, Definition, MapFile};
 use super::{Beside, Warning};
 use crate::mesh::{Material, Texture, TextureMap};
+use crate::progress::Progress;
 use glam::UVec2;
 use image::{ImageReader, Limits};
 use std::collections::{HashMap, HashSet};
@@ -15,6 +17,8 @@ use std::io::{self, Cursor};
 pub(super) struct Looks {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
+    /// What is missing, then what was skipped.
+    pub warnings: Vec<Warning>,
 }
 
 /// Looks up every material that faces name, and reads the pictures of those.
@@ -22,109 +26,165 @@ pub(super) fn look_up(
     facts: &Facts,
     beside: Beside,
     max_memory: u64,
-    warnings: &mut Vec<Warning>,
-) -> Looks {
-    let mut oddities = Vec::new();
-    let known = definitions(facts, beside, warnings, &mut oddities);
-    let mut unknown: Vec<&str> = Vec::new();
+    progress: &Progress,
+) -> Result<Looks, Problem> {
+    let mut libraries = Libraries::default();
+    libraries.read_all(facts, beside, progress)?;
     let mut textures = Textures {
         beside,
         max_memory,
         list: Vec::new(),
         by_name: HashMap::new(),
+        checker: None,
+        missing: Missing::default(),
     };
-    let materials = facts.materials.names.iter().map(|name| {
-        let Some((folder, definition)) = known.get(name.as_str()) else {
+    let mut unknown: Vec<&str> = Vec::new();
+    let mut materials = Vec::with_capacity(facts.materials.names.len());
+    for name in &facts.materials.names {
+        progress.check()?;
+        let Some((folder, definition)) = libraries.known.get(name.as_str()) else {
             if !name.is_empty() {
                 unknown.push(name);
             }
-            return Material::named(name);
+            materials.push(Material::named(name));
+            continue;
         };
         let mut material = definition.material.clone();
         let map = definition.diffuse_map.as_ref();
-        material.diffuse_map = map.map(|map| textures.map(map, folder, warnings));
-        material
-    });
-    let materials = materials.collect();
-    if let Some(first) = unknown.first() {
-        warnings.push(Warning::of_file(format!(
-            "{} material(s) without a definition, “{first}” first",
-            unknown.len()
-        )));
+        material.diffuse_map = map.map(|map| textures.map(map, folder));
+        materials.push(material);
     }
-    warnings.extend(oddities);
-    Looks {
+    let mut warnings = libraries.missing.warnings("material libraries");
+    warnings.extend(textures.missing.warnings("textures"));
+    warnings.extend(unknown.first().map(|first| {
+        let count = unknown.len();
+        let message = format!("{count} material(s) without a definition, “{first}” first");
+        Warning::of_file(message)
+    }));
+    warnings.extend(
+        libraries
+            .oddities
+            .warnings("oddities of material libraries"),
+    );
+    Ok(Looks {
         materials,
         textures: textures.list,
+        warnings,
+    })
+}
+
+/// Warnings of one kind, of which only so many are told one by one.
+#[derive(Default)]
+struct Missing {
+    told: Vec<Warning>,
+    untold: usize,
+}
+
+impl Missing {
+    fn add(&mut self, warning: Warning) {
+        const MOST_TOLD: usize = 20;
+        if self.told.len() < MOST_TOLD {
+            self.told.push(warning);
+        } else {
+            self.untold += 1;
+        }
+    }
+
+    fn warnings(self, what: &str) -> Vec<Warning> {
+        let more = (self.untold > 0)
+            .then(|| Warning::of_file(format!("{} more {what} like these", self.untold)));
+        self.told.into_iter().chain(more).collect()
     }
 }
 
-/// Every material of every library, with the library's folder. Of several by one name the first one counts.
-/// What is missing goes to the warnings, what was skipped to the oddities.
-fn definitions(
-    facts: &Facts,
-    beside: Beside,
-    warnings: &mut Vec<Warning>,
-    oddities: &mut Vec<Warning>,
-) -> HashMap<String, (String, Definition)> {
-    let (mut known, mut seen) = (HashMap::new(), HashSet::new());
-    for (line, names) in &facts.libraries {
-        if !seen.insert(names) {
-            continue;
-        }
-        for (library, read) in libraries(names, beside) {
-            let bytes = match read {
-                Ok(bytes) => bytes,
-                Err(error) => {
-                    let message = format!("material library “{library}”: {error}");
-                    warnings.push(Warning::at(*line, message));
-                    continue;
+/// What the libraries say of the materials that faces name.
+#[derive(Default)]
+struct Libraries {
+    /// Each material with its library's folder. Of several by one name the first one counts.
+    known: HashMap<String, (String, Definition)>,
+    seen: HashSet<String>,
+    missing: Missing,
+    oddities: Missing,
+}
+
+impl Libraries {
+    fn read_all(
+        &mut self,
+        facts: &Facts,
+        beside: Beside,
+        progress: &Progress,
+    ) -> Result<(), Problem> {
+        let wanted: HashSet<&str> = facts.materials.names.iter().map(String::as_str).collect();
+        for (line, names) in &facts.libraries {
+            progress.check()?;
+            for (library, bytes) in self.bytes_of(names, beside) {
+                let bytes = match bytes {
+                    Ok(bytes) => bytes,
+                    Err(error) => {
+                        let message = format!("material library “{library}”: {error}");
+                        self.missing.add(Warning::at(*line, message));
+                        continue;
+                    }
+                };
+                let is_wanted = |name: &str| wanted.contains(name);
+                let (definitions, oddities) = mtl::parse(&bytes, &library, is_wanted, progress)?;
+                oddities
+                    .into_iter()
+                    .for_each(|oddity| self.oddities.add(oddity));
+                let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
+                for definition in definitions {
+                    let name = definition.material.name.clone();
+                    let found = (folder.to_owned(), definition);
+                    self.known.entry(name).or_insert(found);
                 }
-            };
-            let (materials, skipped) = mtl::parse(&bytes, &library);
-            oddities.extend(skipped);
-            let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
-            for definition in materials {
-                let name = definition.material.name.clone();
-                let found = (folder.to_owned(), definition);
-                known.entry(name).or_insert(found);
             }
         }
+        Ok(())
     }
-    known
-}
 
-/// The libraries that a `mtllib` names: one whose name has spaces, or several.
-fn libraries(names: &str, beside: Beside) -> Vec<(String, io::Result<Vec<u8>>)> {
-    let read = |name: &str| {
-        let name = name.trim_matches('"').replace('\\', "/");
-        let bytes = beside(&name);
-        (name, bytes)
-    };
-    let whole = read(names);
-    let words: Vec<&str> = names.split_whitespace().collect();
-    if whole.1.is_ok() || words.len() < 2 {
-        return vec![whole];
-    }
-    let each: Vec<_> = words.into_iter().map(read).collect();
-    if each.iter().any(|(_, bytes)| bytes.is_ok()) {
-        each
-    } else {
-        vec![whole]
+    /// The libraries that a `mtllib` names and that weren't read before: one whose name has spaces, or
+    /// several.
+    fn bytes_of(&mut self, names: &str, beside: Beside) -> Vec<(String, io::Result<Vec<u8>>)> {
+        let plain = |name: &str| name.trim_matches('"').replace('\\', "/");
+        let whole = plain(names);
+        if !self.seen.insert(whole.clone()) {
+            return Vec::new();
+        }
+        let bytes = beside(&whole);
+        if bytes.is_ok() || !names.contains(char::is_whitespace) {
+            return vec![(whole, bytes)];
+        }
+        let words = names.split_whitespace().map(plain);
+        let mut is_one_there = false;
+        let mut each = Vec::new();
+        for word in words.filter(|word| self.seen.insert(word.clone())) {
+            let bytes = beside(&word);
+            is_one_there |= bytes.is_ok();
+            each.push((word, bytes));
+        }
+        if is_one_there {
+            each
+        } else {
+            vec![(whole, bytes)]
+        }
     }
 }
 
 /// The textures so far.
 struct Textures<'a> {
     beside: Beside<'a>,
+    /// Bytes that may be taken by those that are still to come.
     max_memory: u64,
     list: Vec<Texture>,
     by_name: HashMap<String, u32>,
+    /// Stands in for all that are missing.
+    checker: Option<u32>,
+    missing: Missing,
 }
 
 impl Textures<'_> {
     /// A map whose picture lies in the library's folder or in the mesh's; a checker where it can't be read.
-    fn map(&mut self, map: &MapFile, folder: &str, warnings: &mut Vec<Warning>) -> TextureMap {
+    fn map(&mut self, map: &MapFile, folder: &str) -> TextureMap {
         let in_folder = if folder.is_empty() {
             map.name.clone()
         } else {
@@ -133,21 +193,7 @@ impl Textures<'_> {
         let texture = match self.by_name.get(&in_folder) {
             Some(&texture) => texture,
             None => {
-                let bytes = (self.beside)(&in_folder).or_else(|error| match folder {
-                    "" => Err(error),
-                    _ => (self.beside)(&map.name),
-                });
-                let used: usize = self.list.iter().map(Texture::bytes).sum();
-                let left = self.max_memory.saturating_sub(used as u64);
-                let texture = bytes
-                    .map_err(|error| error.to_string())
-                    .and_then(|bytes| decoded(&map.name, &bytes, left));
-                self.list.push(texture.unwrap_or_else(|error| {
-                    let message = format!("texture “{}”: {error}; shown as a checker", map.name);
-                    warnings.push(Warning::of_file(message));
-                    Texture::checker(&map.name)
-                }));
-                let texture = self.list.len() as u32 - 1;
+                let texture = self.read(&map.name, &in_folder);
                 self.by_name.insert(in_folder, texture);
                 texture
             }
@@ -157,6 +203,38 @@ impl Textures<'_> {
             scale: map.scale,
             offset: map.offset,
         }
+    }
+
+    fn read(&mut self, name: &str, in_folder: &str) -> u32 {
+        let bytes = (self.beside)(in_folder).or_else(|error| {
+            if in_folder == name {
+                Err(error)
+            } else {
+                (self.beside)(name)
+            }
+        });
+        let picture = bytes
+            .map_err(|error| error.to_string())
+            .and_then(|bytes| decoded(name, &bytes, self.max_memory));
+        match picture {
+            Ok(texture) => {
+                self.max_memory = self.max_memory.saturating_sub(texture.bytes() as u64);
+                self.push(texture)
+            }
+            Err(error) => {
+                let message = format!("texture “{name}”: {error}; shown as a checker");
+                self.missing.add(Warning::of_file(message));
+                let checker = self.checker;
+                let checker = checker.unwrap_or_else(|| self.push(Texture::checker()));
+                self.checker = Some(checker);
+                checker
+            }
+        }
+    }
+
+    fn push(&mut self, texture: Texture) -> u32 {
+        self.list.push(texture);
+        self.list.len() as u32 - 1
     }
 }
 

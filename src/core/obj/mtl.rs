@@ -6,7 +6,8 @@
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
 use super::Warning;
-use super::facts::{Tally, shortened};
+use super::error::Problem;
+use super::facts::{Tally, count_by_keyword, shortened};
 use super::lines::Lines;
 use super::words::{name, without_comment};
 use crate::mesh::{Illumination, Material};
@@ -34,14 +35,27 @@ pub(super) struct MapFile {
 /// Statements that shading has no use for and nobody would miss.
 const SILENT: [&str; 3] = ["Ka", "Ni", "sharpness"];
 
-/// The materials of a library, and what was odd about it.
-pub(super) fn parse(bytes: &[u8], library: &str) -> (Vec<Definition>, Vec<Warning>) {
-    let progress = Progress::default();
+/// Statements between two looks at whether the load is still wanted.
+const STATEMENTS_PER_CHECK: usize = 1 << 12;
+
+/// The materials of a library that are wanted, and what was odd about it.
+///
+/// # Errors
+/// Cancelled by `progress`.
+pub(super) fn parse(
+    bytes: &[u8],
+    library: &str,
+    is_wanted: impl Fn(&str) -> bool,
+    progress: &Progress,
+) -> Result<(Vec<Definition>, Vec<Warning>), Problem> {
+    // Bytes of libraries don't count as progress.
+    let own = Progress::default();
     let mut materials: Vec<Definition> = Vec::new();
+    let mut current: Option<Definition> = None;
     let mut skipped: BTreeMap<String, Tally> = BTreeMap::new();
     let mut failure = None;
-    let Ok(mut lines) = Lines::new(bytes, &progress) else {
-        return Default::default();
+    let Ok(mut lines) = Lines::new(bytes, &own) else {
+        return Ok(Default::default());
     };
     loop {
         let statement = match lines.next() {
@@ -57,31 +71,34 @@ pub(super) fn parse(bytes: &[u8], library: &str) -> (Vec<Definition>, Vec<Warnin
         if keyword.is_empty() || keyword.starts_with('#') || SILENT.contains(&keyword) {
             continue;
         }
+        if statement.line % STATEMENTS_PER_CHECK == 0 {
+            progress.check()?;
+        }
         if keyword == "newmtl" {
-            materials.push(Definition {
+            materials.extend(current.take().filter(|m| is_wanted(&m.material.name)));
+            current = Some(Definition {
                 material: Material::named(rest.trim()),
                 ..Definition::default()
             });
             continue;
         }
         let rest = name(without_comment(rest.as_bytes()));
-        let is_read = materials
-            .last_mut()
+        let is_read = current
+            .as_mut()
             .is_some_and(|material| material.read(keyword, &rest).is_some());
         if !is_read {
-            let keyword = shortened(keyword);
-            skipped.entry(keyword).or_default().add(statement.line);
+            count_by_keyword(&mut skipped, &shortened(keyword), statement.line);
         }
     }
-    let skipped = skipped.into_iter().filter_map(|(keyword, tally)| {
-        let Warning { line, .. } = tally.warning(|_| String::new())?;
-        let (line, count) = (line.unwrap_or(0), tally.count);
-        Some(format!(
-            "material library “{library}”: {count} “{keyword}” statement(s) skipped, line {line} first"
-        ))
+    materials.extend(current.filter(|m| is_wanted(&m.material.name)));
+    let skipped = skipped.into_iter().map(|(keyword, tally)| {
+        let Tally { count, first_line } = tally;
+        format!(
+            "material library “{library}”: {count} “{keyword}” statement(s) skipped, line {first_line} first"
+        )
     });
     let warnings = skipped.chain(failure).map(Warning::of_file).collect();
-    (materials, warnings)
+    Ok((materials, warnings))
 }
 
 impl Definition {
@@ -199,7 +216,8 @@ mod tests {
     use super::*;
 
     fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
-        let (materials, warnings) = parse(text.as_bytes(), "m.mtl");
+        let parsed = parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
+        let (materials, warnings) = parsed.expect("nobody cancels");
         let warnings = warnings.iter().map(ToString::to_string);
         (materials, warnings.collect())
     }

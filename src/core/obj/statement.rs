@@ -58,7 +58,7 @@ impl Sorter {
         match keyword {
             b"usemtl" => facts.materials.begin(facts.face_count, name(rest)),
             b"o" | b"g" => facts.groups.begin(facts.face_count, name(rest)),
-            b"mtllib" => facts.libraries.push((line, name(rest))),
+            b"mtllib" => facts.add_library(line, name(rest)),
             b"s" => {
                 let group = smoothing_group(&name(without_comment(rest)));
                 if facts
@@ -71,8 +71,7 @@ impl Sorter {
             }
             _ if keyword[0] == b'#' => {}
             _ => {
-                let keyword = shortened(&text(keyword));
-                facts.ignored.entry(keyword).or_default().add(line);
+                facts.ignore(&shortened(&text(keyword)), line);
             }
         }
     }

@@ -169,6 +169,38 @@ fn a_polygon_of_many_corners_is_read() {
     assert_eq!(loaded.mesh.face_count, 1);
 }
 
+#[test]
+fn of_thousands_of_oddities_some_are_told_and_the_others_counted() {
+    let (mut library, mut text) = (String::new(), String::from(TRIANGLE));
+    for k in 0..3000 {
+        writeln!(library, "newmtl m{k}\nmap_Kd lost{k}.png\nodd{k} 1").expect("memory");
+        writeln!(
+            text,
+            "mtllib lost{k}.mtl\nstrange{k} 1\nusemtl m{k}\nf 1 2 3"
+        )
+        .expect("memory");
+    }
+    text += "mtllib there.mtl\n";
+    let files = |name: &str| match name {
+        "there.mtl" => Ok(library.clone().into_bytes()),
+        _ => Err(io::ErrorKind::NotFound.into()),
+    };
+    let (path, open) = (Path::new("x.obj"), || Ok(text.as_bytes()));
+    let loaded = obj::parse(open, path, STRICT, &files, &Progress::default()).expect("good");
+    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    assert!(warnings.len() < 150, "{}", warnings.len());
+    for expected in [
+        "2980 more material libraries like these",
+        "2980 more textures like these",
+        "2960 “…” statement(s) ignored",
+        "2960 “…” statement(s) skipped",
+    ] {
+        assert!(warnings.iter().any(|w| w.contains(expected)), "{expected}");
+    }
+    // One checker stands in for all pictures.
+    assert_eq!(loaded.mesh.textures.len(), 1);
+}
+
 /// A picture whose header promises more than memory holds.
 #[test]
 fn a_texture_bomb_is_a_checker_and_a_warning() {
