@@ -2,7 +2,6 @@
 
 use super::error::{Problem, Warning};
 use super::facts::{Element, Facts, NO_INDEX, Tally};
-use super::fence::fenced;
 use super::numbers::Numbers;
 use super::outline::Outline;
 use super::place::{max_rounding, origin};
@@ -105,7 +104,7 @@ impl Assembly<'_> {
             materials.step(face, triangle, &mut self.mesh.material);
             groups.step(face, triangle, &mut self.mesh.group);
             smoothing.step(face, triangle, &mut self.mesh.smoothing.groups);
-            self.add_face(face, facts, corners)?;
+            self.add_face(face, facts, corners, progress)?;
             face += 1;
         }
         Ok(())
@@ -131,6 +130,7 @@ impl Assembly<'_> {
         face: usize,
         facts: &Facts,
         corners: Range<usize>,
+        progress: &Progress,
     ) -> Result<(), Problem> {
         let (mesh, oddities) = (&mut self.mesh, &mut self.oddities);
         let vertices = &self.numbers.corners[0][corners.clone()];
@@ -166,7 +166,7 @@ impl Assembly<'_> {
             self.polygon.clear();
             self.polygon.extend(vertices.iter().map(exact));
             let (triangulator, polygon) = (&mut self.triangulator, &self.polygon);
-            let how = fenced("cutting a polygon", || triangulator.cut(polygon, &mut add))?;
+            let how = triangulator.cut(polygon, progress, &mut add)?;
             if how == Cut::Fan {
                 oddities.fan.add(facts.face_line(face));
             }
@@ -214,7 +214,9 @@ impl Oddities {
             self.zero_area
                 .warning(|_| format!("{zero_area} triangle(s) dropped: their area is zero")),
             self.fan.warning(|fans| {
-                format!("{fans} polygon(s) cross themselves or have no plane: cut as a fan")
+                format!(
+                    "{fans} polygon(s) cross themselves, have no plane or too many corners: cut as a fan"
+                )
             }),
         ]
         .into_iter()

@@ -1,7 +1,20 @@
 //! Cutting polygons into triangles.
 
+use super::error::Problem;
+use super::fence::fenced;
+use crate::progress::Progress;
 use earcut::Earcut;
 use glam::DVec3;
+use std::sync::mpsc::{RecvTimeoutError, sync_channel};
+use std::time::Duration;
+
+/// Of more corners than this, ears are clipped on a thread of their own, which nobody waits for if the load is
+/// cancelled: of this many that takes up to 0.1 s (2026-11), and the time grows by the square.
+const LARGE: usize = 10_000;
+/// Of more corners than this, ears aren't clipped: it takes 1 s for a star, 7 s for a tangle (2026-11).
+const LARGEST: usize = 100_000;
+/// How often a load that waits for a large polygon looks whether it is wanted.
+const PATIENCE: Duration = Duration::from_millis(10);
 
 /// Cuts polygons; keeps its buffers between them.
 pub(super) struct Triangulator {
@@ -15,7 +28,7 @@ pub(super) struct Triangulator {
 pub(super) enum Cut {
     /// As it should be.
     Good,
-    /// It crosses itself or has no plane: a fan from its first corner.
+    /// It crosses itself, has no plane, or is too large: a fan from its first corner.
     Fan,
 }
 
@@ -32,20 +45,60 @@ impl Triangulator {
     /// polygon's winding. There are always n − 2 of a fan and at most as many otherwise.
     ///
     /// A convex polygon becomes a fan; others are ear-clipped in the plane of their vector area.
-    pub(super) fn cut(&mut self, corners: &[DVec3], mut triangle: impl FnMut([usize; 3])) -> Cut {
+    ///
+    /// # Errors
+    /// Cancelled by `progress`, or a panic of the crate that clips ears.
+    pub(super) fn cut(
+        &mut self,
+        corners: &[DVec3],
+        progress: &Progress,
+        mut triangle: impl FnMut([usize; 3]),
+    ) -> Result<Cut, Problem> {
         let count = corners.len();
-        if count == 3 || is_convex(corners) {
-            (1..count - 1).for_each(|k| triangle([0, k, k + 1]));
-            return Cut::Good;
-        }
-        if self.clip_ears(corners) {
+        let is_fan = count == 3 || is_convex(corners);
+        if !is_fan && self.clip_ears_unless_cancelled(corners, progress)? {
             for corner in self.indices.chunks_exact(3) {
                 triangle([corner[0] as usize, corner[1] as usize, corner[2] as usize]);
             }
-            return Cut::Good;
+            return Ok(Cut::Good);
         }
         (1..count - 1).for_each(|k| triangle([0, k, k + 1]));
-        Cut::Fan
+        Ok(if is_fan { Cut::Good } else { Cut::Fan })
+    }
+
+    fn clip_ears_unless_cancelled(
+        &mut self,
+        corners: &[DVec3],
+        progress: &Progress,
+    ) -> Result<bool, Problem> {
+        const WHAT: &str = "cutting a polygon";
+        if corners.len() <= LARGE {
+            return fenced(WHAT, || self.clip_ears(corners));
+        }
+        if corners.len() > LARGEST {
+            return Ok(false);
+        }
+        let (sender, receiver) = sync_channel(1);
+        let (mut other, corners) = (Self::new(), corners.to_vec());
+        let clip = move || {
+            let is_cut = other.clip_ears(&corners);
+            // Nobody waits any more if the load was cancelled.
+            _ = sender.send((is_cut, other));
+        };
+        let thread = std::thread::Builder::new().name("polygon".to_owned());
+        thread.spawn(clip).map_err(Problem::Read)?;
+        loop {
+            match receiver.recv_timeout(PATIENCE) {
+                Ok((is_cut, other)) => {
+                    *self = other;
+                    return Ok(is_cut);
+                }
+                Err(RecvTimeoutError::Timeout) => progress.check()?,
+                Err(RecvTimeoutError::Disconnected) => {
+                    return Err(Problem::Content(format!("{WHAT} failed unexpectedly")));
+                }
+            }
+        }
     }
 
     /// Whether ears could be clipped so that the triangles' areas add up to the polygon's.
@@ -108,11 +161,12 @@ mod tests {
         let place = |p: &[f64; 2]| DVec3::new(p[0] + 1e4, p[1], 0.3 * p[0] - 0.2 * p[1]);
         let corners: Vec<DVec3> = points.iter().map(place).collect();
         let mut area = 0.0;
-        let how = Triangulator::new().cut(&corners, |t| {
+        let progress = Progress::default();
+        let how = Triangulator::new().cut(&corners, &progress, |t| {
             let [a, b, c] = t.map(|k| points[k]);
             area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
         });
-        (how, area)
+        (how.expect("nobody cancels"), area)
     }
 
     #[test]
@@ -172,5 +226,39 @@ mod tests {
             .map(|a| [a.cos(), a.sin()])
             .collect();
         assert_eq!(cut(&star).0, Cut::Fan);
+    }
+
+    /// A star of so many corners.
+    fn star(count: u32) -> Vec<[f64; 2]> {
+        let corner = |k: u32| {
+            let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
+            let radius = if k.is_multiple_of(2) { 1.0 } else { 0.7 };
+            [radius * angle.cos(), radius * angle.sin()]
+        };
+        (0..count).map(corner).collect()
+    }
+
+    #[test]
+    fn large_polygons_are_cut_aside_and_the_largest_as_a_fan() {
+        let count = LARGE as u32 + 2;
+        let (how, area) = cut(&star(count));
+        // As many triangles of radii 1 and 0.7 as corners.
+        let angle = std::f64::consts::TAU / f64::from(count);
+        let expected = f64::from(count) * 0.5 * 0.7 * angle.sin();
+        assert_eq!(how, Cut::Good);
+        assert!((area - expected).abs() < 1e-9, "{area}, {expected}");
+        assert_eq!(cut(&star(LARGEST as u32 + 2)).0, Cut::Fan);
+    }
+
+    #[test]
+    fn nobody_waits_for_a_large_polygon_that_is_not_wanted() {
+        let corners: Vec<DVec3> = star(LARGEST as u32)
+            .iter()
+            .map(|p| DVec3::new(p[0], p[1], 0.0))
+            .collect();
+        let progress = Progress::default();
+        progress.cancel();
+        let result = Triangulator::new().cut(&corners, &progress, |_| {});
+        assert!(matches!(result, Err(Problem::Cancelled)));
     }
 }

@@ -85,7 +85,7 @@ fn polygons_without_a_plane_are_cut_the_same_way_each_time() {
     let first = load("not_flat.obj");
     assert_eq!(
         warnings(&first),
-        ["line 11: 1 polygon(s) cross themselves or have no plane: cut as a fan"]
+        ["line 11: 1 polygon(s) cross themselves, have no plane or too many corners: cut as a fan"]
     );
     assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(load("not_flat.obj").mesh.triangles, first.mesh.triangles);
