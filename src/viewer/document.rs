@@ -2,8 +2,7 @@
 
 use crate::task::{Broken, Task, Wanted};
 use hitscope_core::kernel::TriangleKernel;
-use hitscope_core::mesh::strips::bytes_as;
-use hitscope_core::mesh::{Crease, Health};
+use hitscope_core::mesh::{Crease, Health, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::{LoadedScene, SceneOptions};

@@ -18,7 +18,8 @@ const LAMPS: [(Vec3, f32); 2] = [
     (Vec3::new(-0.45, 0.65, 0.62), 0.85),
     (Vec3::new(0.80, -0.10, 0.60), 0.22),
 ];
-/// Surfaces that a ray goes through, at most.
+/// Surfaces that a ray goes through, at most; behind these it sees the background. Half as many glasses, one in the
+/// other, are more than a picture shows.
 const MOST_LAYERS: usize = 32;
 /// What is left of a ray that can't be seen any more: half a step of eight bits.
 const INVISIBLE: f32 = 1.0 / 512.0;
@@ -204,7 +205,8 @@ mod tests {
         };
         let paint = |mesh: &mut TriangleMesh| {
             // Magenta to the left of x = 0.5, where the ray comes down.
-            let texels = vec![[255, 0, 255], [255, 0, 255], [0; 3], [0; 3]];
+            let texels = [[255, 0, 255], [255, 0, 255], [0; 3], [0; 3]];
+            let texels = texels.as_flattened().to_vec();
             mesh.textures = Texture::new("t", UVec2::new(4, 1), texels)
                 .into_iter()
                 .collect();

@@ -10,7 +10,7 @@ mod material;
 mod normals;
 mod runs;
 pub mod shapes;
-pub mod strips;
+mod strips;
 mod texture;
 mod weld;
 
@@ -19,8 +19,9 @@ pub use health::{FLAWS, Flaw, FlawInfo, Health, Places, SLIVER_ASPECT};
 pub use material::{Illumination, Material, TextureMap};
 pub use normals::{Crease, VertexNormals};
 pub use runs::Runs;
+pub use strips::bytes_as;
 pub use texture::Texture;
-pub use weld::Welded;
+use weld::Welded;
 
 use crate::aabb::Aabb;
 use glam::{DVec3, Vec2, Vec3};
@@ -39,8 +40,8 @@ pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Marks a corner without a normal in [`TriangleMesh::corner_normals`].
-pub const NO_NORMAL: u32 = u32::MAX;
+/// Marks a corner without a normal, or without texture coordinates, in lists that go by corner.
+pub const NO_INDEX: u32 = u32::MAX;
 
 /// Why triangles are missing that the file has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -49,8 +50,10 @@ pub struct Dropped {
     pub zero_area: usize,
     /// A corner is NaN or infinite, or too large for f32.
     pub non_finite: usize,
-    /// Faces whose indices name nothing.
+    /// Faces, not triangles: an index names nothing, or there are fewer than three corners.
     pub bad_index: usize,
+    /// Lines and points, for any of these reasons.
+    pub elements: usize,
 }
 
 /// Smoothing groups: triangles of one group are smooth where they meet, others have an edge there.
@@ -89,11 +92,11 @@ pub struct TriangleMesh {
     pub colours: Vec<Vec3>,
     /// The file's normals, as given: not always unit length.
     pub normals: Vec<Vec3>,
-    /// Indices of each triangle's corners into the normals, or [`NO_NORMAL`].
+    /// Indices of each triangle's corners into the normals, or [`NO_INDEX`].
     pub corner_normals: Vec<[u32; 3]>,
     /// Places in textures. Empty if no material has a texture.
     pub texture_coordinates: Vec<Vec2>,
-    /// Indices of each triangle's corners into the texture coordinates; [`NO_NORMAL`] where there are none.
+    /// Indices of each triangle's corners into the texture coordinates; [`NO_INDEX`] where there are none.
     pub corner_textures: Vec<[u32; 3]>,
     /// The ends of straight lines that are no edges.
     pub lines: Vec<[u32; 2]>,

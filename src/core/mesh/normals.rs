@@ -1,7 +1,7 @@
 //! Normals at vertices, for smooth shading and to be shown.
 
 use super::edges::{EdgeUse, Edges, Fans};
-use super::{NO_NORMAL, TriangleMesh, Welded, unit_normal};
+use super::{NO_INDEX, TriangleMesh, Welded, unit_normal};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
@@ -78,7 +78,7 @@ impl VertexNormals {
 /// Whether the file has a normal for each corner of a triangle.
 fn has_normals(mesh: &TriangleMesh, triangle: u32) -> bool {
     let corners = mesh.corner_normals.get(triangle as usize);
-    corners.is_some_and(|corners| !corners.contains(&NO_NORMAL))
+    corners.is_some_and(|corners| !corners.contains(&NO_INDEX))
 }
 
 /// The file's normals at unit length. In f64, where the length of an f32 vector neither under- nor
@@ -178,13 +178,13 @@ fn creased(mesh: &TriangleMesh, radians: f32) -> VertexNormals {
         &Edges::of(mesh, |vertex| welded.vertex(vertex)),
         is_smooth,
     );
-    let (mut sums, mut of_fan) = (Vec::new(), vec![NO_NORMAL; 3 * mesh.triangles.len()]);
+    let (mut sums, mut of_fan) = (Vec::new(), vec![NO_INDEX; 3 * mesh.triangles.len()]);
     let mut own = Vec::with_capacity(mesh.triangles.len());
     for triangle in 0..mesh.triangles.len() as u32 {
         let weighted = weighted(mesh, triangle);
         own.push([0, 1, 2].map(|k| {
             let index = &mut of_fan[fans.find(3 * triangle + k) as usize];
-            if *index == NO_NORMAL {
+            if *index == NO_INDEX {
                 *index = sums.len() as u32;
                 sums.push(DVec3::ZERO);
             }
@@ -239,7 +239,7 @@ mod tests {
     fn the_files_normals_win_face_by_face() {
         let mut mesh = roof();
         mesh.normals = vec![Vec3::Y * 2.0];
-        mesh.corner_normals = vec![[0; 3], [NO_NORMAL; 3]];
+        mesh.corner_normals = vec![[0; 3], [NO_INDEX; 3]];
         let [left, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(left, [Vec3::Y; 3]);
         // Computed, with the other face's part.

@@ -13,19 +13,16 @@
 //! The overlay draws indexed triangles all the same: with software Vulkan strips took 0.7 times as long on 69 thousand
 //! triangles, but 1.05 to 1.25 times on 1.1 million, and making them 0.2 s (2026-11).
 
-use super::TriangleMesh;
 use super::edges::Edges;
+use super::{NO_INDEX, TriangleMesh};
 use glam::Vec3;
 
 /// Ends a strip in a list of indices; what GPUs take for that, too.
-pub const RESTART: u32 = u32::MAX;
-
-/// No triangle.
-const NONE: u32 = u32::MAX;
+const RESTART: u32 = u32::MAX;
 
 /// The mesh's triangles as strips of vertices, with [`RESTART`] between two of them. Each triangle is there once,
 /// wound as it was.
-pub fn strips(mesh: &TriangleMesh) -> Vec<u32> {
+fn strips(mesh: &TriangleMesh) -> Vec<u32> {
     let mut stripper = Stripper::new(mesh);
     let mut indices = Vec::with_capacity(mesh.triangles.len() * 3 / 2);
     while let Some(start) = stripper.next_start() {
@@ -80,7 +77,7 @@ struct Stripper<'m> {
 impl<'m> Stripper<'m> {
     fn new(mesh: &'m TriangleMesh) -> Self {
         let count = mesh.triangles.len();
-        let mut neighbours = vec![[NONE; 3]; count];
+        let mut neighbours = vec![[NO_INDEX; 3]; count];
         for uses in Edges::of(mesh, |vertex| vertex).iter() {
             if let [a, b] = uses
                 && a.is_forward != b.is_forward
@@ -106,7 +103,7 @@ impl<'m> Stripper<'m> {
 
     /// How many of a triangle's neighbours are left.
     fn degree(&self, triangle: u32) -> usize {
-        let is_left = |&&n: &&u32| n != NONE && !self.is_taken[n as usize];
+        let is_left = |&&n: &&u32| n != NO_INDEX && !self.is_taken[n as usize];
         self.neighbours[triangle as usize]
             .iter()
             .filter(is_left)
@@ -146,8 +143,8 @@ impl<'m> Stripper<'m> {
                 ends == [x, y] || ends == [y, x]
             };
             let beyond = (0..3).find(is_last_edge);
-            let next = beyond.map_or(NONE, |k| self.neighbours[triangle as usize][k]);
-            if next == NONE
+            let next = beyond.map_or(NO_INDEX, |k| self.neighbours[triangle as usize][k]);
+            if next == NO_INDEX
                 || self.is_taken[next as usize]
                 || self.met_in[next as usize] == self.walk
             {
@@ -165,7 +162,7 @@ impl<'m> Stripper<'m> {
     fn take(&mut self, triangle: u32) {
         self.is_taken[triangle as usize] = true;
         for neighbour in self.neighbours[triangle as usize] {
-            if neighbour != NONE && !self.is_taken[neighbour as usize] {
+            if neighbour != NO_INDEX && !self.is_taken[neighbour as usize] {
                 self.waiting[self.degree(neighbour)].push(neighbour);
             }
         }

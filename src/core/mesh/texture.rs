@@ -1,4 +1,4 @@
-//! Which colour has a picture at a place?
+//! Which colour does a picture have at a place?
 
 use crate::srgb::from_texel;
 use glam::{UVec2, Vec2, Vec3};
@@ -9,14 +9,15 @@ pub struct Texture {
     /// As the file calls it; the checker has none.
     pub name: String,
     size: UVec2,
-    /// sRGB, row by row from the top.
-    texels: Vec<[u8; 3]>,
+    /// sRGB, three bytes each, row by row from the top.
+    texels: Vec<u8>,
 }
 
 impl Texture {
-    /// A picture of sRGB texels, row by row from the top; `None` if there aren't as many as `size` says.
-    pub fn new(name: &str, size: UVec2, texels: Vec<[u8; 3]>) -> Option<Self> {
-        let count = size.x as usize * size.y as usize;
+    /// A picture of sRGB texels of three bytes, row by row from the top; `None` if there aren't as many as `size`
+    /// says, or none at all.
+    pub fn new(name: &str, size: UVec2, texels: Vec<u8>) -> Option<Self> {
+        let count = 3 * size.x as usize * size.y as usize;
         (count > 0 && texels.len() == count).then(|| Self {
             name: name.to_owned(),
             size,
@@ -39,22 +40,24 @@ impl Texture {
         Self {
             name: String::new(),
             size: UVec2::splat(SIDE),
-            texels: (0..SIDE * SIDE).map(texel).collect(),
+            texels: (0..SIDE * SIDE).flat_map(texel).collect(),
         }
     }
 
-    /// The colour at a place, in linear RGB, between the four texels around it. A place that isn't finite
-    /// is the corner.
+    /// The colour at a place, in linear RGB, between the four texels around it. A coordinate that isn't
+    /// finite counts as 0.
     pub fn colour(&self, uv: Vec2) -> Vec3 {
         let size = self.size.as_vec2();
         // The middle of a texel has its colour; rows count from the top.
-        let at = Vec2::new(uv.x, 1.0 - uv.y).map(|x| if x.is_finite() { x } else { 0.0 });
+        let uv = uv.map(|x| if x.is_finite() { x } else { 0.0 });
+        let at = Vec2::new(uv.x, 1.0 - uv.y);
         let at = (at - at.floor()) * size - 0.5;
         let (corner, part) = (at.floor(), at - at.floor());
         let texel = |dx: i32, dy: i32| {
             let x = (corner.x as i32 + dx).rem_euclid(self.size.x as i32);
             let y = (corner.y as i32 + dy).rem_euclid(self.size.y as i32);
-            from_texel(self.texels[y as usize * self.size.x as usize + x as usize])
+            let at = 3 * (y as usize * self.size.x as usize + x as usize);
+            from_texel([self.texels[at], self.texels[at + 1], self.texels[at + 2]])
         };
         let above = texel(0, 0).lerp(texel(1, 0), part.x);
         let below = texel(0, 1).lerp(texel(1, 1), part.x);
@@ -73,8 +76,8 @@ mod tests {
 
     /// Red and green above, blue and white below.
     fn texture() -> Texture {
-        let texels = vec![[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]];
-        Texture::new("t", UVec2::splat(2), texels).expect("four texels")
+        let texels = [[255, 0, 0], [0, 255, 0], [0, 0, 255], [255; 3]];
+        Texture::new("t", UVec2::splat(2), texels.as_flattened().to_vec()).expect("four texels")
     }
 
     #[test]
@@ -96,7 +99,7 @@ mod tests {
 
     #[test]
     fn a_picture_has_as_many_texels_as_its_size_says() {
-        assert_eq!(Texture::new("t", UVec2::new(2, 1), vec![[0; 3]]), None);
+        assert_eq!(Texture::new("t", UVec2::new(2, 1), vec![0; 3]), None);
         assert_eq!(Texture::new("t", UVec2::ZERO, Vec::new()), None);
     }
 }

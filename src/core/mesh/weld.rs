@@ -6,14 +6,14 @@ use rayon::prelude::*;
 
 /// Vertices at exactly the same place, taken as one: the same surface, whatever seams it was cut along.
 #[derive(Clone, Debug)]
-pub struct Welded {
+pub(super) struct Welded {
     /// For each vertex the first one at its place.
     first: Vec<u32>,
 }
 
 impl Welded {
     /// Compares positions bit by bit, but −0 with 0.
-    pub fn of(mesh: &TriangleMesh) -> Self {
+    pub(super) fn of(mesh: &TriangleMesh) -> Self {
         let place = |(vertex, &p): (usize, &Vec3)| (bits(p), vertex as u32);
         let mut order: Vec<([u32; 3], u32)> =
             mesh.positions.par_iter().enumerate().map(place).collect();
@@ -28,12 +28,12 @@ impl Welded {
     }
 
     /// The vertex that stands for all at the place of this one.
-    pub fn vertex(&self, vertex: u32) -> u32 {
+    pub(super) fn vertex(&self, vertex: u32) -> u32 {
         self.first[vertex as usize]
     }
 
     /// A triangle's corners.
-    pub fn corners(&self, triangle: [u32; 3]) -> [u32; 3] {
+    pub(super) fn corners(&self, triangle: [u32; 3]) -> [u32; 3] {
         triangle.map(|vertex| self.vertex(vertex))
     }
 }

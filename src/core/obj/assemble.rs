@@ -1,22 +1,19 @@
-//! From the file's numbers to a mesh.
+//! Which mesh do the file's numbers make?
 
 use super::error::{Problem, Warning};
-use super::facts::{Element, Facts, NO_INDEX, Tally};
+use super::facts::{Element, Facts, Tally};
 use super::numbers::Numbers;
 use super::outline::Outline;
 use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
 use super::{Beside, LoadOptions, Loaded, materials};
-use crate::mesh::{Dropped, NO_NORMAL, Runs, TriangleMesh, has_zero_area};
+use crate::mesh::{Dropped, Runs, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
 use glam::DVec3;
 use std::ops::Range;
 
 /// Elements between two looks at whether the load is still wanted.
 const ELEMENTS_PER_CHECK: usize = 1 << 14;
-
-// A missing index of the file's is a missing normal of the mesh's.
-const _: () = assert!(NO_INDEX == NO_NORMAL);
 
 pub(super) fn assemble(
     mut numbers: Numbers,
@@ -34,6 +31,7 @@ pub(super) fn assemble(
         numbers.textures = Vec::new();
         numbers.corners[1] = Vec::new();
     }
+    progress.check()?;
     let origin = origin(&numbers.positions, options.recentre);
     let positions = numbers.positions.iter().map(|&p| (p - origin).as_vec3());
     let mesh = TriangleMesh {
@@ -57,9 +55,11 @@ pub(super) fn assemble(
     };
     assembly.add_elements(facts, progress)?;
     let (mut mesh, oddities) = (assembly.mesh, assembly.oddities);
-    mesh.dropped.bad_index = facts.dropped.count;
+    mesh.dropped.bad_index = facts.dropped_faces.count;
+    mesh.dropped.elements += facts.dropped_others.count;
     mesh.smoothing.has_groups = !facts.smoothing.is_empty();
     warnings.extend(oddities.warnings(mesh.dropped));
+    progress.check()?;
     shrink(&mut mesh);
     require_content(&mesh, facts)?;
     Ok(Loaded {
@@ -114,13 +114,14 @@ impl Assembly<'_> {
         let mesh = &mut self.mesh;
         let vertices = &self.numbers.corners[0][corners];
         let is_finite = |v: &u32| mesh.positions[*v as usize].is_finite();
-        match kind {
-            Element::Points => mesh.points.extend(vertices.iter().filter(|v| is_finite(v))),
-            Element::Line => {
-                let pairs = vertices.windows(2).map(|pair| [pair[0], pair[1]]);
-                mesh.lines
-                    .extend(pairs.filter(|pair| pair.iter().all(is_finite)));
-            }
+        if !vertices.iter().all(is_finite) {
+            mesh.dropped.elements += 1;
+            self.oddities.not_finite_elements += 1;
+        } else if kind == Element::Points {
+            mesh.points.extend(vertices);
+        } else {
+            let pairs = vertices.windows(2).map(|pair| [pair[0], pair[1]]);
+            mesh.lines.extend(pairs);
         }
     }
 
@@ -203,11 +204,17 @@ struct Oddities {
     non_finite: Tally,
     zero_area: Tally,
     fan: Tally,
+    not_finite_elements: usize,
 }
 
 impl Oddities {
     fn warnings(self, dropped: Dropped) -> impl Iterator<Item = Warning> {
         let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
+        let elements = self.not_finite_elements;
+        let of_elements = (elements > 0).then(|| {
+            let message = format!("{elements} line(s) or point(s) dropped: a vertex is not finite");
+            Warning::of_file(message)
+        });
         [
             self.non_finite
                 .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite")),
@@ -218,6 +225,7 @@ impl Oddities {
                     "{fans} polygon(s) cross themselves, have no plane or too many corners: cut as a fan"
                 )
             }),
+            of_elements,
         ]
         .into_iter()
         .flatten()
@@ -242,6 +250,7 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
         zero_area,
         non_finite,
         bad_index,
+        ..
     } = mesh.dropped;
     let message = if zero_area + non_finite > 0 {
         let message = format!(
@@ -252,7 +261,7 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
         let message = format!(
             "no face is left: {bad_index} have an index that is out of range, or fewer than three corners"
         );
-        return Err(Problem::line(facts.dropped.first_line, message));
+        return Err(Problem::line(facts.dropped_faces.first_line, message));
     } else if facts.element_count > 0 {
         format!(
             "there are lines or points ({}), but no faces: nothing that a ray could hit",

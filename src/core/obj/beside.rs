@@ -1,7 +1,7 @@
 //! Where are the files that an OBJ names?
 
 use std::cell::RefCell;
-use std::collections::HashMap;
+use std::collections::{BTreeSet, HashMap};
 use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
@@ -9,11 +9,11 @@ use std::path::{Path, PathBuf};
 /// Reads a file that an OBJ or its material library names, by a name with `/` between folders.
 pub type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
-/// The files in and around an OBJ's folder.
+/// The files in and around an OBJ's folder, and those that it names by a whole path.
 pub(super) struct Folder {
     path: PathBuf,
     /// What was looked for, whether or not it was there.
-    wanted: RefCell<Vec<PathBuf>>,
+    wanted: RefCell<BTreeSet<PathBuf>>,
     /// What is in the folders that were looked at.
     listings: RefCell<HashMap<PathBuf, Listing>>,
 }
@@ -35,7 +35,7 @@ impl Folder {
         /// A thousand times the largest library seen, and more than the largest texture.
         const LARGEST: u64 = 256 << 20;
         let path = self.find(name);
-        self.wanted.borrow_mut().push(path.clone());
+        self.wanted.borrow_mut().insert(path.clone());
         let info = std::fs::metadata(&path)?;
         if !info.is_file() || info.len() > LARGEST {
             let message = format!("not a file of at most {} MB", LARGEST >> 20);
@@ -45,17 +45,27 @@ impl Folder {
     }
 
     pub(super) fn into_wanted(self) -> Vec<PathBuf> {
-        self.wanted.into_inner()
+        self.wanted.into_inner().into_iter().collect()
     }
 
     /// The file of a name; one that differs in letter case, or lies in the folder itself, where there is
     /// none of just that name.
     fn find(&self, name: &str) -> PathBuf {
-        let exact = self.path.join(name);
+        let in_folder = || Path::new(name).file_name().map(Path::new);
+        // No file makes us ask another machine.
+        let is_remote = name.starts_with("//");
+        let exact = match in_folder() {
+            Some(file_name) if is_remote => self.path.join(file_name),
+            _ => self.path.join(name),
+        };
         if exact.exists() {
             return exact;
         }
-        let in_folder = || Path::new(name).file_name().map(Path::new);
+        if is_remote {
+            return self
+                .any_case(in_folder().unwrap_or(Path::new("")))
+                .unwrap_or(exact);
+        }
         self.any_case(Path::new(name))
             .or_else(|| self.any_case(in_folder()?))
             .unwrap_or(exact)
@@ -110,6 +120,7 @@ mod tests {
             ("a b.mtl", Some("m")),
             ("C:/models/A b.mtl", Some("m")),
             ("missing.mtl", None),
+            ("//server/share/a b.mtl", Some("m")),
         ] {
             let found = beside.read(name).ok();
             assert_eq!(found.as_deref(), expected.map(str::as_bytes), "{name}");

@@ -2,8 +2,30 @@
 
 use super::facts::shortened;
 
-/// The three lists that a corner's indices count in, in the order in which it names them.
-pub(super) const LISTS: [&str; 3] = ["vertex", "texture", "normal"];
+/// What a corner's indices count, in the order in which it names them.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum List {
+    Vertex,
+    Texture,
+    Normal,
+}
+
+impl List {
+    pub(super) const ALL: [Self; 3] = [Self::Vertex, Self::Texture, Self::Normal];
+
+    pub(super) fn name(self) -> &'static str {
+        ["vertex", "texture", "normal"][self as usize]
+    }
+
+    /// Why an index can't be.
+    pub(super) fn out_of_range(self, written: i64, count: usize) -> String {
+        let what = self.name();
+        match written {
+            0 => format!("{what} index 0; indices start at 1"),
+            _ => format!("{what} index {written} is out of range: there are {count}"),
+        }
+    }
+}
 
 /// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn` as it is written: indices from 1 or, negative, from the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -20,10 +42,17 @@ pub(super) struct Malformed {
     pub message: String,
 }
 
-/// The corners in a line from `at` on.
+/// The corners in a line; none after one that is malformed.
 pub(super) struct Corners<'l> {
-    pub line: &'l [u8],
-    pub at: usize,
+    line: &'l [u8],
+    at: usize,
+}
+
+impl<'l> Corners<'l> {
+    /// Those from an offset on.
+    pub(super) fn of(line: &'l [u8], at: usize) -> Self {
+        Self { line, at }
+    }
 }
 
 impl Iterator for Corners<'_> {
@@ -52,13 +81,10 @@ impl Iterator for Corners<'_> {
                 _ => return Some(Err(self.malformed(offset, start))),
             }
         }
-        Some(Err(Malformed {
-            offset,
-            message: format!(
-                "“{}” has more than vertex/texture/normal",
-                shortened(&self.word(offset))
-            ),
-        }))
+        let word = self.word(offset);
+        let message = format!("“{}” has more than vertex/texture/normal", shortened(&word));
+        self.at = self.line.len();
+        Some(Err(Malformed { offset, message }))
     }
 }
 
@@ -88,7 +114,8 @@ impl Corners<'_> {
         String::from_utf8_lossy(word.unwrap_or_default()).into_owned()
     }
 
-    fn malformed(&self, offset: usize, part: usize) -> Malformed {
+    fn malformed(&mut self, offset: usize, part: usize) -> Malformed {
+        self.at = self.line.len();
         let (word, part) = (self.word(offset), self.word(part));
         let part = part.split('/').next().unwrap_or_default();
         Malformed {
@@ -112,20 +139,9 @@ mod tests {
     use super::*;
 
     fn corners(line: &str) -> Vec<Result<[Option<i64>; 3], String>> {
-        let corners = Corners {
-            line: line.as_bytes(),
-            at: 0,
-        };
-        // A malformed word isn't stepped over.
-        let mut found = Vec::new();
-        for corner in corners {
-            let is_last = corner.is_err();
-            found.push(corner.map(|c| c.indices).map_err(|e| e.message));
-            if is_last {
-                break;
-            }
-        }
-        found
+        Corners::of(line.as_bytes(), 0)
+            .map(|corner| corner.map(|c| c.indices).map_err(|bad| bad.message))
+            .collect()
     }
 
     #[test]
@@ -145,7 +161,7 @@ mod tests {
     #[test]
     fn what_is_no_corner_is_named() {
         for (line, message) in [
-            ("1/1/1/1", "“1/1/1/1” has more than vertex/texture/normal"),
+            ("1/1/1/1 2", "“1/1/1/1” has more than vertex/texture/normal"),
             ("1.0", "“1.0” in “1.0” is not an index"),
             ("1/x/2", "“x” in “1/x/2” is not an index"),
             ("/1", "“” in “/1” is not an index"),

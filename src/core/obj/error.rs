@@ -72,17 +72,6 @@ impl Problem {
         }
     }
 
-    /// What is wrong with a word that begins at `offset` in a line's bytes.
-    pub(super) fn word(line: usize, bytes: &[u8], offset: usize, message: String) -> Self {
-        let is_start = |b: &&u8| **b & 0xC0 != 0x80;
-        let characters = bytes[..offset].iter().filter(is_start).count();
-        Self::Line {
-            line,
-            column: Some(characters + 1),
-            message,
-        }
-    }
-
     pub(super) fn in_file(self, path: &Path) -> LoadError {
         let path = path.to_owned();
         match self {

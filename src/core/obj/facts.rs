@@ -1,18 +1,30 @@
-//! What the reader learns of a file besides the numbers that it passes on.
+//! What does the reader learn of a file besides the numbers that it passes on?
 
+use super::copies::Copies;
+use super::corner::List;
 use super::error::Warning;
-use std::collections::{BTreeMap, HashMap, HashSet};
+use super::names::{Libraries, NamedRuns};
+use std::collections::BTreeMap;
 
-/// Marks a corner without an index in one of the lists of [`Facts::corners`].
-pub(super) const NO_INDEX: u32 = u32::MAX;
-
-/// What an element is, if it is no face.
+/// What has corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Element {
+    Face,
     /// A line through its corners.
     Line,
     /// Its corners are points.
     Points,
+}
+
+impl Element {
+    /// How many it needs, and that in words.
+    pub(super) fn least_corners(self) -> (usize, &'static str) {
+        match self {
+            Self::Face => (3, "a face needs three corners"),
+            Self::Line => (2, "a line needs two corners"),
+            Self::Points => (1, "a list of points needs one"),
+        }
+    }
 }
 
 /// How often something happened, and on which line first.
@@ -36,13 +48,13 @@ impl Tally {
     }
 }
 
-/// What the reader learnt on the way. Vertices, texture coordinates and normals are lists 0, 1 and 2.
+/// What the reader learnt on the way. Lists by three go by [`List`].
 #[derive(Debug, Default)]
 pub(super) struct Facts {
     /// How many there are in each list.
     pub counts: [usize; 3],
-    /// For each corner of each element its index, from 0, in each list. The second and the third are empty
-    /// while no corner names one.
+    /// For each corner of each element its index, from 0, in each list, or [`NO_INDEX`](crate::mesh::NO_INDEX). The second and the third
+    /// are empty while no corner names one.
     pub corners: [Vec<u32>; 3],
     /// Faces, lines and points together.
     pub element_count: usize,
@@ -54,20 +66,21 @@ pub(super) struct Facts {
     pub groups: NamedRuns,
     /// Runs of faces, and their smoothing group; 0 is none. Empty if the file has no `s`.
     pub smoothing: Vec<(usize, u32)>,
-    /// Names of material libraries, each once, with the line.
-    pub libraries: Vec<(usize, String)>,
-    library_names: HashSet<String>,
+    pub libraries: Libraries,
     /// Of each vertex, as far as there are any.
     pub colours: Vec<[f32; 3]>,
-    pub coloured: usize,
+    coloured: usize,
     /// The highest index of each list, from 1, and the line of the element that has it.
     pub highest: [(usize, usize); 3],
     /// Statements that were left out.
-    pub ignored: BTreeMap<String, Tally>,
-    /// Elements left out, as they have an impossible index or too few corners.
-    pub dropped: Tally,
+    ignored: BTreeMap<String, Tally>,
+    /// Faces left out, as they have an impossible index or too few corners; lines and points alike.
+    pub dropped_faces: Tally,
+    pub dropped_others: Tally,
     /// Corners without the texture coordinates or the normal that they name, as there is none.
     pub bare: Tally,
+    /// What tobj holds of the elements that it has lists of.
+    copies: Copies,
 }
 
 impl Facts {
@@ -76,32 +89,78 @@ impl Facts {
         self.face_lines.line(face)
     }
 
-    /// Notes a library, unless it was named before.
-    pub(super) fn add_library(&mut self, line: usize, name: String) {
-        if self.library_names.insert(name.clone()) {
-            self.libraries.push((line, name));
-        }
-    }
-
     /// Counts a statement that is left out.
     pub(super) fn ignore(&mut self, keyword: &str, line: usize) {
         count_by_keyword(&mut self.ignored, keyword, line);
     }
 
-    /// Whether each index so far names something that was read.
+    pub(super) fn begin_smoothing(&mut self, group: u32) {
+        let last = self.smoothing.last();
+        if last.is_none_or(|&(_, last)| last != group) {
+            self.smoothing.push((self.face_count, group));
+        }
+    }
+
+    /// The colour of the last vertex. Those before it that have none are white.
+    pub(super) fn add_colour(&mut self, colour: [f32; 3]) {
+        self.colours.resize(self.counts[0] - 1, [1.0; 3]);
+        self.colours.push(colour);
+        self.coloured += 1;
+    }
+
+    /// Notes an element whose corners, from `first` on, are in the lists.
+    pub(super) fn add_element(&mut self, element: Element, first: usize, line: usize) {
+        if element == Element::Face {
+            self.materials.add_face(self.face_count);
+            self.groups.add_face(self.face_count);
+            self.face_count += 1;
+            self.face_lines.push(line);
+        } else {
+            self.no_faces.push((self.element_count, element));
+        }
+        self.element_count += 1;
+        self.copies.add_element(first, &self.corners);
+    }
+
+    /// Leaves out an element of which corners were added to the lists.
+    pub(super) fn drop_element(&mut self, element: Element, before: [usize; 3], line: usize) {
+        for (list, length) in self.corners.iter_mut().zip(before) {
+            list.truncate(length);
+        }
+        match element {
+            Element::Face => self.dropped_faces.add(line),
+            Element::Line | Element::Points => self.dropped_others.add(line),
+        }
+    }
+
+    /// Elements since tobj's last list was ended.
+    pub(super) fn elements_since_cut(&self) -> usize {
+        self.element_count - self.copies.elements
+    }
+
+    /// tobj's list of faces was ended.
+    pub(super) fn cut(&mut self) {
+        self.copies.cut(&self.corners, self.element_count);
+    }
+
+    /// Whether each index so far names something that was read, as far as anything asks.
     pub(super) fn is_complete(&self) -> bool {
-        let lists = self.highest.iter().zip(self.counts);
-        lists
-            .into_iter()
-            .all(|((highest, _), count)| *highest <= count)
+        List::ALL.into_iter().all(|list| {
+            self.is_idle(list) || self.highest[list as usize].0 <= self.counts[list as usize]
+        })
     }
 
     /// Some exporters number texture coordinates that they don't write. No list is no reason to refuse a file.
+    pub(super) fn is_idle(&self, list: List) -> bool {
+        list == List::Texture && self.counts[list as usize] == 0
+    }
+
+    /// At the end of the file: indices into a list that never came.
     pub(super) fn forget_idle_textures(&mut self) {
-        let (highest, line) = self.highest[1];
-        if self.counts[1] == 0 && highest > 0 {
-            self.highest[1] = (0, 0);
-            self.corners[1] = Vec::new();
+        let (highest, line) = self.highest[List::Texture as usize];
+        if self.is_idle(List::Texture) && highest > 0 {
+            self.highest[List::Texture as usize] = (0, 0);
+            self.corners[List::Texture as usize] = Vec::new();
             self.bare.add(line);
         }
     }
@@ -114,10 +173,16 @@ impl Facts {
         let colourless = self.counts[0] - self.coloured;
         let uncoloured = (self.coloured > 0 && colourless > 0)
             .then(|| Warning::of_file(format!("{colourless} vertices without a colour are white")));
+        let why = "dropped: an index is out of range, or there are too few corners";
         let mut warnings: Vec<Warning> = ignored
-            .chain(self.dropped.warning(|count| {
-                format!("{count} face(s) dropped: an index is out of range, or there are fewer than three corners")
-            }))
+            .chain(
+                self.dropped_faces
+                    .warning(|count| format!("{count} face(s) {why}")),
+            )
+            .chain(
+                self.dropped_others
+                    .warning(|count| format!("{count} line(s) or point(s) {why}")),
+            )
             .chain(self.bare.warning(|count| {
                 format!("{count} or more texture or normal indices ignored: there are no such")
             }))
@@ -127,29 +192,42 @@ impl Facts {
         warnings
     }
 
-    /// What loading takes in memory, with what was read so far: an upper bound that is good for files that
-    /// are large.
+    /// Triangles, if every face becomes a fan.
+    pub(super) fn triangle_count(&self) -> usize {
+        self.corners[0].len().saturating_sub(2 * self.face_count)
+    }
+
+    /// What loading takes in memory at most, with what was read so far. Lists that grow count twice.
     pub(super) fn bytes(&self) -> usize {
-        /// tobj's list in f64, doubled as it grows, its copy for faces, ours, and what remains in f32.
-        const OF_VERTEX: usize = 48 + 48 + 24 + 12;
-        /// Ours doubled as it grows, tobj's, and what remains.
-        const OF_CORNER: usize = 8 + 8 + 4;
+        /// tobj's list in f64, ours, and what remains in f32 with a colour.
+        const OF_ENTRY: usize = 2 * 24 + 24 + 24;
+        /// tobj's copy for a list of faces.
+        const OF_COPY: usize = 2 * 24;
+        /// In our list and in tobj's.
+        const OF_CORNER: usize = 2 * 4 + 2 * 4;
+        /// Indices, face and outline, and each corner's normal and texture coordinates.
+        const OF_TRIANGLE: usize = 2 * (12 + 4 + 1 + 12 + 12);
+        /// tobj's `Face`, and a corner of it if there are more than four.
+        const OF_PENDING_FACE: usize = 2 * 104;
+        const OF_PENDING_CORNER: usize = 2 * 24;
         let entries: usize = self.counts.iter().sum();
+        let copies = self.copies.count(&self.corners);
         let corners: usize = self.corners.iter().map(Vec::len).sum();
-        let names = self.materials.bytes() + self.groups.bytes();
-        let libraries: usize = self
-            .libraries
-            .iter()
-            .map(|(_, name)| 128 + 2 * name.len())
-            .sum();
-        let runs = 16 * (self.smoothing.capacity() + self.no_faces.capacity());
-        entries * OF_VERTEX
+        let pending_corners = self.corners[0].len().saturating_sub(self.copies.corners[0]);
+        entries * OF_ENTRY
+            + copies * OF_COPY
             + corners * OF_CORNER
-            + size_of_val(&self.colours[..]) * 2
-            + names
-            + libraries
-            + runs
-            + self.face_lines.bytes()
+            + self.triangle_count() * OF_TRIANGLE
+            + self.elements_since_cut() * OF_PENDING_FACE
+            + pending_corners * OF_PENDING_CORNER
+            + self.names_bytes()
+    }
+
+    fn names_bytes(&self) -> usize {
+        let runs = 16 * (self.smoothing.capacity() + self.no_faces.capacity());
+        let colours = 2 * size_of_val(&self.colours[..]);
+        let names = self.materials.bytes() + self.groups.bytes() + self.libraries.bytes();
+        names + runs + colours + self.face_lines.bytes()
     }
 }
 
@@ -163,51 +241,6 @@ pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &
         "…"
     };
     tallies.entry(name.to_owned()).or_default().add(line);
-}
-
-/// Runs of faces that go by a name: the faces of a group, or of a material.
-#[derive(Debug)]
-pub(super) struct NamedRuns {
-    /// Distinct names; the first one, empty, is for faces before any run.
-    pub names: Vec<String>,
-    by_name: HashMap<String, u32>,
-    /// The first face, and the index of the name that it and those after it have.
-    pub runs: Vec<(usize, u32)>,
-    text_bytes: usize,
-}
-
-impl Default for NamedRuns {
-    fn default() -> Self {
-        Self {
-            names: vec![String::new()],
-            by_name: HashMap::from([(String::new(), 0)]),
-            runs: Vec::new(),
-            text_bytes: 0,
-        }
-    }
-}
-
-impl NamedRuns {
-    /// From this face on.
-    pub(super) fn begin(&mut self, face: usize, name: String) {
-        let next = self.names.len() as u32;
-        let index = *self.by_name.entry(name).or_insert_with_key(|name| {
-            self.names.push(name.clone());
-            self.text_bytes += 2 * name.len();
-            next
-        });
-        // A run without a face is none.
-        match self.runs.last_mut() {
-            Some((first, last)) if *first == face => *last = index,
-            _ => self.runs.push((face, index)),
-        }
-    }
-
-    fn bytes(&self) -> usize {
-        /// Two strings and an entry of a hash map that is half full.
-        const OF_NAME: usize = 24 + 2 * 32 + 32;
-        self.names.len() * OF_NAME + self.text_bytes + 16 * self.runs.capacity()
-    }
 }
 
 /// Line numbers of statements, kept as runs of statements on consecutive lines.
@@ -269,15 +302,5 @@ mod tests {
             .collect();
         assert_eq!(found, lines);
         assert_eq!(runs.runs.len(), 3);
-    }
-
-    #[test]
-    fn a_name_that_comes_back_is_one_name() {
-        let mut runs = NamedRuns::default();
-        for (face, name) in [(0, "a"), (2, "b"), (2, "c"), (4, "a")] {
-            runs.begin(face, name.to_owned());
-        }
-        assert_eq!(runs.names, ["", "a", "b", "c"]);
-        assert_eq!(runs.runs, [(0, 1), (2, 3), (4, 1)]);
     }
 }

@@ -15,6 +15,9 @@ const PIECE: usize = 1 << 18;
 /// A longer line isn't read to its end: a polygon of ten million corners would fit.
 pub(super) const LONGEST_LINE: usize = 128 << 20;
 
+/// Bytes by which a file is told that is no OBJ.
+const ENOUGH_TO_TELL: usize = 1 << 10;
+
 /// The statements of a text, one after the other.
 pub(super) struct Lines<'p> {
     source: Box<dyn Read + 'p>,
@@ -33,6 +36,30 @@ pub(super) struct Lines<'p> {
 pub(super) struct Statement<'l> {
     pub line: usize,
     pub bytes: &'l [u8],
+    /// Whether it goes on on the lines after that.
+    pub is_joined: bool,
+}
+
+impl Statement<'_> {
+    pub(super) fn problem(&self, message: String) -> Problem {
+        Problem::Line {
+            line: self.line,
+            column: None,
+            message,
+        }
+    }
+
+    /// What is wrong with the word that begins at an offset.
+    pub(super) fn problem_at(&self, offset: usize, message: String) -> Problem {
+        let is_start = |b: &&u8| **b & 0xC0 != 0x80;
+        let characters = self.bytes[..offset].iter().filter(is_start).count();
+        Problem::Line {
+            line: self.line,
+            // Of joined lines nobody knows any more where they were.
+            column: (!self.is_joined).then_some(characters + 1),
+            message,
+        }
+    }
 }
 
 impl<'p> Lines<'p> {
@@ -55,7 +82,7 @@ impl<'p> Lines<'p> {
             .utf8_passthru(true)
             .strip_bom(true)
             .build(source);
-        Ok(Self {
+        let mut lines = Self {
             source: Box::new(decoded),
             progress,
             buffer: Vec::new(),
@@ -63,7 +90,15 @@ impl<'p> Lines<'p> {
             is_at_end: false,
             line: 0,
             joined: Vec::new(),
-        })
+        };
+        // The first bytes may come a few at a time.
+        while lines.buffer.len() < ENOUGH_TO_TELL && !lines.is_at_end {
+            lines.fill()?;
+        }
+        match not_an_obj(&lines.buffer) {
+            Some(message) => Err(Problem::Content(message.to_owned())),
+            None => Ok(lines),
+        }
     }
 
     /// The next statement; `None` at the end.
@@ -72,25 +107,32 @@ impl<'p> Lines<'p> {
             return Ok(None);
         };
         let line = self.line;
-        if self.buffer[from..to].last() != Some(&b'\\') {
-            let bytes = &self.buffer[from..to];
-            return Ok(Some(Statement { line, bytes }));
-        }
+        let Some(continued) = before_backslash(&self.buffer[from..to]) else {
+            return Ok(Some(Statement {
+                line,
+                bytes: &self.buffer[from..to],
+                is_joined: false,
+            }));
+        };
         self.joined.clear();
-        self.joined.extend(&self.buffer[from..to]);
-        while self.joined.last() == Some(&b'\\') {
-            self.joined.pop();
-            let Some((from, to)) = self.next_line()? else {
+        self.joined.extend(continued);
+        while let Some((from, to)) = self.next_line()? {
+            let more = &self.buffer[from..to];
+            self.joined.push(b' ');
+            let Some(continued) = before_backslash(more) else {
+                self.joined.extend(more);
                 break;
             };
-            self.joined.push(b' ');
-            self.joined.extend(&self.buffer[from..to]);
+            self.joined.extend(continued);
             if self.joined.len() > LONGEST_LINE {
                 return Err(too_long(line));
             }
         }
-        let bytes = &self.joined[..];
-        Ok(Some(Statement { line, bytes }))
+        Ok(Some(Statement {
+            line,
+            bytes: &self.joined,
+            is_joined: true,
+        }))
     }
 
     /// Whether the whole text was read.
@@ -141,13 +183,16 @@ impl<'p> Lines<'p> {
         if self.is_at_end {
             self.progress.enter(Phase::Checking);
         }
-        if self.line == 0
-            && let Some(message) = not_an_obj(&self.buffer)
-        {
-            return Err(Problem::Content(message.to_owned()));
-        }
         Ok(())
     }
+}
+
+/// A line that goes on on the next one, without the backslash that says so and blanks after it. A comment ends
+/// with its line.
+fn before_backslash(line: &[u8]) -> Option<&[u8]> {
+    let is_comment = || line.trim_ascii_start().starts_with(b"#");
+    let continued = line.trim_ascii_end().strip_suffix(b"\\")?;
+    (!is_comment()).then_some(continued)
 }
 
 fn too_long(line: usize) -> Problem {
@@ -196,7 +241,7 @@ mod tests {
         let progress = Progress::default();
         let mut lines = Lines::new(bytes, &progress).expect("bytes");
         let mut found = Vec::new();
-        while let Some(Statement { line, bytes }) = lines.next().expect("good") {
+        while let Some(Statement { line, bytes, .. }) = lines.next().expect("good") {
             found.push((line, String::from_utf8_lossy(bytes).into_owned()));
         }
         found
@@ -223,6 +268,31 @@ mod tests {
             assert_eq!(lines_of(&wide), expected);
         }
         assert_eq!(lines_of(b"f 1 \\"), [(1, "f 1 ".to_owned())]);
+        assert_eq!(lines_of(b"f 1 \\ \t\n2"), [(1, "f 1  2".to_owned())]);
+    }
+
+    #[test]
+    fn a_comment_ends_with_its_line() {
+        let comment = r" # C:\models\".to_owned();
+        let text = format!("{comment}\nv 1");
+        assert_eq!(
+            lines_of(text.as_bytes()),
+            [(1, comment), (2, "v 1".to_owned())]
+        );
+    }
+
+    #[test]
+    fn what_is_no_obj_is_told_behind_empty_lines() {
+        for bytes in [
+            &b"\r\n\n <html>"[..],
+            b"\n<!DOCTYPE html>",
+            b"\n\n\0\x01",
+            b"# a\n\0",
+        ] {
+            let progress = Progress::default();
+            let is_told = matches!(Lines::new(bytes, &progress), Err(Problem::Content(_)));
+            assert!(is_told, "{}", bytes.escape_ascii());
+        }
     }
 
     #[test]

@@ -1,4 +1,4 @@
-//! From the names that faces use to materials and textures.
+//! What do the materials look like that faces name?
 
 use super::error::Problem;
 use super::facts::Facts;
@@ -10,10 +10,9 @@ use crate::progress::Progress;
 use glam::UVec2;
 use image::{ImageReader, Limits};
 use std::collections::{HashMap, HashSet};
-use std::io::{self, Cursor};
+use std::io::Cursor;
 
 /// What faces look like: for each name that they use, in order, and the textures of these.
-#[derive(Default)]
 pub(super) struct Looks {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
@@ -36,7 +35,7 @@ pub(super) fn look_up(
         list: Vec::new(),
         by_name: HashMap::new(),
         checker: None,
-        missing: Missing::default(),
+        missing: Told::default(),
     };
     let mut unknown: Vec<&str> = Vec::new();
     let mut materials = Vec::with_capacity(facts.materials.names.len());
@@ -75,13 +74,14 @@ pub(super) fn look_up(
 
 /// Warnings of one kind, of which only so many are told one by one.
 #[derive(Default)]
-struct Missing {
+struct Told {
     told: Vec<Warning>,
     untold: usize,
 }
 
-impl Missing {
+impl Told {
     fn add(&mut self, warning: Warning) {
+        /// As many as a panel shows at once.
         const MOST_TOLD: usize = 20;
         if self.told.len() < MOST_TOLD {
             self.told.push(warning);
@@ -102,9 +102,10 @@ impl Missing {
 struct Libraries {
     /// Each material with its library's folder. Of several by one name the first one counts.
     known: HashMap<String, (String, Definition)>,
-    seen: HashSet<String>,
-    missing: Missing,
-    oddities: Missing,
+    /// Names that were looked for, and whether they were found.
+    seen: HashMap<String, bool>,
+    missing: Told,
+    oddities: Told,
 }
 
 impl Libraries {
@@ -115,58 +116,89 @@ impl Libraries {
         progress: &Progress,
     ) -> Result<(), Problem> {
         let wanted: HashSet<&str> = facts.materials.names.iter().map(String::as_str).collect();
-        for (line, names) in &facts.libraries {
-            progress.check()?;
-            for (library, bytes) in self.bytes_of(names, beside) {
-                let bytes = match bytes {
-                    Ok(bytes) => bytes,
-                    Err(error) => {
-                        let message = format!("material library “{library}”: {error}");
-                        self.missing.add(Warning::at(*line, message));
-                        continue;
-                    }
-                };
-                let is_wanted = |name: &str| wanted.contains(name);
-                let (definitions, oddities) = mtl::parse(&bytes, &library, is_wanted, progress)?;
-                oddities
-                    .into_iter()
-                    .for_each(|oddity| self.oddities.add(oddity));
-                let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
-                for definition in definitions {
-                    let name = definition.material.name.clone();
-                    let found = (folder.to_owned(), definition);
-                    self.known.entry(name).or_insert(found);
+        let mut reading = ReadingLibraries {
+            libraries: self,
+            beside,
+            wanted,
+            progress,
+        };
+        facts
+            .libraries
+            .names
+            .iter()
+            .try_for_each(|(line, names)| reading.read(*line, names))
+    }
+}
+
+/// Libraries that are being read.
+struct ReadingLibraries<'a> {
+    libraries: &'a mut Libraries,
+    beside: Beside<'a>,
+    wanted: HashSet<&'a str>,
+    progress: &'a Progress,
+}
+
+impl ReadingLibraries<'_> {
+    /// What a `mtllib` names: one library whose name has spaces, or several.
+    fn read(&mut self, line: usize, names: &str) -> Result<(), Problem> {
+        let plain = |name: &str| name.trim_matches('"').replace('\\', "/");
+        let whole = plain(names);
+        let Err(error) = self.read_one(&whole)? else {
+            return Ok(());
+        };
+        let mut is_one_there = false;
+        let mut missing = Vec::new();
+        if names.contains(char::is_whitespace) {
+            for word in names.split_whitespace().map(plain) {
+                match self.read_one(&word)? {
+                    Ok(()) => is_one_there = true,
+                    Err(error) => missing.push((word, error)),
                 }
             }
+        }
+        if !is_one_there {
+            missing = vec![(whole, error)];
+        }
+        for (library, error) in missing {
+            let message = format!("material library “{library}”: {error}");
+            self.libraries.missing.add(Warning::at(line, message));
         }
         Ok(())
     }
 
-    /// The libraries that a `mtllib` names and that weren't read before: one whose name has spaces, or
-    /// several.
-    fn bytes_of(&mut self, names: &str, beside: Beside) -> Vec<(String, io::Result<Vec<u8>>)> {
-        let plain = |name: &str| name.trim_matches('"').replace('\\', "/");
-        let whole = plain(names);
-        if !self.seen.insert(whole.clone()) {
-            return Vec::new();
+    /// Reads a library unless it was read before.
+    fn read_one(&mut self, library: &str) -> Result<Result<(), String>, Problem> {
+        /// Far more than any file has, and few enough to look for.
+        const MOST: usize = 10_000;
+        self.progress.check()?;
+        let Libraries {
+            known,
+            seen,
+            oddities,
+            ..
+        } = self.libraries;
+        match seen.get(library) {
+            Some(true) => return Ok(Ok(())),
+            Some(false) => return Ok(Err("not found".to_owned())),
+            None if seen.len() >= MOST => return Ok(Err(format!("one of more than {MOST}"))),
+            None => {}
         }
-        let bytes = beside(&whole);
-        if bytes.is_ok() || !names.contains(char::is_whitespace) {
-            return vec![(whole, bytes)];
+        let bytes = (self.beside)(library);
+        seen.insert(library.to_owned(), bytes.is_ok());
+        let bytes = match bytes {
+            Ok(bytes) => bytes,
+            Err(error) => return Ok(Err(error.to_string())),
+        };
+        let is_wanted = |name: &str| self.wanted.contains(name);
+        let (definitions, odd) = mtl::parse(&bytes, library, is_wanted, self.progress)?;
+        odd.into_iter().for_each(|oddity| oddities.add(oddity));
+        let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
+        for definition in definitions {
+            let name = definition.material.name.clone();
+            let found = (folder.to_owned(), definition);
+            known.entry(name).or_insert(found);
         }
-        let words = names.split_whitespace().map(plain);
-        let mut is_one_there = false;
-        let mut each = Vec::new();
-        for word in words.filter(|word| self.seen.insert(word.clone())) {
-            let bytes = beside(&word);
-            is_one_there |= bytes.is_ok();
-            each.push((word, bytes));
-        }
-        if is_one_there {
-            each
-        } else {
-            vec![(whole, bytes)]
-        }
+        Ok(Ok(()))
     }
 }
 
@@ -179,7 +211,7 @@ struct Textures<'a> {
     by_name: HashMap<String, u32>,
     /// Stands in for all that are missing.
     checker: Option<u32>,
-    missing: Missing,
+    missing: Told,
 }
 
 impl Textures<'_> {
@@ -243,15 +275,17 @@ fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Texture, String> 
     let decode = || -> Result<image::RgbImage, image::ImageError> {
         let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
         let mut limits = Limits::default();
-        limits.max_alloc = Some(max_bytes.min(limits.max_alloc.unwrap_or(u64::MAX)));
+        // What the picture has besides red, green and blue of eight bits is converted, which needs both.
+        let half = max_bytes / 2;
+        limits.max_alloc = Some(limits.max_alloc.map_or(half, |most| most.min(half)));
         reader.limits(limits);
         Ok(reader.decode()?.into_rgb8())
     };
     let picture = match fenced("decoding", decode) {
         Ok(decoded) => decoded.map_err(|error| error.to_string())?,
-        Err(problem) => return Err(problem.in_file(name.as_ref()).to_string()),
+        Err(Problem::Content(message)) => return Err(message),
+        Err(_) => return Err("decoding failed".to_owned()),
     };
     let size = UVec2::new(picture.width(), picture.height());
-    let texels = picture.pixels().map(|pixel| pixel.0).collect();
-    Texture::new(name, size, texels).ok_or_else(|| "an empty picture".to_owned())
+    Texture::new(name, size, picture.into_raw()).ok_or_else(|| "an empty picture".to_owned())
 }

@@ -3,7 +3,7 @@
 //! | step | file |
 //! |---|---|
 //! | bytes become statements: compression, encodings, line ends | `lines` |
-//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `statement`, `words`, `corner`, `facts`, `reader` |
+//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies` |
 //! | tobj reads their numbers, in f64 | here |
 //! | its lists of some ten thousand faces become one | `numbers` |
 //! | vertices are recentred, polygons cut, and what no ray can hit is dropped | `assemble`, `place`, `polygon`, `outline` |
@@ -11,6 +11,7 @@
 
 mod assemble;
 mod beside;
+mod copies;
 mod corner;
 mod error;
 mod facts;
@@ -18,6 +19,7 @@ mod fence;
 mod lines;
 mod materials;
 mod mtl;
+mod names;
 mod numbers;
 mod outline;
 mod place;
@@ -54,7 +56,8 @@ pub enum Faults {
     /// The file is refused.
     #[default]
     Strict,
-    /// The face is dropped, or what its corner lacks left out; a warning tells how many.
+    /// The face is dropped, or what its corner lacks left out; a warning tells how many. A file that comes through
+    /// a pipe is refused all the same, as it can't be read twice.
     Lenient,
 }
 
@@ -71,7 +74,7 @@ pub struct LoadOptions {
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        /// Room for some 80 million triangles.
+        /// Room for some 50 million triangles.
         const MAX_MEMORY: u64 = 8 << 30;
         Self {
             recentre: Recentre::default(),
@@ -123,17 +126,19 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         ..options
     };
     let open = || File::open(path);
-    let mut loaded = parse(open, path, options, &|name| folder.read(name), progress)?;
+    let parsed = parse(open, path, options, &|name| folder.read(name), progress);
+    let is_cancelled = matches!(parsed, Err(LoadError::Cancelled { .. }));
     let after = std::fs::metadata(path).map_err(unreadable)?;
-    if is_changed(&before, &after) {
-        return Err(LoadError::Content {
-            path: path.to_owned(),
-            message: "the file changed while it was read; load it again".to_owned(),
-        });
+    if is_changed(&before, &after) && !is_cancelled {
+        // Whatever was wrong with half a file is of no interest.
+        return Err(Problem::Content(CHANGED.to_owned()).in_file(path));
     }
+    let mut loaded = parsed?;
     loaded.files = folder.into_wanted();
     Ok(loaded)
 }
+
+const CHANGED: &str = "the file changed while it was read; load it again";
 
 fn is_changed(before: &Metadata, after: &Metadata) -> bool {
     before.is_file()
@@ -154,23 +159,18 @@ pub fn parse<R: Read>(
     beside: Beside,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
-    let loaded = match read(&open, options, None, beside, progress) {
-        Ok(Reading::Loaded(loaded)) => Ok(loaded),
-        Ok(Reading::Again(counts)) => {
-            progress.restart();
-            match read(&open, options, Some(counts), beside, progress) {
-                Ok(Reading::Loaded(loaded)) => Ok(loaded),
-                Ok(Reading::Again(_)) => Err(Problem::Content(
-                    "the file changed while it was read; load it again".to_owned(),
-                )),
-                Err(problem) => Err(problem),
-            }
+    let read_twice = || -> Result<Loaded, Problem> {
+        let counts = match read(&open, options, None, beside, progress)? {
+            Reading::Loaded(loaded) => return Ok(*loaded),
+            Reading::Again(counts) => counts,
+        };
+        progress.restart();
+        match read(&open, options, Some(counts), beside, progress)? {
+            Reading::Loaded(loaded) => Ok(*loaded),
+            Reading::Again(_) => Err(Problem::Content(CHANGED.to_owned())),
         }
-        Err(problem) => Err(problem),
     };
-    loaded
-        .map(|loaded| *loaded)
-        .map_err(|problem| problem.in_file(path))
+    read_twice().map_err(|problem| problem.in_file(path))
 }
 
 /// What came of reading a file once.
@@ -189,7 +189,8 @@ fn read<R: Read>(
 ) -> Result<Reading, Problem> {
     progress.enter(Phase::Reading);
     let bytes = open().map_err(Problem::Read)?;
-    let mut reader = NormalisingReader::new(bytes, &options, known_counts, progress)?;
+    let new = || NormalisingReader::new(bytes, &options, known_counts, progress);
+    let mut reader = fenced("reading", new)??;
     let tobjs = tobj::LoadOptions {
         triangulate: false,
         single_index: false,
@@ -208,6 +209,11 @@ fn read<R: Read>(
     let mut facts = match reader.finish(error.as_ref())? {
         Outcome::Read(facts) => facts,
         Outcome::Again(counts) => return Ok(Reading::Again(counts)),
+    };
+    // What is left is for textures.
+    let options = LoadOptions {
+        max_memory: options.max_memory.saturating_sub(facts.bytes() as u64),
+        ..options
     };
     let numbers = numbers::Numbers::gather(models, &mut facts, progress)?;
     assemble::assemble(numbers, &facts, &options, beside, progress)

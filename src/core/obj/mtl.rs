@@ -8,12 +8,12 @@
 use super::Warning;
 use super::error::Problem;
 use super::facts::{Tally, count_by_keyword, shortened};
-use super::lines::Lines;
+use super::lines::{Lines, Statement};
 use super::words::{name, without_comment};
 use crate::mesh::{Illumination, Material};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3};
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, HashSet};
 
 /// A material, and the picture that it names.
 #[derive(Clone, Debug, Default)]
@@ -32,13 +32,16 @@ pub(super) struct MapFile {
     pub offset: Vec2,
 }
 
-/// Statements that shading has no use for and nobody would miss.
+/// Statements that programs write for each material and that shading has no use for: told of, they would hide
+/// what is odd.
 const SILENT: [&str; 3] = ["Ka", "Ni", "sharpness"];
 
 /// Statements between two looks at whether the load is still wanted.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
+/// A library of more bytes, unpacked, isn't read to its end: four times the largest file that is read at all.
+const LARGEST: usize = 1 << 30;
 
-/// The materials of a library that are wanted, and what was odd about it.
+/// The materials of a library that are wanted, each by its first definition, and what was odd about it.
 ///
 /// # Errors
 /// Cancelled by `progress`.
@@ -48,57 +51,90 @@ pub(super) fn parse(
     is_wanted: impl Fn(&str) -> bool,
     progress: &Progress,
 ) -> Result<(Vec<Definition>, Vec<Warning>), Problem> {
+    let mut parser = Parser::default();
+    let mut failure = None;
     // Bytes of libraries don't count as progress.
     let own = Progress::default();
-    let mut materials: Vec<Definition> = Vec::new();
-    let mut current: Option<Definition> = None;
-    let mut skipped: BTreeMap<String, Tally> = BTreeMap::new();
-    let mut failure = None;
-    let Ok(mut lines) = Lines::new(bytes, &own) else {
-        return Ok(Default::default());
-    };
-    loop {
-        let statement = match lines.next() {
-            Ok(Some(statement)) => statement,
-            Ok(None) => break,
-            Err(problem) => {
-                failure = Some(problem.in_file(library.as_ref()).to_string());
-                break;
+    let (mut count, mut length) = (0, 0);
+    let mut read = || -> Result<(), Problem> {
+        let mut lines = Lines::new(bytes, &own)?;
+        while let Some(statement) = lines.next()? {
+            if count % STATEMENTS_PER_CHECK == 0 {
+                progress.check()?;
             }
-        };
-        let text = name(statement.bytes);
-        let (keyword, rest) = text.split_once([' ', '\t']).unwrap_or((&text, ""));
-        if keyword.is_empty() || keyword.starts_with('#') || SILENT.contains(&keyword) {
-            continue;
+            count += 1;
+            length += statement.bytes.len() + 1;
+            if length > LARGEST {
+                return Err(statement.problem(format!("more than {} MB", LARGEST >> 20)));
+            }
+            parser.take(statement, &is_wanted);
         }
-        if statement.line % STATEMENTS_PER_CHECK == 0 {
-            progress.check()?;
-        }
-        if keyword == "newmtl" {
-            materials.extend(current.take().filter(|m| is_wanted(&m.material.name)));
-            current = Some(Definition {
-                material: Material::named(rest.trim()),
-                ..Definition::default()
-            });
-            continue;
-        }
-        let rest = name(without_comment(rest.as_bytes()));
-        let is_read = current
-            .as_mut()
-            .is_some_and(|material| material.read(keyword, &rest).is_some());
-        if !is_read {
-            count_by_keyword(&mut skipped, &shortened(keyword), statement.line);
-        }
+        Ok(())
+    };
+    match read() {
+        Ok(()) => {}
+        Err(Problem::Cancelled) => return Err(Problem::Cancelled),
+        Err(problem) => failure = Some(problem.in_file(library.as_ref()).to_string()),
     }
-    materials.extend(current.filter(|m| is_wanted(&m.material.name)));
-    let skipped = skipped.into_iter().map(|(keyword, tally)| {
+    let definitions = parser.finish(&is_wanted);
+    let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
         let Tally { count, first_line } = tally;
         format!(
             "material library “{library}”: {count} “{keyword}” statement(s) skipped, line {first_line} first"
         )
     });
     let warnings = skipped.chain(failure).map(Warning::of_file).collect();
-    Ok((materials, warnings))
+    Ok((definitions, warnings))
+}
+
+/// The materials so far.
+#[derive(Default)]
+struct Parser {
+    found: Vec<Definition>,
+    names: HashSet<String>,
+    current: Option<Definition>,
+    skipped: BTreeMap<String, Tally>,
+}
+
+impl Parser {
+    fn take(&mut self, statement: Statement<'_>, is_wanted: impl Fn(&str) -> bool) {
+        let text = name(statement.bytes);
+        let (keyword, rest) = text.split_once([' ', '\t']).unwrap_or((&text, ""));
+        if keyword.is_empty() || keyword.starts_with('#') || SILENT.contains(&keyword) {
+            return;
+        }
+        if keyword == "newmtl" {
+            self.end_material(is_wanted);
+            self.current = Some(Definition {
+                material: Material::named(rest.trim()),
+                ..Definition::default()
+            });
+            return;
+        }
+        let rest = name(without_comment(rest.as_bytes()));
+        let current = self.current.as_mut();
+        if current
+            .and_then(|material| material.read(keyword, &rest))
+            .is_none()
+        {
+            count_by_keyword(&mut self.skipped, &shortened(keyword), statement.line);
+        }
+    }
+
+    fn end_material(&mut self, is_wanted: impl Fn(&str) -> bool) {
+        let Some(ended) = self.current.take() else {
+            return;
+        };
+        let name = &ended.material.name;
+        if is_wanted(name) && self.names.insert(name.clone()) {
+            self.found.push(ended);
+        }
+    }
+
+    fn finish(&mut self, is_wanted: impl Fn(&str) -> bool) -> Vec<Definition> {
+        self.end_material(is_wanted);
+        std::mem::take(&mut self.found)
+    }
 }
 
 impl Definition {

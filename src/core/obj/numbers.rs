@@ -1,7 +1,10 @@
-//! From tobj's lists, one for some ten thousand faces each, to lists for the whole file.
+//! Which of the file's numbers does a corner have?
+//!
+//! tobj gives a list for some ten thousand faces each; here they become one for the whole file.
 
 use super::error::Problem;
-use super::facts::{Facts, NO_INDEX};
+use super::facts::Facts;
+use crate::mesh::NO_INDEX;
 use crate::progress::Progress;
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::Range;
@@ -77,6 +80,7 @@ impl Numbers {
             let message = "reading failed unexpectedly: faces went missing".to_owned();
             return Err(Problem::Content(message));
         }
+        progress.check()?;
         let mut numbers = Self {
             corners: [vertices, textures, normals],
             arities,
@@ -90,6 +94,7 @@ impl Numbers {
             renumber(&mut numbers.corners[0], &new);
             keep_used(&mut numbers.colours, &positions.is_used);
         }
+        progress.check()?;
         let [_, texture_corners, normal_corners] = &mut numbers.corners;
         for (corners, new) in [
             (texture_corners, texture_list.numbering()),
@@ -99,6 +104,7 @@ impl Numbers {
                 renumber(corners, &new);
             }
         }
+        progress.check()?;
         numbers.positions = positions.used();
         numbers.textures = texture_list.used();
         numbers.normals = normal_list.used();

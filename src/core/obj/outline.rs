@@ -14,7 +14,7 @@
 pub(super) struct Outline {
     /// The polygon's vertices in order of their number, to find one that comes twice.
     sorted: Vec<u32>,
-    /// Edges along which the polygon goes both ways, each with its ends from low to high.
+    /// Edges along which the polygon goes both ways, each with its ends from low to high, sorted.
     bridges: Vec<[u32; 2]>,
 }
 
@@ -50,7 +50,7 @@ impl Outline {
             let (from, to) = (local[k], local[(k + 1) % 3]);
             let is_neighbour = (from + 1) % count == to || (to + 1) % count == from;
             let [a, b] = [vertices[from], vertices[to]];
-            is_neighbour && !self.bridges.contains(&[a.min(b), a.max(b)])
+            is_neighbour && self.bridges.binary_search(&[a.min(b), a.max(b)]).is_err()
         };
         (0..3).fold(0, |bits, k| bits | u8::from(is_edge(k)) << k)
     }

@@ -1,4 +1,4 @@
-//! Cutting polygons into triangles.
+//! Which triangles is a polygon cut into?
 
 use super::error::Problem;
 use super::fence::fenced;
@@ -47,7 +47,7 @@ impl Triangulator {
     /// A convex polygon becomes a fan; others are ear-clipped in the plane of their vector area.
     ///
     /// # Errors
-    /// Cancelled by `progress`, or a panic of the crate that clips ears.
+    /// Cancelled by `progress`, or there is no thread to be had.
     pub(super) fn cut(
         &mut self,
         corners: &[DVec3],
@@ -71,9 +71,10 @@ impl Triangulator {
         corners: &[DVec3],
         progress: &Progress,
     ) -> Result<bool, Problem> {
-        const WHAT: &str = "cutting a polygon";
         if corners.len() <= LARGE {
-            return fenced(WHAT, || self.clip_ears(corners));
+            // What the crate makes of a polygon that it panics at, a fan can do without it.
+            let is_cut = fenced("cutting a polygon", || self.clip_ears(corners));
+            return Ok(is_cut.unwrap_or(false));
         }
         if corners.len() > LARGEST {
             return Ok(false);
@@ -94,9 +95,7 @@ impl Triangulator {
                     return Ok(is_cut);
                 }
                 Err(RecvTimeoutError::Timeout) => progress.check()?,
-                Err(RecvTimeoutError::Disconnected) => {
-                    return Err(Problem::Content(format!("{WHAT} failed unexpectedly")));
-                }
+                Err(RecvTimeoutError::Disconnected) => return Ok(false),
             }
         }
     }

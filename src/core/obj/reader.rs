@@ -1,16 +1,20 @@
-//! A reader that sees every line before tobj does.
+//! Which lines does tobj get to see?
 
+use super::corner::List;
 use super::error::Problem;
 use super::facts::Facts;
 use super::lines::Lines;
-use super::statement::{Sorter, out_of_range};
+use super::statement::Sorter;
 use super::{Faults, LoadOptions};
 use crate::progress::Progress;
 use std::io::{self, BufRead, Read};
 
 /// Bytes that tobj is given at a time.
 const PIECE: usize = 1 << 16;
-/// Faces after which tobj's list of them is ended. It takes 80 bytes for each; a shorter list would
+/// Corners of triangles are numbered by u32, and the last number of vertices marks a missing one.
+const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
+const MOST_ENTRIES: usize = u32::MAX as usize - 1;
+/// Faces after which tobj's list of them is ended. It takes 104 bytes for each; a shorter list would
 /// copy more vertices twice.
 const FACES_PER_CUT: usize = 1 << 16;
 /// Statements, of which tobj sees none perhaps, between two looks at the memory that they take.
@@ -21,8 +25,6 @@ pub(super) struct NormalisingReader<'p> {
     lines: Lines<'p>,
     sorter: Sorter,
     consumed: usize,
-    /// Elements when the last list of faces was ended.
-    cut_at: usize,
     max_memory: u64,
     faults: Faults,
     problem: Option<Problem>,
@@ -50,7 +52,6 @@ impl<'p> NormalisingReader<'p> {
             lines: Lines::new(bytes, progress)?,
             sorter: Sorter::new(options.faults, known_counts),
             consumed: 0,
-            cut_at: 0,
             max_memory: options.max_memory,
             faults: options.faults,
             problem: None,
@@ -71,10 +72,11 @@ impl<'p> NormalisingReader<'p> {
             if self.faults == Faults::Lenient {
                 return Ok(Outcome::Again(facts.counts));
             }
-            let lists = facts.highest.iter().zip(facts.counts).enumerate();
-            for (list, (&(highest, line), count)) in lists {
+            for list in List::ALL {
+                let (highest, line) = facts.highest[list as usize];
+                let count = facts.counts[list as usize];
                 if highest > count {
-                    let message = out_of_range(list, highest as i64, count);
+                    let message = list.out_of_range(highest as i64, count);
                     return Err(Problem::line(line, message));
                 }
             }
@@ -102,8 +104,7 @@ impl<'p> NormalisingReader<'p> {
                 self.check_memory()?;
             }
             let facts = &self.sorter.facts;
-            if facts.element_count - self.cut_at >= FACES_PER_CUT && facts.is_complete() {
-                self.cut_at = facts.element_count;
+            if facts.elements_since_cut() >= FACES_PER_CUT && facts.is_complete() {
                 self.sorter.cut(line);
             }
         }
@@ -111,7 +112,13 @@ impl<'p> NormalisingReader<'p> {
     }
 
     fn check_memory(&self) -> Result<(), Problem> {
-        if self.sorter.facts.bytes() as u64 > self.max_memory {
+        let facts = &self.sorter.facts;
+        if facts.triangle_count() > MOST_TRIANGLES || facts.counts.iter().any(|&n| n > MOST_ENTRIES)
+        {
+            let message = "more vertices or triangles than 32 bits can number".to_owned();
+            return Err(Problem::Content(message));
+        }
+        if facts.bytes() as u64 > self.max_memory {
             return Err(Problem::Content(format!(
                 "loading takes more than the {} MB of memory that it may use (--max-memory)",
                 self.max_memory >> 20

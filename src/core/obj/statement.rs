@@ -4,11 +4,12 @@
 //! the input that makes it panic or change geometry without a word. All else is noted in [`Facts`].
 
 use super::Faults;
-use super::corner::{Corner, Corners, LISTS, is_blank};
+use super::corner::{Corner, Corners, List, is_blank};
 use super::error::Problem;
-use super::facts::{Element, Facts, LineRuns, NO_INDEX, shortened};
+use super::facts::{Element, Facts, LineRuns, shortened};
 use super::lines::Statement;
 use super::words::{Words, is_of_number, name, number, text, without_comment};
+use crate::mesh::NO_INDEX;
 use std::io::Write as _;
 
 /// Statements on their way to tobj.
@@ -20,6 +21,15 @@ pub(super) struct Sorter {
     faults: Faults,
     /// How many there are in each list, where an earlier reading found that out.
     known_counts: Option<[usize; 3]>,
+}
+
+/// What became of a corner.
+enum Resolved {
+    AsWritten,
+    /// tobj must not see it as it is written.
+    Changed,
+    /// There is no such vertex.
+    Impossible,
 }
 
 impl Sorter {
@@ -35,19 +45,23 @@ impl Sorter {
 
     /// Notes a statement, and adds what tobj is to see of it.
     pub(super) fn take(&mut self, statement: Statement<'_>) -> Result<(), Problem> {
-        let Statement { line, bytes } = statement;
+        let bytes = statement.bytes;
         let start = bytes.iter().position(|&b| !is_blank(b));
         let Some(start) = start else { return Ok(()) };
         let length = bytes[start..].iter().position(|&b| is_blank(b));
         let after = length.map_or(bytes.len(), |length| start + length);
+        let plain = Statement {
+            bytes: without_comment(bytes),
+            ..statement
+        };
         match &bytes[start..after] {
-            b"v" => self.numbers(0, line, without_comment(bytes), after)?,
-            b"vt" => self.numbers(1, line, without_comment(bytes), after)?,
-            b"vn" => self.numbers(2, line, without_comment(bytes), after)?,
-            b"f" => self.element(None, line, without_comment(bytes), after)?,
-            b"l" => self.element(Some(Element::Line), line, without_comment(bytes), after)?,
-            b"p" => self.element(Some(Element::Points), line, without_comment(bytes), after)?,
-            keyword => self.note(keyword, line, &bytes[after..]),
+            b"v" => self.numbers(List::Vertex, plain, after)?,
+            b"vt" => self.numbers(List::Texture, plain, after)?,
+            b"vn" => self.numbers(List::Normal, plain, after)?,
+            b"f" => self.element(Element::Face, plain, after)?,
+            b"l" => self.element(Element::Line, plain, after)?,
+            b"p" => self.element(Element::Points, plain, after)?,
+            keyword => self.note(keyword, statement.line, &bytes[after..]),
         }
         Ok(())
     }
@@ -56,23 +70,12 @@ impl Sorter {
     fn note(&mut self, keyword: &[u8], line: usize, rest: &[u8]) {
         let facts = &mut self.facts;
         match keyword {
-            b"usemtl" => facts.materials.begin(facts.face_count, name(rest)),
-            b"o" | b"g" => facts.groups.begin(facts.face_count, name(rest)),
-            b"mtllib" => facts.add_library(line, name(rest)),
-            b"s" => {
-                let group = smoothing_group(&name(without_comment(rest)));
-                if facts
-                    .smoothing
-                    .last()
-                    .is_none_or(|&(_, last)| last != group)
-                {
-                    facts.smoothing.push((facts.face_count, group));
-                }
-            }
+            b"usemtl" => facts.materials.begin(name(rest)),
+            b"o" | b"g" => facts.groups.begin(name(rest)),
+            b"mtllib" => facts.libraries.add(line, name(rest)),
+            b"s" => facts.begin_smoothing(smoothing_group(&name(without_comment(rest)))),
             _ if keyword[0] == b'#' => {}
-            _ => {
-                facts.ignore(&shortened(&text(keyword)), line);
-            }
+            _ => facts.ignore(&shortened(&text(keyword)), line),
         }
     }
 
@@ -80,54 +83,50 @@ impl Sorter {
     /// three, of which two count) or of a normal (three).
     fn numbers(
         &mut self,
-        list: usize,
-        line: usize,
-        bytes: &[u8],
+        list: List,
+        statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
-        let words = || Words {
-            line: bytes,
-            at: after,
+        let words = Words::of(statement.bytes, after);
+        let (count, is_plain) = words
+            .clone()
+            .fold((0, true), |(count, is_plain), (_, word)| {
+                (count + 1, is_plain && word.iter().all(|&b| is_of_number(b)))
+            });
+        let (least, used, keyword) = match list {
+            List::Vertex => (3, 3, "v"),
+            List::Texture => (1, 2, "vt"),
+            List::Normal => (3, 3, "vn"),
         };
-        let (word_count, is_plain) = words().fold((0, true), |(count, is_plain), (_, word)| {
-            (count + 1, is_plain && word.iter().all(|&b| is_of_number(b)))
-        });
-        let least = if list == 1 { 1 } else { 3 };
-        if word_count < least {
-            let what = if list == 1 {
-                "one number is"
-            } else {
-                "three numbers are"
-            };
-            let message = format!("{what} needed, here are {word_count}");
-            return Err(Problem::line(line, message));
+        if count < least {
+            return Err(statement.problem(format!(
+                "“{keyword}” needs {least} number(s), here are {count}"
+            )));
         }
-        let wanted = if list == 1 { 2 } else { 3 };
-        if is_plain && word_count == wanted {
-            self.out.extend(bytes);
+        if is_plain && count == used {
+            self.out.extend(statement.bytes);
         } else {
-            self.out.extend([&b"v"[..], b"vt", b"vn"][list]);
-            for (offset, word) in words().take(wanted) {
-                number::<f64>(line, bytes, (offset, word))?;
-                self.out.push(b' ');
-                self.out.extend(word);
+            self.out.extend(keyword.bytes());
+            for (index, (offset, word)) in words.clone().enumerate() {
+                number::<f64>(&statement, (offset, word))?;
+                if index < used {
+                    self.out.push(b' ');
+                    self.out.extend(word);
+                }
             }
-            if word_count < wanted {
+            if count < used {
                 self.out.extend(b" 0");
             }
         }
-        self.end_line(line);
-        self.facts.counts[list] += 1;
+        self.end_line(statement.line);
+        self.facts.counts[list as usize] += 1;
         // x y z w has a weight, which polygons don't use; x y z r g b (a) a colour.
-        if list == 0 && word_count >= 6 {
+        if list == List::Vertex && count >= 6 {
             let mut colour = [0.0; 3];
-            for (channel, (offset, word)) in colour.iter_mut().zip(words().skip(3)) {
-                *channel = number(line, bytes, (offset, word))?;
+            for (channel, word) in colour.iter_mut().zip(words.skip(3)) {
+                *channel = number(&statement, word)?;
             }
-            let facts = &mut self.facts;
-            facts.colours.resize(facts.counts[0] - 1, [1.0; 3]);
-            facts.colours.push(colour);
-            facts.coloured += 1;
+            self.facts.add_colour(colour);
         }
         Ok(())
     }
@@ -135,87 +134,65 @@ impl Sorter {
     /// A face, or what tobj is to take for one so that it reads its vertices.
     fn element(
         &mut self,
-        element: Option<Element>,
-        line: usize,
-        bytes: &[u8],
+        element: Element,
+        statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
-        let before = self.facts.corners[0].len();
-        let lists_before = self.facts.corners.each_ref().map(Vec::len);
-        let mut is_as_written = element.is_none();
-        for corner in (Corners {
-            line: bytes,
-            at: after,
-        }) {
-            let corner =
-                corner.map_err(|bad| Problem::word(line, bytes, bad.offset, bad.message))?;
-            match self.corner(corner, line, bytes)? {
+        let before = self.facts.corners.each_ref().map(Vec::len);
+        let mut is_as_written = element == Element::Face;
+        for corner in Corners::of(statement.bytes, after) {
+            let corner = corner.map_err(|bad| statement.problem_at(bad.offset, bad.message))?;
+            match self.corner(corner, &statement)? {
                 Resolved::AsWritten => {}
                 Resolved::Changed => is_as_written = false,
                 Resolved::Impossible => {
-                    self.drop_element(lists_before, line);
+                    self.facts.drop_element(element, before, statement.line);
                     return Ok(());
                 }
             }
         }
-        let count = self.facts.corners[0].len() - before;
-        let least = match element {
-            None => 3,
-            Some(Element::Line) => 2,
-            Some(Element::Points) => 1,
-        };
+        let [first, ..] = before;
+        let count = self.facts.corners[0].len() - first;
+        let (least, what) = element.least_corners();
         if count < least {
             if self.faults == Faults::Lenient {
-                self.drop_element(lists_before, line);
+                self.facts.drop_element(element, before, statement.line);
                 return Ok(());
             }
-            let what = [
-                "a point list needs one corner",
-                "a line needs two corners",
-                "a face needs three corners",
-            ];
-            let message = format!("{}, this one has {count}", what[least - 1]);
-            return Err(Problem::line(line, message));
+            return Err(statement.problem(format!("{what}, this one has {count}")));
         }
         if is_as_written {
-            self.out.extend(bytes);
+            self.out.extend(statement.bytes);
         } else {
-            self.write_corners(before);
+            self.write_corners(first);
         }
-        self.end_line(line);
-        let facts = &mut self.facts;
-        if let Some(element) = element {
-            facts.no_faces.push((facts.element_count, element));
-        } else {
-            facts.face_count += 1;
-            facts.face_lines.push(line);
-        }
-        facts.element_count += 1;
+        self.end_line(statement.line);
+        self.facts.add_element(element, first, statement.line);
         Ok(())
     }
 
     /// Checks a corner's indices and adds them to the lists.
-    fn corner(&mut self, corner: Corner, line: usize, bytes: &[u8]) -> Result<Resolved, Problem> {
+    fn corner(&mut self, corner: Corner, statement: &Statement<'_>) -> Result<Resolved, Problem> {
         let mut resolved = Resolved::AsWritten;
-        for list in 0..3 {
+        for list in List::ALL {
             let mut index = NO_INDEX;
-            if let Some(written) = corner.indices[list] {
-                match self.index(list, written, line) {
+            if let Some(written) = corner.indices[list as usize] {
+                match self.index(list, written, statement.line) {
                     Some(found) => index = found,
-                    None if self.faults == Faults::Strict && !self.is_idle(list) => {
-                        let count = self.known_counts.unwrap_or(self.facts.counts)[list];
-                        let message = out_of_range(list, written, count);
-                        return Err(Problem::word(line, bytes, corner.offset, message));
+                    None if self.faults == Faults::Strict && !self.facts.is_idle(list) => {
+                        let count = self.known_counts.unwrap_or(self.facts.counts)[list as usize];
+                        let message = list.out_of_range(written, count);
+                        return Err(statement.problem_at(corner.offset, message));
                     }
-                    None if list == 0 => return Ok(Resolved::Impossible),
+                    None if list == List::Vertex => return Ok(Resolved::Impossible),
                     None => {
-                        self.facts.bare.add(line);
+                        self.facts.bare.add(statement.line);
                         resolved = Resolved::Changed;
                     }
                 }
             }
-            let corner_index = self.facts.corners[0].len() - usize::from(list > 0);
-            let indices = &mut self.facts.corners[list];
+            let corner_index = self.facts.corners[0].len() - usize::from(list != List::Vertex);
+            let indices = &mut self.facts.corners[list as usize];
             if index != NO_INDEX || !indices.is_empty() {
                 indices.resize(corner_index, NO_INDEX);
                 indices.push(index);
@@ -224,17 +201,12 @@ impl Sorter {
         Ok(resolved)
     }
 
-    /// Whether nothing is in the list of texture coordinates: see [`Facts::forget_idle_textures`].
-    fn is_idle(&self, list: usize) -> bool {
-        list == 1 && self.facts.counts[1] == 0
-    }
-
     /// An index counted from 0. One that is too high may still come true further down, unless it is known
     /// how many there are.
-    fn index(&mut self, list: usize, written: i64, line: usize) -> Option<u32> {
-        let count = self.facts.counts[list];
+    fn index(&mut self, list: List, written: i64, line: usize) -> Option<u32> {
+        let at = list as usize;
         let from_one = if written < 0 {
-            count as i64 + 1 + written
+            self.facts.counts[at] as i64 + 1 + written
         } else {
             written
         };
@@ -244,34 +216,24 @@ impl Sorter {
         }
         if self
             .known_counts
-            .is_some_and(|counts| from_one > counts[list] as i64)
+            .is_some_and(|counts| from_one > counts[at] as i64)
         {
             return None;
         }
         let from_one = from_one as usize;
-        if from_one > self.facts.highest[list].0 {
-            self.facts.highest[list] = (from_one, line);
+        if from_one > self.facts.highest[at].0 {
+            self.facts.highest[at] = (from_one, line);
         }
         Some(from_one as u32 - 1)
-    }
-
-    fn drop_element(&mut self, lists_before: [usize; 3], line: usize) {
-        for (list, length) in self.facts.corners.iter_mut().zip(lists_before) {
-            list.truncate(length);
-        }
-        self.facts.dropped.add(line);
     }
 
     /// The corners from `first` on, with what is known to be there.
     fn write_corners(&mut self, first: usize) {
         self.out.push(b'f');
-        let [vertices, ..] = &self.facts.corners;
-        for corner in first..vertices.len() {
-            let [vertex, texture, normal] = self
-                .facts
-                .corners
-                .each_ref()
-                .map(|list| list.get(corner).copied().unwrap_or(NO_INDEX));
+        for corner in first..self.facts.corners[0].len() {
+            let lists = self.facts.corners.each_ref();
+            let [vertex, texture, normal] =
+                lists.map(|list| list.get(corner).copied().unwrap_or(NO_INDEX));
             let of = |index: u32| match index {
                 NO_INDEX => String::new(),
                 index => (index + 1).to_string(),
@@ -286,6 +248,7 @@ impl Sorter {
     pub(super) fn cut(&mut self, line: usize) {
         self.out.push(b'g');
         self.end_line(line);
+        self.facts.cut();
     }
 
     fn end_line(&mut self, line: usize) {
@@ -300,34 +263,17 @@ impl Sorter {
             .iter()
             .rposition(|&b| b == b'\n')
             .map_or(0, |at| at + 1);
-        let line = self
-            .out_lines
-            .line(memchr::memchr_iter(b'\n', read).count());
-        let bytes = &read[start..];
-        let words = Words { line: bytes, at: 0 }.skip(1);
-        for (offset, word) in words {
-            if let Err(problem) = number::<f64>(line, bytes, (offset, word)) {
-                return problem;
-            }
-        }
-        Problem::line(line, error.to_string())
-    }
-}
-
-/// What became of a corner.
-enum Resolved {
-    AsWritten,
-    /// tobj must not see it as it is written.
-    Changed,
-    /// There is no such vertex.
-    Impossible,
-}
-
-pub(super) fn out_of_range(list: usize, written: i64, count: usize) -> String {
-    let what = LISTS[list];
-    match written {
-        0 => format!("{what} index 0; indices start at 1"),
-        _ => format!("{what} index {written} is out of range: there are {count}"),
+        let statement = Statement {
+            line: self
+                .out_lines
+                .line(memchr::memchr_iter(b'\n', read).count()),
+            bytes: &read[start..],
+            is_joined: false,
+        };
+        let problem = Words::of(statement.bytes, 0)
+            .skip(1)
+            .find_map(|word| number::<f64>(&statement, word).err());
+        problem.unwrap_or_else(|| statement.problem(error.to_string()))
     }
 }
 

@@ -1,15 +1,24 @@
-//! The words of a line.
+//! What are the words of a line, and which numbers are they?
 
 use super::corner::is_blank;
 use super::error::Problem;
 use super::facts::shortened;
+use super::lines::Statement;
 use memchr::memchr;
 use std::str::FromStr;
 
-/// The words of a line from `at` on, and where they begin.
+/// The words of a line, and where they begin.
+#[derive(Clone)]
 pub(super) struct Words<'l> {
-    pub line: &'l [u8],
-    pub at: usize,
+    line: &'l [u8],
+    at: usize,
+}
+
+impl<'l> Words<'l> {
+    /// Those from an offset on.
+    pub(super) fn of(line: &'l [u8], at: usize) -> Self {
+        Self { line, at }
+    }
 }
 
 impl<'l> Iterator for Words<'l> {
@@ -31,16 +40,15 @@ pub(super) fn is_of_number(b: u8) -> bool {
     matches!(b, b'0'..=b'9' | b'-' | b'.' | b'e' | b'E' | b'+')
 }
 
-/// The number that a word is which begins at `offset` in a line.
+/// The number that one of a statement's words is.
 pub(super) fn number<T: FromStr>(
-    line: usize,
-    bytes: &[u8],
+    statement: &Statement<'_>,
     (offset, word): (usize, &[u8]),
 ) -> Result<T, Problem> {
     let parsed = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
     parsed.ok_or_else(|| {
         let message = format!("“{}” is not a number", shortened(&text(word)));
-        Problem::word(line, bytes, offset, message)
+        statement.problem_at(offset, message)
     })
 }
 
@@ -68,11 +76,16 @@ mod tests {
 
     #[test]
     fn words_stand_between_blanks() {
-        let line = b"v  1\t2.5 ";
-        let words: Vec<_> = Words { line, at: 1 }.collect();
+        let bytes = b"v  1\t2.5 ";
+        let words: Vec<_> = Words::of(bytes, 1).collect();
         assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
-        assert_eq!(number::<f64>(1, line, words[1]).expect("a number"), 2.5);
-        assert!(number::<f64>(1, b"v x", (2, b"x")).is_err());
+        let statement = Statement {
+            line: 1,
+            bytes,
+            is_joined: false,
+        };
+        assert_eq!(number::<f64>(&statement, words[1]).expect("a number"), 2.5);
+        assert!(number::<f64>(&statement, (0, b"v")).is_err());
     }
 
     #[test]

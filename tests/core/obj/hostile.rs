@@ -233,15 +233,12 @@ fn a_panic_while_reading_is_an_error() {
         }
     }
     let none = |_: &str| Err(io::ErrorKind::NotFound.into());
-    // The first bytes are read before tobj is called, so that a text comes first.
-    let open = || Ok(TRIANGLE.as_bytes().chain(Panicking));
-    let result = obj::parse(
-        open,
-        Path::new("x.obj"),
-        STRICT,
-        &none,
-        &Progress::default(),
-    );
-    let error = message(result);
-    assert_eq!(error, "x.obj: reading failed unexpectedly: on purpose");
+    // At once, and only when tobj asks for more.
+    for text in [String::new(), TRIANGLE.repeat(100_000)] {
+        let open = || Ok(text.as_bytes().chain(Panicking));
+        let path = Path::new("x.obj");
+        let result = obj::parse(open, path, STRICT, &none, &Progress::default());
+        let error = message(result);
+        assert_eq!(error, "x.obj: reading failed unexpectedly: on purpose");
+    }
 }

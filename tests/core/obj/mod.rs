@@ -3,6 +3,9 @@
 // A file for each oddity, and what becomes of it.
 mod odd_files;
 
+// What is refused, and what is said of it.
+mod refused;
+
 // Clean files: the same numbers as tobj's.
 mod differential;
 

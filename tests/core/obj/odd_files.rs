@@ -1,20 +1,12 @@
 //! A file for each oddity, and what becomes of it.
 
-use super::{LENIENT, STRICT, files, load, load_path, warnings};
+use super::{STRICT, load, load_path, warnings};
 use glam::{DVec3, Vec2, Vec3};
-use hitscope_core::mesh::{Crease, Material, NO_NORMAL, VertexNormals};
-use hitscope_core::obj::{self, Loaded};
-use hitscope_core::progress::Progress;
+use hitscope_core::mesh::{Crease, Material, NO_INDEX, VertexNormals};
+use hitscope_core::obj::Loaded;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
-
-/// The message about a file that isn't loaded, without the folder's name.
-fn error(name: &str) -> String {
-    let error = load_path(&files().join(name), STRICT).expect_err(name);
-    let folder = format!("{}/", files().display());
-    error.to_string().replace(&folder, "")
-}
 
 /// Files that are one triangle, however they are spelt.
 #[test]
@@ -187,8 +179,8 @@ fn lines_and_points_are_kept_apart_from_faces() {
 fn normals_are_taken_where_they_are_and_computed_elsewhere() {
     let mesh = load("mixed.obj").mesh;
     assert_eq!(mesh.corner_normals[0], [0; 3]);
-    assert_eq!(mesh.corner_normals[2], [NO_NORMAL; 3]);
-    assert_eq!(mesh.corner_normals[4], [0, NO_NORMAL, NO_NORMAL]);
+    assert_eq!(mesh.corner_normals[2], [NO_INDEX; 3]);
+    assert_eq!(mesh.corner_normals[4], [0, NO_INDEX, NO_INDEX]);
     let normals = VertexNormals::of(&mesh, Crease::FromFile);
     assert_eq!(normals.of_triangle(&mesh, 0), [Vec3::Y; 3]);
     // The second quad's own ones lean to the other side of the ridge where the quads meet.
@@ -239,104 +231,6 @@ fn faces_with_a_vertex_that_is_not_finite_are_dropped_and_counted() {
 }
 
 #[test]
-fn an_index_that_names_nothing_is_an_error_or_costs_its_face() {
-    for (name, message, dropped) in [
-        (
-            "too_high.obj",
-            "too_high.obj:5: vertex index 9 is out of range: there are 3",
-            1,
-        ),
-        (
-            "zero.obj",
-            "zero.obj:5:3: vertex index 0; indices start at 1",
-            1,
-        ),
-        (
-            "too_far_back.obj",
-            "too_far_back.obj:5:3: vertex index -4 is out of range: there are 3",
-            1,
-        ),
-        (
-            "too_short.obj",
-            "too_short.obj:5: a face needs three corners, this one has 2",
-            2,
-        ),
-        (
-            "no_normal.obj",
-            "no_normal.obj:6: normal index 7 is out of range: there are 1",
-            0,
-        ),
-    ] {
-        assert_eq!(error(name), message);
-        let loaded = load_path(&files().join(name), LENIENT).expect(name);
-        assert_eq!(loaded.mesh.dropped.bad_index, dropped, "{name}");
-        assert_eq!(loaded.warnings.len(), 1, "{name}: {:?}", loaded.warnings);
-        assert!(loaded.warnings[0].line.is_some(), "{name}");
-    }
-    let loaded = load_path(&files().join("too_high.obj"), LENIENT).expect("lenient");
-    assert_eq!(loaded.mesh.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 1]]);
-    let loaded = load_path(&files().join("no_normal.obj"), LENIENT).expect("lenient");
-    assert_eq!(loaded.mesh.corner_normals, [[0; 3], [0, NO_NORMAL, 0]]);
-}
-
-#[test]
-fn a_word_where_a_number_belongs_is_named_with_its_place() {
-    for (name, message) in [
-        (
-            "four_parts.obj",
-            "four_parts.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
-        ),
-        ("comma.obj", "comma.obj:2:3: “0,5” is not a number"),
-        ("word.obj", "word.obj:3:5: “one” is not a number"),
-        (
-            "fraction.obj",
-            "fraction.obj:4:3: “1.0” in “1.0” is not an index",
-        ),
-    ] {
-        assert_eq!(error(name), message);
-        let lenient = load_path(&files().join(name), LENIENT);
-        assert!(
-            lenient.is_err(),
-            "{name}: the vertices after it would be others"
-        );
-    }
-}
-
-#[test]
-fn what_is_no_obj_is_called_by_its_name() {
-    let nothing = "no vertices and no faces: this is not an OBJ file, or an empty one";
-    for (name, message) in [
-        ("empty.obj", nothing),
-        ("prose.obj", nothing),
-        ("page.obj", "this is an HTML page, not an OBJ file"),
-        ("program.obj", "this is a binary file, not an OBJ file"),
-        ("sub", "this is a directory, not an OBJ file"),
-    ] {
-        assert_eq!(error(name), format!("{name}: {message}"));
-    }
-    assert!(error("nowhere.obj").starts_with("nowhere.obj: "));
-}
-
-#[cfg(unix)]
-#[test]
-fn a_file_that_may_not_be_read_says_so() {
-    use std::os::unix::fs::PermissionsExt;
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("secret.obj");
-    std::fs::copy(files().join("crlf.obj"), &path).expect("copied");
-    let nobody = std::fs::Permissions::from_mode(0o000);
-    std::fs::set_permissions(&path, nobody).expect("changed");
-    if std::fs::File::open(&path).is_ok() {
-        eprintln!("skipped: this user may read everything");
-        return;
-    }
-    let error = load_path(&path, STRICT)
-        .expect_err("unreadable")
-        .to_string();
-    assert!(error.contains("ermission denied"), "{error}");
-}
-
-#[test]
 fn free_form_statements_are_named_and_counted() {
     let loaded = load("free_form.obj");
     assert_eq!(loaded.mesh.triangles.len(), 1);
@@ -352,41 +246,6 @@ fn free_form_statements_are_named_and_counted() {
         format!("line {line}: {count} “{keyword}” statement(s) ignored")
     });
     assert_eq!(warnings(&loaded), expected);
-}
-
-#[test]
-fn half_a_packed_file_is_an_error() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("half.obj.gz");
-    let whole = std::fs::read(files().join("packed.obj.gz")).expect("there");
-    std::fs::write(&path, &whole[..whole.len() - 9]).expect("written");
-    assert!(load_path(&path, STRICT).is_err());
-}
-
-/// The file grows while it is read: an error, or the whole of it if reading was quicker.
-#[test]
-fn a_file_that_changes_while_it_is_read_is_never_half_a_mesh() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("growing.obj");
-    let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
-    for _ in 0..200_000 {
-        text += "f 1 2 3\n";
-    }
-    std::fs::write(&path, &text).expect("written");
-    let progress = Progress::default();
-    let result = std::thread::scope(|threads| {
-        let loading = threads.spawn(|| obj::load(&path, STRICT, &progress));
-        while progress.bytes().0 == 0 && !loading.is_finished() {
-            std::thread::yield_now();
-        }
-        text += "f 1 3 2\n";
-        std::fs::write(&path, &text).expect("written");
-        loading.join().expect("no panic")
-    });
-    match result {
-        Ok(loaded) => assert!(loaded.mesh.triangles.len() >= 200_000),
-        Err(error) => assert!(error.to_string().contains("changed"), "{error}"),
-    }
 }
 
 /// Vertices a millimetre apart, as a surveyor has them.
@@ -412,4 +271,84 @@ fn a_millimetre_in_utm_coordinates_is_kept() {
         .collect();
     assert_eq!(spelt[0], DVec3::new(500_000.0, 4_649_776.0, 100.0));
     assert_eq!(spelt[5], DVec3::new(500_000.002, 4_649_776.001, 100.0));
+}
+
+/// More elements than tobj is given in one list, of every kind, so that what belongs to a corner is found again
+/// across lists.
+#[test]
+fn nothing_is_mixed_up_in_a_file_of_many_kinds() {
+    let mut text = String::from("vn 0 0 1\nvt 0.5 0.5\n");
+    let count = 70_000;
+    for k in 0..count {
+        // Three vertices an element; one more that nothing uses, every seventh; colours for some.
+        let x = f64::from(k);
+        if k % 7 == 0 {
+            text += "v -9 -9 -9\n";
+        }
+        let colour = if k % 3 == 1 { " 1 0 0" } else { "" };
+        writeln!(text, "v {x} 0 0{colour}\nv {x} 1 0\nv {x} 0 1").expect("memory");
+        match k % 5 {
+            0 => text += "f -3 -2 -1\n",
+            1 => text += "f -3//1 -2//1 -1//1\n",
+            2 => text += "f -3/1 -2/1 -1/1\n",
+            3 => text += "l -3 -2\n",
+            _ => text += "p -1\n",
+        }
+        if k % 1000 == 999 {
+            text += "f -1 -2 999999999\n";
+        }
+    }
+    let loaded = super::parse(text.as_bytes(), super::LENIENT).expect("good");
+    let mesh = &loaded.mesh;
+    assert_eq!(mesh.dropped.bad_index, 70);
+    assert_eq!(
+        (mesh.triangles.len(), mesh.lines.len(), mesh.points.len()),
+        (42_000, 14_000, 14_000)
+    );
+    // Of lines two vertices are used, of points one.
+    assert_eq!(mesh.positions.len(), 42_000 * 3 + 14_000 * 2 + 14_000);
+    for triangle in 0..42_000 {
+        let k = triangle / 3 * 5 + triangle % 3;
+        let x = mesh.origin.x + f64::from(mesh.corners(triangle)[0].x);
+        assert_eq!(x, f64::from(k), "triangle {triangle}");
+        let normal = mesh.corner_normals[triangle as usize];
+        assert_eq!(normal, [if k % 5 == 1 { 0 } else { NO_INDEX }; 3]);
+        let first = mesh.triangles[triangle as usize][0] as usize;
+        let colour = if k % 3 == 1 { Vec3::X } else { Vec3::ONE };
+        assert_eq!(mesh.colours[first], colour, "triangle {triangle}");
+    }
+    let x = |vertex: u32| mesh.origin.x + f64::from(mesh.positions[vertex as usize].x);
+    for (index, (ends, &point)) in mesh.lines.iter().zip(&mesh.points).enumerate() {
+        let k = 5.0 * index as f64;
+        assert_eq!(
+            [x(ends[0]), x(ends[1]), x(point)],
+            [k + 3.0, k + 3.0, k + 4.0]
+        );
+    }
+}
+
+#[test]
+fn a_library_that_was_read_before_is_not_missed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("x.obj");
+    for (name, text) in [
+        ("a.mtl", "newmtl a\nKd 1 0 0\n"),
+        ("b.mtl", "newmtl b\nKd 0 1 0\n"),
+        (
+            "x.obj",
+            "mtllib a.mtl b.mtl\nmtllib b.mtl a.mtl\nmtllib a.mtl c.mtl\n\
+             v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl unused\n",
+        ),
+    ] {
+        std::fs::write(folder.path().join(name), text).expect("written");
+    }
+    let loaded = load_path(&path, STRICT).expect("good");
+    let warnings = warnings(&loaded);
+    assert_eq!(warnings.len(), 1, "{warnings:?}");
+    assert!(
+        warnings[0].starts_with("line 3: material library “c.mtl”: "),
+        "{warnings:?}"
+    );
+    // A name that no face uses isn't one of the mesh's.
+    assert_eq!(loaded.mesh.named_material_count(), 2);
 }

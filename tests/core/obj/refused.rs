@@ -1,0 +1,146 @@
+//! What is refused, and what is said of it.
+
+use super::{LENIENT, STRICT, files, load_path};
+use hitscope_core::mesh::NO_INDEX;
+use hitscope_core::obj;
+use hitscope_core::progress::Progress;
+
+/// The message about a file that isn't loaded, without the folder's name.
+fn error(name: &str) -> String {
+    let error = load_path(&files().join(name), STRICT).expect_err(name);
+    let folder = format!("{}/", files().display());
+    error.to_string().replace(&folder, "")
+}
+
+#[test]
+fn an_index_that_names_nothing_is_an_error_or_costs_its_face() {
+    for (name, message, dropped) in [
+        (
+            "too_high.obj",
+            "too_high.obj:5: vertex index 9 is out of range: there are 3",
+            1,
+        ),
+        (
+            "zero.obj",
+            "zero.obj:5:3: vertex index 0; indices start at 1",
+            1,
+        ),
+        (
+            "too_far_back.obj",
+            "too_far_back.obj:5:3: vertex index -4 is out of range: there are 3",
+            1,
+        ),
+        (
+            "too_short.obj",
+            "too_short.obj:5: a face needs three corners, this one has 2",
+            2,
+        ),
+        (
+            "no_normal.obj",
+            "no_normal.obj:6: normal index 7 is out of range: there are 1",
+            0,
+        ),
+    ] {
+        assert_eq!(error(name), message);
+        let loaded = load_path(&files().join(name), LENIENT).expect(name);
+        assert_eq!(loaded.mesh.dropped.bad_index, dropped, "{name}");
+        assert_eq!(loaded.warnings.len(), 1, "{name}: {:?}", loaded.warnings);
+        assert!(loaded.warnings[0].line.is_some(), "{name}");
+    }
+    let loaded = load_path(&files().join("too_high.obj"), LENIENT).expect("lenient");
+    assert_eq!(loaded.mesh.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 1]]);
+    let loaded = load_path(&files().join("no_normal.obj"), LENIENT).expect("lenient");
+    assert_eq!(loaded.mesh.corner_normals, [[0; 3], [0, NO_INDEX, 0]]);
+}
+
+#[test]
+fn a_word_where_a_number_belongs_is_named_with_its_place() {
+    for (name, message) in [
+        (
+            "four_parts.obj",
+            "four_parts.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
+        ),
+        ("comma.obj", "comma.obj:2:3: “0,5” is not a number"),
+        ("word.obj", "word.obj:3:5: “one” is not a number"),
+        (
+            "fraction.obj",
+            "fraction.obj:4:3: “1.0” in “1.0” is not an index",
+        ),
+    ] {
+        assert_eq!(error(name), message);
+        let lenient = load_path(&files().join(name), LENIENT);
+        assert!(
+            lenient.is_err(),
+            "{name}: the vertices after it would be others"
+        );
+    }
+}
+
+#[test]
+fn what_is_no_obj_is_called_by_its_name() {
+    let nothing = "no vertices and no faces: this is not an OBJ file, or an empty one";
+    for (name, message) in [
+        ("empty.obj", nothing),
+        ("prose.obj", nothing),
+        ("page.obj", "this is an HTML page, not an OBJ file"),
+        ("program.obj", "this is a binary file, not an OBJ file"),
+        ("sub", "this is a directory, not an OBJ file"),
+    ] {
+        assert_eq!(error(name), format!("{name}: {message}"));
+    }
+    assert!(error("nowhere.obj").starts_with("nowhere.obj: "));
+}
+
+#[cfg(unix)]
+#[test]
+fn a_file_that_may_not_be_read_says_so() {
+    use std::os::unix::fs::PermissionsExt;
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("secret.obj");
+    std::fs::copy(files().join("crlf.obj"), &path).expect("copied");
+    let nobody = std::fs::Permissions::from_mode(0o000);
+    std::fs::set_permissions(&path, nobody).expect("changed");
+    if std::fs::File::open(&path).is_ok() {
+        eprintln!("skipped: this user may read everything");
+        return;
+    }
+    let error = load_path(&path, STRICT)
+        .expect_err("unreadable")
+        .to_string();
+    assert!(error.contains("ermission denied"), "{error}");
+}
+
+#[test]
+fn half_a_packed_file_is_an_error() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("half.obj.gz");
+    let whole = std::fs::read(files().join("packed.obj.gz")).expect("there");
+    std::fs::write(&path, &whole[..whole.len() - 9]).expect("written");
+    assert!(load_path(&path, STRICT).is_err());
+}
+
+/// The file grows while it is read: an error, or the whole of it if reading was quicker.
+#[test]
+fn a_file_that_changes_while_it_is_read_is_never_half_a_mesh() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("growing.obj");
+    let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");
+    for _ in 0..200_000 {
+        text += "f 1 2 3\n";
+    }
+    std::fs::write(&path, &text).expect("written");
+    let progress = Progress::default();
+    let result = std::thread::scope(|threads| {
+        let loading = threads.spawn(|| obj::load(&path, STRICT, &progress));
+        while progress.bytes().0 == 0 && !loading.is_finished() {
+            std::thread::yield_now();
+        }
+        text += "f 1 3 2\n";
+        std::fs::write(&path, &text).expect("written");
+        loading.join().expect("no panic")
+    });
+    match result {
+        Ok(loaded) => assert!(loaded.mesh.triangles.len() >= 200_000),
+        Err(error) => assert!(error.to_string().contains("changed"), "{error}"),
+    }
+}
