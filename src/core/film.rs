@@ -3,8 +3,8 @@
 //! Sums of samples as integers: adding them gives the same picture in whatever order tiles arrive.
 //! Pixels not yet sampled show their block's colour from a coarser pass.
 
-use crate::integrator::palette::to_display;
 use crate::render::plan::{Pass, Plan, Unit};
+use crate::srgb::to_display;
 use glam::{UVec2, Vec3};
 use std::sync::LazyLock;
 

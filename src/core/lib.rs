@@ -16,7 +16,7 @@
 //! | [`spawn`] | where does a ray begin that leaves a surface? |
 //! | [`film`] | what does the picture look like so far? |
 //! | [`render`] | which pixel is traced when, and by which thread? |
-//! | [`ray`], [`aabb`], `lane`, `srgb`, [`sampler`], [`random`], [`progress`] | what the others speak in |
+//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`] | what the others speak in |
 //!
 //! The question is always put in f32: a mesh of f32 positions about an f64 origin, and f32 rays.
 //! Nothing here depends on a scene's size, place or units.
@@ -40,7 +40,7 @@ pub mod sampler;
 pub mod scene;
 pub mod simd;
 pub mod spawn;
-mod srgb;
+pub mod srgb;
 
 pub use aabb::Aabb;
 pub use camera::Camera;

@@ -35,3 +35,25 @@ pub fn from_texel(texel: [u8; 3]) -> Vec3 {
         LazyLock::new(|| std::array::from_fn(|x| from_display(Vec3::splat(x as f32 / 255.0)).x));
     Vec3::from_array(texel.map(|x| LINEAR[usize::from(x)]))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_transfer_functions_are_inverse() {
+        for i in 0..=255 {
+            let s = i as f32 / 255.0;
+            let back = to_display(from_display(Vec3::splat(s)).x);
+            assert_eq!((back * 255.0).round(), i as f32);
+        }
+        assert!((from_display(Vec3::splat(0.5)).x - 0.214_041).abs() < 1e-6);
+    }
+
+    #[test]
+    fn a_texel_has_the_light_of_its_display_colour() {
+        let texel = from_texel([0, 128, 255]);
+        let expected = from_display(Vec3::new(0.0, 128.0, 255.0) / 255.0);
+        assert!((texel - expected).length() < 1e-6);
+    }
+}

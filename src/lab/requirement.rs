@@ -50,7 +50,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
         };
         found.add(tier, format!(
             "{} sliver(s), up to {:.0e} times longer than high: f32 decides some of their rays wrongly",
-            health.count(Flaw::Sliver), health.max_aspect
+            health.places(Flaw::Sliver).count().unwrap_or(0), health.max_aspect
         ));
     }
     if let Some(distance) = distance_in_triangles(scene)
@@ -93,22 +93,23 @@ struct Findings {
 
 impl Findings {
     fn add_for_edges(&mut self, health: &Health, triangles: usize) {
-        let (tier, reason) = if triangles > 0 && health.count(Flaw::OpenEdge) == 3 * triangles {
-            (
-                Tier::Fast,
-                "no two triangles share an edge: there are no gaps to be seen",
-            )
-        } else if health.count(Flaw::OpenEdge) + health.count(Flaw::NonManifoldEdge) == 0 {
-            (
-                Tier::Watertight,
-                "the mesh is closed: a gap between triangles would show",
-            )
-        } else {
-            (
-                Tier::Watertight,
-                "triangles share edges: a gap between them would show",
-            )
-        };
+        let (tier, reason) =
+            if triangles > 0 && health.places(Flaw::OpenEdge).count() == Some(3 * triangles) {
+                (
+                    Tier::Fast,
+                    "no two triangles share an edge: there are no gaps to be seen",
+                )
+            } else if health.is_closed() {
+                (
+                    Tier::Watertight,
+                    "the mesh is closed: a gap between triangles would show",
+                )
+            } else {
+                (
+                    Tier::Watertight,
+                    "triangles share edges: a gap between them would show",
+                )
+            };
         self.add(tier, reason);
     }
 

@@ -12,8 +12,8 @@ use hitscope_core::obj::LoadOptions;
 use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
-    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, PictureArgs, RenderArgs, TraceArgs,
-    load, write_png,
+    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, MemoryArg, PictureArgs, RenderArgs,
+    TraceArgs, load, write_png,
 };
 use std::io::{BufWriter, ErrorKind, Write, stdout};
 use std::path::{Path, PathBuf};
@@ -33,9 +33,8 @@ struct Cli {
     /// Take the picture after so many seconds instead
     #[arg(long, value_name = "SECONDS", requires = "screenshot", value_parser = parse_seconds)]
     after: Option<Duration>,
-    /// Refuse a file that takes more memory to load than this
-    #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
-    max_memory: u64,
+    #[command(flatten)]
+    memory: MemoryArg,
     #[command(subcommand)]
     command: Option<Command>,
 }
@@ -112,7 +111,7 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
 fn window(cli: &Cli) -> Result<(), CommandError> {
     let outcome = Outcome::default();
     let load_options = LoadOptions {
-        max_memory: cli.max_memory << 20,
+        max_memory: cli.memory.bytes(),
         ..StartOptions::default().load_options
     };
     let start = StartOptions {

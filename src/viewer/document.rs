@@ -11,7 +11,7 @@ use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Instant, SystemTime};
 
 const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
@@ -33,6 +33,8 @@ pub struct Document {
     pub path: Option<PathBuf>,
     /// The scene, and what is known of its file.
     pub loaded: LoadedScene,
+    /// When loading it began: what changed since then isn't in it.
+    pub began: SystemTime,
     intersector: Arc<dyn Intersector>,
     /// For another kernel, while it is being made.
     packing: PackingTask,
@@ -76,8 +78,11 @@ impl Document {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
+        let began = SystemTime::now();
         let loaded = LoadedScene::load(path, load_options, options, progress)?;
-        Ok(Self::new(Some(path.to_owned()), loaded, kernel))
+        let mut document = Self::new(Some(path.to_owned()), loaded, kernel);
+        document.began = began;
+        Ok(document)
     }
 
     /// The embedded scene.
@@ -90,6 +95,7 @@ impl Document {
             path,
             intersector: Arc::from(loaded.scene.intersector(kernel)),
             loaded,
+            began: SystemTime::now(),
             packing: Wanted::default(),
             second: None,
             packing_second: Wanted::default(),
@@ -146,14 +152,12 @@ impl Document {
         })
     }
 
-    /// Moves the edges of smooth shading; whether they weren't there.
-    pub fn use_crease(&mut self, crease: Crease) -> bool {
+    /// Moves the edges of smooth shading.
+    pub fn use_crease(&mut self, crease: Crease) {
         let scene = &mut self.loaded.scene;
-        let is_other = scene.crease() != crease;
-        if is_other {
+        if scene.crease() != crease {
             *scene = Arc::new(scene.with_crease(crease));
         }
-        is_other
     }
 
     /// Answers this scene's rays, with the kernel that was last ready.

@@ -4,6 +4,7 @@
 //! `cargo test --release -p hitscope-core --test fuzz -- 10000000 SEED` as many as asked for. A program of its
 //! own, as the memory of all threads is counted.
 
+use cpu_time::ProcessTime;
 use glam::Vec3;
 use hitscope_core::mesh::{Crease, Health, VertexNormals};
 use hitscope_core::obj::{self, Faults, LoadOptions, Recentre};
@@ -12,7 +13,7 @@ use hitscope_core::random::Random;
 use peak_alloc::PeakAlloc;
 use std::io;
 use std::path::Path;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -20,14 +21,14 @@ static MEMORY: PeakAlloc = PeakAlloc;
 /// Inputs where the command line says nothing.
 const INPUTS: u64 = 30_000;
 /// What loading may take for each byte of the file, and whatever the size is: buffers, and the machinery of
-/// gzip. The hungriest bytes are short faces: `f 1 1 1` and its line end are 8, and 80 in tobj's list, which
-/// has room for twice as many.
+/// gzip. The hungriest bytes are short faces: `f 1 1 1` and its line end are 8, and 104 in tobj's list, which
+/// may have room for twice as many: 26 for each, and half as much again for our lists.
 const BYTES_PER_BYTE: usize = 64;
 const BYTES_ANYHOW: usize = 2 << 20;
 /// One input in so many is a large one.
 const LARGE_EVERY: u64 = 1000;
 const LARGE_BYTES: usize = 1 << 20;
-/// Longer is a hang.
+/// Of a processor's time; longer is a hang.
 const LONGEST: Duration = Duration::from_secs(1);
 
 /// Words that OBJ and MTL files are made of, legal and not.
@@ -138,7 +139,7 @@ struct Fuzzer(Random);
 
 impl Fuzzer {
     fn below(&mut self, count: usize) -> usize {
-        ((self.0.unit() * count as f64) as usize).min(count.saturating_sub(1))
+        self.0.index(count)
     }
 
     fn case(&mut self) -> Case {
@@ -209,7 +210,7 @@ impl Totals {
         };
         let (path, open) = (Path::new("x.obj"), || Ok(&case.mesh[..]));
         MEMORY.reset_peak_usage();
-        let (before, start) = (MEMORY.current_usage(), Instant::now());
+        let (before, start) = (MEMORY.current_usage(), ProcessTime::now());
         let result = obj::parse(open, path, case.options, &files, &Progress::default());
         let (took, peak) = (start.elapsed(), MEMORY.peak_usage() - before);
         self.slowest = self.slowest.max(took);

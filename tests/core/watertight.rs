@@ -119,8 +119,8 @@ fn no_ray_leaves_a_closed_mesh_through_an_edge_or_a_corner() {
     for kernel in watertight_kernels() {
         let check = |(k, case): (usize, &Case)| {
             assert_eq!(
-                Health::of(&case.mesh).count(Flaw::OpenEdge),
-                0,
+                Health::of(&case.mesh).places(Flaw::OpenEdge).count(),
+                Some(0),
                 "{}",
                 case.name
             );

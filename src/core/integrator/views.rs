@@ -1,10 +1,11 @@
 //! Views that show a number of the hit as a colour.
 
 use super::Context;
-use super::palette::{cost_colour, from_display, id_colour};
+use super::palette::{cost_colour, id_colour};
 use crate::camera::Projection;
 use crate::interaction::SurfaceInteraction;
 use crate::ray::{Hit, Ray};
+use crate::srgb::from_display;
 use glam::Vec3;
 
 pub(super) fn normal(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {

@@ -152,7 +152,7 @@ pub fn scene(mesh: TriangleMesh) -> Scene {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::Health;
+    use crate::mesh::{Flaw, Health};
 
     #[test]
     fn closed_shapes_are_closed_and_wound_to_the_outside() {
@@ -161,7 +161,9 @@ mod tests {
             sphere(6, Place::UNIT),
             cube(3, Place::UNIT),
         ] {
-            assert!(Health::of(&mesh).is_closed());
+            let health = Health::of(&mesh);
+            assert!(health.is_closed());
+            assert_eq!(health.places(Flaw::FlippedEdge).count(), Some(0));
             // Six times the volume, positive where normals point to the outside.
             let six_volumes: f64 = (0..mesh.triangles.len() as u32)
                 .map(|k| mesh.corners(k).map(Vec3::as_dvec3))

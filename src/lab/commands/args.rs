@@ -90,9 +90,9 @@ pub struct MeshArgs {
     /// Drop faces whose indices name nothing, and say how many, instead of refusing the file
     #[arg(long)]
     pub lenient: bool,
-    /// Refuse a file that takes more memory to load than this
-    #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
-    pub max_memory: u64,
+    /// How much memory that may take.
+    #[command(flatten)]
+    pub memory: MemoryArg,
     /// Keep triangles and their tree in a third less memory; rays take longer
     #[arg(long)]
     pub compact: bool,
@@ -111,7 +111,7 @@ impl MeshArgs {
             } else {
                 Faults::Strict
             },
-            max_memory: self.max_memory << 20,
+            max_memory: self.memory.bytes(),
         };
         let options = SceneOptions {
             packing: if self.compact {
@@ -122,6 +122,21 @@ impl MeshArgs {
             ..SceneOptions::default()
         };
         load(path, load_options, options)
+    }
+}
+
+/// How much memory loading may take.
+#[derive(Args, Clone, Copy, Debug)]
+pub struct MemoryArg {
+    /// Refuse a file that takes more memory to load than this
+    #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
+    pub max_memory: u64,
+}
+
+impl MemoryArg {
+    /// The same in bytes.
+    pub fn bytes(self) -> u64 {
+        self.max_memory.saturating_mul(1 << 20)
     }
 }
 

@@ -33,6 +33,9 @@ struct Info {
     polygons: usize,
     materials: usize,
     groups: usize,
+    /// Straight pieces of the file's lines, and its points.
+    lines: usize,
+    points: usize,
     bounds: Bounds,
     origin: [f64; 3],
     /// Largest distance, in a coordinate, between the file's decimals and what is traced.
@@ -101,6 +104,8 @@ impl Info {
             polygons: mesh.face_count,
             materials: mesh.named_material_count(),
             groups: mesh.named_group_count(),
+            lines: mesh.lines.len(),
+            points: mesh.points.len(),
             bounds: Bounds {
                 min: in_file(bounds.min),
                 max: in_file(bounds.max),
@@ -112,6 +117,7 @@ impl Info {
                 ("zero_area", mesh.dropped.zero_area),
                 ("non_finite", mesh.dropped.non_finite),
                 ("bad_index", mesh.dropped.bad_index),
+                ("lines_and_points", mesh.dropped.elements),
             ]),
             bytes_as: BTreeMap::from(bytes_as(mesh)),
             warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
@@ -137,6 +143,7 @@ impl Info {
         writeln!(out, "polygons            {}", self.polygons)?;
         writeln!(out, "materials           {}", self.materials)?;
         writeln!(out, "groups              {}", self.groups)?;
+        writeln!(out, "lines, points       {}, {}", self.lines, self.points)?;
         writeln!(out, "bounds              {:?}", self.bounds.min)?;
         writeln!(out, "                    {:?}", self.bounds.max)?;
         writeln!(out, "origin              {:?}", self.origin)?;

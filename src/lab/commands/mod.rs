@@ -8,7 +8,7 @@ mod lab;
 mod render;
 mod trace;
 
-pub use args::CameraArgs;
+pub use args::{CameraArgs, MemoryArg};
 pub use bench::BenchArgs;
 pub use info::InfoArgs;
 pub use inspect::InspectArgs;

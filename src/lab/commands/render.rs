@@ -5,12 +5,12 @@ use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_na
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::integrator::Context;
-use hitscope_core::integrator::palette::from_display;
 use hitscope_core::kernel::triangle_kernel;
 use hitscope_core::obj::Recentre;
 use hitscope_core::render::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::{LoadedScene, Shading};
+use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Film, Intersector};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;

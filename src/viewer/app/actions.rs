@@ -46,7 +46,7 @@ impl App {
         self.flaw = flaw;
         if let (Some(flaw), Some(findings)) = (flaw, self.document.known_findings()) {
             let scene = &self.document.loaded.scene;
-            let around = findings.health.bounds(scene.mesh(), flaw);
+            let around = findings.health.bounds(flaw);
             let bounds = around.unwrap_or(scene.bounds());
             self.turntable.frame(bounds, self.resolution);
         }

@@ -11,7 +11,7 @@ use glam::{DVec2, DVec3, UVec2, Vec3};
 use hitscope_core::Camera;
 use hitscope_core::camera::Turntable;
 use hitscope_core::integrator::Context;
-use hitscope_core::integrator::palette::from_display;
+use hitscope_core::srgb::from_display;
 use hitscope_lab::commands::DARK_BACKGROUND;
 use hitscope_lab::inspection::Inspection;
 use std::sync::Arc;

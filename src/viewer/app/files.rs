@@ -43,6 +43,7 @@ impl App {
         let origin = |document: &Document| document.loaded.scene.mesh().origin;
         let shift = origin(&self.document) - origin(&document);
         self.document = document;
+        self.watch = None;
         self.document.use_crease(self.settings.crease());
         let pick = self.pick.take();
         (self.picking, self.flaw) = (None, None);
@@ -80,13 +81,9 @@ impl App {
             self.watch = None;
             return;
         };
-        let named = &self.document.loaded.files;
-        if self
-            .watch
-            .as_ref()
-            .is_none_or(|watch| !watch.is_of(&path, named))
-        {
-            match Watch::of(&path, named, ctx) {
+        if self.watch.is_none() {
+            let named = &self.document.loaded.files;
+            match Watch::of(&path, named, self.document.began, ctx) {
                 Ok(watch) => self.watch = Some(watch),
                 Err(error) => {
                     self.settings.watches = false;

@@ -89,6 +89,18 @@ impl Options {
 const FAINT_AND_STRONG: [f32; 2] = [0.3, 1.0];
 const THROUGH_AND_HIDDEN: [Visibility; 2] = [Visibility::Through, Visibility::Hidden];
 
+/// Gives marks their looks, and says how each is drawn.
+fn drawn_marks<'m>(
+    marks: &'m Marks,
+    queue: &wgpu::Queue,
+    style: impl Fn(f32) -> StyleUniform,
+) -> impl Iterator<Item = (&'m LineSet, Visibility)> {
+    for (set, alpha) in marks.iter().zip(FAINT_AND_STRONG) {
+        set.set_style(queue, &style(alpha));
+    }
+    marks.iter().zip(THROUGH_AND_HIDDEN)
+}
+
 fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
     StyleUniform {
         colour,
@@ -99,13 +111,16 @@ fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
     }
 }
 
+/// Lines that mark something: once to be drawn faint where the mesh hides them, once strong where it doesn't.
+type Marks = [LineSet; 2];
+
 /// A set of lines of one kind: which it is, once it is on the GPU, and on the way there.
-struct Lines<K> {
-    ready: Option<(K, LineSet)>,
+struct Lines<K, S = LineSet> {
+    ready: Option<(K, S)>,
     gathering: Wanted<K, Vec<Line>>,
 }
 
-impl<K> Default for Lines<K> {
+impl<K, S> Default for Lines<K, S> {
     fn default() -> Self {
         Self {
             ready: None,
@@ -114,14 +129,14 @@ impl<K> Default for Lines<K> {
     }
 }
 
-impl<K: Copy + PartialEq + Send + 'static> Lines<K> {
+impl<K: Copy + PartialEq + Send + 'static, S> Lines<K, S> {
     /// Sees to it that the lines of this kind get ready; whether they just did.
     fn prepare(
         &mut self,
         kind: K,
         ctx: &egui::Context,
         gather: impl FnOnce() -> Vec<Line> + Send + 'static,
-        upload: impl FnOnce(&[Line]) -> Result<LineSet, GpuError>,
+        upload: impl FnOnce(&[Line]) -> Result<S, GpuError>,
     ) -> Result<bool, OverlayError> {
         if self.ready.as_ref().is_some_and(|(ready, _)| *ready == kind) {
             return Ok(false);
@@ -157,10 +172,8 @@ pub struct OverlayLayer {
     wireframe: Lines<Edges>,
     normals: Lines<Shading>,
     elements: Lines<()>,
-    /// Twice: faint where they are hidden, strong where they aren't.
-    flaws: [Lines<Flaw>; 2],
-    /// The picked triangle, faint where it is hidden and strong where it isn't.
-    picked: Option<(u32, [LineSet; 2])>,
+    flaws: Lines<Flaw, Marks>,
+    picked: Option<(u32, Marks)>,
     texture: Option<wgpu::Texture>,
     /// What the texture shows.
     drawn: Option<(ViewUniform, Options)>,
@@ -178,7 +191,7 @@ impl OverlayLayer {
             wireframe: Lines::default(),
             normals: Lines::default(),
             elements: Lines::default(),
-            flaws: Default::default(),
+            flaws: Lines::default(),
             picked: None,
             texture: None,
             drawn: None,
@@ -232,13 +245,19 @@ impl OverlayLayer {
             return Ok(());
         }
         // Should the mesh be refused, this isn't tried again.
-        self.scene = Some(Arc::clone(scene));
+        let old = self.scene.replace(Arc::clone(scene));
+        if old.is_some_and(|old| std::ptr::eq(old.mesh(), scene.mesh())) {
+            // Only the edges of smooth shading moved.
+            self.normals = Lines::default();
+            self.drawn = None;
+            return Ok(());
+        }
         self.mesh = None;
         self.texture = None;
         self.wireframe = Lines::default();
         self.normals = Lines::default();
         self.elements = Lines::default();
-        self.flaws = Default::default();
+        self.flaws = Lines::default();
         self.picked = None;
         self.drawn = None;
         self.mesh = Some(DepthMesh::new(&self.render_state.device, scene.mesh())?);
@@ -302,15 +321,14 @@ impl OverlayLayer {
     ) -> Result<bool, OverlayError> {
         let RenderState { device, queue, .. } = &self.render_state;
         let pipelines = self.overlay.lines();
-        let mut is_new = false;
-        for (lines, alpha) in self.flaws.iter_mut().zip(FAINT_AND_STRONG) {
-            let (scene, health) = (Arc::clone(scene), Arc::clone(health));
-            let gather = move || marks::flaws(&scene, &health, flaw);
-            let upload =
-                |lines: &[Line]| pipelines.upload(device, queue, lines, &options.flaw_style(alpha));
-            is_new |= lines.prepare(flaw, ctx, gather, upload)?;
-        }
-        Ok(is_new)
+        let (scene, health) = (Arc::clone(scene), Arc::clone(health));
+        let gather = move || marks::flaws(&scene, &health, flaw);
+        let upload = |lines: &[Line]| {
+            let set = |alpha| pipelines.upload(device, queue, lines, &options.flaw_style(alpha));
+            let [faint, strong] = FAINT_AND_STRONG;
+            Ok([set(faint)?, set(strong)?])
+        };
+        self.flaws.prepare(flaw, ctx, gather, upload)
     }
 
     fn redraw(&mut self, view: &ViewUniform, options: &Options) {
@@ -328,26 +346,15 @@ impl OverlayLayer {
             set.set_style(queue, &options.element_style());
             sets.push((set, Visibility::Hidden));
         }
-        for ((lines, alpha), visibility) in self
-            .flaws
-            .iter()
-            .zip(FAINT_AND_STRONG)
-            .zip(THROUGH_AND_HIDDEN)
+        if let Some((flaw, flaws)) = &self.flaws.ready
+            && options.flaw == Some(*flaw)
         {
-            if let Some((flaw, set)) = &lines.ready
-                && options.flaw == Some(*flaw)
-            {
-                set.set_style(queue, &options.flaw_style(alpha));
-                sets.push((set, visibility));
-            }
+            sets.extend(drawn_marks(flaws, queue, |alpha| options.flaw_style(alpha)));
         }
         if let (Some(_), Some((_, picked))) = (options.picked, &self.picked) {
-            for ((set, alpha), visibility) in
-                picked.iter().zip(FAINT_AND_STRONG).zip(THROUGH_AND_HIDDEN)
-            {
-                set.set_style(queue, &options.picked_style(alpha));
-                sets.push((set, visibility));
-            }
+            sets.extend(drawn_marks(picked, queue, |alpha| {
+                options.picked_style(alpha)
+            }));
         }
         let Some(mesh) = &self.mesh else { return };
         let texture = self.overlay.draw(device, queue, view, mesh, &sets);

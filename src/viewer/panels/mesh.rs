@@ -35,6 +35,10 @@ pub fn mesh_ui(
         row_ui(ui, "polygons", grouped(mesh.face_count));
         row_ui(ui, "materials", mesh.named_material_count());
         row_ui(ui, "groups", mesh.named_group_count());
+        if mesh.has_elements() {
+            row_ui(ui, "lines", grouped(mesh.lines.len()));
+            row_ui(ui, "points", grouped(mesh.points.len()));
+        }
     });
     if !loaded.warnings.is_empty() {
         ui.label(RichText::new("Warnings").strong());

@@ -4,11 +4,11 @@ use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::camera::{StandardView, Turntable};
-use hitscope_core::integrator::palette::to_display;
 use hitscope_core::integrator::{Against, INTEGRATORS, Legend};
 use hitscope_core::kernel::{
     KernelInfo, TRIANGLE_KERNELS, default_triangle_kernel, triangle_kernel,
 };
+use hitscope_core::srgb::to_display;
 
 /// View, shading, kernel, overlay, camera, theme.
 pub fn view_ui(

@@ -9,7 +9,6 @@ use super::edges::{Edges, Fans};
 use super::{TriangleMesh, Welded};
 use crate::aabb::Aabb;
 use rayon::prelude::*;
-use std::collections::HashSet;
 
 /// Something unusual that a mesh can have.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -119,6 +118,8 @@ impl Places {
 pub struct Health {
     /// By [`Flaw`], in the order of [`FLAWS`].
     places: [Places; 7],
+    /// Around the triangles at these places.
+    bounds: [Aabb; 7],
     /// The largest ratio of longest edge to height.
     pub max_aspect: f64,
 }
@@ -139,16 +140,18 @@ impl Health {
         }
         let (slivers, max_aspect) = triangles::slivers(mesh);
         let t_junctions = t_junctions::find(mesh, &open);
+        let places = [
+            Places::Edges(open),
+            Places::Edges(non_manifold),
+            Places::Edges(flipped),
+            t_junctions.map_or(Places::Unknown, Places::Vertices),
+            Places::Vertices(touching_vertices(mesh, &welded, &edges)),
+            Places::Triangles(triangles::duplicates(mesh, &welded)),
+            Places::Triangles(slivers),
+        ];
         Self {
-            places: [
-                Places::Edges(open),
-                Places::Edges(non_manifold),
-                Places::Edges(flipped),
-                t_junctions.map_or(Places::Unknown, Places::Vertices),
-                Places::Vertices(touching_vertices(mesh, &welded, &edges)),
-                Places::Triangles(triangles::duplicates(mesh, &welded)),
-                Places::Triangles(slivers),
-            ],
+            bounds: places.each_ref().map(|places| bounds(mesh, places)),
+            places,
             max_aspect,
         }
     }
@@ -159,35 +162,37 @@ impl Health {
     }
 
     /// The box around the triangles where flaws of a kind are, and those beside; `None` if there are none.
-    pub fn bounds(&self, mesh: &TriangleMesh, flaw: Flaw) -> Option<Aabb> {
-        let vertices: HashSet<u32> = match self.places(flaw) {
-            Places::Edges(edges) => edges.iter().flatten().copied().collect(),
-            Places::Vertices(vertices) => vertices.iter().copied().collect(),
-            Places::Triangles(triangles) => triangles
-                .iter()
-                .flat_map(|&triangle| mesh.triangles[triangle as usize])
-                .collect(),
-            Places::Unknown => HashSet::new(),
-        };
-        let is_there = |corners: &&[u32; 3]| corners.iter().any(|vertex| vertices.contains(vertex));
-        let there = mesh.triangles.par_iter().filter(is_there);
-        let bounds = there
-            .map(|corners| Aabb::around(corners.map(|vertex| mesh.positions[vertex as usize])))
-            .reduce(|| Aabb::EMPTY, Aabb::union);
+    pub fn bounds(&self, flaw: Flaw) -> Option<Aabb> {
+        let bounds = self.bounds[flaw as usize];
         (!bounds.is_empty()).then_some(bounds)
     }
 
-    /// Whether the surface has an inside: each edge has two triangles, wound alike.
+    /// Whether the surface has an inside: each edge has two triangles.
     pub fn is_closed(&self) -> bool {
-        [Flaw::OpenEdge, Flaw::NonManifoldEdge, Flaw::FlippedEdge]
+        [Flaw::OpenEdge, Flaw::NonManifoldEdge]
             .into_iter()
-            .all(|flaw| self.count(flaw) == 0)
+            .all(|flaw| self.places(flaw).count() == Some(0))
     }
+}
 
-    /// How many flaws of a kind there are; 0 where nobody looked.
-    pub fn count(&self, flaw: Flaw) -> usize {
-        self.places(flaw).count().unwrap_or(0)
+/// The box around all triangles that have a vertex at one of the places.
+fn bounds(mesh: &TriangleMesh, places: &Places) -> Aabb {
+    let mut is_there = vec![false; mesh.positions.len()];
+    let mut mark = |vertex: u32| is_there[vertex as usize] = true;
+    match places {
+        Places::Unknown => return Aabb::EMPTY,
+        _ if places.count() == Some(0) => return Aabb::EMPTY,
+        Places::Edges(edges) => edges.as_flattened().iter().copied().for_each(mark),
+        Places::Vertices(vertices) => vertices.iter().copied().for_each(mark),
+        Places::Triangles(triangles) => triangles
+            .iter()
+            .flat_map(|&triangle| mesh.triangles[triangle as usize])
+            .for_each(&mut mark),
     }
+    let is_near = |corners: &&[u32; 3]| corners.iter().any(|&vertex| is_there[vertex as usize]);
+    let near = mesh.triangles.par_iter().filter(is_near);
+    near.map(|corners| Aabb::around(corners.map(|vertex| mesh.positions[vertex as usize])))
+        .reduce(|| Aabb::EMPTY, Aabb::union)
 }
 
 /// Vertices whose corners hang together in more than one set.
@@ -224,7 +229,7 @@ mod tests {
 
     fn counts(mesh: &TriangleMesh) -> [usize; 7] {
         let health = Health::of(mesh);
-        FLAWS.map(|info| health.count(info.flaw))
+        FLAWS.map(|info| health.places(info.flaw).count().expect("somebody looked"))
     }
 
     #[test]
