@@ -3,7 +3,7 @@
 use glam::Vec3;
 use std::sync::LazyLock;
 
-/// Linear RGB of a colour that is to be seen as these sRGB values in 0…1; outside, clamped.
+/// Linear RGB of a colour that is to be seen as these sRGB values in 0…1; outside, clamped. NaN stays NaN.
 ///
 /// Source: IEC 61966-2-1.
 pub fn from_display(srgb: Vec3) -> Vec3 {
@@ -17,7 +17,7 @@ pub fn from_display(srgb: Vec3) -> Vec3 {
     Vec3::from_array(srgb.clamp(Vec3::ZERO, Vec3::ONE).to_array().map(linear))
 }
 
-/// sRGB value in 0…1 of a linear one, clamped. The inverse of [`from_display`].
+/// sRGB value in 0…1 of a linear one, clamped; NaN stays NaN. The inverse of [`from_display`].
 ///
 /// Source: IEC 61966-2-1.
 pub fn to_display(linear: f32) -> f32 {

@@ -144,7 +144,7 @@ pub static KEYS: &[Binding] = &[
     binding(
         &[key(Key::Escape)],
         Action::Dismiss,
-        "Close help or message, or clear the pick",
+        "Cancel loading, close help or message, or clear the pick",
     ),
 ];
 

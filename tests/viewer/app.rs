@@ -46,7 +46,7 @@ fn a_file_opens_and_a_bad_one_leaves_it_in_place() {
         (folder.path().to_owned(), "this is a directory"),
         (
             write(&folder, "empty.obj", ""),
-            "empty.obj: no vertices and no faces",
+            "empty.obj: the file is empty",
         ),
         (
             write(&folder, "page.obj", "<html></html>"),

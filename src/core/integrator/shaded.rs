@@ -78,6 +78,8 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     if let Some(material) = material
         && illumination == Illumination::Highlights
         && material.specular != Vec3::ZERO
+        // An exponent of 0 is no highlight, but light everywhere: programs write it for matt materials.
+        && material.shininess > 0.0
     {
         let to_eye = (-ray.dir).normalize_or_zero();
         let highlight = |(dir, strength): (Vec3, f32)| {
@@ -95,10 +97,10 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
 /// The material's colour, times its texture's, times the vertices'; clay if there is none of them.
 fn diffuse(mesh: &TriangleMesh, material: Option<&Material>, hit: &Hit) -> Vec3 {
     let map = material.and_then(|material| material.diffuse_map.as_ref());
-    let of_texture = map.map(|map| {
-        let uv = texture_coordinates(mesh, hit).unwrap_or_default();
-        map.colour(&mesh.textures, uv)
-    });
+    // A face without texture coordinates has none of the picture.
+    let of_texture = map
+        .zip(texture_coordinates(mesh, hit))
+        .map(|(map, uv)| map.colour(&mesh.textures, uv));
     let of_vertices = vertex_colour(mesh, hit).map(from_display);
     let of_material = material.and_then(|material| material.diffuse);
     [of_material, of_texture, of_vertices]

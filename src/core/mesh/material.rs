@@ -48,7 +48,8 @@ pub struct TextureMap {
 }
 
 impl TextureMap {
-    /// The colour at a surface's texture coordinates, in linear RGB.
+    /// The colour at a surface's texture coordinates, in linear RGB; white if there is no such texture. A
+    /// coordinate that isn't finite counts as 0.
     pub fn colour(&self, textures: &[Texture], uv: Vec2) -> Vec3 {
         let texture = textures.get(self.texture as usize);
         texture.map_or(Vec3::ONE, |texture| {

@@ -1,4 +1,4 @@
-//! Normals at vertices, for smooth shading and to be shown.
+//! Which way does a smooth surface face at a corner?
 
 use super::edges::{EdgeUse, Edges, Fans};
 use super::{NO_INDEX, TriangleMesh, Welded, unit_normal};
@@ -11,7 +11,8 @@ pub enum Crease {
     /// Where the file says so, by its normals and smoothing groups; where it says nothing, nowhere.
     #[default]
     FromFile,
-    /// Where two triangles' normals are more than so many radians apart; what the file says doesn't count.
+    /// Where two triangles' normals are more than so many radians apart; what the file says doesn't count. NaN is
+    /// less than any angle: everything is flat.
     Above(f32),
 }
 
@@ -122,7 +123,7 @@ fn of_vertices(mesh: &TriangleMesh) -> VertexNormals {
     }
 }
 
-/// The file's normals where a triangle has them. Else one for each vertex and smoothing group; that of
+/// The file's normal where a corner has one. Else one for each vertex and smoothing group; that of
 /// its triangle for what is in no group.
 fn mixed(mesh: &TriangleMesh) -> VertexNormals {
     let welded = Welded::of(mesh);
@@ -132,20 +133,25 @@ fn mixed(mesh: &TriangleMesh) -> VertexNormals {
     let group_of = |triangle: u32| mesh.smoothing.groups.of(triangle);
     let is_flat = |triangle: u32| mesh.smoothing.has_groups && group_of(triangle) == 0;
     for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
-        own.push(if has_normals(mesh, triangle) {
-            mesh.corner_normals[triangle as usize]
-        } else if is_flat(triangle) {
-            sums.push(unit_normal(mesh.corners(triangle)));
-            [sums.len() as u32 - 1; 3]
-        } else {
-            vertices.map(|vertex| {
-                let key = (welded.vertex(vertex), group_of(triangle));
-                *by_group.entry(key).or_insert_with(|| {
-                    sums.push(DVec3::ZERO);
+        let given = mesh.corner_normals.get(triangle as usize);
+        let mut of_triangle = None;
+        own.push([0, 1, 2].map(|k| {
+            let given = given.map_or(NO_INDEX, |corners| corners[k]);
+            if given != NO_INDEX {
+                return given;
+            }
+            if is_flat(triangle) {
+                return *of_triangle.get_or_insert_with(|| {
+                    sums.push(unit_normal(mesh.corners(triangle)));
                     sums.len() as u32 - 1
-                })
+                });
+            }
+            let key = (welded.vertex(vertices[k]), group_of(triangle));
+            *by_group.entry(key).or_insert_with(|| {
+                sums.push(DVec3::ZERO);
+                sums.len() as u32 - 1
             })
-        });
+        }));
     }
     // Faces that have normals of their own shape those of their neighbours, too.
     for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
@@ -236,13 +242,18 @@ mod tests {
     }
 
     #[test]
-    fn the_files_normals_win_face_by_face() {
+    fn the_files_normals_win_corner_by_corner() {
         let mut mesh = roof();
         mesh.normals = vec![Vec3::Y * 2.0];
         mesh.corner_normals = vec![[0; 3], [NO_INDEX; 3]];
         let [left, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(left, [Vec3::Y; 3]);
         // Computed, with the other face's part.
+        assert!(is_near(right[0], Vec3::Z), "{right:?}");
+        // Corner by corner.
+        mesh.corner_normals[1] = [NO_INDEX, 0, NO_INDEX];
+        let [_, right] = normals(&mesh, Crease::FromFile);
+        assert_eq!(right[1], Vec3::Y);
         assert!(is_near(right[0], Vec3::Z), "{right:?}");
         mesh.corner_normals[1] = [0; 3];
         assert_eq!(normals(&mesh, Crease::FromFile), [[Vec3::Y; 3]; 2]);

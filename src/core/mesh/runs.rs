@@ -1,4 +1,4 @@
-//! A number for each triangle that seldom changes from one to the next.
+//! Which number has a triangle, where neighbours in the list mostly have the same?
 
 /// Numbers of triangles, kept as runs of equal ones; 0 before the first run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]

@@ -27,6 +27,7 @@ impl Texture {
 
     /// What stands in for a picture that is missing.
     pub fn checker() -> Self {
+        // Eight fields a side; several texels each, so that their edges are sharp.
         const SIDE: u32 = 64;
         const FIELD: u32 = 8;
         let texel = |k: u32| {

@@ -212,12 +212,14 @@ impl Oddities {
         let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
         let elements = self.not_finite_elements;
         let of_elements = (elements > 0).then(|| {
-            let message = format!("{elements} line(s) or point(s) dropped: a vertex is not finite");
+            let message = format!(
+                "{elements} line(s) or point(s) dropped: a vertex is not finite, or too large"
+            );
             Warning::of_file(message)
         });
         [
             self.non_finite
-                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite")),
+                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite, or too large")),
             self.zero_area
                 .warning(|_| format!("{zero_area} triangle(s) dropped: their area is zero")),
             self.fan.warning(|fans| {
@@ -273,7 +275,7 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
             facts.counts[0]
         )
     } else {
-        "no vertices and no faces: this is not an OBJ file, or an empty one".to_owned()
+        "no vertices and no faces: this is not an OBJ file".to_owned()
     };
     Err(Problem::Content(message))
 }

@@ -12,6 +12,8 @@ pub type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 /// The files in and around an OBJ's folder, and those that it names by a whole path.
 pub(super) struct Folder {
     path: PathBuf,
+    /// Where the OBJ really is, if its name is a link.
+    behind_link: Option<PathBuf>,
     /// What was looked for, whether or not it was there.
     wanted: RefCell<BTreeSet<PathBuf>>,
     /// What is in the folders that were looked at.
@@ -23,8 +25,12 @@ type Listing = HashMap<String, OsString>;
 
 impl Folder {
     pub(super) fn of(obj: &Path) -> Self {
+        let target = std::fs::read_link(obj)
+            .and_then(|_| obj.canonicalize())
+            .ok();
         Self {
             path: obj.parent().unwrap_or(Path::new("")).to_owned(),
+            behind_link: target.and_then(|target| Some(target.parent()?.to_owned())),
             wanted: RefCell::default(),
             listings: RefCell::default(),
         }
@@ -37,8 +43,11 @@ impl Folder {
         let path = self.find(name);
         self.wanted.borrow_mut().insert(path.clone());
         let info = std::fs::metadata(&path)?;
-        if !info.is_file() || info.len() > LARGEST {
-            let message = format!("not a file of at most {} MB", LARGEST >> 20);
+        if !info.is_file() {
+            return Err(io::Error::other("not a file"));
+        }
+        if info.len() > LARGEST {
+            let message = format!("larger than {} MB", LARGEST >> 20);
             return Err(io::Error::other(message));
         }
         std::fs::read(path)
@@ -51,29 +60,31 @@ impl Folder {
     /// The file of a name; one that differs in letter case, or lies in the folder itself, where there is
     /// none of just that name.
     fn find(&self, name: &str) -> PathBuf {
-        let in_folder = || Path::new(name).file_name().map(Path::new);
+        let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
         // No file makes us ask another machine.
-        let is_remote = name.starts_with("//");
-        let exact = match in_folder() {
-            Some(file_name) if is_remote => self.path.join(file_name),
-            _ => self.path.join(name),
+        let name = if name.starts_with("//") {
+            file_name
+        } else {
+            Path::new(name)
         };
-        if exact.exists() {
-            return exact;
-        }
-        if is_remote {
-            return self
-                .any_case(in_folder().unwrap_or(Path::new("")))
-                .unwrap_or(exact);
-        }
-        self.any_case(Path::new(name))
-            .or_else(|| self.any_case(in_folder()?))
-            .unwrap_or(exact)
+        let folders = [Some(&self.path), self.behind_link.as_ref()];
+        folders
+            .into_iter()
+            .flatten()
+            .find_map(|folder| {
+                self.any_case(folder, name)
+                    .or_else(|| self.any_case(folder, file_name))
+            })
+            .unwrap_or_else(|| self.path.join(name))
     }
 
-    /// The file whose path is this one but for letter case.
-    fn any_case(&self, name: &Path) -> Option<PathBuf> {
-        name.components().try_fold(self.path.clone(), |path, part| {
+    /// The file of a path, or of one that is this one but for letter case.
+    fn any_case(&self, folder: &Path, name: &Path) -> Option<PathBuf> {
+        let exact = folder.join(name);
+        if exact.exists() {
+            return Some(exact);
+        }
+        name.components().try_fold(folder.to_owned(), |path, part| {
             let exact = path.join(part);
             if exact.exists() {
                 return Some(exact);

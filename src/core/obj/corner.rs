@@ -118,14 +118,13 @@ impl Corners<'_> {
         self.at = self.line.len();
         let (word, part) = (self.word(offset), self.word(part));
         let part = part.split('/').next().unwrap_or_default();
-        Malformed {
-            offset,
-            message: format!(
-                "“{}” in “{}” is not an index",
-                shortened(part),
-                shortened(&word)
-            ),
-        }
+        let within = if part == word {
+            String::new()
+        } else {
+            format!(" in “{}”", shortened(&word))
+        };
+        let message = format!("“{}”{within} is not an index", shortened(part));
+        Malformed { offset, message }
     }
 }
 
@@ -162,15 +161,15 @@ mod tests {
     fn what_is_no_corner_is_named() {
         for (line, message) in [
             ("1/1/1/1 2", "“1/1/1/1” has more than vertex/texture/normal"),
-            ("1.0", "“1.0” in “1.0” is not an index"),
+            ("1.0", "“1.0” is not an index"),
             ("1/x/2", "“x” in “1/x/2” is not an index"),
             ("/1", "“” in “/1” is not an index"),
-            ("-", "“-” in “-” is not an index"),
+            ("-", "“-” is not an index"),
             (
                 "99999999999999999999",
-                "“99999999999999999999” in “99999999999999999999” is not an index",
+                "“99999999999999999999” is not an index",
             ),
-            ("é", "“é” in “é” is not an index"),
+            ("é", "“é” is not an index"),
         ] {
             assert_eq!(corners(line), [Err(message.to_owned())], "{line}");
         }

@@ -1,4 +1,4 @@
-//! What can go wrong with an OBJ file.
+//! What can be wrong with an OBJ file, and how is that said?
 
 use crate::progress::Cancelled;
 use std::fmt;

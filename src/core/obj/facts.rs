@@ -4,6 +4,7 @@ use super::copies::Copies;
 use super::corner::List;
 use super::error::Warning;
 use super::names::{Libraries, NamedRuns};
+use glam::Vec3;
 use std::collections::BTreeMap;
 
 /// What has corners.
@@ -70,6 +71,9 @@ pub(super) struct Facts {
     /// Of each vertex, as far as there are any.
     pub colours: Vec<[f32; 3]>,
     coloured: usize,
+    has_byte_colours: bool,
+    /// Normals that are zero or not finite.
+    pub useless_normals: usize,
     /// The highest index of each list, from 1, and the line of the element that has it.
     pub highest: [(usize, usize); 3],
     /// Statements that were left out.
@@ -79,6 +83,8 @@ pub(super) struct Facts {
     pub dropped_others: Tally,
     /// Corners without the texture coordinates or the normal that they name, as there is none.
     pub bare: Tally,
+    /// Where texture coordinates are named, if there are none at all.
+    idle_textures_line: Option<usize>,
     /// What tobj holds of the elements that it has lists of.
     copies: Copies,
 }
@@ -101,11 +107,33 @@ impl Facts {
         }
     }
 
-    /// The colour of the last vertex. Those before it that have none are white.
+    /// The colour of the last vertex. Those that have none get what is white on any scale.
     pub(super) fn add_colour(&mut self, colour: [f32; 3]) {
-        self.colours.resize(self.counts[0] - 1, [1.0; 3]);
+        self.colours.resize(self.counts[0] - 1, [f32::INFINITY; 3]);
         self.colours.push(colour);
         self.coloured += 1;
+    }
+
+    /// A colour for each vertex, sRGB from 0 to 1, or none at all. Some programs write them from 0 to 255.
+    pub(super) fn take_colours(&mut self) -> Vec<Vec3> {
+        let mut colours = std::mem::take(&mut self.colours);
+        if !colours.is_empty() {
+            colours.resize(self.counts[0], [f32::INFINITY; 3]);
+        }
+        let channels = colours.as_flattened().iter().copied();
+        let largest = channels.filter(|x| x.is_finite()).fold(0.0, f32::max);
+        self.has_byte_colours = largest > 1.0 && largest <= 255.0;
+        let white = if self.has_byte_colours { 255.0 } else { 1.0 };
+        // NaN is black.
+        let channel = |x: f32| {
+            if x.is_nan() {
+                0.0
+            } else {
+                (x / white).clamp(0.0, 1.0)
+            }
+        };
+        let colour = |channels: [f32; 3]| Vec3::from_array(channels.map(channel));
+        colours.into_iter().map(colour).collect()
     }
 
     /// Notes an element whose corners, from `first` on, are in the lists.
@@ -161,7 +189,7 @@ impl Facts {
         if self.is_idle(List::Texture) && highest > 0 {
             self.highest[List::Texture as usize] = (0, 0);
             self.corners[List::Texture as usize] = Vec::new();
-            self.bare.add(line);
+            self.idle_textures_line = Some(line);
         }
     }
 
@@ -184,9 +212,23 @@ impl Facts {
                     .warning(|count| format!("{count} line(s) or point(s) {why}")),
             )
             .chain(self.bare.warning(|count| {
-                format!("{count} or more texture or normal indices ignored: there are no such")
+                format!("{count} texture or normal indices ignored: there are no such")
+            }))
+            .chain(self.idle_textures_line.map(|line| {
+                Warning::at(
+                    line,
+                    "texture coordinates are named, but there are none".to_owned(),
+                )
             }))
             .chain(uncoloured)
+            .chain(self.has_byte_colours.then(|| {
+                Warning::of_file("colours of vertices go beyond 1: taken as bytes".to_owned())
+            }))
+            .chain((self.useless_normals > 0).then(|| {
+                let count = self.useless_normals;
+                let message = format!("{count} normal(s) are zero or not finite: computed instead");
+                Warning::of_file(message)
+            }))
             .collect();
         warnings.sort_by_key(|warning| warning.line.unwrap_or(usize::MAX));
         warnings
@@ -278,14 +320,12 @@ impl LineRuns {
     }
 }
 
-/// A word fit for a message.
+/// A word fit for a message: not long, and without what would move a terminal's cursor.
 pub(super) fn shortened(word: &str) -> String {
-    const LENGTH: usize = 40;
-    if word.chars().count() <= LENGTH {
-        word.to_owned()
-    } else {
-        word.chars().take(LENGTH).chain(['…']).collect()
-    }
+    const LENGTH: usize = 60;
+    let plain = |c: char| if c.is_control() { '\u{FFFD}' } else { c };
+    let rest = word.chars().nth(LENGTH).map(|_| '…');
+    word.chars().take(LENGTH).map(plain).chain(rest).collect()
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! Keeps other crates' panics from the program.
+//! What if another crate panics on a user's data?
 
 use super::error::Problem;
 use std::any::Any;

@@ -4,10 +4,11 @@
 //! away, UTF-16 read as UTF-8, gzip unpacked.
 
 use super::error::Problem;
+use super::kind::not_an_obj;
 use crate::progress::{Phase, Progress};
 use encoding_rs_io::DecodeReaderBytesBuilder;
 use flate2::bufread::MultiGzDecoder;
-use memchr::{memchr, memchr2};
+use memchr::{memchr_iter, memchr2};
 use std::io::{self, BufRead, BufReader, Read};
 
 /// Read in pieces of this size, between which a cancel is noticed.
@@ -82,7 +83,7 @@ impl<'p> Lines<'p> {
             .utf8_passthru(true)
             .strip_bom(true)
             .build(source);
-        let mut lines = Self {
+        Ok(Self {
             source: Box::new(decoded),
             progress,
             buffer: Vec::new(),
@@ -90,15 +91,19 @@ impl<'p> Lines<'p> {
             is_at_end: false,
             line: 0,
             joined: Vec::new(),
-        };
-        // The first bytes may come a few at a time.
-        while lines.buffer.len() < ENOUGH_TO_TELL && !lines.is_at_end {
-            lines.fill()?;
+        })
+    }
+
+    /// Looks at the first bytes, before the first statement is asked for.
+    ///
+    /// # Errors
+    /// What the file is, if it is no OBJ.
+    pub(super) fn require_obj(&mut self) -> Result<(), Problem> {
+        // They may come a few at a time.
+        while self.buffer.len() < ENOUGH_TO_TELL && !self.is_at_end {
+            self.fill()?;
         }
-        match not_an_obj(&lines.buffer) {
-            Some(message) => Err(Problem::Content(message.to_owned())),
-            None => Ok(lines),
-        }
+        not_an_obj(&self.buffer).map_or(Ok(()), |what| Err(Problem::Content(what)))
     }
 
     /// The next statement; `None` at the end.
@@ -190,9 +195,11 @@ impl<'p> Lines<'p> {
 /// A line that goes on on the next one, without the backslash that says so and blanks after it. A comment ends
 /// with its line.
 fn before_backslash(line: &[u8]) -> Option<&[u8]> {
-    let is_comment = || line.trim_ascii_start().starts_with(b"#");
     let continued = line.trim_ascii_end().strip_suffix(b"\\")?;
-    (!is_comment()).then_some(continued)
+    // A name may have a # inside.
+    let begins_word = |at: usize| at == 0 || line[at - 1].is_ascii_whitespace();
+    let has_comment = memchr_iter(b'#', line).any(begins_word);
+    (!has_comment).then_some(continued)
 }
 
 fn too_long(line: usize) -> Problem {
@@ -213,22 +220,6 @@ impl<R: Read> Read for Counted<'_, R> {
         let count = self.bytes.read(out)?;
         self.progress.add_read(count as u64);
         Ok(count)
-    }
-}
-
-/// What a file is, if its first bytes show that it is no OBJ.
-fn not_an_obj(first_bytes: &[u8]) -> Option<&'static str> {
-    let start = first_bytes.trim_ascii_start();
-    let begins =
-        |with: &[u8]| start.len() >= with.len() && start[..with.len()].eq_ignore_ascii_case(with);
-    if begins(b"<!doctype") || begins(b"<html") {
-        Some("this is an HTML page, not an OBJ file")
-    } else if begins(b"<?xml") {
-        Some("this is an XML file, not an OBJ file")
-    } else if memchr(0, first_bytes).is_some() {
-        Some("this is a binary file, not an OBJ file")
-    } else {
-        None
     }
 }
 
@@ -290,7 +281,8 @@ mod tests {
             b"# a\n\0",
         ] {
             let progress = Progress::default();
-            let is_told = matches!(Lines::new(bytes, &progress), Err(Problem::Content(_)));
+            let mut lines = Lines::new(bytes, &progress).expect("bytes");
+            let is_told = matches!(lines.require_obj(), Err(Problem::Content(_)));
             assert!(is_told, "{}", bytes.escape_ascii());
         }
     }

@@ -1,9 +1,10 @@
 //! What do the materials look like that faces name?
 
 use super::error::Problem;
-use super::facts::Facts;
+use super::facts::{Facts, shortened};
 use super::fence::fenced;
 use super::mtl::{self, Definition, MapFile};
+use super::words::before_comment;
 use super::{Beside, Warning};
 use crate::mesh::{Material, Texture, TextureMap};
 use crate::progress::Progress;
@@ -41,14 +42,19 @@ pub(super) fn look_up(
     let mut materials = Vec::with_capacity(facts.materials.names.len());
     for name in &facts.materials.names {
         progress.check()?;
-        let Some((folder, definition)) = libraries.known.get(name.as_str()) else {
+        let known = |name: &str| libraries.known.get(name);
+        let found = known(name).or_else(|| known(before_comment(name)?));
+        let Some((folder, definition)) = found else {
             if !name.is_empty() {
                 unknown.push(name);
             }
             materials.push(Material::named(name));
             continue;
         };
-        let mut material = definition.material.clone();
+        let mut material = Material {
+            name: name.clone(),
+            ..definition.material.clone()
+        };
         let map = definition.diffuse_map.as_ref();
         material.diffuse_map = map.map(|map| textures.map(map, folder));
         materials.push(material);
@@ -57,7 +63,10 @@ pub(super) fn look_up(
     warnings.extend(textures.missing.warnings("textures"));
     warnings.extend(unknown.first().map(|first| {
         let count = unknown.len();
-        let message = format!("{count} material(s) without a definition, “{first}” first");
+        let message = format!(
+            "{count} material(s) without a definition, “{}” first",
+            shortened(first)
+        );
         Warning::of_file(message)
     }));
     warnings.extend(
@@ -115,7 +124,11 @@ impl Libraries {
         beside: Beside,
         progress: &Progress,
     ) -> Result<(), Problem> {
-        let wanted: HashSet<&str> = facts.materials.names.iter().map(String::as_str).collect();
+        let names = facts.materials.names.iter();
+        let wanted: HashSet<&str> = names
+            .flat_map(|name| [Some(name.as_str()), before_comment(name)])
+            .flatten()
+            .collect();
         let mut reading = ReadingLibraries {
             libraries: self,
             beside,
@@ -139,28 +152,26 @@ struct ReadingLibraries<'a> {
 }
 
 impl ReadingLibraries<'_> {
-    /// What a `mtllib` names: one library whose name has spaces, or several.
+    /// What a `mtllib` names: one library whose name may have spaces, or several.
     fn read(&mut self, line: usize, names: &str) -> Result<(), Problem> {
-        let plain = |name: &str| name.trim_matches('"').replace('\\', "/");
-        let whole = plain(names);
+        let whole = names.trim_matches('"').replace('\\', "/");
         let Err(error) = self.read_one(&whole)? else {
             return Ok(());
         };
         let mut is_one_there = false;
         let mut missing = Vec::new();
-        if names.contains(char::is_whitespace) {
-            for word in names.split_whitespace().map(plain) {
-                match self.read_one(&word)? {
-                    Ok(()) => is_one_there = true,
-                    Err(error) => missing.push((word, error)),
-                }
+        let several = before_comment(&whole).unwrap_or(&whole);
+        for library in names_in(several).filter(|library| *library != whole) {
+            match self.read_one(&library)? {
+                Ok(()) => is_one_there = true,
+                Err(error) => missing.push((library, error)),
             }
         }
         if !is_one_there {
             missing = vec![(whole, error)];
         }
         for (library, error) in missing {
-            let message = format!("material library “{library}”: {error}");
+            let message = format!("material library “{}”: {error}", shortened(&library));
             self.libraries.missing.add(Warning::at(line, message));
         }
         Ok(())
@@ -171,6 +182,9 @@ impl ReadingLibraries<'_> {
         /// Far more than any file has, and few enough to look for.
         const MOST: usize = 10_000;
         self.progress.check()?;
+        if library.is_empty() {
+            return Ok(Err("a name is missing".to_owned()));
+        }
         let Libraries {
             known,
             seen,
@@ -200,6 +214,21 @@ impl ReadingLibraries<'_> {
         }
         Ok(Ok(()))
     }
+}
+
+/// Several libraries: each goes to where a word ends in `.mtl`; where none does, each is a word.
+fn names_in(several: &str) -> impl Iterator<Item = String> {
+    let is_end = |word: &str| word.trim_end_matches('"').to_lowercase().ends_with(".mtl");
+    let has_ends = several.split_whitespace().any(is_end);
+    let mut words = several.split_whitespace();
+    std::iter::from_fn(move || {
+        let mut name = words.next()?.to_owned();
+        while has_ends && !is_end(&name) {
+            let Some(word) = words.next() else { break };
+            name = format!("{name} {word}");
+        }
+        Some(name.trim_matches('"').to_owned())
+    })
 }
 
 /// The textures so far.
@@ -254,6 +283,7 @@ impl Textures<'_> {
                 self.push(texture)
             }
             Err(error) => {
+                let name = shortened(name);
                 let message = format!("texture “{name}”: {error}; shown as a checker");
                 self.missing.add(Warning::of_file(message));
                 let checker = self.checker;

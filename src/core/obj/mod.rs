@@ -2,7 +2,7 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | bytes become statements: compression, encodings, line ends | `lines` |
+//! | bytes become statements: compression, encodings, line ends | `lines`, `kind` |
 //! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies` |
 //! | tobj reads their numbers, in f64 | here |
 //! | its lists of some ten thousand faces become one | `numbers` |
@@ -16,6 +16,7 @@ mod corner;
 mod error;
 mod facts;
 mod fence;
+mod kind;
 mod lines;
 mod materials;
 mod mtl;

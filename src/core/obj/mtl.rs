@@ -20,6 +20,7 @@ use std::collections::{BTreeMap, HashSet};
 pub(super) struct Definition {
     pub material: Material,
     pub diffuse_map: Option<MapFile>,
+    line: usize,
     /// Whether a `d` was read, which counts more than a `Tr`.
     has_opacity: bool,
 }
@@ -80,7 +81,8 @@ pub(super) fn parse(
     let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
         let Tally { count, first_line } = tally;
         format!(
-            "material library “{library}”: {count} “{keyword}” statement(s) skipped, line {first_line} first"
+            "material library “{}”: {count} “{keyword}” statement(s) skipped, line {first_line} first",
+            shortened(library)
         )
     });
     let warnings = skipped.chain(failure).map(Warning::of_file).collect();
@@ -107,17 +109,20 @@ impl Parser {
             self.end_material(is_wanted);
             self.current = Some(Definition {
                 material: Material::named(rest.trim()),
+                line: statement.line,
                 ..Definition::default()
             });
             return;
         }
         let rest = name(without_comment(rest.as_bytes()));
         let current = self.current.as_mut();
-        if current
-            .and_then(|material| material.read(keyword, &rest))
-            .is_none()
-        {
+        let Some(skipped) = current.and_then(|material| material.read(keyword, &rest)) else {
             count_by_keyword(&mut self.skipped, &shortened(keyword), statement.line);
+            return;
+        };
+        for option in skipped {
+            let option = format!("{keyword} {option}");
+            count_by_keyword(&mut self.skipped, &option, statement.line);
         }
     }
 
@@ -126,8 +131,13 @@ impl Parser {
             return;
         };
         let name = &ended.material.name;
-        if is_wanted(name) && self.names.insert(name.clone()) {
+        if !is_wanted(name) {
+            return;
+        }
+        if self.names.insert(name.clone()) {
             self.found.push(ended);
+        } else {
+            count_by_keyword(&mut self.skipped, "newmtl", ended.line);
         }
     }
 
@@ -138,14 +148,14 @@ impl Parser {
 }
 
 impl Definition {
-    /// Reads a statement; `None` if it can't be read or isn't known.
-    fn read(&mut self, keyword: &str, rest: &str) -> Option<()> {
+    /// Reads a statement, and gives the options that were skipped; `None` if it can't be read or isn't known.
+    fn read(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
         let material = &mut self.material;
         match keyword {
             "Kd" => material.diffuse = Some(colour(rest)?),
             "Ks" => material.specular = colour(rest)?,
             "Ke" => material.emission = light(rest)?,
-            "Ns" => material.shininess = number(rest)?.max(0.0),
+            "Ns" => material.shininess = number(rest).filter(|x| *x >= 0.0)?,
             "d" => {
                 // With -halo, the given opacity is the one in the middle.
                 let value = rest.strip_prefix("-halo").unwrap_or(rest);
@@ -166,10 +176,14 @@ impl Definition {
                     _ => return None,
                 };
             }
-            "map_Kd" | "map_kd" => self.diffuse_map = Some(map_file(rest)?),
+            "map_Kd" | "map_kd" => {
+                let (map, skipped) = map_file(rest)?;
+                self.diffuse_map = Some(map);
+                return Some(skipped);
+            }
             _ => return None,
         }
-        Some(())
+        Some(Vec::new())
     }
 }
 
@@ -200,13 +214,14 @@ fn number(word: &str) -> Option<f32> {
     number.is_finite().then_some(number)
 }
 
-/// `-option value… name with spaces`. Options that shading has no use for are stepped over.
-fn map_file(rest: &str) -> Option<MapFile> {
+/// `-option value… name with spaces`, and the options that shading has no use for.
+fn map_file(rest: &str) -> Option<(MapFile, Vec<String>)> {
     let mut map = MapFile {
         name: String::new(),
         scale: Vec2::ONE,
         offset: Vec2::ZERO,
     };
+    let mut skipped = Vec::new();
     let mut rest = rest.trim();
     while rest.starts_with('-') {
         let (option, mut after) = word(rest);
@@ -232,12 +247,12 @@ fn map_file(rest: &str) -> Option<MapFile> {
         match option {
             "-s" => map.scale = pair,
             "-o" => map.offset = Vec2::new(values[0], values.get(1).copied().unwrap_or(0.0)),
-            _ => {}
+            _ => skipped.push(option.to_owned()),
         }
         rest = after;
     }
     map.name = rest.trim_matches('"').replace('\\', "/");
-    (!map.name.is_empty()).then_some(map)
+    (!map.name.is_empty()).then_some((map, skipped))
 }
 
 /// The first word, and what follows it.
@@ -303,13 +318,7 @@ mod tests {
 
     #[test]
     fn a_map_has_options_before_its_name() {
-        let map = |name: &str, scale, offset| {
-            Some(MapFile {
-                name: name.to_owned(),
-                scale,
-                offset,
-            })
-        };
+        let map = |name: &str, scale, offset| Some((name.to_owned(), scale, offset));
         let (one, zero) = (Vec2::ONE, Vec2::ZERO);
         for (text, expected) in [
             ("wood.png", map("wood.png", one, zero)),
@@ -326,7 +335,8 @@ mod tests {
             ("-odd-name.png", map("-odd-name.png", one, zero)),
             ("-s 2 3", None),
         ] {
-            assert_eq!(map_file(text), expected, "{text}");
+            let found = map_file(text).map(|(map, _)| (map.name, map.scale, map.offset));
+            assert_eq!(found, expected, "{text}");
         }
     }
 }

@@ -2,6 +2,7 @@
 //!
 //! tobj gives a list for some ten thousand faces each; here they become one for the whole file.
 
+use super::corner::List;
 use super::error::Problem;
 use super::facts::Facts;
 use crate::mesh::NO_INDEX;
@@ -86,10 +87,7 @@ impl Numbers {
             arities,
             ..Self::default()
         };
-        numbers.colours = facts.colours.drain(..).map(Vec3::from_array).collect();
-        if !numbers.colours.is_empty() {
-            numbers.colours.resize(facts.counts[0], Vec3::ONE);
-        }
+        numbers.colours = facts.take_colours();
         if let Some(new) = positions.numbering() {
             renumber(&mut numbers.corners[0], &new);
             keep_used(&mut numbers.colours, &positions.is_used);
@@ -108,7 +106,22 @@ impl Numbers {
         numbers.positions = positions.used();
         numbers.textures = texture_list.used();
         numbers.normals = normal_list.used();
+        numbers.forget_useless_normals(facts);
         Ok(numbers)
+    }
+
+    /// A normal that is zero or not finite is none.
+    fn forget_useless_normals(&mut self, facts: &mut Facts) {
+        let is_useless = |n: &Vec3| !n.is_finite() || *n == Vec3::ZERO;
+        let useless: Vec<bool> = self.normals.iter().map(is_useless).collect();
+        facts.useless_normals = useless.iter().filter(|&&is_useless| is_useless).count();
+        if facts.useless_normals > 0 {
+            for index in &mut self.corners[List::Normal as usize] {
+                if useless.get(*index as usize) == Some(&true) {
+                    *index = NO_INDEX;
+                }
+            }
+        }
     }
 }
 

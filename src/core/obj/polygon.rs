@@ -8,10 +8,12 @@ use glam::DVec3;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
+/// Of more corners than this, rounding makes a circle concave here and there; by so little that a fan fits it.
+const MANY: usize = 1000;
 /// Of more corners than this, ears are clipped on a thread of their own, which nobody waits for if the load is
 /// cancelled: of this many that takes up to 0.1 s (2026-11), and the time grows by the square.
 const LARGE: usize = 10_000;
-/// Of more corners than this, ears aren't clipped: it takes 1 s for a star, 7 s for a tangle (2026-11).
+/// Of more corners than this, ears aren't clipped: it takes 1 s for a star, up to 20 s for worse (2026-11).
 const LARGEST: usize = 100_000;
 /// How often a load that waits for a large polygon looks whether it is wanted.
 const PATIENCE: Duration = Duration::from_millis(10);
@@ -55,7 +57,7 @@ impl Triangulator {
         mut triangle: impl FnMut([usize; 3]),
     ) -> Result<Cut, Problem> {
         let count = corners.len();
-        let is_fan = count == 3 || is_convex(corners);
+        let is_fan = count == 3 || is_convex(corners) || (count > MANY && fan_fits(corners));
         if !is_fan && self.clip_ears_unless_cancelled(corners, progress)? {
             for corner in self.indices.chunks_exact(3) {
                 triangle([corner[0] as usize, corner[1] as usize, corner[2] as usize]);
@@ -136,6 +138,23 @@ fn vector_area(corners: &[DVec3]) -> DVec3 {
     let from_first = |p: DVec3| p - corners[0];
     let edge = |pair: &[DVec3]| from_first(pair[0]).cross(from_first(pair[1]));
     0.5 * corners.windows(2).map(edge).sum::<DVec3>()
+}
+
+/// Whether the triangles of a fan that are turned over have next to no area.
+fn fan_fits(corners: &[DVec3]) -> bool {
+    let normal = vector_area(corners).normalize_or_zero();
+    let doubled = |pair: &[DVec3]| {
+        (pair[0] - corners[0])
+            .cross(pair[1] - corners[0])
+            .dot(normal)
+    };
+    let (right, wrong) = corners
+        .windows(2)
+        .map(doubled)
+        .fold((0.0, 0.0), |(right, wrong), x| {
+            (right + x.max(0.0), wrong + (-x).max(0.0))
+        });
+    wrong <= 1e-9 * right && right > 0.0
 }
 
 /// Whether every corner turns the same way and the boundary goes round once: a fan then fits.
@@ -247,6 +266,18 @@ mod tests {
         assert_eq!(how, Cut::Good);
         assert!((area - expected).abs() < 1e-9, "{area}, {expected}");
         assert_eq!(cut(&star(LARGEST as u32 + 2)).0, Cut::Fan);
+    }
+
+    #[test]
+    fn a_large_circle_is_a_fan_although_its_corners_are_rounded() {
+        let count = 2 * LARGEST as u32;
+        let corner = |k: u32| {
+            let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
+            [angle.cos() as f32, angle.sin() as f32].map(f64::from)
+        };
+        let (how, area) = cut(&(0..count).map(corner).collect::<Vec<_>>());
+        assert_eq!(how, Cut::Good);
+        assert!((area - std::f64::consts::PI).abs() < 1e-5, "{area}");
     }
 
     #[test]

@@ -48,8 +48,10 @@ impl<'p> NormalisingReader<'p> {
         known_counts: Option<[usize; 3]>,
         progress: &'p Progress,
     ) -> Result<Self, Problem> {
+        let mut lines = Lines::new(bytes, progress)?;
+        lines.require_obj()?;
         Ok(Self {
-            lines: Lines::new(bytes, progress)?,
+            lines,
             sorter: Sorter::new(options.faults, known_counts),
             consumed: 0,
             max_memory: options.max_memory,

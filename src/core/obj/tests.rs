@@ -51,7 +51,7 @@ fn errors_name_the_line_and_the_word() {
             "f 1/1/1/1 2 3",
             "x.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
         ),
-        ("f 1.0 2 3", "x.obj:4:3: “1.0” in “1.0” is not an index"),
+        ("f 1.0 2 3", "x.obj:4:3: “1.0” is not an index"),
         ("f 1/x 2 3", "x.obj:4:3: “x” in “1/x” is not an index"),
         (
             "f 1 2",

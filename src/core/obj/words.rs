@@ -4,7 +4,7 @@ use super::corner::is_blank;
 use super::error::Problem;
 use super::facts::shortened;
 use super::lines::Statement;
-use memchr::memchr;
+use memchr::memchr_iter;
 use std::str::FromStr;
 
 /// The words of a line, and where they begin.
@@ -52,9 +52,17 @@ pub(super) fn number<T: FromStr>(
     })
 }
 
-/// A line up to its comment.
+/// A line up to its comment. A # behind a point is part of a number that is none: Microsoft's NaN is `-1.#IND`.
 pub(super) fn without_comment(bytes: &[u8]) -> &[u8] {
-    memchr(b'#', bytes).map_or(bytes, |at| &bytes[..at])
+    let is_comment = |&at: &usize| at == 0 || bytes[at - 1] != b'.';
+    let comment = memchr_iter(b'#', bytes).find(is_comment);
+    comment.map_or(bytes, |at| &bytes[..at])
+}
+
+/// A name up to what may be a comment, if there is something that may be one: a # behind a blank.
+pub(super) fn before_comment(name: &str) -> Option<&str> {
+    let at = name.find(" #").or_else(|| name.find("\t#"))?;
+    Some(name[..at].trim_end())
 }
 
 /// A name keeps its `#`, as exporters write `usemtl Material #27`.
@@ -93,5 +101,8 @@ mod tests {
         assert_eq!(name(b" caf\xe9 #2 "), "café #2");
         assert_eq!(name("café".as_bytes()), "café");
         assert_eq!(without_comment(b"1 2 # 3"), b"1 2 ");
+        assert_eq!(without_comment(b"-1.#IND 2# 3"), b"-1.#IND 2");
+        assert_eq!(before_comment("wood # red"), Some("wood"));
+        assert_eq!(before_comment("wood#2"), None);
     }
 }

@@ -166,6 +166,11 @@ impl Info {
         }
         writeln!(
             out,
+            "longest triangle    {:.1} times its height",
+            self.health.max_aspect
+        )?;
+        writeln!(
+            out,
             "load, build         {:.1} ms, {:.1} ms",
             self.load_ms, self.build_ms
         )?;

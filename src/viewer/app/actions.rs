@@ -52,8 +52,12 @@ impl App {
         }
     }
 
-    /// Closes the topmost thing that can be closed.
+    /// Ends a load, or closes the topmost thing that can be closed.
     fn dismiss(&mut self) {
+        if let Some(loading) = &self.loading {
+            loading.cancel();
+            return;
+        }
         let is_closed = std::mem::take(&mut self.shows_help)
             || self.open_dialog.dismiss()
             || self.notice.take().is_some();

@@ -1,4 +1,4 @@
-//! What is loaded, and when again.
+//! What is loaded, and when is it loaded again?
 
 use super::{App, Notice};
 use crate::document::Document;

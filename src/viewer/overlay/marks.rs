@@ -1,4 +1,4 @@
-//! What isn't an edge: the file's own lines and points, and the places of flaws.
+//! Where are the file's own lines and points, and where flaws?
 
 use super::wireframe;
 use crate::gpu::lines::Line;
@@ -6,7 +6,7 @@ use glam::Vec3;
 use hitscope_core::mesh::{Flaw, Health, Places};
 use hitscope_core::{Scene, TriangleMesh};
 
-/// Half the length of a cross, as a part of the scene's radius.
+/// Half the length of a cross, as a part of the scene's radius: some 5 pixels where all of it is seen.
 const CROSS: f32 = 0.008;
 
 /// The file's `l` and `p`: lines as they are, points as crosses.

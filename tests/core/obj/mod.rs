@@ -3,6 +3,9 @@
 // A file for each oddity, and what becomes of it.
 mod odd_files;
 
+// Material libraries and textures, and how files name them.
+mod materials;
+
 // What is refused, and what is said of it.
 mod refused;
 

@@ -1,8 +1,8 @@
 //! A file for each oddity, and what becomes of it.
 
 use super::{STRICT, load, load_path, warnings};
-use glam::{DVec3, Vec2, Vec3};
-use hitscope_core::mesh::{Crease, Material, NO_INDEX, VertexNormals};
+use glam::{DVec3, Vec3};
+use hitscope_core::mesh::{Crease, NO_INDEX, VertexNormals};
 use hitscope_core::obj::Loaded;
 use std::collections::BTreeMap;
 use std::fmt::Write as _;
@@ -83,87 +83,6 @@ fn polygons_without_a_plane_are_cut_the_same_way_each_time() {
     assert_eq!(load("not_flat.obj").mesh.triangles, first.mesh.triangles);
 }
 
-fn materials(loaded: &Loaded) -> BTreeMap<&str, &Material> {
-    let materials = loaded.mesh.materials.iter();
-    materials.map(|m| (m.name.as_str(), m)).collect()
-}
-
-#[test]
-fn legal_but_unusual_materials_are_read_and_what_is_skipped_is_said() {
-    let loaded = load("unusual.obj");
-    let materials = materials(&loaded);
-    assert_eq!(materials["grey"].diffuse, Some(Vec3::splat(0.5)));
-    assert_eq!(materials["spectral"].diffuse, Some(Vec3::X));
-    assert_eq!(materials["halo"].opacity, 0.5);
-    assert_eq!(materials["dim"].opacity, 0.75);
-    let map = materials["mapped"].diffuse_map.expect("a map");
-    assert_eq!(
-        (map.scale, map.offset),
-        (Vec2::splat(2.0), Vec2::new(0.5, 0.0))
-    );
-    // Half of texel.png is red, half is green; (0.375, 0) of the surface is at 1.25 of it.
-    let colour = map.colour(&loaded.mesh.textures, Vec2::new(0.375, 0.0));
-    assert_eq!(colour, Vec3::X);
-    let skipped = ["Kd", "Pm", "Pr", "illum", "map_Kd", "map_Ke"];
-    let warnings = warnings(&loaded);
-    assert_eq!(warnings.len(), skipped.len(), "{warnings:?}");
-    for (warning, keyword) in warnings.iter().zip(skipped) {
-        let expected =
-            format!("material library “unusual.mtl”: 1 “{keyword}” statement(s) skipped");
-        assert!(warning.starts_with(&expected), "{warning}");
-    }
-}
-
-#[test]
-fn libraries_are_found_by_several_odd_and_miscased_names() {
-    let loaded = load("libraries.obj");
-    assert_eq!(warnings(&loaded), [""; 0]);
-    let materials = materials(&loaded);
-    let diffuse = |name: &str| materials[name].diffuse;
-    assert_eq!(diffuse("first"), Some(Vec3::X));
-    assert_eq!(diffuse("second"), Some(Vec3::Y));
-    assert_eq!(diffuse("spaced"), Some(Vec3::Z));
-    assert_eq!(diffuse("inner"), Some(Vec3::new(1.0, 1.0, 0.0)));
-    assert_eq!(diffuse("capital"), Some(Vec3::new(0.0, 1.0, 1.0)));
-    // The library in the folder names a picture that lies beside the mesh.
-    assert_eq!(loaded.mesh.textures.len(), 1);
-    let names: Vec<_> = loaded
-        .files
-        .iter()
-        .filter_map(|path| path.file_name())
-        .collect();
-    assert!(names.contains(&"inner.mtl".as_ref()) && names.contains(&"texel.png".as_ref()));
-}
-
-#[test]
-fn a_missing_library_or_texture_is_named_and_the_mesh_opens() {
-    let loaded = load("missing.obj");
-    let warnings = warnings(&loaded);
-    assert_eq!(loaded.mesh.triangles.len(), 2);
-    assert!(
-        warnings[0].starts_with("line 1: material library “nowhere.mtl”: "),
-        "{warnings:?}"
-    );
-    assert!(
-        warnings[1].starts_with("texture “lost.png”: "),
-        "{warnings:?}"
-    );
-    assert!(
-        warnings[1].ends_with("; shown as a checker"),
-        "{warnings:?}"
-    );
-    assert_eq!(
-        warnings[2],
-        "1 material(s) without a definition, “nobody” first"
-    );
-    // What may come later can be watched for.
-    let looked_for = |name: &str| loaded.files.iter().any(|path| path.ends_with(name));
-    assert!(looked_for("nowhere.mtl") && looked_for("lost.png"));
-    let map = materials(&loaded)["picture"].diffuse_map.expect("a map");
-    let of = |x| map.colour(&loaded.mesh.textures, Vec2::new(x, 1.0 / 16.0));
-    assert_ne!(of(1.0 / 16.0), of(3.0 / 16.0));
-}
-
 #[test]
 fn lines_and_points_are_kept_apart_from_faces() {
     let mesh = load("elements.obj").mesh;
@@ -226,7 +145,7 @@ fn faces_with_a_vertex_that_is_not_finite_are_dropped_and_counted() {
     assert_eq!(loaded.mesh.dropped.non_finite, 4);
     assert_eq!(
         warnings(&loaded),
-        ["line 8: 4 triangle(s) dropped: a corner is not finite"]
+        ["line 8: 4 triangle(s) dropped: a corner is not finite, or too large"]
     );
 }
 
@@ -325,30 +244,4 @@ fn nothing_is_mixed_up_in_a_file_of_many_kinds() {
             [k + 3.0, k + 3.0, k + 4.0]
         );
     }
-}
-
-#[test]
-fn a_library_that_was_read_before_is_not_missed() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("x.obj");
-    for (name, text) in [
-        ("a.mtl", "newmtl a\nKd 1 0 0\n"),
-        ("b.mtl", "newmtl b\nKd 0 1 0\n"),
-        (
-            "x.obj",
-            "mtllib a.mtl b.mtl\nmtllib b.mtl a.mtl\nmtllib a.mtl c.mtl\n\
-             v 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl a\nf 1 2 3\nusemtl b\nf 1 2 3\nusemtl unused\n",
-        ),
-    ] {
-        std::fs::write(folder.path().join(name), text).expect("written");
-    }
-    let loaded = load_path(&path, STRICT).expect("good");
-    let warnings = warnings(&loaded);
-    assert_eq!(warnings.len(), 1, "{warnings:?}");
-    assert!(
-        warnings[0].starts_with("line 3: material library “c.mtl”: "),
-        "{warnings:?}"
-    );
-    // A name that no face uses isn't one of the mesh's.
-    assert_eq!(loaded.mesh.named_material_count(), 2);
 }

@@ -1,9 +1,9 @@
-//! Vertices of a border that lie inside another border's edge.
+//! Which vertices of a border lie inside another edge of a border?
 
 use crate::mesh::TriangleMesh;
 use glam::DVec3;
 
-/// Pairs of edge and vertex that are looked at, at most: some 0.2 s.
+/// Pairs of edge and vertex that are looked at, at most: some 0.2 s (2026-11).
 const MOST_PAIRS: usize = 20_000_000;
 
 /// The vertices of open edges that lie inside another open edge, as far as f32 can tell; `None` if there

@@ -1,4 +1,4 @@
-//! Triangles that are odd by themselves.
+//! Which triangles are slivers or duplicates?
 
 use crate::mesh::{TriangleMesh, Welded};
 use glam::{DVec3, Vec3};

@@ -1,0 +1,67 @@
+//! What is a file that is no OBJ?
+
+use memchr::memchr;
+
+/// How a file of some kind begins, and what it is called.
+const BEGINNINGS: [(&[u8], &str); 14] = [
+    (b"<!doctype", "an HTML page"),
+    (b"<html", "an HTML page"),
+    (b"<?xml", "an XML file"),
+    (
+        b"version https://git-lfs",
+        "a pointer of git-lfs to a file that wasn't fetched",
+    ),
+    (b"solid ", "an STL file"),
+    (b"ply\n", "a PLY file"),
+    (b"ply\r", "a PLY file"),
+    (b"{", "a JSON file"),
+    (b"\x89PNG", "a PNG picture"),
+    (b"\xFF\xD8\xFF", "a JPEG picture"),
+    (b"glTF", "a glTF file"),
+    (b"Kaydara FBX", "an FBX file"),
+    (b"PK\x03\x04", "a ZIP archive"),
+    (b"BZh", "packed with bzip2"),
+];
+
+/// What a file is, if its first bytes show that it is no OBJ.
+pub(super) fn not_an_obj(first_bytes: &[u8]) -> Option<String> {
+    if first_bytes.is_empty() {
+        return Some("the file is empty".to_owned());
+    }
+    let start = first_bytes.trim_ascii_start();
+    let begins =
+        |with: &[u8]| start.len() >= with.len() && start[..with.len()].eq_ignore_ascii_case(with);
+    let known = BEGINNINGS.iter().find(|(beginning, _)| begins(beginning));
+    let what = known.map(|(_, what)| *what);
+    let is_binary = || memchr(0, first_bytes).map(|_| "a binary file");
+    let what = what.or_else(is_binary)?;
+    Some(format!("this is {what}, not an OBJ file"))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn other_files_are_called_by_their_names() {
+        for (bytes, what) in [
+            (&b"\n  <HTML><body>"[..], "an HTML page"),
+            (b"ply\nformat ascii 1.0", "a PLY file"),
+            (b"solid cube\nfacet", "an STL file"),
+            (b"{\"asset\":{}}", "a JSON file"),
+            (b"\x7fELF\0\0", "a binary file"),
+            (b"BZh91AY", "packed with bzip2"),
+        ] {
+            let expected = format!("this is {what}, not an OBJ file");
+            assert_eq!(
+                not_an_obj(bytes),
+                Some(expected),
+                "{}",
+                bytes.escape_ascii()
+            );
+        }
+        for bytes in [&b"v 0 0 0"[..], b"# solid state", b"plyers"] {
+            assert_eq!(not_an_obj(bytes), None, "{}", bytes.escape_ascii());
+        }
+    }
+}
