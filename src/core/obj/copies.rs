@@ -10,8 +10,9 @@ pub(super) struct Copies {
     /// How many corners and elements these have.
     pub corners: [usize; 3],
     pub elements: usize,
-    /// The lowest and the highest index since then.
+    /// The lowest and the highest index since then, of the corners that were looked at.
     ranges: [(u32, u32); 3],
+    seen: [usize; 3],
 }
 
 impl Default for Copies {
@@ -21,6 +22,7 @@ impl Default for Copies {
             corners: [0; 3],
             elements: 0,
             ranges: [(u32::MAX, 0); 3],
+            seen: [0; 3],
         }
     }
 }
@@ -39,11 +41,12 @@ impl Copies {
         })
     }
 
-    /// Notes what an element refers to whose corners, from `first` on, are in the lists.
-    pub(super) fn add_element(&mut self, first: usize, corners: &[Vec<u32>; 3]) {
-        for (range, list) in self.ranges.iter_mut().zip(corners) {
-            let named = list.get(first..).unwrap_or_default().iter();
-            for &index in named.filter(|&&index| index != NO_INDEX) {
+    /// Looks at the corners that were added to the lists.
+    pub(super) fn look_at(&mut self, corners: &[Vec<u32>; 3]) {
+        for ((range, list), seen) in self.ranges.iter_mut().zip(corners).zip(&mut self.seen) {
+            let new = list.get(*seen..).unwrap_or_default().iter().copied();
+            *seen = list.len();
+            for index in new.filter(|&index| index != NO_INDEX) {
                 *range = (range.0.min(index), range.1.max(index));
             }
         }
@@ -51,16 +54,18 @@ impl Copies {
 
     /// A list is ended that has these corners and, with those before, so many elements.
     pub(super) fn cut(&mut self, corners: &[Vec<u32>; 3], elements: usize) {
+        self.look_at(corners);
         let since = self.since(corners);
         *self = Self {
             entries: std::array::from_fn(|list| self.entries[list] + since[list]),
             corners: corners.each_ref().map(Vec::len),
             elements,
+            seen: self.seen,
             ..Self::default()
         };
     }
 
-    /// How many entries of all lists there are copies of, at most.
+    /// How many entries of all lists there are copies of, at most, if all corners were looked at.
     pub(super) fn count(&self, corners: &[Vec<u32>; 3]) -> usize {
         self.entries.iter().chain(&self.since(corners)).sum()
     }
@@ -74,9 +79,8 @@ mod tests {
     fn copies_are_no_more_than_corners_and_no_more_than_vertices() {
         let (mut copies, mut lists) = (Copies::default(), [vec![], vec![], vec![]]);
         let mut add = |corners: [u32; 3]| {
-            let first = lists[0].len();
             lists[0].extend(corners);
-            copies.add_element(first, &lists);
+            copies.look_at(&lists);
             copies.count(&lists)
         };
         assert_eq!(add([0, 1, 2]), 3);
@@ -85,7 +89,7 @@ mod tests {
         copies.cut(&lists, 3);
         assert_eq!(copies.count(&lists), 9);
         lists[0].extend([5, 6, 7]);
-        copies.add_element(9, &lists);
+        copies.look_at(&lists);
         assert_eq!(copies.count(&lists), 12);
     }
 }

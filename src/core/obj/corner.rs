@@ -129,7 +129,7 @@ impl Corners<'_> {
 }
 
 /// Between words.
-pub(super) fn is_blank(b: u8) -> bool {
+pub(super) const fn is_blank(b: u8) -> bool {
     matches!(b, b' ' | b'\t' | 0x0B | 0x0C)
 }
 

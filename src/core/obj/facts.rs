@@ -136,8 +136,8 @@ impl Facts {
         colours.into_iter().map(colour).collect()
     }
 
-    /// Notes an element whose corners, from `first` on, are in the lists.
-    pub(super) fn add_element(&mut self, element: Element, first: usize, line: usize) {
+    /// Notes an element whose corners are in the lists.
+    pub(super) fn add_element(&mut self, element: Element, line: usize) {
         if element == Element::Face {
             self.materials.add_face(self.face_count);
             self.groups.add_face(self.face_count);
@@ -147,7 +147,6 @@ impl Facts {
             self.no_faces.push((self.element_count, element));
         }
         self.element_count += 1;
-        self.copies.add_element(first, &self.corners);
     }
 
     /// Leaves out an element of which corners were added to the lists.
@@ -240,7 +239,7 @@ impl Facts {
     }
 
     /// What loading takes in memory at most, with what was read so far. Lists that grow count twice.
-    pub(super) fn bytes(&self) -> usize {
+    pub(super) fn bytes(&mut self) -> usize {
         /// tobj's list in f64, ours, and what remains in f32 with a colour.
         const OF_ENTRY: usize = 2 * 24 + 24 + 24;
         /// tobj's copy for a list of faces.
@@ -252,6 +251,7 @@ impl Facts {
         /// tobj's `Face`, and a corner of it if there are more than four.
         const OF_PENDING_FACE: usize = 2 * 104;
         const OF_PENDING_CORNER: usize = 2 * 24;
+        self.copies.look_at(&self.corners);
         let entries: usize = self.counts.iter().sum();
         let copies = self.copies.count(&self.corners);
         let corners: usize = self.corners.iter().map(Vec::len).sum();

@@ -16,7 +16,7 @@ const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
 const MOST_ENTRIES: usize = u32::MAX as usize - 1;
 /// Faces after which tobj's list of them is ended. It takes 104 bytes for each; a shorter list would
 /// copy more vertices twice.
-const FACES_PER_CUT: usize = 1 << 16;
+const FACES_PER_CUT: usize = 1 << 14;
 /// Statements, of which tobj sees none perhaps, between two looks at the memory that they take.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
 
@@ -113,8 +113,8 @@ impl<'p> NormalisingReader<'p> {
         self.check_memory()
     }
 
-    fn check_memory(&self) -> Result<(), Problem> {
-        let facts = &self.sorter.facts;
+    fn check_memory(&mut self) -> Result<(), Problem> {
+        let facts = &mut self.sorter.facts;
         if facts.triangle_count() > MOST_TRIANGLES || facts.counts.iter().any(|&n| n > MOST_ENTRIES)
         {
             let message = "more vertices or triangles than 32 bits can number".to_owned();

@@ -8,7 +8,7 @@ use super::corner::{Corner, Corners, List, is_blank};
 use super::error::Problem;
 use super::facts::{Element, Facts, LineRuns, shortened};
 use super::lines::Statement;
-use super::words::{Words, is_of_number, name, number, text, without_comment};
+use super::words::{Words, count_words, name, number, text, without_comment};
 use crate::mesh::NO_INDEX;
 use std::io::Write as _;
 
@@ -88,11 +88,7 @@ impl Sorter {
         after: usize,
     ) -> Result<(), Problem> {
         let words = Words::of(statement.bytes, after);
-        let (count, is_plain) = words
-            .clone()
-            .fold((0, true), |(count, is_plain), (_, word)| {
-                (count + 1, is_plain && word.iter().all(|&b| is_of_number(b)))
-            });
+        let (count, is_plain) = count_words(statement.bytes, after);
         let (least, used, keyword) = match list {
             List::Vertex => (3, 3, "v"),
             List::Texture => (1, 2, "vt"),
@@ -167,7 +163,7 @@ impl Sorter {
             self.write_corners(first);
         }
         self.end_line(statement.line);
-        self.facts.add_element(element, first, statement.line);
+        self.facts.add_element(element, statement.line);
         Ok(())
     }
 

@@ -35,9 +35,30 @@ impl<'l> Iterator for Words<'l> {
     }
 }
 
-/// Whether a byte can be part of a decimal number.
-pub(super) fn is_of_number(b: u8) -> bool {
-    matches!(b, b'0'..=b'9' | b'-' | b'.' | b'e' | b'E' | b'+')
+/// How many words there are from an offset on, and whether all bytes of them can be parts of decimal numbers.
+pub(super) fn count_words(line: &[u8], at: usize) -> (usize, bool) {
+    /// 1 for blanks, 2 for what is neither blank nor of a number.
+    const CLASSES: [u8; 256] = {
+        let mut classes = [2; 256];
+        let mut byte = 0;
+        while byte < 256 {
+            classes[byte] = match byte as u8 {
+                b'0'..=b'9' | b'-' | b'.' | b'e' | b'E' | b'+' => 0,
+                b if is_blank(b) => 1,
+                _ => 2,
+            };
+            byte += 1;
+        }
+        classes
+    };
+    let (mut count, mut classes, mut before) = (0, 0, 1);
+    for &byte in &line[at..] {
+        let class = CLASSES[usize::from(byte)];
+        count += usize::from(before == 1 && class != 1);
+        classes |= class;
+        before = class;
+    }
+    (count, classes & 2 == 0)
 }
 
 /// The number that one of a statement's words is.
@@ -84,6 +105,9 @@ mod tests {
 
     #[test]
     fn words_stand_between_blanks() {
+        assert_eq!(count_words(b"v  1\t2.5 ", 1), (2, true));
+        assert_eq!(count_words(b"v nan 1 2", 1), (3, false));
+        assert_eq!(count_words(b"v", 1), (0, true));
         let bytes = b"v  1\t2.5 ";
         let words: Vec<_> = Words::of(bytes, 1).collect();
         assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
