@@ -1,6 +1,6 @@
 //! What the window makes of the file: its flaws, its changes, its edges in smooth shading.
 
-use crate::harness::{app, click, in_picture, press, wait};
+use crate::harness::{Window, app, click, in_picture, press, wait};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use hitscope::app::App;
@@ -14,19 +14,25 @@ fn write(folder: &tempfile::TempDir, text: &str) -> PathBuf {
     path
 }
 
+/// The window once a mesh is open, and the folder with its file; `None` where the test is to be skipped.
+fn opened(text: &str) -> Option<(Window, tempfile::TempDir)> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = write(&folder, text);
+    let mut window = app(Some(file))?;
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "mesh.obj"
+    });
+    Some((window, folder))
+}
+
 /// A square, and a face that names nothing.
 const FLAWED: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 2 9\n";
 
 #[test]
 fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = write(&folder, FLAWED);
-    let Some(mut window) = app(Some(file)) else {
+    let Some((mut window, _folder)) = opened(FLAWED) else {
         return;
     };
-    wait(&mut window, "the file", |app| {
-        app.document().name() == "mesh.obj"
-    });
     let notice = window.state().notice().expect("a warning").to_owned();
     assert!(notice.contains("line 7: 1 face(s) dropped"), "{notice}");
     window.get_by_label("Mesh").click();
@@ -51,14 +57,9 @@ fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
 
 #[test]
 fn a_watched_file_is_loaded_again_with_the_camera_and_the_pick_where_they_were() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = write(&folder, FLAWED);
-    let Some(mut window) = app(Some(file)) else {
+    let Some((mut window, folder)) = opened(FLAWED) else {
         return;
     };
-    wait(&mut window, "the file", |app| {
-        app.document().name() == "mesh.obj"
-    });
     let at = in_picture(&window, 0.5, 0.5);
     click(&mut window, at);
     wait(&mut window, "the pick", |app| app.inspection().is_some());
@@ -113,14 +114,9 @@ fn the_camera_stays_where_it_is_in_the_file_when_the_origin_moves() {
 
 #[test]
 fn the_crease_angle_changes_the_scene_and_keeps_its_tree() {
-    let folder = tempfile::tempdir().expect("a folder");
-    let file = write(&folder, FLAWED);
-    let Some(mut window) = app(Some(file)) else {
+    let Some((mut window, _folder)) = opened(FLAWED) else {
         return;
     };
-    wait(&mut window, "the file", |app| {
-        app.document().name() == "mesh.obj"
-    });
     let tree = window.state().document().loaded.scene.bvh();
     window.get_by_label("Edges above").click();
     wait(&mut window, "another crease", |app| {

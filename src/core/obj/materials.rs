@@ -11,7 +11,7 @@ use crate::progress::Progress;
 use glam::UVec2;
 use image::{ImageReader, Limits};
 use std::collections::{HashMap, HashSet};
-use std::io::Cursor;
+use std::io::{self, Cursor};
 
 /// What faces look like: for each name that they use, in order, and the textures of these.
 pub(super) struct Looks {
@@ -193,7 +193,7 @@ impl ReadingLibraries<'_> {
         } = self.libraries;
         match seen.get(library) {
             Some(true) => return Ok(Ok(())),
-            Some(false) => return Ok(Err("not found".to_owned())),
+            Some(false) => return Ok(Err("can't be read either".to_owned())),
             None if seen.len() >= MOST => return Ok(Err(format!("one of more than {MOST}"))),
             None => {}
         }
@@ -201,7 +201,7 @@ impl ReadingLibraries<'_> {
         seen.insert(library.to_owned(), bytes.is_ok());
         let bytes = match bytes {
             Ok(bytes) => bytes,
-            Err(error) => return Ok(Err(error.to_string())),
+            Err(error) => return Ok(Err(reason(&error))),
         };
         let is_wanted = |name: &str| self.wanted.contains(name);
         let (definitions, odd) = mtl::parse(&bytes, library, is_wanted, self.progress)?;
@@ -229,6 +229,14 @@ fn names_in(several: &str) -> impl Iterator<Item = String> {
         }
         Some(name.trim_matches('"').to_owned())
     })
+}
+
+/// Why a file can't be read.
+fn reason(error: &io::Error) -> String {
+    match error.kind() {
+        io::ErrorKind::NotFound => "not found".to_owned(),
+        _ => error.to_string(),
+    }
 }
 
 /// The textures so far.
@@ -275,7 +283,7 @@ impl Textures<'_> {
             }
         });
         let picture = bytes
-            .map_err(|error| error.to_string())
+            .map_err(|error| reason(&error))
             .and_then(|bytes| decoded(name, &bytes, self.max_memory));
         match picture {
             Ok(texture) => {
