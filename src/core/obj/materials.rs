@@ -218,14 +218,17 @@ impl ReadingLibraries<'_> {
 
 /// Several libraries: each goes to where a word ends in `.mtl`; where none does, each is a word.
 fn names_in(several: &str) -> impl Iterator<Item = String> {
+    /// What Linux takes for a whole path.
+    const LONGEST_NAME: usize = 4096;
     let is_end = |word: &str| word.trim_end_matches('"').to_lowercase().ends_with(".mtl");
     let has_ends = several.split_whitespace().any(is_end);
     let mut words = several.split_whitespace();
     std::iter::from_fn(move || {
         let mut name = words.next()?.to_owned();
-        while has_ends && !is_end(&name) {
+        while has_ends && !is_end(&name) && name.len() < LONGEST_NAME {
             let Some(word) = words.next() else { break };
-            name = format!("{name} {word}");
+            name.push(' ');
+            name.push_str(word);
         }
         Some(name.trim_matches('"').to_owned())
     })

@@ -2,11 +2,9 @@
 
 use super::error::Problem;
 use super::fence::fenced;
-use crate::progress::Progress;
+use crate::progress::{Aside, Progress};
 use earcut::Earcut;
 use glam::DVec3;
-use std::sync::mpsc::{RecvTimeoutError, sync_channel};
-use std::time::Duration;
 
 /// Of more corners than this, rounding makes a circle concave here and there; by so little that a fan fits it.
 const MANY: usize = 1000;
@@ -15,8 +13,6 @@ const MANY: usize = 1000;
 const LARGE: usize = 10_000;
 /// Of more corners than this, ears aren't clipped: it takes 1 s for a star, up to 20 s for worse (2026-11).
 const LARGEST: usize = 100_000;
-/// How often a load that waits for a large polygon looks whether it is wanted.
-const PATIENCE: Duration = Duration::from_millis(10);
 
 /// Cuts polygons; keeps its buffers between them.
 pub(super) struct Triangulator {
@@ -81,25 +77,18 @@ impl Triangulator {
         if corners.len() > LARGEST {
             return Ok(false);
         }
-        let (sender, receiver) = sync_channel(1);
         let (mut other, corners) = (Self::new(), corners.to_vec());
         let clip = move || {
-            let is_cut = other.clip_ears(&corners);
-            // Nobody waits any more if the load was cancelled.
-            _ = sender.send((is_cut, other));
+            let is_cut = fenced("cutting a polygon", || other.clip_ears(&corners));
+            (is_cut.unwrap_or(false), other)
         };
-        let thread = std::thread::Builder::new().name("polygon".to_owned());
-        thread.spawn(clip).map_err(Problem::Read)?;
-        loop {
-            match receiver.recv_timeout(PATIENCE) {
-                Ok((is_cut, other)) => {
-                    *self = other;
-                    return Ok(is_cut);
-                }
-                Err(RecvTimeoutError::Timeout) => progress.check()?,
-                Err(RecvTimeoutError::Disconnected) => return Ok(false),
-            }
-        }
+        let (is_cut, other) = match progress.aside("polygon", clip) {
+            Ok(result) => result,
+            Err(Aside::Cancelled) => return Err(Problem::Cancelled),
+            Err(Aside::NoThread(error)) => return Err(Problem::Read(error)),
+        };
+        *self = other;
+        Ok(is_cut)
     }
 
     /// Whether ears could be clipped so that the triangles' areas add up to the polygon's.

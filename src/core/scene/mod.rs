@@ -10,7 +10,7 @@ use crate::intersector::Intersector;
 use crate::kernel::TriangleKernel;
 use crate::mesh::{Crease, SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, LoadOptions, Loaded, Warning};
-use crate::progress::{Cancelled, Phase, Progress};
+use crate::progress::{Aside, Cancelled, Phase, Progress};
 use crate::simd::SimdLevel;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -182,10 +182,23 @@ impl LoadedScene {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
-        let start = Instant::now();
-        let loaded = obj::load(path, load_options, progress)?;
-        Self::of(loaded, start, options, progress).map_err(|Cancelled| LoadError::Cancelled {
+        let cancelled = |path: &Path| LoadError::Cancelled {
             path: path.to_owned(),
+        };
+        let (file, shared) = (path.to_owned(), progress.clone());
+        let load = move || {
+            let start = Instant::now();
+            let loaded = obj::load(&file, load_options, &shared)?;
+            Self::of(loaded, start, options, &shared).map_err(|Cancelled| cancelled(&file))
+        };
+        progress.aside("load", load).unwrap_or_else(|why| {
+            Err(match why {
+                Aside::Cancelled => cancelled(path),
+                Aside::NoThread(source) => LoadError::Unreadable {
+                    path: path.to_owned(),
+                    source,
+                },
+            })
         })
     }
 
