@@ -41,7 +41,13 @@ impl Folder {
         /// A thousand times the largest library seen, and more than the largest texture.
         const LARGEST: u64 = 256 << 20;
         let path = self.find(name);
-        self.wanted.borrow_mut().insert(path.clone());
+        let mut wanted = self.wanted.borrow_mut();
+        wanted.insert(path.clone());
+        if !path.exists() {
+            // It may come to where a link leads, too.
+            wanted.extend(self.behind_link.iter().map(|folder| folder.join(name)));
+        }
+        drop(wanted);
         let info = std::fs::metadata(&path)?;
         if !info.is_file() {
             return Err(io::Error::other("not a file"));

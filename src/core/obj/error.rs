@@ -9,7 +9,7 @@ use std::path::{Path, PathBuf};
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
     /// It isn't there, or can't be read.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Unreadable {
         /// The file.
         path: PathBuf,
@@ -17,13 +17,13 @@ pub enum LoadError {
         source: io::Error,
     },
     /// It is a directory.
-    #[error("{}: this is a directory, not an OBJ file", path.display())]
+    #[error("{}: this is a directory, not an OBJ file", shown(path))]
     Directory {
         /// The directory.
         path: PathBuf,
     },
     /// A line can't be understood.
-    #[error("{}:{line}{}: {message}", path.display(), column.map(|c| format!(":{c}")).unwrap_or_default())]
+    #[error("{}:{line}{}: {message}", shown(path), column.map(|c| format!(":{c}")).unwrap_or_default())]
     Line {
         /// The file.
         path: PathBuf,
@@ -35,7 +35,7 @@ pub enum LoadError {
         message: String,
     },
     /// The file as a whole holds nothing to show, or too much.
-    #[error("{}: {message}", path.display())]
+    #[error("{}: {message}", shown(path))]
     Content {
         /// The file.
         path: PathBuf,
@@ -43,11 +43,29 @@ pub enum LoadError {
         message: String,
     },
     /// The user cancelled.
-    #[error("{}: loading was cancelled", path.display())]
+    #[error("{}: loading was cancelled", shown(path))]
     Cancelled {
         /// The file.
         path: PathBuf,
     },
+}
+
+/// A path fit for a message: see [`printable`].
+pub fn shown(path: &Path) -> String {
+    printable(&path.to_string_lossy())
+}
+
+/// A text without what would move a terminal's cursor, or turn the direction in which it is read.
+pub(super) fn printable(text: &str) -> String {
+    let turns = |c: char| matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
+    let plain = |c: char| {
+        if c.is_control() || turns(c) {
+            '\u{FFFD}'
+        } else {
+            c
+        }
+    };
+    text.chars().map(plain).collect()
 }
 
 /// An error before the file's name is known.
@@ -129,5 +147,18 @@ impl fmt::Display for Warning {
             Some(line) => write!(f, "line {line}: {}", self.message),
             None => f.write_str(&self.message),
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_message_is_one_line_and_moves_no_cursor() {
+        let path = Path::new("a\n\u{1b}[31m\u{202e}é.obj");
+        let error = Problem::Content("too bad".to_owned()).in_file(path);
+        let expected = "a\u{FFFD}\u{FFFD}[31m\u{FFFD}é.obj: too bad";
+        assert_eq!(error.to_string(), expected);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::copies::Copies;
 use super::corner::List;
-use super::error::Warning;
+use super::error::{Warning, printable};
 use super::names::{Libraries, NamedRuns};
 use glam::Vec3;
 use std::collections::BTreeMap;
@@ -121,8 +121,10 @@ impl Facts {
             colours.resize(self.counts[0], [f32::INFINITY; 3]);
         }
         let channels = colours.as_flattened().iter().copied();
-        let largest = channels.filter(|x| x.is_finite()).fold(0.0, f32::max);
-        self.has_byte_colours = largest > 1.0 && largest <= 255.0;
+        let mut given = channels.filter(|x| x.is_finite());
+        let largest = given.clone().fold(0.0, f32::max);
+        let are_whole = given.all(|x| x.fract() == 0.0);
+        self.has_byte_colours = are_whole && largest > 1.0 && largest <= 255.0;
         let white = if self.has_byte_colours { 255.0 } else { 1.0 };
         // NaN is black.
         let channel = |x: f32| {
@@ -323,9 +325,8 @@ impl LineRuns {
 /// A word fit for a message: not long, and without what would move a terminal's cursor.
 pub(super) fn shortened(word: &str) -> String {
     const LENGTH: usize = 60;
-    let plain = |c: char| if c.is_control() { '\u{FFFD}' } else { c };
     let rest = word.chars().nth(LENGTH).map(|_| '…');
-    word.chars().take(LENGTH).map(plain).chain(rest).collect()
+    printable(word).chars().take(LENGTH).chain(rest).collect()
 }
 
 #[cfg(test)]

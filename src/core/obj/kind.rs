@@ -3,7 +3,7 @@
 use memchr::memchr;
 
 /// How a file of some kind begins, and what it is called.
-const BEGINNINGS: [(&[u8], &str); 14] = [
+const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"<!doctype", "an HTML page"),
     (b"<html", "an HTML page"),
     (b"<?xml", "an XML file"),
@@ -15,6 +15,8 @@ const BEGINNINGS: [(&[u8], &str); 14] = [
     (b"ply\n", "a PLY file"),
     (b"ply\r", "a PLY file"),
     (b"{", "a JSON file"),
+    (b"[", "a JSON file"),
+    (b"%PDF", "a PDF document"),
     (b"\x89PNG", "a PNG picture"),
     (b"\xFF\xD8\xFF", "a JPEG picture"),
     (b"glTF", "a glTF file"),

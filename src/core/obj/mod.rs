@@ -30,7 +30,7 @@ mod statement;
 mod words;
 
 pub use beside::Beside;
-pub use error::{LoadError, Warning};
+pub use error::{LoadError, Warning, shown};
 
 use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};

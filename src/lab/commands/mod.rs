@@ -19,7 +19,7 @@ pub use render::{
 pub use trace::TraceArgs;
 
 use hitscope_core::camera::CameraError;
-use hitscope_core::obj::{LoadError, LoadOptions};
+use hitscope_core::obj::{LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::RenderPanic;
 use hitscope_core::scene::{LoadedScene, SceneOptions};
@@ -48,7 +48,7 @@ pub enum CommandError {
         height: u32,
     },
     /// A file other than the mesh couldn't be read or written.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     File {
         /// The file.
         path: PathBuf,
@@ -56,7 +56,7 @@ pub enum CommandError {
         source: io::Error,
     },
     /// The picture couldn't be encoded or written.
-    #[error("{}: {source}", path.display())]
+    #[error("{}: {source}", shown(path))]
     Image {
         /// The file.
         path: PathBuf,
@@ -95,9 +95,9 @@ pub fn load(
     if io::stderr().is_terminal() {
         let triangles = loaded.scene.mesh().triangles.len();
         let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;
-        eprintln!("{}: {triangles} triangles in {ms:.0} ms", path.display());
+        eprintln!("{}: {triangles} triangles in {ms:.0} ms", shown(path));
         for warning in &loaded.warnings {
-            eprintln!("{}: warning: {warning}", path.display());
+            eprintln!("{}: warning: {warning}", shown(path));
         }
     }
     Ok(loaded)

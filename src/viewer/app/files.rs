@@ -4,6 +4,7 @@ use super::{App, Notice};
 use crate::document::Document;
 use crate::opening::Loading;
 use crate::watch::Watch;
+use hitscope_core::obj::LoadError;
 use std::path::PathBuf;
 
 impl App {
@@ -23,6 +24,11 @@ impl App {
         let Some(loading) = &self.loading else { return };
         let result = match loading.poll() {
             Ok(None) => return,
+            // What the user wanted is no error.
+            Ok(Some(Err(LoadError::Cancelled { .. }))) => {
+                self.loading = None;
+                return;
+            }
             Ok(Some(result)) => result.map_err(|error| error.to_string()),
             Err(broken) => Err(format!("{}: {broken}", loading.path.display())),
         };

@@ -163,4 +163,23 @@ fn libraries_beside_what_a_link_leads_to_are_found() {
     std::os::unix::fs::symlink(there.join("x.obj"), &link).expect("linked");
     let loaded = load_path(&link, STRICT).expect("good");
     assert_eq!(warnings(&loaded), [""; 0]);
+    // What is missing may come to either place.
+    std::fs::remove_file(there.join("a.mtl")).expect("removed");
+    let loaded = load_path(&link, STRICT).expect("good");
+    for folder in [there.canonicalize().expect("there"), here] {
+        assert!(
+            loaded.files.contains(&folder.join("a.mtl")),
+            "{:?}",
+            loaded.files
+        );
+    }
+}
+
+#[test]
+fn colours_a_little_beyond_one_are_no_bytes() {
+    let text = "v 0 0 0 1 1 1.5\nv 1 0 0 0.5 0 0\nv 0 1 0 0 -1 nan\nf 1 2 3\n";
+    let loaded = super::parse(text.as_bytes(), STRICT).expect("good");
+    let expected = [Vec3::ONE, Vec3::new(0.5, 0.0, 0.0), Vec3::ZERO];
+    assert_eq!(loaded.mesh.colours, expected);
+    assert_eq!(warnings(&loaded), [""; 0]);
 }
