@@ -50,7 +50,7 @@ pub enum LoadError {
     },
 }
 
-/// A path fit for a message: see [`printable`].
+/// A path fit for a message: without what would move a terminal's cursor.
 pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
 }
