@@ -134,6 +134,12 @@ impl Sorter {
         statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
+        if element == Element::Face && self.plain_face(statement.bytes, after) {
+            self.out.extend(statement.bytes);
+            self.end_line(statement.line);
+            self.facts.add_element(element, statement.line);
+            return Ok(());
+        }
         let before = self.facts.corners.each_ref().map(Vec::len);
         let mut is_as_written = element == Element::Face;
         for corner in Corners::of(statement.bytes, after) {
@@ -165,6 +171,46 @@ impl Sorter {
         self.end_line(statement.line);
         self.facts.add_element(element, statement.line);
         Ok(())
+    }
+
+    /// Adds the corners of a face that has vertices alone, each a plain number of one that was read; if it is
+    /// another, none. Most lines of large files are such; the long way took 7 % of a load more (2026-11).
+    fn plain_face(&mut self, line: &[u8], mut at: usize) -> bool {
+        /// As many digits as u32 always holds.
+        const MOST_DIGITS: usize = 9;
+        let count = self.facts.counts[0];
+        let [vertices, textures, normals] = &mut self.facts.corners;
+        if !textures.is_empty() || !normals.is_empty() {
+            return false;
+        }
+        let before = vertices.len();
+        loop {
+            while line.get(at).is_some_and(|&b| is_blank(b)) {
+                at += 1;
+            }
+            if at == line.len() {
+                break;
+            }
+            let (start, mut index) = (at, 0);
+            while let Some(digit) = line.get(at).map(|b| b.wrapping_sub(b'0'))
+                && digit < 10
+                && at - start < MOST_DIGITS
+            {
+                index = 10 * index + usize::from(digit);
+                at += 1;
+            }
+            let is_whole = line.get(at).is_none_or(|&b| is_blank(b));
+            if !is_whole || index == 0 || index > count {
+                vertices.truncate(before);
+                return false;
+            }
+            vertices.push(index as u32 - 1);
+        }
+        let is_face = vertices.len() - before >= 3;
+        if !is_face {
+            vertices.truncate(before);
+        }
+        is_face
     }
 
     /// Checks a corner's indices and adds them to the lists.
