@@ -43,7 +43,7 @@ pub struct Document {
     packing_second: PackingTask,
     health: HealthState,
     /// Set when the document is dropped: a better tree is then wanted no more.
-    progress: Arc<Progress>,
+    progress: Progress,
     improvement: Improvement,
 }
 
@@ -100,7 +100,7 @@ impl Document {
             second: None,
             packing_second: Wanted::default(),
             health: HealthState::Unasked,
-            progress: Arc::default(),
+            progress: Progress::default(),
             improvement: Improvement::Unasked,
         }
     }
@@ -116,8 +116,7 @@ impl Document {
                 self.improvement = Improvement::Over;
             }
             Improvement::Unasked => {
-                let (scene, progress) =
-                    (Arc::clone(&self.loaded.scene), Arc::clone(&self.progress));
+                let (scene, progress) = (Arc::clone(&self.loaded.scene), self.progress.clone());
                 let improve = move || scene.improve(&progress);
                 self.improvement = Improvement::UnderWay(Task::spawn("improve", ctx, improve));
             }

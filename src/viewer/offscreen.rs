@@ -1,7 +1,7 @@
 //! The overlay without a window: for `render --wireframe` and `--normals`.
 
 use crate::gpu::depth::DepthMesh;
-use crate::gpu::lines::Visibility;
+use crate::gpu::lines::{Line, StyleUniform, Visibility};
 use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
 use crate::overlay::wireframe::{self, Edges};
@@ -33,31 +33,22 @@ pub fn draw_over(
         ..Options::NOTHING
     };
     let mut overlay = Overlay::new(device);
-    let mut sets = Vec::new();
+    let mut wanted: Vec<(Vec<Line>, StyleUniform)> = Vec::new();
     if let Some(edges) = options.wireframe {
         let lines = wireframe::lines(scene.mesh(), edges);
-        sets.push(
-            overlay
-                .lines()
-                .upload(device, queue, &lines, &options.wire_style())?,
-        );
+        wanted.push((lines, options.wire_style()));
     }
     if let Some(shading) = options.normals {
-        let lines = normals::lines(scene, shading);
-        sets.push(
-            overlay
-                .lines()
-                .upload(device, queue, &lines, &options.normal_style())?,
-        );
+        wanted.push((normals::lines(scene, shading), options.normal_style()));
     }
     if options.elements {
-        let lines = marks::elements(scene);
-        sets.push(
-            overlay
-                .lines()
-                .upload(device, queue, &lines, &options.element_style())?,
-        );
+        wanted.push((marks::elements(scene), options.element_style()));
     }
+    let pipelines = overlay.lines();
+    let sets: Vec<_> = wanted
+        .iter()
+        .map(|(lines, style)| pipelines.upload(device, queue, lines, style))
+        .collect::<Result<_, _>>()?;
     let sets: Vec<_> = sets.iter().map(|set| (set, Visibility::Hidden)).collect();
     let mesh = DepthMesh::new(device, scene.mesh())?;
     let view = ViewUniform::new(&rendered.camera, &scene.bounds());

@@ -6,7 +6,6 @@ use crate::task::{Broken, Task};
 use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use std::path::{Path, PathBuf};
-use std::sync::Arc;
 use std::time::{Duration, Instant};
 
 /// A dialog that ends without a file in less time than this was never shown.
@@ -121,7 +120,7 @@ impl OpenDialog {
 pub struct Loading {
     /// The file.
     pub path: PathBuf,
-    progress: Arc<Progress>,
+    progress: Progress,
     task: Task<Result<Document, LoadError>>,
 }
 
@@ -133,8 +132,8 @@ impl Loading {
         settings: &Settings,
         ctx: &egui::Context,
     ) -> Self {
-        let progress = Arc::new(Progress::default());
-        let (kernel, shared, file) = (settings.kernel(), Arc::clone(&progress), path.clone());
+        let progress = Progress::default();
+        let (kernel, shared, file) = (settings.kernel(), progress.clone(), path.clone());
         let options = settings.scene_options();
         let load = move || Document::load(&file, kernel, load_options, options, &shared);
         Self {

@@ -50,7 +50,7 @@ pub enum TradeState {
 pub struct Trade {
     /// Replaced by a longer list with every kernel, so that the window only takes a pointer.
     rows: Arc<Mutex<Arc<[SceneRow]>>>,
-    progress: Arc<Progress>,
+    progress: Progress,
     task: Task<Result<(), Cancelled>>,
     state: TradeState,
     /// What the plot shows.
@@ -61,10 +61,9 @@ impl Trade {
     /// Begins to measure a scene as a camera sees it.
     pub fn start(scene: &Arc<Scene>, camera: Camera, axis: Axis, ctx: &egui::Context) -> Self {
         let rows: Arc<Mutex<Arc<[SceneRow]>>> = Arc::default();
-        let progress: Arc<Progress> = Arc::default();
+        let progress = Progress::default();
         let work = {
-            let (scene, rows, progress) =
-                (Arc::clone(scene), Arc::clone(&rows), Arc::clone(&progress));
+            let (scene, rows, progress) = (Arc::clone(scene), Arc::clone(&rows), progress.clone());
             let ctx = ctx.clone();
             move || {
                 measure(&scene, &camera, SceneSizes::PANEL, &progress, |row| {

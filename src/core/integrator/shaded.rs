@@ -72,8 +72,9 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let camera = &context.camera;
     let axes = [camera.right(), camera.up(), camera.back()].map(|axis| axis.as_vec3());
     let to_lamp = |dir: Vec3| (dir.x * axes[0] + dir.y * axes[1] + dir.z * axes[2]).normalize();
-    let of_lamp = |(dir, strength): (Vec3, f32)| strength * normal.dot(to_lamp(dir)).max(0.0);
-    let light = AMBIENT + LAMPS.into_iter().map(of_lamp).sum::<f32>();
+    let lamps = LAMPS.map(|(dir, strength)| (to_lamp(dir), strength));
+    let of_lamp = |(dir, strength): (Vec3, f32)| strength * normal.dot(dir).max(0.0);
+    let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();
     let mut sum = light * diffuse + emission;
     if let Some(material) = material
         && illumination == Illumination::Highlights
@@ -83,13 +84,12 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     {
         let to_eye = (-ray.dir).normalize_or_zero();
         let highlight = |(dir, strength): (Vec3, f32)| {
-            let dir = to_lamp(dir);
             let halfway = (dir + to_eye).normalize_or_zero();
             let is_lit = normal.dot(dir) > 0.0;
             let size = normal.dot(halfway).max(0.0).powf(material.shininess);
             if is_lit { strength * size } else { 0.0 }
         };
-        sum += material.specular * LAMPS.into_iter().map(highlight).sum::<f32>();
+        sum += material.specular * lamps.into_iter().map(highlight).sum::<f32>();
     }
     (sum, opacity)
 }

@@ -40,14 +40,22 @@ impl Folder {
     pub(super) fn read(&self, name: &str) -> io::Result<Vec<u8>> {
         /// A thousand times the largest library seen, and more than the largest texture.
         const LARGEST: u64 = 256 << 20;
-        let path = self.find(name);
+        let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
+        // No file makes us ask another machine.
+        let name = if name.starts_with("//") {
+            file_name
+        } else {
+            Path::new(name)
+        };
+        let found = self.find(name, file_name);
         let mut wanted = self.wanted.borrow_mut();
-        wanted.insert(path.clone());
-        if !path.exists() {
-            // It may come to where a link leads, too.
-            wanted.extend(self.behind_link.iter().map(|folder| folder.join(name)));
+        match &found {
+            Some(path) => _ = wanted.insert(path.clone()),
+            // It may come to any of them.
+            None => wanted.extend(self.folders().map(|folder| folder.join(name))),
         }
         drop(wanted);
+        let path = found.unwrap_or_else(|| self.path.join(name));
         let info = std::fs::metadata(&path)?;
         if !info.is_file() {
             return Err(io::Error::other("not a file"));
@@ -63,25 +71,21 @@ impl Folder {
         self.wanted.into_inner().into_iter().collect()
     }
 
-    /// The file of a name; one that differs in letter case, or lies in the folder itself, where there is
-    /// none of just that name.
-    fn find(&self, name: &str) -> PathBuf {
-        let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
-        // No file makes us ask another machine.
-        let name = if name.starts_with("//") {
-            file_name
-        } else {
-            Path::new(name)
-        };
-        let folders = [Some(&self.path), self.behind_link.as_ref()];
-        folders
+    /// Where a file may be.
+    fn folders(&self) -> impl Iterator<Item = &PathBuf> {
+        [Some(&self.path), self.behind_link.as_ref()]
             .into_iter()
             .flatten()
-            .find_map(|folder| {
-                self.any_case(folder, name)
-                    .or_else(|| self.any_case(folder, file_name))
-            })
-            .unwrap_or_else(|| self.path.join(name))
+    }
+
+    /// The file of a name; one that differs in letter case, or lies in the folder itself, where there is
+    /// none of just that name.
+    fn find(&self, name: &Path, file_name: &Path) -> Option<PathBuf> {
+        let mut folders = self.folders();
+        folders.find_map(|folder| {
+            self.any_case(folder, name)
+                .or_else(|| self.any_case(folder, file_name))
+        })
     }
 
     /// The file of a path, or of one that is this one but for letter case.

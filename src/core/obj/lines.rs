@@ -14,7 +14,7 @@ use std::io::{self, BufRead, BufReader, Read};
 /// Read in pieces of this size, between which a cancel is noticed.
 const PIECE: usize = 1 << 18;
 /// A longer line isn't read to its end: a polygon of ten million corners would fit.
-pub(super) const LONGEST_LINE: usize = 128 << 20;
+const LONGEST_LINE: usize = 128 << 20;
 
 /// Bytes by which a file is told that is no OBJ.
 const ENOUGH_TO_TELL: usize = 1 << 10;
@@ -43,11 +43,7 @@ pub(super) struct Statement<'l> {
 
 impl Statement<'_> {
     pub(super) fn problem(&self, message: String) -> Problem {
-        Problem::Line {
-            line: self.line,
-            column: None,
-            message,
-        }
+        Problem::line(self.line, message)
     }
 
     /// What is wrong with the word that begins at an offset.

@@ -28,8 +28,7 @@ pub(super) fn look_up(
     max_memory: u64,
     progress: &Progress,
 ) -> Result<Looks, Problem> {
-    let mut libraries = Libraries::default();
-    libraries.read_all(facts, beside, progress)?;
+    let libraries = Libraries::of(facts, beside, progress)?;
     let mut textures = Textures {
         beside,
         max_memory,
@@ -107,8 +106,11 @@ impl Told {
 }
 
 /// What the libraries say of the materials that faces name.
-#[derive(Default)]
-struct Libraries {
+struct Libraries<'a> {
+    beside: Beside<'a>,
+    /// The names that faces use, with and without what may be a comment.
+    wanted: HashSet<&'a str>,
+    progress: &'a Progress,
     /// Each material with its library's folder. Of several by one name the first one counts.
     known: HashMap<String, (String, Definition)>,
     /// Names that were looked for, and whether they were found.
@@ -117,41 +119,26 @@ struct Libraries {
     oddities: Told,
 }
 
-impl Libraries {
-    fn read_all(
-        &mut self,
-        facts: &Facts,
-        beside: Beside,
-        progress: &Progress,
-    ) -> Result<(), Problem> {
+impl<'a> Libraries<'a> {
+    /// Reads every library of a file.
+    fn of(facts: &'a Facts, beside: Beside<'a>, progress: &'a Progress) -> Result<Self, Problem> {
         let names = facts.materials.names.iter();
-        let wanted: HashSet<&str> = names
-            .flat_map(|name| [Some(name.as_str()), before_comment(name)])
-            .flatten()
-            .collect();
-        let mut reading = ReadingLibraries {
-            libraries: self,
+        let spellings = names.flat_map(|name| [Some(name.as_str()), before_comment(name)]);
+        let mut libraries = Self {
             beside,
-            wanted,
+            wanted: spellings.flatten().collect(),
             progress,
+            known: HashMap::new(),
+            seen: HashMap::new(),
+            missing: Told::default(),
+            oddities: Told::default(),
         };
-        facts
-            .libraries
-            .names
-            .iter()
-            .try_for_each(|(line, names)| reading.read(*line, names))
+        for (line, names) in &facts.libraries.names {
+            libraries.read(*line, names)?;
+        }
+        Ok(libraries)
     }
-}
 
-/// Libraries that are being read.
-struct ReadingLibraries<'a> {
-    libraries: &'a mut Libraries,
-    beside: Beside<'a>,
-    wanted: HashSet<&'a str>,
-    progress: &'a Progress,
-}
-
-impl ReadingLibraries<'_> {
     /// What a `mtllib` names: one library whose name may have spaces, or several.
     fn read(&mut self, line: usize, names: &str) -> Result<(), Problem> {
         let whole = names.trim_matches('"').replace('\\', "/");
@@ -172,7 +159,7 @@ impl ReadingLibraries<'_> {
         }
         for (library, error) in missing {
             let message = format!("material library “{}”: {error}", shortened(&library));
-            self.libraries.missing.add(Warning::at(line, message));
+            self.missing.add(Warning::at(line, message));
         }
         Ok(())
     }
@@ -185,32 +172,26 @@ impl ReadingLibraries<'_> {
         if library.is_empty() {
             return Ok(Err("a name is missing".to_owned()));
         }
-        let Libraries {
-            known,
-            seen,
-            oddities,
-            ..
-        } = self.libraries;
-        match seen.get(library) {
+        match self.seen.get(library) {
             Some(true) => return Ok(Ok(())),
             Some(false) => return Ok(Err("can't be read either".to_owned())),
-            None if seen.len() >= MOST => return Ok(Err(format!("one of more than {MOST}"))),
+            None if self.seen.len() >= MOST => return Ok(Err(format!("one of more than {MOST}"))),
             None => {}
         }
         let bytes = (self.beside)(library);
-        seen.insert(library.to_owned(), bytes.is_ok());
+        self.seen.insert(library.to_owned(), bytes.is_ok());
         let bytes = match bytes {
             Ok(bytes) => bytes,
             Err(error) => return Ok(Err(reason(&error))),
         };
         let is_wanted = |name: &str| self.wanted.contains(name);
         let (definitions, odd) = mtl::parse(&bytes, library, is_wanted, self.progress)?;
-        odd.into_iter().for_each(|oddity| oddities.add(oddity));
+        odd.into_iter().for_each(|oddity| self.oddities.add(oddity));
         let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
         for definition in definitions {
             let name = definition.material.name.clone();
             let found = (folder.to_owned(), definition);
-            known.entry(name).or_insert(found);
+            self.known.entry(name).or_insert(found);
         }
         Ok(Ok(()))
     }
@@ -224,9 +205,11 @@ fn names_in(several: &str) -> impl Iterator<Item = String> {
     let has_ends = several.split_whitespace().any(is_end);
     let mut words = several.split_whitespace();
     std::iter::from_fn(move || {
-        let mut name = words.next()?.to_owned();
-        while has_ends && !is_end(&name) && name.len() < LONGEST_NAME {
-            let Some(word) = words.next() else { break };
+        let mut word = words.next()?;
+        let mut name = word.to_owned();
+        while has_ends && !is_end(word) && name.len() < LONGEST_NAME {
+            let Some(next) = words.next() else { break };
+            word = next;
             name.push(' ');
             name.push_str(word);
         }

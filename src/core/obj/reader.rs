@@ -26,7 +26,6 @@ pub(super) struct NormalisingReader<'p> {
     sorter: Sorter,
     consumed: usize,
     max_memory: u64,
-    faults: Faults,
     problem: Option<Problem>,
 }
 
@@ -55,7 +54,6 @@ impl<'p> NormalisingReader<'p> {
             sorter: Sorter::new(options.faults, known_counts),
             consumed: 0,
             max_memory: options.max_memory,
-            faults: options.faults,
             problem: None,
         })
     }
@@ -71,7 +69,7 @@ impl<'p> NormalisingReader<'p> {
         let facts = &self.sorter.facts;
         // Only a whole file tells how many there are.
         if !facts.is_complete() && self.lines.is_at_end() {
-            if self.faults == Faults::Lenient {
+            if self.sorter.faults == Faults::Lenient {
                 return Ok(Outcome::Again(facts.counts));
             }
             for list in List::ALL {

@@ -18,17 +18,17 @@ pub(super) struct Sorter {
     /// What tobj is to read next, and which line of the file each of its lines comes from.
     pub out: Vec<u8>,
     pub out_lines: LineRuns,
-    faults: Faults,
+    pub faults: Faults,
     /// How many there are in each list, where an earlier reading found that out.
     known_counts: Option<[usize; 3]>,
 }
 
-/// What became of a corner.
+/// What became of a corner, or of all corners of an element.
 enum Resolved {
     AsWritten,
     /// tobj must not see it as it is written.
     Changed,
-    /// There is no such vertex.
+    /// There is no such vertex, or there are too few.
     Impossible,
 }
 
@@ -134,43 +134,57 @@ impl Sorter {
         statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
-        if element == Element::Face && self.plain_face(statement.bytes, after) {
-            self.out.extend(statement.bytes);
-            self.end_line(statement.line);
-            self.facts.add_element(element, statement.line);
-            return Ok(());
-        }
-        let before = self.facts.corners.each_ref().map(Vec::len);
-        let mut is_as_written = element == Element::Face;
-        for corner in Corners::of(statement.bytes, after) {
-            let corner = corner.map_err(|bad| statement.problem_at(bad.offset, bad.message))?;
-            match self.corner(corner, &statement)? {
-                Resolved::AsWritten => {}
-                Resolved::Changed => is_as_written = false,
-                Resolved::Impossible => {
-                    self.facts.drop_element(element, before, statement.line);
-                    return Ok(());
-                }
-            }
-        }
-        let [first, ..] = before;
-        let count = self.facts.corners[0].len() - first;
-        let (least, what) = element.least_corners();
-        if count < least {
-            if self.faults == Faults::Lenient {
-                self.facts.drop_element(element, before, statement.line);
-                return Ok(());
-            }
-            return Err(statement.problem(format!("{what}, this one has {count}")));
-        }
-        if is_as_written {
-            self.out.extend(statement.bytes);
+        let first = self.facts.corners[0].len();
+        let is_plain = element == Element::Face && self.plain_face(statement.bytes, after);
+        let corners = if is_plain {
+            Resolved::AsWritten
         } else {
-            self.write_corners(first);
+            self.corners(element, &statement, after)?
+        };
+        match corners {
+            Resolved::AsWritten => self.out.extend(statement.bytes),
+            Resolved::Changed => self.write_corners(first),
+            Resolved::Impossible => return Ok(()),
         }
         self.end_line(statement.line);
         self.facts.add_element(element, statement.line);
         Ok(())
+    }
+
+    /// Checks an element's corners and adds them to the lists; none, if it is dropped.
+    fn corners(
+        &mut self,
+        element: Element,
+        statement: &Statement<'_>,
+        after: usize,
+    ) -> Result<Resolved, Problem> {
+        let before = self.facts.corners.each_ref().map(Vec::len);
+        let mut is_as_written = element == Element::Face;
+        for corner in Corners::of(statement.bytes, after) {
+            let corner = corner.map_err(|bad| statement.problem_at(bad.offset, bad.message))?;
+            match self.corner(corner, statement)? {
+                Resolved::AsWritten => {}
+                Resolved::Changed => is_as_written = false,
+                Resolved::Impossible => {
+                    self.facts.drop_element(element, before, statement.line);
+                    return Ok(Resolved::Impossible);
+                }
+            }
+        }
+        let count = self.facts.corners[0].len() - before[0];
+        let (least, what) = element.least_corners();
+        if count < least {
+            if self.faults == Faults::Lenient {
+                self.facts.drop_element(element, before, statement.line);
+                return Ok(Resolved::Impossible);
+            }
+            return Err(statement.problem(format!("{what}, this one has {count}")));
+        }
+        Ok(if is_as_written {
+            Resolved::AsWritten
+        } else {
+            Resolved::Changed
+        })
     }
 
     /// Adds the corners of a face that has vertices alone, each a plain number of one that was read; if it is
