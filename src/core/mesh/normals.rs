@@ -65,15 +65,6 @@ impl VertexNormals {
         };
         lists[triangle as usize].map(|index| self.normals[index as usize])
     }
-
-    /// Bytes taken.
-    pub fn bytes(&self) -> usize {
-        let own = match &self.indices {
-            Indices::Own(corners) => size_of_val(&corners[..]),
-            Indices::OfVertices | Indices::OfFile => 0,
-        };
-        size_of_val(&self.normals[..]) + own
-    }
 }
 
 /// Whether the file has a normal for each corner of a triangle.
