@@ -3,7 +3,7 @@
 //! Sums of samples as integers: adding them gives the same picture in whatever order tiles arrive.
 //! Pixels not yet sampled show their block's colour from a coarser pass.
 
-use crate::render::plan::{Pass, Plan, Unit};
+use crate::render::plan::{Pass, Plan, WorkUnit};
 use crate::srgb::to_display;
 use glam::{UVec2, Vec3};
 use std::sync::LazyLock;
@@ -28,7 +28,7 @@ pub fn fixed(radiance: Vec3) -> Option<FixedRgb> {
 #[derive(Clone, Debug)]
 pub struct TileSamples {
     /// Which pass and tile.
-    pub unit: Unit,
+    pub unit: WorkUnit,
     /// Sums over the pass's samples.
     pub sums: Vec<FixedRgb>,
 }
@@ -118,7 +118,7 @@ impl Film {
     }
 
     /// Counts a tile as done that couldn't be traced; its pixels stay as they are.
-    pub fn skip(&mut self, unit: Unit) {
+    pub fn skip(&mut self, unit: WorkUnit) {
         self.tiles_done[unit.pass] += 1;
     }
 

@@ -106,11 +106,11 @@ impl Progress {
     ///
     /// # Panics
     /// As the work does.
-    pub(crate) fn aside<T: Send + 'static>(
+    pub(crate) fn run_in_background<T: Send + 'static>(
         &self,
         name: &str,
         work: impl FnOnce() -> T + Send + 'static,
-    ) -> Result<T, Aside> {
+    ) -> Result<T, BackgroundError> {
         /// How often it is looked whether the result is wanted.
         const PATIENCE: Duration = Duration::from_millis(10);
         let (sender, receiver) = sync_channel(1);
@@ -119,7 +119,7 @@ impl Progress {
             // Nobody waits any more if the load was cancelled.
             _ = sender.send(work());
         });
-        let handle = handle.map_err(Aside::NoThread)?;
+        let handle = handle.map_err(BackgroundError::NoThread)?;
         loop {
             match receiver.recv_timeout(PATIENCE) {
                 Ok(result) => return Ok(result),
@@ -135,12 +135,12 @@ impl Progress {
 
 /// Why there is no result of work on another thread.
 #[derive(Debug)]
-pub(crate) enum Aside {
+pub(crate) enum BackgroundError {
     Cancelled,
     NoThread(io::Error),
 }
 
-impl From<Cancelled> for Aside {
+impl From<Cancelled> for BackgroundError {
     fn from(_: Cancelled) -> Self {
         Self::Cancelled
     }
@@ -153,16 +153,16 @@ mod tests {
     #[test]
     fn nobody_waits_for_what_is_not_wanted() {
         let progress = Progress::default();
-        assert!(matches!(progress.aside("two", || 2), Ok(2)));
+        assert!(matches!(progress.run_in_background("two", || 2), Ok(2)));
         let (_keep, endless) = sync_channel::<()>(0);
         progress.clone().cancel();
-        let result = progress.aside("endless", move || endless.recv());
-        assert!(matches!(result, Err(Aside::Cancelled)));
+        let result = progress.run_in_background("endless", move || endless.recv());
+        assert!(matches!(result, Err(BackgroundError::Cancelled)));
     }
 
     #[test]
     #[should_panic(expected = "on purpose")]
     fn a_panic_aside_is_a_panic_here() {
-        _ = Progress::default().aside("panicking", || panic!("on purpose"));
+        _ = Progress::default().run_in_background("panicking", || panic!("on purpose"));
     }
 }

@@ -32,11 +32,11 @@ pub struct SpawnPolicy {
     pub source: &'static str,
     /// What it is good and bad at, in a sentence.
     pub summary: &'static str,
-    begin: fn(&Departure<'_>) -> Beginning,
+    begin: fn(&Departure<'_>) -> RayStart,
 }
 
 /// Where a ray begins, and what it can't hit.
-struct Beginning {
+struct RayStart {
     origin: Vec3,
     t_min: f32,
     exclude: Option<u32>,
@@ -48,7 +48,7 @@ impl SpawnPolicy {
     /// # Errors
     /// See [`RayError`].
     pub fn spawn(&self, departure: &Departure<'_>) -> Result<Ray, RayError> {
-        let Beginning {
+        let RayStart {
             origin,
             t_min,
             exclude,
@@ -65,7 +65,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Fixed ε",
         source: "Lensch, Basic Geometry, lecture, 2022",
         summary: "Hits with t < 1e-6 don't count, whatever the scene's size: fails in most scenes.",
-        begin: |departure| Beginning {
+        begin: |departure| RayStart {
             origin: departure.point_along_ray(),
             t_min: LECTURES_EPSILON,
             exclude: None,
@@ -79,7 +79,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         begin: |departure| {
             let p = departure.point_by_weights();
             let height = (1.0 + p.abs().max_element()) * MITSUBAS_EPSILON;
-            Beginning::at(p + height * departure.facing_normal())
+            RayStart::at(p + height * departure.facing_normal())
         },
     },
     SpawnPolicy {
@@ -88,7 +88,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         source: "Wächter, Binder, A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing Gems 2019",
         summary: "Lifted by up to 256 ulps of each coordinate: simple, and too high away from the origin.",
         begin: |departure| {
-            Beginning::at(wachter_binder(
+            RayStart::at(wachter_binder(
                 departure.point_by_weights(),
                 departure.facing_normal(),
             ))
@@ -99,23 +99,23 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "NVIDIA, object space",
         source: "NVIDIA, Self Intersection Avoidance, 2023",
         summary: "Lifted by a bound on the error of A + u(B − A) + v(C − A): low, but the sum is rounded once more.",
-        begin: |departure| Beginning::at(nvidia(departure)),
+        begin: |departure| RayStart::at(nvidia(departure)),
     },
     SpawnPolicy {
         name: "error-bounded",
         title: "Error-bounded",
         source: "Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, 6.8.6",
         summary: "Lifted by a bound on the error of the weighted corners, then rounded away from the surface.",
-        begin: |departure| Beginning::at(error_bounded(departure)),
+        begin: |departure| RayStart::at(error_bounded(departure)),
     },
     SpawnPolicy {
         name: "exclusion",
         title: "Exclusion",
         source: "Folklore",
         summary: "Not lifted, but the triangle that it leaves can't be hit; its neighbours can.",
-        begin: |departure| Beginning {
+        begin: |departure| RayStart {
             exclude: Some(departure.hit.primitive),
-            ..Beginning::at(departure.point_by_weights())
+            ..RayStart::at(departure.point_by_weights())
         },
     },
     SpawnPolicy {
@@ -123,9 +123,9 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Error-bounded and exclusion",
         source: "Both of the above",
         summary: "The bound keeps clear of neighbours, the exclusion of the triangle itself.",
-        begin: |departure| Beginning {
+        begin: |departure| RayStart {
             exclude: Some(departure.hit.primitive),
-            ..Beginning::at(error_bounded(departure))
+            ..RayStart::at(error_bounded(departure))
         },
     },
 ];
@@ -142,7 +142,7 @@ const MITSUBAS_EPSILON: f32 = 1500.0 * U;
 /// Half an ulp of 1.
 const U: f32 = f32::EPSILON / 2.0;
 
-impl Beginning {
+impl RayStart {
     fn at(origin: Vec3) -> Self {
         Self {
             origin,

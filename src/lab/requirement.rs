@@ -31,7 +31,7 @@ pub struct Requirement {
 /// Looks at extent, slivers, offset, and how far away the starting view is.
 pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     let mesh = scene.mesh();
-    let mut found = Findings::default();
+    let mut found = TierReasons::default();
     let triangles = mesh.triangles.len();
     found.add_for_edges(health, triangles);
 
@@ -86,12 +86,12 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
 }
 
 #[derive(Default)]
-struct Findings {
+struct TierReasons {
     /// Which tier each asks for, if any.
     reasons: Vec<(Option<Tier>, String)>,
 }
 
-impl Findings {
+impl TierReasons {
     fn add_for_edges(&mut self, health: &Health, triangles: usize) {
         let (tier, reason) =
             if triangles > 0 && health.places(Flaw::OpenEdge).count() == Some(3 * triangles) {
@@ -145,7 +145,7 @@ mod tests {
     use super::*;
     use glam::{DVec3, Vec3};
     use hitscope_core::TriangleMesh;
-    use hitscope_core::mesh::shapes::{Place, scene, soup, sphere};
+    use hitscope_core::mesh::shapes::{Placement, scene, soup, sphere};
 
     fn required(mesh: TriangleMesh) -> Requirement {
         let health = Health::of(&mesh);
@@ -156,8 +156,8 @@ mod tests {
     fn each_extreme_asks_for_its_tier_and_says_why() {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         assert_eq!(required(soup(&[corners])).tier, "fast");
-        assert_eq!(required(sphere(4, Place::UNIT)).tier, "watertight");
-        let tiny = required(sphere(4, Place::new(1e-20, 0.0)));
+        assert_eq!(required(sphere(4, Placement::UNIT)).tier, "watertight");
+        let tiny = required(sphere(4, Placement::new(1e-20, 0.0)));
         assert_eq!(tiny.tier, "precise");
         assert!(tiny.reasons[0].contains("f32's range"), "{tiny:?}");
         let thin = Vec3::new(0.5, 1e-5, 0.0);
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn an_offset_is_told_but_asks_for_nothing() {
-        let mut mesh = sphere(4, Place::UNIT);
+        let mut mesh = sphere(4, Placement::UNIT);
         mesh.origin = DVec3::splat(1e6);
         let found = required(mesh);
         assert_eq!(found.tier, "watertight");

@@ -4,7 +4,7 @@ use crate::app::{App, StartOptions};
 use crate::document::embedded_scene;
 use crate::gpu::GpuError;
 use crate::offscreen;
-use crate::overlay::wireframe::Edges;
+use crate::overlay::wireframe::WireframeEdges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use clap::{Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -100,7 +100,7 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
     let rendered = args.trace()?;
     let mut pixels = rendered.film.pixels().to_vec();
     if let Some(gpu) = &gpu {
-        let edges = args.wireframe.then_some(Edges::Polygons);
+        let edges = args.wireframe.then_some(WireframeEdges::Polygons);
         let normals = args.normals.then_some(rendered.shading);
         offscreen::draw_over(gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
     }

@@ -1,6 +1,6 @@
 //! What is open: a scene, its file, and the intersector that traces it.
 
-use crate::task::{Broken, Task, Wanted};
+use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::{Crease, Health, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
@@ -18,7 +18,7 @@ const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
 
 /// What a look at every triangle and edge finds.
 #[derive(Clone, Debug)]
-pub struct Findings {
+pub struct MeshReport {
     /// The mesh's health.
     pub health: Arc<Health>,
     /// The tier that the scene requires.
@@ -61,9 +61,9 @@ enum Improvement {
 
 enum HealthState {
     Unasked,
-    Checking(Task<Findings>),
-    Known(Arc<Findings>),
-    Broken,
+    Checking(Task<MeshReport>),
+    Known(Arc<MeshReport>),
+    Failed,
 }
 
 impl Document {
@@ -96,9 +96,9 @@ impl Document {
             intersector: Arc::from(loaded.scene.intersector(kernel)),
             loaded,
             began: SystemTime::now(),
-            packing: Wanted::default(),
+            packing: KeyedTask::default(),
             second: None,
-            packing_second: Wanted::default(),
+            packing_second: KeyedTask::default(),
             health: HealthState::Unasked,
             progress: Progress::default(),
             improvement: Improvement::Unasked,
@@ -109,8 +109,8 @@ impl Document {
     /// itself.
     ///
     /// # Errors
-    /// [`Broken`] if building it failed, said once; the first tree stays.
-    pub fn improve(&mut self, ctx: &egui::Context) -> Result<(), Broken> {
+    /// [`TaskPanicked`] if building it failed, said once; the first tree stays.
+    pub fn improve(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
         match &self.improvement {
             Improvement::Unasked if self.loaded.scene.has_best_tree() => {
                 self.improvement = Improvement::Over;
@@ -167,12 +167,12 @@ impl Document {
     /// Changes to a kernel, as soon as the scene is packed for it.
     ///
     /// # Errors
-    /// [`Broken`] if packing failed; the kernel before stays.
+    /// [`TaskPanicked`] if packing failed; the kernel before stays.
     pub fn use_kernel(
         &mut self,
         kernel: &'static TriangleKernel,
         ctx: &egui::Context,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), TaskPanicked> {
         if self.intersector.kernel().name == kernel.info.name {
             return Ok(());
         }
@@ -191,12 +191,12 @@ impl Document {
     /// Packs the scene for a second kernel, or drops it where no view needs one.
     ///
     /// # Errors
-    /// [`Broken`] if packing failed.
+    /// [`TaskPanicked`] if packing failed.
     pub fn use_second(
         &mut self,
         kernel: Option<&'static TriangleKernel>,
         ctx: &egui::Context,
-    ) -> Result<(), Broken> {
+    ) -> Result<(), TaskPanicked> {
         let Some(kernel) = kernel else {
             self.second = None;
             return Ok(());
@@ -213,14 +213,14 @@ impl Document {
     }
 
     /// The mesh's health and what it requires, found out when first asked for; `None` until it is known.
-    pub fn findings(&mut self, ctx: &egui::Context) -> Option<Arc<Findings>> {
+    pub fn findings(&mut self, ctx: &egui::Context) -> Option<Arc<MeshReport>> {
         match &self.health {
             HealthState::Unasked => {
                 let scene = Arc::clone(&self.loaded.scene);
                 let check = move || {
                     let health = Arc::new(Health::of(scene.mesh()));
                     let requirement = required_tier(&scene, &health);
-                    Findings {
+                    MeshReport {
                         health,
                         requirement,
                         bytes_as: bytes_as(scene.mesh()),
@@ -231,15 +231,15 @@ impl Document {
             HealthState::Checking(task) => match task.poll() {
                 Ok(None) => {}
                 Ok(Some(findings)) => self.health = HealthState::Known(Arc::new(findings)),
-                Err(Broken) => self.health = HealthState::Broken,
+                Err(TaskPanicked) => self.health = HealthState::Failed,
             },
-            HealthState::Known(_) | HealthState::Broken => {}
+            HealthState::Known(_) | HealthState::Failed => {}
         }
         self.known_findings()
     }
 
     /// The same, but only if somebody asked before.
-    pub fn known_findings(&self) -> Option<Arc<Findings>> {
+    pub fn known_findings(&self) -> Option<Arc<MeshReport>> {
         match &self.health {
             HealthState::Known(findings) => Some(Arc::clone(findings)),
             _ => None,
@@ -248,7 +248,7 @@ impl Document {
 }
 
 /// A scene that is being packed for the kernel of a name.
-type PackingTask = Wanted<&'static str, Box<dyn Intersector>>;
+type PackingTask = KeyedTask<&'static str, Box<dyn Intersector>>;
 
 /// The scene packed for a kernel, once it is; begins unless that is under way.
 fn packed(
@@ -256,7 +256,7 @@ fn packed(
     scene: &Arc<Scene>,
     kernel: &'static TriangleKernel,
     ctx: &egui::Context,
-) -> Result<Option<Arc<dyn Intersector>>, Broken> {
+) -> Result<Option<Arc<dyn Intersector>>, TaskPanicked> {
     let scene = Arc::clone(scene);
     let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
     Ok(packing.get(kernel.info.name, pack)?.map(Arc::from))

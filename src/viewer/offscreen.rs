@@ -1,10 +1,10 @@
 //! The overlay without a window: for `render --wireframe` and `--normals`.
 
 use crate::gpu::depth::DepthMesh;
-use crate::gpu::lines::{Line, StyleUniform, Visibility};
+use crate::gpu::lines::{Line, LineOcclusion, StyleUniform};
 use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
-use crate::overlay::wireframe::{self, Edges};
+use crate::overlay::wireframe::{self, WireframeEdges};
 use crate::overlay::{Options, marks, normals};
 use glam::UVec2;
 use hitscope_core::scene::Shading;
@@ -18,7 +18,7 @@ pub fn draw_over(
     (device, queue): &(wgpu::Device, wgpu::Queue),
     pixels: &mut [[u8; 4]],
     rendered: &Rendered,
-    wireframe: Option<Edges>,
+    wireframe: Option<WireframeEdges>,
     normals: Option<Shading>,
 ) -> Result<(), GpuError> {
     require_size(device, rendered.film.size())?;
@@ -49,7 +49,10 @@ pub fn draw_over(
         .iter()
         .map(|(lines, style)| pipelines.upload(device, queue, lines, style))
         .collect::<Result<_, _>>()?;
-    let sets: Vec<_> = sets.iter().map(|set| (set, Visibility::Hidden)).collect();
+    let sets: Vec<_> = sets
+        .iter()
+        .map(|set| (set, LineOcclusion::HiddenByMesh))
+        .collect();
     let mesh = DepthMesh::new(device, scene.mesh())?;
     let view = ViewUniform::new(&rendered.camera, &scene.bounds());
     let texture = overlay.draw(device, queue, &view, &mesh, &sets);

@@ -2,7 +2,7 @@
 
 use crate::document::Document;
 use crate::settings::Settings;
-use crate::task::{Broken, Task};
+use crate::task::{Task, TaskPanicked};
 use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use std::path::{Path, PathBuf};
@@ -51,7 +51,7 @@ impl OpenDialog {
         let choice = match task.poll() {
             Ok(None) => return None,
             Ok(Some(choice)) => choice,
-            Err(Broken) => None,
+            Err(TaskPanicked) => None,
         };
         let was_quick = since.elapsed() < TOO_QUICK;
         self.native = None;
@@ -146,8 +146,8 @@ impl Loading {
     /// The document or what is wrong with the file, once it is known.
     ///
     /// # Errors
-    /// [`Broken`] if the thread panicked.
-    pub fn poll(&self) -> Result<Option<Result<Document, LoadError>>, Broken> {
+    /// [`TaskPanicked`] if the thread panicked.
+    pub fn poll(&self) -> Result<Option<Result<Document, LoadError>>, TaskPanicked> {
         self.task.poll()
     }
 

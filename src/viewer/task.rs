@@ -8,12 +8,12 @@ pub struct Task<T>(Receiver<T>);
 /// The thread ended without a result: it panicked.
 #[derive(Clone, Copy, Debug, thiserror::Error)]
 #[error("an internal error ended the work; the terminal has the details")]
-pub struct Broken;
+pub struct TaskPanicked;
 
 impl<T: Send + 'static> Task<T> {
     /// Starts a thread of this name; `ctx` is repainted when the result is there.
     ///
-    /// If the system grants no thread, [`poll`](Self::poll) says [`Broken`].
+    /// If the system grants no thread, [`poll`](Self::poll) says [`TaskPanicked`].
     pub fn spawn(
         name: &str,
         ctx: &egui::Context,
@@ -35,32 +35,36 @@ impl<T: Send + 'static> Task<T> {
     /// The result, once it is there.
     ///
     /// # Errors
-    /// [`Broken`] if it will never be.
-    pub fn poll(&self) -> Result<Option<T>, Broken> {
+    /// [`TaskPanicked`] if it will never be.
+    pub fn poll(&self) -> Result<Option<T>, TaskPanicked> {
         match self.0.try_recv() {
             Ok(result) => Ok(Some(result)),
             Err(TryRecvError::Empty) => Ok(None),
-            Err(TryRecvError::Disconnected) => Err(Broken),
+            Err(TryRecvError::Disconnected) => Err(TaskPanicked),
         }
     }
 }
 
 /// Work on one of several things that could be wanted.
-pub struct Wanted<K, T>(Option<(K, Task<T>)>);
+pub struct KeyedTask<K, T>(Option<(K, Task<T>)>);
 
-impl<K, T> Default for Wanted<K, T> {
+impl<K, T> Default for KeyedTask<K, T> {
     fn default() -> Self {
         Self(None)
     }
 }
 
-impl<K: PartialEq, T: Send + 'static> Wanted<K, T> {
+impl<K: PartialEq, T: Send + 'static> KeyedTask<K, T> {
     /// The result for `key`, once it is there. Starts the work unless it is under way; work for
     /// another key is then forgotten.
     ///
     /// # Errors
-    /// [`Broken`] if it will never be; the next call starts anew.
-    pub fn get(&mut self, key: K, start: impl FnOnce() -> Task<T>) -> Result<Option<T>, Broken> {
+    /// [`TaskPanicked`] if it will never be; the next call starts anew.
+    pub fn get(
+        &mut self,
+        key: K,
+        start: impl FnOnce() -> Task<T>,
+    ) -> Result<Option<T>, TaskPanicked> {
         match &self.0 {
             Some((wanted, task)) if *wanted == key => {
                 let result = task.poll();

@@ -55,7 +55,7 @@ impl PartialEq for Request {
 }
 
 /// A request that the threads work on.
-struct Posted {
+struct PostedRequest {
     request: Request,
     at: Instant,
     /// From then to the newest tile.
@@ -83,7 +83,7 @@ pub struct Status {
 pub struct Tracer {
     renderer: Renderer,
     film: Film,
-    posted: Option<Posted>,
+    posted: Option<PostedRequest>,
     /// What the shown picture is of: the newest one whose first pass is done.
     shown: Option<(Arc<Scene>, Camera)>,
     shown_at: Option<Instant>,
@@ -259,7 +259,7 @@ impl Tracer {
             integrator: request.integrator,
             plan,
         });
-        self.posted = Some(Posted {
+        self.posted = Some(PostedRequest {
             request,
             at: Instant::now(),
             lasted: Duration::ZERO,

@@ -9,7 +9,7 @@ use hitscope_core::bvh::Bvh;
 use hitscope_core::intersector::{Intersector, Packing};
 use hitscope_core::kernel::{TriangleKernel, bounds_in, triangle_kernel};
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{Place, scene, soup, torus};
+use hitscope_core::mesh::shapes::{Placement, scene, soup, torus};
 use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Hit, Ray, Scene};
@@ -31,7 +31,7 @@ const KERNELS: [&str; 8] = [
 const RAYS: usize = 16 * 1024;
 
 /// 2·400·250 triangles.
-static TORUS: LazyLock<Scene> = LazyLock::new(|| scene(torus(400, 250, Place::UNIT)));
+static TORUS: LazyLock<Scene> = LazyLock::new(|| scene(torus(400, 250, Placement::UNIT)));
 
 fn main() {
     divan::main();

@@ -7,10 +7,10 @@ use glam::UVec2;
 use hitscope_core::camera::Projection;
 use hitscope_core::intersector::{Cost, Crossing};
 use hitscope_core::kernel::KernelInfo;
-use hitscope_core::mesh::shapes::{Place, torus};
+use hitscope_core::mesh::shapes::{Placement, torus};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
-use hitscope_core::render::plan::{Pass, Plan, Unit};
+use hitscope_core::render::plan::{Pass, Plan, WorkUnit};
 use hitscope_core::render::{Job, Message, Renderer, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Film, Hit, Intersector, Ray, Scene};
@@ -97,7 +97,7 @@ fn slow_picture(started: Sender<()>) -> Job {
 /// first, then waits.
 fn complete(renderer: &Renderer, job: &Job) -> Film {
     let mut film = Film::new(job.plan.clone(), job.context.background);
-    let mut seen: Vec<Unit> = Vec::new();
+    let mut seen: Vec<WorkUnit> = Vec::new();
     while !film.is_complete() {
         let message = renderer.try_next();
         let Message::Tile(tile) = message.unwrap_or_else(|| renderer.wait_next()) else {
@@ -267,7 +267,7 @@ fn a_panic_is_reported_with_its_sample_and_the_other_tiles_arrive() {
 
     // Missing: the tile with that pixel, in the pass with that sample, and nothing else.
     let units = (0..job.plan.unit_count()).map(|k| job.plan.unit(k));
-    let missing: Vec<Unit> = units.filter(|unit| !tiles.contains(unit)).collect();
+    let missing: Vec<WorkUnit> = units.filter(|unit| !tiles.contains(unit)).collect();
     let [missing] = missing[..] else {
         panic!("one tile is missing: {missing:?}");
     };
@@ -354,5 +354,5 @@ fn a_load_cancelled_before_it_began_gives_no_mesh() {
 fn a_tree_whose_load_was_cancelled_is_not_built() {
     let progress = Progress::default();
     progress.cancel();
-    assert!(Scene::new(torus(8, 8, Place::UNIT), &progress).is_err());
+    assert!(Scene::new(torus(8, 8, Placement::UNIT), &progress).is_err());
 }

@@ -6,7 +6,7 @@ use hitscope_core::Film;
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::INTEGRATORS;
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::mesh::shapes::{Place, sphere};
+use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::plan::{Plan, STEPS};
 use hitscope_core::render::{Job, Message, Renderer, render};
@@ -94,7 +94,7 @@ fn large_picture(first_tree: FirstTree) -> Job {
         first_tree,
         ..SceneOptions::default()
     };
-    let mesh = sphere(150, Place::UNIT);
+    let mesh = sphere(150, Placement::UNIT);
     let scene = Scene::with_options(mesh, options, &Progress::default()).expect("nobody cancels");
     let scene = Arc::new(scene);
     let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();

@@ -7,7 +7,7 @@
 use cpu_time::ProcessTime;
 use glam::Vec3;
 use hitscope_core::mesh::{Crease, Health, VertexNormals};
-use hitscope_core::obj::{self, Faults, LoadOptions, Recentre};
+use hitscope_core::obj::{self, FaultPolicy, LoadOptions, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use peak_alloc::PeakAlloc;
@@ -149,7 +149,7 @@ impl Fuzzer {
             texture: TEXTURE.to_vec(),
             options: LoadOptions {
                 recentre: [Recentre::Auto, Recentre::Off][self.below(2)],
-                faults: [Faults::Strict, Faults::Lenient][self.below(2)],
+                faults: [FaultPolicy::Strict, FaultPolicy::Lenient][self.below(2)],
                 max_memory: 64 << 20,
             },
         };

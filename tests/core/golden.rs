@@ -13,7 +13,7 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::{Context, INTEGRATORS, integrator};
 use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
-use hitscope_core::mesh::shapes::{Place, scene, torus};
+use hitscope_core::mesh::shapes::{Placement, scene, torus};
 use hitscope_core::render::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
@@ -30,7 +30,7 @@ const ORTHOGRAPHIC: Projection = Projection::Orthographic { height: 2.5 };
 
 /// A torus from above, in the view of this name.
 pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
-    let scene = Arc::new(scene(torus(24, 12, Place::UNIT)));
+    let scene = Arc::new(scene(torus(24, 12, Placement::UNIT)));
     let view = integrator(view).expect("a view");
     let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
     let eye = DVec3::new(1.25, -2.0, 2.25);

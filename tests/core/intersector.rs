@@ -6,7 +6,7 @@
 use glam::Vec3;
 use hitscope_core::intersector::Crossing;
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
-use hitscope_core::mesh::shapes::{Place, flat_grid, in_torus, scene, soup, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, flat_grid, in_torus, scene, soup, sphere, torus};
 use hitscope_core::random::Random;
 use hitscope_core::{Hit, Intersector, Ray, Scene};
 
@@ -161,7 +161,11 @@ fn simd_lanes_give_the_bits_of_the_scalar_kernel() {
 #[test]
 fn the_tree_answers_like_every_triangle_asked_alone() {
     let mut random = Random::new(3);
-    for place in [Place::UNIT, Place::new(1e-6, 10.0), Place::new(1e6, 1000.0)] {
+    for place in [
+        Placement::UNIT,
+        Placement::new(1e-6, 10.0),
+        Placement::new(1e6, 1000.0),
+    ] {
         for mesh in [torus(24, 12, place), sphere(7, place)] {
             let scene = scene(mesh);
             assert_same_for_rays(Ask::Every, &scene, 2500, || {
@@ -176,7 +180,7 @@ fn the_tree_answers_like_every_triangle_asked_alone() {
 #[test]
 fn the_tree_answers_like_every_triangle_asked_alone_at_edges_and_corners() {
     let mut random = Random::new(4);
-    let place = Place::new(1.0, 3.0);
+    let place = Placement::new(1.0, 3.0);
     let scene = scene(torus(16, 8, place));
     let corners = scene.mesh().corner_list();
     assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
@@ -190,7 +194,7 @@ fn the_tree_answers_like_every_triangle_asked_alone_at_edges_and_corners() {
 #[test]
 fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
     let mut random = Random::new(5);
-    let scene = scene(torus(24, 12, Place::UNIT));
+    let scene = scene(torus(24, 12, Placement::UNIT));
     assert_same_for_rays(Ask::Every, &scene, 4000, || {
         let origin = in_torus(random.unit(), random.unit(), 0.3).as_vec3();
         let dir = random.in_cube_f32();
@@ -202,7 +206,7 @@ fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
 #[test]
 fn an_interval_that_ends_at_a_hit_leaves_it_out() {
     let mut random = Random::new(12);
-    let scene = scene(sphere(6, Place::UNIT));
+    let scene = scene(sphere(6, Placement::UNIT));
     let in_f32 = |kernel: &&TriangleKernel| kernel.info.precision == Precision::F32;
     for kernel in TRIANGLE_KERNELS.iter().filter(in_f32) {
         let intersector = scene.intersector(kernel);
@@ -228,7 +232,7 @@ fn an_interval_that_ends_at_a_hit_leaves_it_out() {
 fn a_flat_grid_behind_the_origin_is_found_by_a_negative_interval() {
     // Boxes without thickness: nothing but the padding keeps a ray that is aimed at their border.
     let mut random = Random::new(6);
-    let grid = flat_grid(8, Place::new(0.25, 0.1));
+    let grid = flat_grid(8, Placement::new(0.25, 0.1));
     let scene = scene(grid);
     let corners = scene.mesh().corner_list();
     assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
@@ -310,7 +314,7 @@ fn a_hit_whose_t_rounds_to_before_its_box_is_not_left_out() {
 #[test]
 fn the_candidates_hold_every_triangle_that_is_hit() {
     let mut random = Random::new(9);
-    let scene = scene(torus(24, 12, Place::UNIT));
+    let scene = scene(torus(24, 12, Placement::UNIT));
     let corners = scene.mesh().corner_list();
     for kernel in TRIANGLE_KERNELS {
         let intersector = scene.intersector(kernel);
@@ -340,7 +344,7 @@ fn the_candidates_hold_every_triangle_that_is_hit() {
 #[test]
 fn counting_the_cost_changes_no_answer() {
     let mut random = Random::new(10);
-    let scene = scene(sphere(8, Place::UNIT));
+    let scene = scene(sphere(8, Placement::UNIT));
     for kernel in TRIANGLE_KERNELS {
         let intersector = scene.intersector(kernel);
         for _ in 0..3000 {

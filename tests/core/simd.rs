@@ -4,7 +4,7 @@ use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::camera::Projection;
 use hitscope_core::intersector::Intersector;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::mesh::shapes::{Place, scene, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, scene, sphere, torus};
 use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Camera, Hit, Ray, Scene};
@@ -65,8 +65,8 @@ fn workloads(scene: &Scene) -> Vec<Vec<Ray>> {
 #[test]
 fn every_level_gives_the_bits_of_plain_code_one_by_one_and_together() {
     for scene in [
-        scene(torus(48, 24, Place::UNIT)),
-        scene(sphere(12, Place::UNIT)),
+        scene(torus(48, 24, Placement::UNIT)),
+        scene(sphere(12, Placement::UNIT)),
     ] {
         let workloads = workloads(&scene);
         for kernel in TRIANGLE_KERNELS {
@@ -102,7 +102,7 @@ fn every_level_gives_the_bits_of_plain_code_one_by_one_and_together() {
 
 #[test]
 fn rays_that_go_together_are_traced_together() {
-    let scene = scene(torus(48, 24, Place::UNIT));
+    let scene = scene(torus(48, 24, Placement::UNIT));
     let together = TRIANGLE_KERNELS
         .iter()
         .map(|kernel| scene.intersector(kernel).rays_together());

@@ -9,7 +9,7 @@ use hitscope_core::bvh::Bvh;
 use hitscope_core::intersector::{Intersector, Packing};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, bounds_in, triangle_bounds};
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{Place, soup, torus};
+use hitscope_core::mesh::shapes::{Placement, soup, torus};
 use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Aabb, Ray};
@@ -87,7 +87,7 @@ fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)
 #[test]
 fn every_tree_and_packing_give_every_kernel_the_same_bits() {
     let mut random = Random::new(11);
-    let far_ring = torus(24, 12, Place::new(1.0, 1e4));
+    let far_ring = torus(24, 12, Placement::new(1.0, 1e4));
     let meshes = [needles(&mut random), layers(&mut random), far_ring];
     for (m, mesh) in meshes.iter().enumerate() {
         let rays = rays(mesh, &mut random);

@@ -4,7 +4,7 @@
 
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
-use hitscope_core::mesh::shapes::{Place, cube, flat_grid, in_torus, scene, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, in_torus, scene, sphere, torus};
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::random::Random;
 use hitscope_core::{Intersector, Ray, TriangleMesh};
@@ -20,7 +20,7 @@ fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
 struct Case {
     name: String,
     mesh: TriangleMesh,
-    place: Place,
+    place: Placement,
     /// A point inside, before it is placed.
     inside: fn(&mut Random) -> DVec3,
     rays: usize,
@@ -42,7 +42,7 @@ fn cases() -> Vec<Case> {
     let mut cases = Vec::new();
     for scale in [1e-18, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e17] {
         for offset in [0.0, 1e3, 1.5e5, 1e6] {
-            let place = Place::new(scale, offset);
+            let place = Placement::new(scale, offset);
             // The farther away, the fewer triangles f32 can tell apart.
             let around = if offset > 1e3 { 12 } else { 32 };
             cases.push(Case {
@@ -53,7 +53,7 @@ fn cases() -> Vec<Case> {
                 rays: 60_000,
             });
         }
-        let place = Place::new(scale, 7.0);
+        let place = Placement::new(scale, 7.0);
         cases.push(Case {
             name: format!("sphere of scale {scale:e}"),
             mesh: sphere(8, place),
@@ -63,19 +63,19 @@ fn cases() -> Vec<Case> {
         });
     }
     // A ring drawn out to needles, which many of the rays see along their length.
-    let mut drawn_out = torus(32, 16, Place::UNIT);
+    let mut drawn_out = torus(32, 16, Placement::UNIT);
     for position in &mut drawn_out.positions {
         position.x *= DRAWN_OUT as f32;
     }
     cases.push(Case {
         name: "torus drawn out to needles".to_owned(),
         mesh: drawn_out,
-        place: Place::UNIT,
+        place: Placement::UNIT,
         inside: |random| DVec3::new(DRAWN_OUT, 1.0, 1.0) * inside_torus(random),
         rays: 60_000,
     });
     // A place where fixed epsilons are known to fail.
-    let place = Place {
+    let place = Placement {
         scale: 2.0,
         offset: DVec3::new(148_376.0, 1234.0, -223_423.0),
     };
@@ -161,7 +161,7 @@ fn no_ray_between_points_of_a_lattice_leaves_a_cube_on_it() {
     let mut random = Random::new(11);
     for kernel in watertight_kernels() {
         for offset in [0.0, 1024.0, -131_072.0] {
-            let place = Place {
+            let place = Placement {
                 scale: 1.0,
                 offset: DVec3::splat(offset),
             };
@@ -195,7 +195,11 @@ fn no_ray_between_points_of_a_lattice_leaves_a_cube_on_it() {
 fn an_axis_aligned_ray_finds_the_border_edges_and_corners_of_a_flat_grid() {
     const CELLS: u32 = 8;
     for kernel in watertight_kernels() {
-        for place in [Place::UNIT, Place::new(1.0, 4096.0), Place::new(0.001, 0.5)] {
+        for place in [
+            Placement::UNIT,
+            Placement::new(1.0, 4096.0),
+            Placement::new(0.001, 0.5),
+        ] {
             let mesh = flat_grid(CELLS, place);
             let points: Vec<Vec3> = (0..=2 * CELLS)
                 .flat_map(|y| (0..=2 * CELLS).map(move |x| (x, y)))
@@ -225,7 +229,7 @@ fn a_direction_whose_inverse_overflows_still_reaches_the_border_of_a_flat_grid()
     // 1e-42 is so small that its inverse is infinite; the ray arrives at the border exactly.
     let tiny = 1e-42f32;
     for kernel in watertight_kernels() {
-        let intersector = scene(flat_grid(4, Place::UNIT)).intersector(kernel);
+        let intersector = scene(flat_grid(4, Placement::UNIT)).intersector(kernel);
         for (x, slope) in [(-tiny, tiny), (0.0, tiny), (0.0, -0.0), (tiny, -tiny)] {
             let ray = Ray::new(Vec3::new(x, 1.25, -1.0), Vec3::new(slope, 0.0, 1.0));
             let t = intersector

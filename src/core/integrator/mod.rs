@@ -42,7 +42,7 @@ pub struct Integrator {
     /// What the colours mean, in a sentence.
     pub about: &'static str,
     /// What it holds the chosen kernel against.
-    pub against: Against,
+    pub against: Comparison,
     /// What single colours mean.
     pub legend: fn() -> Legend,
     colour: Colour,
@@ -58,7 +58,7 @@ enum Colour {
 
 /// What a view holds the chosen kernel against.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Against {
+pub enum Comparison {
     /// Nothing: there is one kernel.
     Nothing,
     /// The exact kernel.
@@ -67,7 +67,7 @@ pub enum Against {
     Second,
 }
 
-impl Against {
+impl Comparison {
     /// The second kernel of a view, where the user's choice is `chosen`.
     pub fn kernel(self, chosen: &'static TriangleKernel) -> Option<&'static TriangleKernel> {
         match self {
@@ -125,7 +125,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "shaded",
         title: "Shaded",
         about: "Lit by a studio light that moves with the camera.",
-        against: Against::Nothing,
+        against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(shaded::radiance),
     },
@@ -133,7 +133,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "normal",
         title: "Normal",
         about: "The shading normal: x, y, z from −1 to 1 as red, green, blue.",
-        against: Against::Nothing,
+        against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(views::normal),
     },
@@ -141,7 +141,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "barycentric",
         title: "Barycentric",
         about: "The weights of the three corners as red, green, blue.",
-        against: Against::Nothing,
+        against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(views::barycentric),
     },
@@ -149,7 +149,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "depth",
         title: "Depth",
         about: "Distance from the eye, white at the nearest place of the scene's sphere, dark at the farthest.",
-        against: Against::Nothing,
+        against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(views::depth),
     },
@@ -157,7 +157,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "triangle",
         title: "Triangle",
         about: "A colour for each triangle.",
-        against: Against::Nothing,
+        against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(views::triangle),
     },
@@ -165,7 +165,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "cost",
         title: "Cost",
         about: "Boxes and triangles tested for the ray, on a logarithmic scale.",
-        against: Against::Nothing,
+        against: Comparison::Nothing,
         legend: legend::cost,
         colour: Colour::OfRay(views::cost),
     },
@@ -173,7 +173,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "error-t",
         title: "Error of t",
         about: "By how many ulps of f32 the chosen kernel's t errs, on a logarithmic scale.",
-        against: Against::Exact,
+        against: Comparison::Exact,
         legend: legend::error_t,
         colour: Colour::OfHit(compare::error_t),
     },
@@ -181,7 +181,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "error-barycentric",
         title: "Error of weights",
         about: "By how much the chosen kernel's worst weight errs, on a logarithmic scale.",
-        against: Against::Exact,
+        against: Comparison::Exact,
         legend: legend::error_barycentric,
         colour: Colour::OfHit(compare::error_barycentric),
     },
@@ -189,7 +189,7 @@ pub static INTEGRATORS: &[Integrator] = &[
         name: "disagreement",
         title: "Disagreement",
         about: "Where the chosen kernel and a second one differ about what is hit.",
-        against: Against::Second,
+        against: Comparison::Second,
         legend: legend::decisions,
         colour: Colour::OfHit(compare::disagreement),
     },

@@ -32,7 +32,7 @@ pub(super) enum EmptyLanes {
 pub(super) const BLOCKS_AT_ONCE: usize = 1024;
 
 /// A block's triangles: for A, B and C the corner in each lane, counted from the block's first one.
-struct Picks {
+struct CornerSlots {
     first: u32,
     corners: [[u8; BLOCK_SIZE]; 3],
 }
@@ -40,7 +40,7 @@ struct Picks {
 /// See the [module](self).
 pub(super) struct SharedCorners {
     corners: Vec<Vec3>,
-    blocks: Vec<Picks>,
+    blocks: Vec<CornerSlots>,
 }
 
 impl SharedCorners {
@@ -68,7 +68,7 @@ impl SharedCorners {
             let before = all.corners.len() as u32;
             all.corners.extend(part.corners);
             all.blocks
-                .extend(part.blocks.into_iter().map(|block| Picks {
+                .extend(part.blocks.into_iter().map(|block| CornerSlots {
                     first: before + block.first,
                     ..block
                 }));
@@ -104,7 +104,7 @@ impl SharedCorners {
                 self.corners.push(Vec3::NAN);
             }
         }
-        self.blocks.push(Picks {
+        self.blocks.push(CornerSlots {
             first: first as u32,
             corners,
         });

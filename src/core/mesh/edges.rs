@@ -16,11 +16,11 @@ pub(crate) struct EdgeUse {
 }
 
 /// Every triangle at every edge, by edge.
-pub(crate) struct Edges {
+pub(crate) struct EdgeTable {
     uses: Vec<EdgeUse>,
 }
 
-impl Edges {
+impl EdgeTable {
     /// `vertex` says which vertex stands for one, such as the first at its place.
     pub(crate) fn of(mesh: &TriangleMesh, vertex: impl Fn(u32) -> u32 + Sync) -> Self {
         let of_triangle = |(triangle, corners): (usize, &[u32; 3])| {
@@ -48,7 +48,7 @@ impl Edges {
 }
 
 impl EdgeUse {
-    /// The triangle's corners at the lower and the higher end, as [`Fans`] counts them.
+    /// The triangle's corners at the lower and the higher end, as [`VertexFans`] counts them.
     fn corners(&self) -> [u32; 2] {
         let k = u32::from(self.corner);
         let [from, to] = [k, (k + 1) % 3].map(|k| 3 * self.triangle + k);
@@ -63,15 +63,15 @@ impl EdgeUse {
 /// Sets of corners around a vertex that hang together by edges. Corner k of triangle t is number 3·t + k.
 ///
 /// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", JACM 22(2), 1975.
-pub(crate) struct Fans {
+pub(crate) struct VertexFans {
     parent: Vec<u32>,
 }
 
-impl Fans {
+impl VertexFans {
     /// Triangles hang together at an edge where `is_joined` says so of two that follow each other there.
     pub(crate) fn of(
         mesh: &TriangleMesh,
-        edges: &Edges,
+        edges: &EdgeTable,
         is_joined: impl Fn(&EdgeUse, &EdgeUse) -> bool,
     ) -> Self {
         let count = 3 * mesh.triangles.len() as u32;

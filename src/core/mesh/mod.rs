@@ -15,7 +15,7 @@ mod texture;
 mod weld;
 
 pub use area::has_zero_area;
-pub use health::{FLAWS, Flaw, FlawInfo, Health, Places, SLIVER_ASPECT};
+pub use health::{FLAWS, Flaw, FlawInfo, FlawLocations, Health, SLIVER_ASPECT};
 pub use material::{Illumination, Material, TextureMap};
 pub use normals::{Crease, VertexNormals};
 pub use runs::Runs;

@@ -1,6 +1,6 @@
 //! Which way does a smooth surface face at a corner?
 
-use super::edges::{EdgeUse, Edges, Fans};
+use super::edges::{EdgeTable, EdgeUse, VertexFans};
 use super::{NO_INDEX, TriangleMesh, Welded, unit_normal};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
@@ -170,9 +170,9 @@ fn creased(mesh: &TriangleMesh, radians: f32) -> VertexNormals {
         let angle = normal_of(a.triangle).angle_between(normal_of(b.triangle));
         angle <= f64::from(radians)
     };
-    let mut fans = Fans::of(
+    let mut fans = VertexFans::of(
         mesh,
-        &Edges::of(mesh, |vertex| welded.vertex(vertex)),
+        &EdgeTable::of(mesh, |vertex| welded.vertex(vertex)),
         is_smooth,
     );
     let (mut sums, mut of_fan) = (Vec::new(), vec![NO_INDEX; 3 * mesh.triangles.len()]);

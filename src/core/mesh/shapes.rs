@@ -8,14 +8,14 @@ use glam::{DVec2, DVec3, Vec3};
 
 /// Where a shape of size 1 about the origin is put.
 #[derive(Clone, Copy, Debug)]
-pub struct Place {
+pub struct Placement {
     /// What it is multiplied by first.
     pub scale: f64,
     /// What is added then.
     pub offset: DVec3,
 }
 
-impl Place {
+impl Placement {
     /// As it is.
     pub const UNIT: Self = Self {
         scale: 1.0,
@@ -63,7 +63,7 @@ pub fn in_torus(around: f64, across: f64, depth: f64) -> DVec3 {
 }
 
 /// A closed torus of `around` × `across` quads, two triangles each, wound to the outside.
-pub fn torus(around: u32, across: u32, place: Place) -> TriangleMesh {
+pub fn torus(around: u32, across: u32, place: Placement) -> TriangleMesh {
     let turn = |k: u32, n: u32| f64::from(k) / f64::from(n);
     let points = (0..around).flat_map(|i| {
         (0..across).map(move |j| place.of(in_torus(turn(i, around), turn(j, across), 1.0)))
@@ -79,7 +79,7 @@ pub fn torus(around: u32, across: u32, place: Place) -> TriangleMesh {
 }
 
 /// A closed sphere of radius 1: a cube of `cells` × `cells` quads a side, blown up.
-pub fn sphere(cells: u32, place: Place) -> TriangleMesh {
+pub fn sphere(cells: u32, place: Placement) -> TriangleMesh {
     surface_of_cube(cells, |corner| {
         let p = 2.0 * corner.as_dvec3() / f64::from(cells) - 1.0;
         place.of(p / (p.x * p.x + p.y * p.y + p.z * p.z).sqrt())
@@ -87,12 +87,12 @@ pub fn sphere(cells: u32, place: Place) -> TriangleMesh {
 }
 
 /// A closed cube from (0, 0, 0) to `cells` in each axis, every face a grid of unit squares.
-pub fn cube(cells: u32, place: Place) -> TriangleMesh {
+pub fn cube(cells: u32, place: Placement) -> TriangleMesh {
     surface_of_cube(cells, |corner| place.of(corner.as_dvec3()))
 }
 
 /// The grid z = 0 from (0, 0) to (`cells`, `cells`), an open mesh of unit squares.
-pub fn flat_grid(cells: u32, place: Place) -> TriangleMesh {
+pub fn flat_grid(cells: u32, place: Placement) -> TriangleMesh {
     let row = cells + 1;
     let points = (0..row)
         .flat_map(|y| (0..row).map(move |x| place.of(DVec3::new(f64::from(x), f64::from(y), 0.0))));
@@ -157,9 +157,9 @@ mod tests {
     #[test]
     fn closed_shapes_are_closed_and_wound_to_the_outside() {
         for mesh in [
-            torus(16, 8, Place::UNIT),
-            sphere(6, Place::UNIT),
-            cube(3, Place::UNIT),
+            torus(16, 8, Placement::UNIT),
+            sphere(6, Placement::UNIT),
+            cube(3, Placement::UNIT),
         ] {
             let health = Health::of(&mesh);
             assert!(health.is_closed());

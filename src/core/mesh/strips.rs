@@ -13,7 +13,7 @@
 //! The overlay draws indexed triangles all the same: with software Vulkan strips took 0.7 times as long on 69 thousand
 //! triangles, but 1.05 to 1.25 times on 1.1 million, and making them 0.2 s (2026-11).
 
-use super::edges::Edges;
+use super::edges::EdgeTable;
 use super::{NO_INDEX, TriangleMesh};
 use glam::Vec3;
 
@@ -78,7 +78,7 @@ impl<'m> Stripper<'m> {
     fn new(mesh: &'m TriangleMesh) -> Self {
         let count = mesh.triangles.len();
         let mut neighbours = vec![[NO_INDEX; 3]; count];
-        for uses in Edges::of(mesh, |vertex| vertex).iter() {
+        for uses in EdgeTable::of(mesh, |vertex| vertex).iter() {
             if let [a, b] = uses
                 && a.is_forward != b.is_forward
             {
@@ -172,7 +172,7 @@ impl<'m> Stripper<'m> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::mesh::shapes::{Place, flat_grid, soup, sphere, torus};
+    use crate::mesh::shapes::{Placement, flat_grid, soup, sphere, torus};
 
     /// The triangles that a GPU makes of strips, each beginning at its lowest vertex.
     fn drawn(indices: &[u32]) -> Vec<[u32; 3]> {
@@ -198,14 +198,14 @@ mod tests {
 
     #[test]
     fn each_triangle_is_drawn_once_and_as_it_was_wound() {
-        let mut flipped = sphere(6, Place::UNIT);
+        let mut flipped = sphere(6, Placement::UNIT);
         (0..flipped.triangles.len())
             .step_by(3)
             .for_each(|k| flipped.triangles[k].swap(0, 1));
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         for mesh in [
-            torus(16, 8, Place::UNIT),
-            flat_grid(9, Place::UNIT),
+            torus(16, 8, Placement::UNIT),
+            flat_grid(9, Placement::UNIT),
             flipped,
             soup(&[corners; 3]),
         ] {
@@ -217,7 +217,7 @@ mod tests {
 
     #[test]
     fn a_regular_surface_takes_little_more_than_an_index_a_triangle() {
-        let mesh = torus(64, 32, Place::UNIT);
+        let mesh = torus(64, 32, Placement::UNIT);
         let per_triangle = strips(&mesh).len() as f64 / mesh.triangles.len() as f64;
         assert!(per_triangle < 1.2, "{per_triangle}");
     }

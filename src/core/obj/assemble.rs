@@ -6,7 +6,7 @@ use super::numbers::Numbers;
 use super::outline::Outline;
 use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
-use super::{Beside, LoadOptions, Loaded, materials};
+use super::{LoadOptions, Loaded, ReadFile, materials};
 use crate::mesh::{Dropped, Runs, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
 use glam::DVec3;
@@ -19,12 +19,12 @@ pub(super) fn assemble(
     mut numbers: Numbers,
     facts: &Facts,
     options: &LoadOptions,
-    beside: Beside,
+    read_file: ReadFile,
     progress: &Progress,
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
     let mut warnings = facts.warnings();
-    let looks = materials::look_up(facts, beside, options.max_memory, progress)?;
+    let looks = materials::look_up(facts, read_file, options.max_memory, progress)?;
     warnings.extend(looks.warnings);
     if looks.textures.is_empty() {
         // Nothing asks where on a picture a corner lies.

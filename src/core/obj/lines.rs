@@ -63,7 +63,7 @@ impl<'p> Lines<'p> {
     /// # Errors
     /// What the source says to its first bytes.
     pub(super) fn new(bytes: impl Read + 'p, progress: &'p Progress) -> Result<Self, Problem> {
-        let counted = Counted { bytes, progress };
+        let counted = CountingReader { bytes, progress };
         let mut source = BufReader::with_capacity(PIECE, counted);
         let is_gzip = source
             .fill_buf()
@@ -206,12 +206,12 @@ fn too_long(line: usize) -> Problem {
 }
 
 /// Says how many bytes were read, and stops when they are wanted no more.
-struct Counted<'p, R> {
+struct CountingReader<'p, R> {
     bytes: R,
     progress: &'p Progress,
 }
 
-impl<R: Read> Read for Counted<'_, R> {
+impl<R: Read> Read for CountingReader<'_, R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
         let count = self.bytes.read(out)?;
         self.progress.add_read(count as u64);

@@ -5,7 +5,7 @@ use super::facts::{Facts, shortened};
 use super::fence::fenced;
 use super::mtl::{self, Definition, MapFile};
 use super::words::before_comment;
-use super::{Beside, Warning};
+use super::{ReadFile, Warning};
 use crate::mesh::{Material, Texture, TextureMap};
 use crate::progress::Progress;
 use glam::UVec2;
@@ -14,7 +14,7 @@ use std::collections::{HashMap, HashSet};
 use std::io::{self, Cursor};
 
 /// What faces look like: for each name that they use, in order, and the textures of these.
-pub(super) struct Looks {
+pub(super) struct MaterialResolver {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
     /// What is missing, then what was skipped.
@@ -24,18 +24,18 @@ pub(super) struct Looks {
 /// Looks up every material that faces name, and reads the pictures of those.
 pub(super) fn look_up(
     facts: &Facts,
-    beside: Beside,
+    read_file: ReadFile,
     max_memory: u64,
     progress: &Progress,
-) -> Result<Looks, Problem> {
-    let libraries = Libraries::of(facts, beside, progress)?;
+) -> Result<MaterialResolver, Problem> {
+    let libraries = Libraries::of(facts, read_file, progress)?;
     let mut textures = Textures {
-        beside,
+        read_file,
         max_memory,
         list: Vec::new(),
         by_name: HashMap::new(),
         checker: None,
-        missing: Told::default(),
+        missing: LimitedWarnings::default(),
     };
     let mut unknown: Vec<&str> = Vec::new();
     let mut materials = Vec::with_capacity(facts.materials.names.len());
@@ -73,7 +73,7 @@ pub(super) fn look_up(
             .oddities
             .warnings("oddities of material libraries"),
     );
-    Ok(Looks {
+    Ok(MaterialResolver {
         materials,
         textures: textures.list,
         warnings,
@@ -82,12 +82,12 @@ pub(super) fn look_up(
 
 /// Warnings of one kind, of which only so many are told one by one.
 #[derive(Default)]
-struct Told {
+struct LimitedWarnings {
     told: Vec<Warning>,
     untold: usize,
 }
 
-impl Told {
+impl LimitedWarnings {
     fn add(&mut self, warning: Warning) {
         /// As many as a panel shows at once.
         const MOST_TOLD: usize = 20;
@@ -107,7 +107,7 @@ impl Told {
 
 /// What the libraries say of the materials that faces name.
 struct Libraries<'a> {
-    beside: Beside<'a>,
+    read_file: ReadFile<'a>,
     /// The names that faces use, with and without what may be a comment.
     wanted: HashSet<&'a str>,
     progress: &'a Progress,
@@ -115,23 +115,27 @@ struct Libraries<'a> {
     known: HashMap<String, (String, Definition)>,
     /// Names that were looked for, and whether they were found.
     seen: HashMap<String, bool>,
-    missing: Told,
-    oddities: Told,
+    missing: LimitedWarnings,
+    oddities: LimitedWarnings,
 }
 
 impl<'a> Libraries<'a> {
     /// Reads every library of a file.
-    fn of(facts: &'a Facts, beside: Beside<'a>, progress: &'a Progress) -> Result<Self, Problem> {
+    fn of(
+        facts: &'a Facts,
+        read_file: ReadFile<'a>,
+        progress: &'a Progress,
+    ) -> Result<Self, Problem> {
         let names = facts.materials.names.iter();
         let spellings = names.flat_map(|name| [Some(name.as_str()), before_comment(name)]);
         let mut libraries = Self {
-            beside,
+            read_file,
             wanted: spellings.flatten().collect(),
             progress,
             known: HashMap::new(),
             seen: HashMap::new(),
-            missing: Told::default(),
-            oddities: Told::default(),
+            missing: LimitedWarnings::default(),
+            oddities: LimitedWarnings::default(),
         };
         for (line, names) in &facts.libraries.names {
             libraries.read(*line, names)?;
@@ -178,7 +182,7 @@ impl<'a> Libraries<'a> {
             None if self.seen.len() >= MOST => return Ok(Err(format!("one of more than {MOST}"))),
             None => {}
         }
-        let bytes = (self.beside)(library);
+        let bytes = (self.read_file)(library);
         self.seen.insert(library.to_owned(), bytes.is_ok());
         let bytes = match bytes {
             Ok(bytes) => bytes,
@@ -227,14 +231,14 @@ fn reason(error: &io::Error) -> String {
 
 /// The textures so far.
 struct Textures<'a> {
-    beside: Beside<'a>,
+    read_file: ReadFile<'a>,
     /// Bytes that may be taken by those that are still to come.
     max_memory: u64,
     list: Vec<Texture>,
     by_name: HashMap<String, u32>,
     /// Stands in for all that are missing.
     checker: Option<u32>,
-    missing: Told,
+    missing: LimitedWarnings,
 }
 
 impl Textures<'_> {
@@ -261,11 +265,11 @@ impl Textures<'_> {
     }
 
     fn read(&mut self, name: &str, in_folder: &str) -> u32 {
-        let bytes = (self.beside)(in_folder).or_else(|error| {
+        let bytes = (self.read_file)(in_folder).or_else(|error| {
             if in_folder == name {
                 Err(error)
             } else {
-                (self.beside)(name)
+                (self.read_file)(name)
             }
         });
         let picture = bytes

@@ -10,7 +10,6 @@
 //! | names become materials and textures | `materials`, `mtl`, `beside` |
 
 mod assemble;
-mod beside;
 mod copies;
 mod corner;
 mod error;
@@ -26,11 +25,12 @@ mod outline;
 mod place;
 mod polygon;
 mod reader;
+mod referenced_files;
 mod statement;
 mod words;
 
-pub use beside::Beside;
 pub use error::{LoadError, Warning, shown};
+pub use referenced_files::ReadFile;
 
 use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};
@@ -53,7 +53,7 @@ pub enum Recentre {
 
 /// What is done with a face whose indices name nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Faults {
+pub enum FaultPolicy {
     /// The file is refused.
     #[default]
     Strict,
@@ -68,7 +68,7 @@ pub struct LoadOptions {
     /// Where the mesh's origin is put.
     pub recentre: Recentre,
     /// What is done with faces whose indices name nothing.
-    pub faults: Faults,
+    pub faults: FaultPolicy,
     /// Bytes that loading may take; a file that needs more is refused.
     pub max_memory: u64,
 }
@@ -79,7 +79,7 @@ impl Default for LoadOptions {
         const MAX_MEMORY: u64 = 8 << 30;
         Self {
             recentre: Recentre::default(),
-            faults: Faults::default(),
+            faults: FaultPolicy::default(),
             max_memory: MAX_MEMORY,
         }
     }
@@ -116,13 +116,13 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         });
     }
     progress.set_total(before.len());
-    let folder = beside::Folder::of(path);
+    let folder = referenced_files::Folder::of(path);
     let options = LoadOptions {
         // What comes through a pipe can't be read again.
         faults: if before.is_file() {
             options.faults
         } else {
-            Faults::Strict
+            FaultPolicy::Strict
         },
         ..options
     };
@@ -157,25 +157,25 @@ pub fn parse<R: Read>(
     open: impl Fn() -> io::Result<R>,
     path: &Path,
     options: LoadOptions,
-    beside: Beside,
+    read_file: ReadFile,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
     let read_twice = || -> Result<Loaded, Problem> {
-        let counts = match read(&open, options, None, beside, progress)? {
-            Reading::Loaded(loaded) => return Ok(*loaded),
-            Reading::Again(counts) => counts,
+        let counts = match read(&open, options, None, read_file, progress)? {
+            ReadOutcome::Loaded(loaded) => return Ok(*loaded),
+            ReadOutcome::Again(counts) => counts,
         };
         progress.restart();
-        match read(&open, options, Some(counts), beside, progress)? {
-            Reading::Loaded(loaded) => Ok(*loaded),
-            Reading::Again(_) => Err(Problem::Content(CHANGED.to_owned())),
+        match read(&open, options, Some(counts), read_file, progress)? {
+            ReadOutcome::Loaded(loaded) => Ok(*loaded),
+            ReadOutcome::Again(_) => Err(Problem::Content(CHANGED.to_owned())),
         }
     };
     read_twice().map_err(|problem| problem.in_file(path))
 }
 
 /// What came of reading a file once.
-enum Reading {
+enum ReadOutcome {
     Loaded(Box<Loaded>),
     /// Some indices are too high for these counts of vertices, texture coordinates and normals.
     Again([usize; 3]),
@@ -185,9 +185,9 @@ fn read<R: Read>(
     open: &impl Fn() -> io::Result<R>,
     options: LoadOptions,
     known_counts: Option<[usize; 3]>,
-    beside: Beside,
+    read_file: ReadFile,
     progress: &Progress,
-) -> Result<Reading, Problem> {
+) -> Result<ReadOutcome, Problem> {
     progress.enter(Phase::Reading);
     let bytes = open().map_err(Problem::Read)?;
     let new = || NormalisingReader::new(bytes, &options, known_counts, progress);
@@ -209,7 +209,7 @@ fn read<R: Read>(
     // The reader knows the line and the reason; tobj only that there is an error.
     let mut facts = match reader.finish(error.as_ref())? {
         Outcome::Read(facts) => facts,
-        Outcome::Again(counts) => return Ok(Reading::Again(counts)),
+        Outcome::Again(counts) => return Ok(ReadOutcome::Again(counts)),
     };
     // What is left is for textures.
     let options = LoadOptions {
@@ -217,8 +217,8 @@ fn read<R: Read>(
         ..options
     };
     let numbers = numbers::Numbers::gather(models, &mut facts, progress)?;
-    assemble::assemble(numbers, &facts, &options, beside, progress)
-        .map(|loaded| Reading::Loaded(Box::new(loaded)))
+    assemble::assemble(numbers, &facts, &options, read_file, progress)
+        .map(|loaded| ReadOutcome::Loaded(Box::new(loaded)))
 }
 
 #[cfg(test)]

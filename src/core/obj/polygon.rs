@@ -2,7 +2,7 @@
 
 use super::error::Problem;
 use super::fence::fenced;
-use crate::progress::{Aside, Progress};
+use crate::progress::{BackgroundError, Progress};
 use earcut::Earcut;
 use glam::DVec3;
 
@@ -82,10 +82,10 @@ impl Triangulator {
             let is_cut = fenced("cutting a polygon", || other.clip_ears(&corners));
             (is_cut.unwrap_or(false), other)
         };
-        let (is_cut, other) = match progress.aside("polygon", clip) {
+        let (is_cut, other) = match progress.run_in_background("polygon", clip) {
             Ok(result) => result,
-            Err(Aside::Cancelled) => return Err(Problem::Cancelled),
-            Err(Aside::NoThread(error)) => return Err(Problem::Read(error)),
+            Err(BackgroundError::Cancelled) => return Err(Problem::Cancelled),
+            Err(BackgroundError::NoThread(error)) => return Err(Problem::Read(error)),
         };
         *self = other;
         Ok(is_cut)

@@ -4,8 +4,8 @@ use super::corner::List;
 use super::error::Problem;
 use super::facts::Facts;
 use super::lines::Lines;
-use super::statement::Sorter;
-use super::{Faults, LoadOptions};
+use super::statement::StatementRouter;
+use super::{FaultPolicy, LoadOptions};
 use crate::progress::Progress;
 use std::io::{self, BufRead, Read};
 
@@ -23,7 +23,7 @@ const STATEMENTS_PER_CHECK: usize = 1 << 12;
 /// See the [module](self). Give it to tobj as a `BufRead`, then ask [`finish`](Self::finish).
 pub(super) struct NormalisingReader<'p> {
     lines: Lines<'p>,
-    sorter: Sorter,
+    router: StatementRouter,
     consumed: usize,
     max_memory: u64,
     problem: Option<Problem>,
@@ -51,7 +51,7 @@ impl<'p> NormalisingReader<'p> {
         lines.require_obj()?;
         Ok(Self {
             lines,
-            sorter: Sorter::new(options.faults, known_counts),
+            router: StatementRouter::new(options.faults, known_counts),
             consumed: 0,
             max_memory: options.max_memory,
             problem: None,
@@ -64,12 +64,12 @@ impl<'p> NormalisingReader<'p> {
             return Err(problem);
         }
         if self.lines.is_at_end() {
-            self.sorter.facts.forget_idle_textures();
+            self.router.facts.forget_idle_textures();
         }
-        let facts = &self.sorter.facts;
+        let facts = &self.router.facts;
         // Only a whole file tells how many there are.
         if !facts.is_complete() && self.lines.is_at_end() {
-            if self.sorter.faults == Faults::Lenient {
+            if self.router.faults == FaultPolicy::Lenient {
                 return Ok(Outcome::Again(facts.counts));
             }
             for list in List::ALL {
@@ -82,37 +82,37 @@ impl<'p> NormalisingReader<'p> {
             }
         }
         match parsed {
-            Some(error) => Err(self.sorter.unexplained(self.consumed, error)),
-            None => Ok(Outcome::Read(Box::new(self.sorter.facts))),
+            Some(error) => Err(self.router.unexplained(self.consumed, error)),
+            None => Ok(Outcome::Read(Box::new(self.router.facts))),
         }
     }
 
     /// Sorts lines until there are enough to be passed on; none are left at the end.
     fn next_piece(&mut self) -> Result<(), Problem> {
-        self.sorter.out.clear();
-        self.sorter.out_lines.clear();
+        self.router.out.clear();
+        self.router.out_lines.clear();
         self.consumed = 0;
         let mut statements = 0;
-        while self.sorter.out.len() < PIECE {
+        while self.router.out.len() < PIECE {
             let Some(statement) = self.lines.next()? else {
                 return self.check_memory();
             };
             let line = statement.line;
-            self.sorter.take(statement)?;
+            self.router.take(statement)?;
             statements += 1;
             if statements % STATEMENTS_PER_CHECK == 0 {
                 self.check_memory()?;
             }
-            let facts = &self.sorter.facts;
+            let facts = &self.router.facts;
             if facts.elements_since_cut() >= FACES_PER_CUT && facts.is_complete() {
-                self.sorter.cut(line);
+                self.router.cut(line);
             }
         }
         self.check_memory()
     }
 
     fn check_memory(&mut self) -> Result<(), Problem> {
-        let facts = &mut self.sorter.facts;
+        let facts = &mut self.router.facts;
         if facts.triangle_count() > MOST_TRIANGLES || facts.counts.iter().any(|&n| n > MOST_ENTRIES)
         {
             let message = "more vertices or triangles than 32 bits can number".to_owned();
@@ -140,7 +140,7 @@ impl Read for NormalisingReader<'_> {
 
 impl BufRead for NormalisingReader<'_> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        if self.consumed == self.sorter.out.len()
+        if self.consumed == self.router.out.len()
             && self.problem.is_none()
             && let Err(problem) = self.next_piece()
         {
@@ -150,7 +150,7 @@ impl BufRead for NormalisingReader<'_> {
             // tobj only has to stop; `finish` tells the reason.
             return Err(io::ErrorKind::InvalidData.into());
         }
-        Ok(&self.sorter.out[self.consumed..])
+        Ok(&self.router.out[self.consumed..])
     }
 
     fn consume(&mut self, count: usize) {

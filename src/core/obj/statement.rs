@@ -3,7 +3,7 @@
 //! tobj is given plain `v`, `vt`, `vn` and `f` lines only, whose indices were checked: so it never meets
 //! the input that makes it panic or change geometry without a word. All else is noted in [`Facts`].
 
-use super::Faults;
+use super::FaultPolicy;
 use super::corner::{Corner, Corners, List, is_blank};
 use super::error::Problem;
 use super::facts::{Element, Facts, LineRuns, shortened};
@@ -13,12 +13,12 @@ use crate::mesh::NO_INDEX;
 use std::io::Write as _;
 
 /// Statements on their way to tobj.
-pub(super) struct Sorter {
+pub(super) struct StatementRouter {
     pub facts: Facts,
     /// What tobj is to read next, and which line of the file each of its lines comes from.
     pub out: Vec<u8>,
     pub out_lines: LineRuns,
-    pub faults: Faults,
+    pub faults: FaultPolicy,
     /// How many there are in each list, where an earlier reading found that out.
     known_counts: Option<[usize; 3]>,
 }
@@ -32,8 +32,8 @@ enum Resolved {
     Impossible,
 }
 
-impl Sorter {
-    pub(super) fn new(faults: Faults, known_counts: Option<[usize; 3]>) -> Self {
+impl StatementRouter {
+    pub(super) fn new(faults: FaultPolicy, known_counts: Option<[usize; 3]>) -> Self {
         Self {
             facts: Facts::default(),
             out: Vec::new(),
@@ -174,7 +174,7 @@ impl Sorter {
         let count = self.facts.corners[0].len() - before[0];
         let (least, what) = element.least_corners();
         if count < least {
-            if self.faults == Faults::Lenient {
+            if self.faults == FaultPolicy::Lenient {
                 self.facts.drop_element(element, before, statement.line);
                 return Ok(Resolved::Impossible);
             }
@@ -235,7 +235,7 @@ impl Sorter {
             if let Some(written) = corner.indices[list as usize] {
                 match self.index(list, written, statement.line) {
                     Some(found) => index = found,
-                    None if self.faults == Faults::Strict && !self.facts.is_idle(list) => {
+                    None if self.faults == FaultPolicy::Strict && !self.facts.is_idle(list) => {
                         let count = self.known_counts.unwrap_or(self.facts.counts)[list as usize];
                         let message = list.out_of_range(written, count);
                         return Err(statement.problem_at(corner.offset, message));

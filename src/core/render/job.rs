@@ -1,6 +1,6 @@
 //! What is rendered: jobs, and the tracing of one tile.
 
-use super::plan::{Plan, Unit};
+use super::plan::{Plan, WorkUnit};
 use super::worker::{Message, Renderer};
 use crate::camera::Projection;
 use crate::film::{Film, FixedRgb, TileSamples, fixed};
@@ -62,7 +62,7 @@ impl Job {
     /// Traces a tile; `None` if `is_stale` said so between two batches of rays.
     pub(super) fn trace(
         &self,
-        unit: Unit,
+        unit: WorkUnit,
         is_stale: impl Fn() -> bool,
     ) -> Result<Option<TileResult>, RenderPanic> {
         let at = Cell::new((UVec2::ZERO, 0));
@@ -78,13 +78,13 @@ impl Job {
 
     fn trace_at(
         &self,
-        unit: Unit,
+        unit: WorkUnit,
         is_stale: impl Fn() -> bool,
         at: &Cell<(UVec2, u32)>,
     ) -> Option<TileResult> {
         let start = Instant::now();
         let samples = self.plan.pass(unit.pass).samples();
-        let mut batch = Batch {
+        let mut batch = SampleBatch {
             job: self,
             at,
             rays: Vec::with_capacity(RAYS_AT_ONCE),
@@ -108,7 +108,7 @@ impl Job {
             }
         }
         batch.trace();
-        let Batch {
+        let SampleBatch {
             sums, non_finite, ..
         } = batch;
         Some(TileResult {
@@ -125,7 +125,7 @@ impl Job {
 const RAYS_AT_ONCE: usize = 2 * PACKET;
 
 /// Rays that wait to be traced, and what the pixels of their tile have come to so far.
-struct Batch<'a> {
+struct SampleBatch<'a> {
     job: &'a Job,
     /// What is being traced, should it panic.
     at: &'a Cell<(UVec2, u32)>,
@@ -136,7 +136,7 @@ struct Batch<'a> {
     non_finite: u32,
 }
 
-impl Batch<'_> {
+impl SampleBatch<'_> {
     /// Adds a sample of the last pixel.
     fn add(&mut self, pixel: UVec2, sample: u32) {
         self.at.set((pixel, sample));

@@ -60,7 +60,7 @@ impl Pass {
 
 /// A piece of work: one tile of one pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Unit {
+pub struct WorkUnit {
     /// Index of the pass.
     pub pass: usize,
     /// Index of the tile, row by row.
@@ -124,8 +124,8 @@ impl Plan {
     }
 
     /// A piece of work, in the order in which they are done.
-    pub fn unit(&self, index: usize) -> Unit {
-        Unit {
+    pub fn unit(&self, index: usize) -> WorkUnit {
+        WorkUnit {
             pass: index / self.tile_count(),
             tile: index % self.tile_count(),
         }
@@ -151,7 +151,7 @@ impl Plan {
     }
 
     /// The pixels that a piece of work traces, in blocks of 4 × 4: rays of neighbours go together.
-    pub fn pixels(&self, unit: Unit) -> impl Iterator<Item = UVec2> + '_ {
+    pub fn pixels(&self, unit: WorkUnit) -> impl Iterator<Item = UVec2> + '_ {
         const BLOCK: u32 = 4;
         let rect = self.tile_rect(unit.tile);
         let pass = self.passes[unit.pass];

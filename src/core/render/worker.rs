@@ -1,7 +1,7 @@
 //! The threads that render.
 
 use super::job::{Job, RenderPanic, TileResult};
-use super::plan::Unit;
+use super::plan::WorkUnit;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -21,18 +21,18 @@ pub enum Message {
     /// A tile of the newest job.
     Tile(TileResult),
     /// A tile of the newest job that couldn't be traced.
-    Panicked(Unit, RenderPanic),
+    Panicked(WorkUnit, RenderPanic),
 }
 
 /// The job that the threads work on, and the next tile of it.
-struct Posted {
+struct PostedJob {
     job: Job,
     generation: u64,
     next_unit: AtomicUsize,
     sent: AtomicUsize,
 }
 
-impl Posted {
+impl PostedJob {
     /// Counts a message, and tells whether it is time to wake whoever collects them: a pass is
     /// complete, or some time has gone by.
     fn is_time_to_wake(&self, last_wake: &mut Instant) -> bool {
@@ -57,7 +57,7 @@ impl Posted {
 
 #[derive(Default)]
 struct State {
-    posted: Option<Arc<Posted>>,
+    posted: Option<Arc<PostedJob>>,
     is_paused: bool,
     is_ending: bool,
 }
@@ -122,7 +122,7 @@ impl Renderer {
     pub fn post(&mut self, job: Job) {
         self.generation += 1;
         let mut state = self.shared.state();
-        state.posted = Some(Arc::new(Posted {
+        state.posted = Some(Arc::new(PostedJob {
             job,
             generation: self.generation,
             next_unit: AtomicUsize::new(0),
@@ -221,7 +221,7 @@ fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() +
 }
 
 /// The newest job, once it isn't the one that is done and isn't held up by a pause; `None` at the end.
-fn wait_for_work(shared: &Shared, done: u64) -> Option<Arc<Posted>> {
+fn wait_for_work(shared: &Shared, done: u64) -> Option<Arc<PostedJob>> {
     let mut state = shared.state();
     loop {
         if state.is_ending {

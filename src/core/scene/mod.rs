@@ -10,7 +10,7 @@ use crate::intersector::Intersector;
 use crate::kernel::TriangleKernel;
 use crate::mesh::{Crease, SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, LoadOptions, Loaded, Warning};
-use crate::progress::{Aside, Cancelled, Phase, Progress};
+use crate::progress::{BackgroundError, Cancelled, Phase, Progress};
 use crate::simd::SimdLevel;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
@@ -191,15 +191,17 @@ impl LoadedScene {
             let loaded = obj::load(&file, load_options, &shared)?;
             Self::of(loaded, start, options, &shared).map_err(|Cancelled| cancelled(&file))
         };
-        progress.aside("load", load).unwrap_or_else(|why| {
-            Err(match why {
-                Aside::Cancelled => cancelled(path),
-                Aside::NoThread(source) => LoadError::Unreadable {
-                    path: path.to_owned(),
-                    source,
-                },
+        progress
+            .run_in_background("load", load)
+            .unwrap_or_else(|why| {
+                Err(match why {
+                    BackgroundError::Cancelled => cancelled(path),
+                    BackgroundError::NoThread(source) => LoadError::Unreadable {
+                        path: path.to_owned(),
+                        source,
+                    },
+                })
             })
-        })
     }
 
     /// Builds the tree over a mesh whose loading began at `start`.

@@ -46,17 +46,17 @@ pub(super) struct Tree {
     packing: Packing,
     /// Held by who improves it.
     turn: Mutex<()>,
-    waiting: Mutex<Vec<Waiting>>,
+    waiting: Mutex<Vec<PendingIntersector>>,
 }
 
 /// An intersector made with the first tree.
-struct Waiting {
+struct PendingIntersector {
     current: WeakCurrent,
     kernel: &'static TriangleKernel,
     level: SimdLevel,
 }
 
-impl std::fmt::Debug for Waiting {
+impl std::fmt::Debug for PendingIntersector {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.kernel.info.name)
     }
@@ -118,7 +118,7 @@ impl Tree {
             drop(waiting);
             return self.intersector(mesh, kernel, level);
         }
-        waiting.push(Waiting {
+        waiting.push(PendingIntersector {
             current: current.downgrade(),
             kernel,
             level,
@@ -139,7 +139,7 @@ impl Tree {
         loop {
             progress.check()?;
             let next = locked(&self.waiting).pop();
-            let Some(Waiting {
+            let Some(PendingIntersector {
                 current,
                 kernel,
                 level,
@@ -175,14 +175,14 @@ fn built(mesh: &TriangleMesh, tree: FirstTree, progress: &Progress) -> Result<Bu
 mod tests {
     use super::*;
     use crate::kernel::{default_triangle_kernel, triangle_kernel};
-    use crate::mesh::shapes::{Place, sphere};
+    use crate::mesh::shapes::{Placement, sphere};
     use crate::ray::Ray;
     use crate::scene::Scene;
     use glam::Vec3;
 
     /// 12·150² triangles.
     fn large() -> Scene {
-        let mesh = sphere(150, Place::UNIT);
+        let mesh = sphere(150, Placement::UNIT);
         assert!(mesh.triangles.len() > LARGE);
         let options = SceneOptions {
             first_tree: FirstTree::Quick,

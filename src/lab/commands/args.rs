@@ -10,7 +10,7 @@ use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
 use hitscope_core::mesh::Crease;
-use hitscope_core::obj::{Faults, LoadError, LoadOptions, Recentre};
+use hitscope_core::obj::{FaultPolicy, LoadError, LoadOptions, Recentre};
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Camera, Scene};
 use std::path::Path;
@@ -107,9 +107,9 @@ impl MeshArgs {
         let load_options = LoadOptions {
             recentre,
             faults: if self.lenient {
-                Faults::Lenient
+                FaultPolicy::Lenient
             } else {
-                Faults::Strict
+                FaultPolicy::Strict
             },
             max_memory: self.memory.bytes(),
         };

@@ -94,7 +94,7 @@ struct Row {
 
 /// What is asked of rays.
 #[derive(Clone, Copy)]
-enum Question {
+enum WorkloadQuery {
     Closest,
     Coherent,
     Any,
@@ -159,10 +159,10 @@ impl BenchArgs {
         let threads = self.threads.map_or_else(default_thread_count, usize::from);
         let [primary, bounce, _] = workloads;
         let single = WORKLOADS.into_iter().zip(workloads);
-        let single = single.map(|(name, rays)| (name, Question::Closest, rays));
+        let single = single.map(|(name, rays)| (name, WorkloadQuery::Closest, rays));
         let more = [
-            ("primary", Question::Coherent, primary),
-            ("shadow", Question::Any, bounce),
+            ("primary", WorkloadQuery::Coherent, primary),
+            ("shadow", WorkloadQuery::Any, bounce),
         ];
         let mut rows = Vec::new();
         for (name, question, rays) in single.chain(more) {
@@ -187,8 +187,8 @@ impl BenchArgs {
                     name,
                     kernel: intersector.kernel().short_name(),
                     rays_together: match question {
-                        Question::Coherent => intersector.rays_together(),
-                        Question::Closest | Question::Any => 1,
+                        WorkloadQuery::Coherent => intersector.rays_together(),
+                        WorkloadQuery::Closest | WorkloadQuery::Any => 1,
                     },
                     threads,
                     rays: rays.len(),
@@ -213,7 +213,7 @@ struct Traced {
 
 fn trace(
     intersector: &dyn Intersector,
-    question: Question,
+    question: WorkloadQuery,
     rays: &[Ray],
     threads: usize,
 ) -> Traced {
@@ -249,13 +249,13 @@ fn trace(
     }
 }
 
-fn hit_count(intersector: &dyn Intersector, question: Question, rays: &[Ray]) -> u64 {
+fn hit_count(intersector: &dyn Intersector, question: WorkloadQuery, rays: &[Ray]) -> u64 {
     let (mut hits, mut are_hits) = ([None; RAYS_AT_ONCE], [false; RAYS_AT_ONCE]);
     let (hits, are_hits) = (&mut hits[..rays.len()], &mut are_hits[..rays.len()]);
     match question {
-        Question::Closest => intersector.closest_hits(black_box(rays), hits),
-        Question::Coherent => intersector.coherent_hits(black_box(rays), hits),
-        Question::Any => intersector.any_hits(black_box(rays), are_hits),
+        WorkloadQuery::Closest => intersector.closest_hits(black_box(rays), hits),
+        WorkloadQuery::Coherent => intersector.coherent_hits(black_box(rays), hits),
+        WorkloadQuery::Any => intersector.any_hits(black_box(rays), are_hits),
     }
     let count = hits.iter().flatten().count() + are_hits.iter().filter(|&&is_hit| is_hit).count();
     count as u64

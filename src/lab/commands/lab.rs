@@ -5,8 +5,8 @@ use super::render::default_thread_count;
 use super::{CommandError, file_error, load};
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short};
-use crate::measure::{self, Advance, Measurements, Sizes};
-use crate::report::{self, About};
+use crate::measure::{self, Measurements, RunProgress, Sizes};
+use crate::report::{self, RunInfo};
 use clap::Args;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::obj::LoadOptions;
@@ -80,7 +80,7 @@ impl LabArgs {
             let time = measure::expected(sizes, &is_wanted, threads);
             eprintln!("about {} on {threads} threads", duration_text(time));
         }
-        let tell = |advance: Advance| {
+        let tell = |advance: RunProgress| {
             if is_told {
                 let (percent, left) = (100.0 * advance.done, duration_text(advance.left));
                 eprint!("\r{percent:3.0} %, {left} left but for the speed     ");
@@ -92,7 +92,7 @@ impl LabArgs {
         if is_told {
             eprintln!();
         }
-        let about = About {
+        let about = RunInfo {
             version: env!("CARGO_PKG_VERSION"),
             command: self.command_line(),
             machine: machine(),
@@ -107,7 +107,7 @@ impl LabArgs {
     /// Writes the files and prints the tables.
     fn hand_over(
         &self,
-        about: &About,
+        about: &RunInfo,
         all: &Measurements,
         out: &mut dyn Write,
     ) -> Result<(), CommandError> {

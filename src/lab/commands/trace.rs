@@ -62,7 +62,7 @@ pub enum RecentreArg {
 
 /// What is told of each ray.
 #[derive(Clone, Copy)]
-enum Question {
+enum RayQuery {
     Closest,
     Any,
     All,
@@ -116,13 +116,13 @@ impl TraceArgs {
         };
         let scene = self.mesh.load(&self.file, recentre)?.scene;
         let intersector = scene.intersector(self.kernel.kernel());
-        let tracer = Tracer {
+        let tracer = RayAnswerer {
             scene: &scene,
             intersector: &*intersector,
-            question: match (self.any, self.all) {
-                (true, _) => Question::Any,
-                (_, true) => Question::All,
-                _ => Question::Closest,
+            query: match (self.any, self.all) {
+                (true, _) => RayQuery::Any,
+                (_, true) => RayQuery::All,
+                _ => RayQuery::Closest,
             },
             is_summary: self.summary,
             threads: self.threads.map_or_else(default_thread_count, usize::from),
@@ -150,15 +150,15 @@ fn open(path: &Path) -> Result<Box<dyn BufRead>, CommandError> {
     Ok(Box::new(BufReader::new(file)))
 }
 
-struct Tracer<'a> {
+struct RayAnswerer<'a> {
     scene: &'a Scene,
     intersector: &'a dyn Intersector,
-    question: Question,
+    query: RayQuery,
     is_summary: bool,
     threads: usize,
 }
 
-impl Tracer<'_> {
+impl RayAnswerer<'_> {
     fn run(
         &self,
         input: &mut dyn BufRead,
@@ -235,30 +235,30 @@ impl Tracer<'_> {
 
     /// For a summary: the same work, without the printing.
     fn is_hit(&self, ray: &Ray) -> bool {
-        match self.question {
-            Question::Closest => self.intersector.closest_hit(ray).is_some(),
-            Question::Any => self.intersector.any_hit(ray),
-            Question::All => !self.intersector.all_hits(ray).is_empty(),
+        match self.query {
+            RayQuery::Closest => self.intersector.closest_hit(ray).is_some(),
+            RayQuery::Any => self.intersector.any_hit(ray),
+            RayQuery::All => !self.intersector.all_hits(ray).is_empty(),
         }
     }
 
     fn answer(&self, ray: &Ray, hits: &mut u64) -> String {
         let mesh = self.scene.mesh();
         let miss = || json!({ "hit": false }).to_string();
-        match self.question {
-            Question::Any => {
+        match self.query {
+            RayQuery::Any => {
                 let is_hit = self.intersector.any_hit(ray);
                 *hits += u64::from(is_hit);
                 json!({ "hit": is_hit }).to_string()
             }
-            Question::Closest => self.intersector.closest_hit(ray).map_or_else(miss, |hit| {
+            RayQuery::Closest => self.intersector.closest_hit(ray).map_or_else(miss, |hit| {
                 *hits += 1;
                 to_json(&ClosestLine {
                     hit: true,
                     line: HitLine::new(mesh, ray, &hit, None),
                 })
             }),
-            Question::All => {
+            RayQuery::All => {
                 let found = self.intersector.all_hits(ray);
                 *hits += u64::from(!found.is_empty());
                 let crossings: Vec<HitLine> = found

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{Place, cube, flat_grid, scene, soup};
+use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, scene, soup};
 use hitscope_core::random::Random;
 use serde::Serialize;
 
@@ -117,7 +117,7 @@ pub static BOX_CASES: &[BoxCase] = &[
         name: "box-in-plane",
         title: "in a face's plane",
         about: "Axis-aligned rays in the planes of a cube's faces: they hit its neighbours.",
-        mesh: |_| cube(2, Place::UNIT),
+        mesh: |_| cube(2, Placement::UNIT),
         ray: |mesh, random| in_face(mesh, random),
         rays_per_mesh: 4096,
     },
@@ -125,7 +125,7 @@ pub static BOX_CASES: &[BoxCase] = &[
         name: "box-lattice",
         title: "whole numbers",
         about: "Rays between points of a lattice at the vertices of a cube on it.",
-        mesh: |_| cube(4, Place::UNIT),
+        mesh: |_| cube(4, Placement::UNIT),
         ray: |mesh, random| on_lattice(mesh, random),
         rays_per_mesh: 4096,
     },
@@ -205,7 +205,7 @@ fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray>
 
 /// A grid across one of the axes, somewhere.
 fn grid(random: &mut Random) -> TriangleMesh {
-    let place = Place::new(1.0, [0.0, 0.5, 4096.0][random.index(3)]);
+    let place = Placement::new(1.0, [0.0, 0.5, 4096.0][random.index(3)]);
     let mut mesh = flat_grid(2, place);
     let turn = random.index(3);
     for p in &mut mesh.positions {

@@ -4,7 +4,7 @@ use super::statistics::{bound_per_million, per_million};
 use glam::DVec3;
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{Place, in_torus, scene, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, in_torus, scene, sphere, torus};
 use hitscope_core::random::Random;
 use hitscope_core::ray::ulp_at;
 use hitscope_core::{Intersector, Ray};
@@ -20,7 +20,7 @@ pub struct MeshCase {
     pub about: &'static str,
     /// Whether the products of its lengths leave f32's range.
     pub is_beyond_f32: bool,
-    place: Place,
+    place: Placement,
     aim: Aim,
 }
 
@@ -63,10 +63,10 @@ pub struct MeshCell {
 
 /// Every case.
 pub fn mesh_cases() -> Vec<MeshCase> {
-    let offset = |x: f64| (format!("offset {x:e}"), Place::new(1.0, x));
+    let offset = |x: f64| (format!("offset {x:e}"), Placement::new(1.0, x));
     // At 1e7 an ulp is 1: a body of size 1 has no inside there, one of size 16 has.
-    let farthest = ("offset 1e7".to_owned(), Place::new(16.0, 1e7 / 16.0));
-    let scale = |x: f64| (format!("scale {x:e}"), Place::new(x, 0.5));
+    let farthest = ("offset 1e7".to_owned(), Placement::new(16.0, 1e7 / 16.0));
+    let scale = |x: f64| (format!("scale {x:e}"), Placement::new(x, 0.5));
     let places = [0.0, 1e2, 1e3, 1e4, 1e5, 1.5e5, 1e6].map(offset);
     let scales = [1e-30, 1e-18, 1e-12, 1e-6, 1e6, 1e12, 1e18, 1e30].map(scale);
     let places = places.into_iter().chain([farthest]).chain(scales);
@@ -91,7 +91,7 @@ pub fn mesh_cases() -> Vec<MeshCase> {
             title: format!("closed, from {distance:e}"),
             about: "The same from so many sizes away, at points well inside.",
             is_beyond_f32: false,
-            place: Place::UNIT,
+            place: Placement::UNIT,
             aim: Aim::From(distance),
         }))
         .collect()

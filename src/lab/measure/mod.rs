@@ -195,7 +195,7 @@ impl Task {
 
 /// How far a run has come.
 #[derive(Clone, Copy, Debug)]
-pub struct Advance {
+pub struct RunProgress {
     /// Part of the work that is done, 0 to 1.
     pub done: f64,
     /// What is left, by what the work done so far took.
@@ -211,7 +211,7 @@ pub fn run(
     seed: u64,
     is_wanted: &(dyn Fn(&str) -> bool + Sync),
     progress: &Progress,
-    advanced: &(dyn Fn(Advance) + Sync),
+    advanced: &(dyn Fn(RunProgress) + Sync),
 ) -> Result<Measurements, Cancelled> {
     let tasks = tasks(sizes, seed, is_wanted);
     let total: f64 = tasks.iter().map(|task| task.seconds).sum();
@@ -225,7 +225,7 @@ pub fn run(
             let mut done = done.lock().expect("adding doesn't panic");
             *done += task.seconds / total;
             let elapsed = start.elapsed();
-            advanced(Advance {
+            advanced(RunProgress {
                 done: *done,
                 left: elapsed.mul_f64((1.0 - *done).max(0.0) / *done),
             });
@@ -335,7 +335,7 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
 }
 
 fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {
-    let mesh = shapes::sphere(sizes.speed_cells, shapes::Place::UNIT);
+    let mesh = shapes::sphere(sizes.speed_cells, shapes::Placement::UNIT);
     let name = format!("sphere, {} triangles", mesh.triangles.len());
     let scene = shapes::scene(mesh);
     let camera = speed::default_camera(&scene);

@@ -11,7 +11,7 @@
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::TriangleKernel;
-use hitscope_core::mesh::shapes::{Place, scene, soup};
+use hitscope_core::mesh::shapes::{Placement, scene, soup};
 use hitscope_core::mesh::{TriangleMesh, unit_normal};
 use hitscope_core::random::Random;
 use hitscope_core::spawn::{Departure, SPAWN_POLICIES};
@@ -148,7 +148,7 @@ impl SpawnCase {
     fn surface(&self, random: &mut Random) -> (TriangleMesh, f64) {
         match self.surfaces {
             Surfaces::Bodies { size, offset } => {
-                let place = Place::new(size, offset);
+                let place = Placement::new(size, offset);
                 let body = [octahedron, plane][random.index(2)];
                 (body(place, random), size)
             }
@@ -165,7 +165,7 @@ impl SpawnCase {
 
 /// Convex also when its corners are rounded, as its faces meet at 109°: but where there are only a
 /// few floats within its size, which the caller notices by the triangles that vanish.
-fn octahedron(place: Place, random: &mut Random) -> TriangleMesh {
+fn octahedron(place: Placement, random: &mut Random) -> TriangleMesh {
     let x = random.in_cube().normalize_or(DVec3::X);
     let y = x.cross(random.in_cube()).normalize_or(DVec3::Y);
     let z = x.cross(y);
@@ -189,7 +189,7 @@ fn octahedron(place: Place, random: &mut Random) -> TriangleMesh {
 
 /// Two triangles of a slanted parallelogram, its corners whole multiples of the last place of the
 /// farthest coordinate.
-fn plane(place: Place, random: &mut Random) -> TriangleMesh {
+fn plane(place: Placement, random: &mut Random) -> TriangleMesh {
     let farthest = place.offset.abs().max_element() + 2.0 * place.scale;
     // The power of two above it, from its bits: a logarithm may differ from machine to machine.
     let step = f64::from(f32::from_bits(

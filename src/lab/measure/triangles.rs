@@ -45,7 +45,7 @@ impl TriangleCell {
 
 /// What has been counted of a contestant so far.
 #[derive(Default)]
-struct Tally {
+struct ContestantCounts {
     missed: u64,
     false_hits: u64,
     non_finite: u64,
@@ -65,7 +65,10 @@ struct Answer {
 /// Asks every contestant about the same `n` rays.
 pub fn measure(case: &Case, contestants: &[Contestant], n: u64, seed: u64) -> Vec<TriangleCell> {
     let mut random = Random::new(seed);
-    let mut tallies: Vec<Tally> = contestants.iter().map(|_| Tally::default()).collect();
+    let mut tallies: Vec<ContestantCounts> = contestants
+        .iter()
+        .map(|_| ContestantCounts::default())
+        .collect();
     let mut hits = 0;
     for _ in 0..n {
         let (ray, corners) = case.sample(&mut random);
@@ -122,7 +125,7 @@ impl Answer {
     }
 }
 
-impl Tally {
+impl ContestantCounts {
     fn add(&mut self, found: Option<Hit>, answer: Option<&Answer>) {
         let is_finite = |hit: &Hit| hit.t.is_finite() && hit.u.is_finite() && hit.v.is_finite();
         match (found, answer) {

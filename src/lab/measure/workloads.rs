@@ -104,11 +104,11 @@ fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
 mod tests {
     use super::*;
     use hitscope_core::camera::Projection;
-    use hitscope_core::mesh::shapes::{Place, scene, sphere};
+    use hitscope_core::mesh::shapes::{Placement, scene, sphere};
 
     #[test]
     fn the_workloads_are_what_their_names_say() {
-        let scene = scene(sphere(8, Place::UNIT));
+        let scene = scene(sphere(8, Placement::UNIT));
         let projection = Projection::Perspective { fov_y_radians: 0.7 };
         let size = UVec2::new(32, 16);
         let eye = DVec3::Z * 4.0;

@@ -27,7 +27,7 @@ const JSON: &str = "/*LAB_JSON*/";
 
 /// How and where it was measured.
 #[derive(Clone, Debug, serde::Serialize)]
-pub struct About {
+pub struct RunInfo {
     /// hitscope's.
     pub version: &'static str,
     /// What was typed.
@@ -45,7 +45,7 @@ pub struct About {
 }
 
 /// All results, as `lab.json` holds them.
-pub fn to_json(about: &About, all: &Measurements) -> Value {
+pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
     let cases: Vec<CaseInfo> = all_cases()
         .into_iter()
         .filter(|case| has_case(all, &case.name))
@@ -176,7 +176,7 @@ mod tests {
 
     #[test]
     fn the_page_holds_its_style_its_script_and_the_data_and_nothing_is_left_to_fill() {
-        let about = About {
+        let about = RunInfo {
             version: "0",
             command: "</script>".to_owned(),
             machine: String::new(),

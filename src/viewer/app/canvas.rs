@@ -2,7 +2,7 @@
 
 use super::{App, Pick};
 use crate::overlay::Options;
-use crate::overlay::wireframe::Edges;
+use crate::overlay::wireframe::WireframeEdges;
 use crate::settings::Tab;
 use crate::task::Task;
 use crate::tracer::Request;
@@ -268,9 +268,9 @@ impl App {
     fn overlay_options(&self, pixels_per_point: f32) -> Options {
         let settings = &self.settings;
         let edges = if settings.shows_diagonals {
-            Edges::Triangles
+            WireframeEdges::Triangles
         } else {
-            Edges::Polygons
+            WireframeEdges::Polygons
         };
         let hit = self
             .pick

@@ -32,7 +32,7 @@ use glam::{DVec3, UVec2};
 use hitscope_core::Film;
 use hitscope_core::camera::Turntable;
 use hitscope_core::mesh::Flaw;
-use hitscope_core::obj::{Faults, LoadOptions};
+use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_lab::commands::default_thread_count;
 use hitscope_lab::inspection::Inspection;
 use std::path::PathBuf;
@@ -56,7 +56,7 @@ impl Default for StartOptions {
             file: None,
             // Who looks at a mesh wants to see what can be seen of it.
             load_options: LoadOptions {
-                faults: Faults::Lenient,
+                faults: FaultPolicy::Lenient,
                 ..LoadOptions::default()
             },
             screenshot: None,

@@ -49,11 +49,11 @@ impl StyleUniform {
 
 /// Whether the mesh hides lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Visibility {
+pub enum LineOcclusion {
     /// Lines behind the mesh don't show.
-    Hidden,
+    HiddenByMesh,
     /// They do.
-    Through,
+    ThroughMesh,
 }
 
 /// Lines of one look on the GPU.
@@ -171,11 +171,11 @@ impl LinePipelines {
         &self,
         pass: &mut wgpu::RenderPass<'_>,
         set: &LineSet,
-        visibility: Visibility,
+        visibility: LineOcclusion,
     ) {
         pass.set_pipeline(match visibility {
-            Visibility::Hidden => &self.hidden,
-            Visibility::Through => &self.through,
+            LineOcclusion::HiddenByMesh => &self.hidden,
+            LineOcclusion::ThroughMesh => &self.through,
         });
         pass.set_bind_group(1, &set.group, &[]);
         for (buffer, count) in &set.chunks {

@@ -12,7 +12,7 @@ pub mod view;
 
 use depth::{DepthMesh, DepthPipeline};
 use glam::UVec2;
-use lines::{LinePipelines, LineSet, Visibility};
+use lines::{LineOcclusion, LinePipelines, LineSet};
 use view::{ViewBinding, ViewUniform};
 
 /// The colour target: sRGB-encoded, alpha multiplied in, as egui's textures are.
@@ -94,7 +94,7 @@ impl Overlay {
         queue: &wgpu::Queue,
         view: &ViewUniform,
         mesh: &DepthMesh,
-        sets: &[(&LineSet, Visibility)],
+        sets: &[(&LineSet, LineOcclusion)],
     ) -> &wgpu::Texture {
         let size = view.size();
         if self

@@ -3,7 +3,7 @@
 use super::wireframe;
 use crate::gpu::lines::Line;
 use glam::Vec3;
-use hitscope_core::mesh::{Flaw, Health, Places};
+use hitscope_core::mesh::{Flaw, FlawLocations, Health};
 use hitscope_core::{Scene, TriangleMesh};
 
 /// Half the length of a cross, as a part of the scene's radius: some 5 pixels where all of it is seen.
@@ -21,16 +21,16 @@ pub fn elements(scene: &Scene) -> Vec<Line> {
 pub fn flaws(scene: &Scene, health: &Health, flaw: Flaw) -> Vec<Line> {
     let mesh = scene.mesh();
     match health.places(flaw) {
-        Places::Edges(edges) => edges.iter().map(|&ends| between(mesh, ends)).collect(),
-        Places::Triangles(triangles) => triangles
+        FlawLocations::Edges(edges) => edges.iter().map(|&ends| between(mesh, ends)).collect(),
+        FlawLocations::Triangles(triangles) => triangles
             .iter()
             .flat_map(|&triangle| wireframe::triangle_lines(mesh, triangle))
             .collect(),
-        Places::Vertices(vertices) => vertices
+        FlawLocations::Vertices(vertices) => vertices
             .iter()
             .flat_map(|&vertex| cross(scene, vertex))
             .collect(),
-        Places::Unknown => Vec::new(),
+        FlawLocations::Unknown => Vec::new(),
     }
 }
 

@@ -7,22 +7,22 @@ pub mod normals;
 pub mod wireframe;
 
 use crate::gpu::depth::DepthMesh;
-use crate::gpu::lines::{Line, LineSet, StyleUniform, Visibility};
+use crate::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
 use crate::gpu::view::ViewUniform;
 use crate::gpu::{GpuError, Overlay};
-use crate::task::{Broken, Task, Wanted};
+use crate::task::{KeyedTask, Task, TaskPanicked};
 use eframe::egui_wgpu::RenderState;
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
-use wireframe::Edges;
+use wireframe::WireframeEdges;
 
 /// What is drawn over the picture. Lengths are in physical pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// The mesh's edges.
-    pub wireframe: Option<Edges>,
+    pub wireframe: Option<WireframeEdges>,
     /// sRGB of the edges.
     pub wire_colour: [u8; 3],
     /// Normals, of which kind.
@@ -87,18 +87,19 @@ impl Options {
 
 /// What marks something is drawn twice: faint where the mesh hides it, strong where it doesn't.
 const FAINT_AND_STRONG: [f32; 2] = [0.3, 1.0];
-const THROUGH_AND_HIDDEN: [Visibility; 2] = [Visibility::Through, Visibility::Hidden];
+const BOTH_OCCLUSIONS: [LineOcclusion; 2] =
+    [LineOcclusion::ThroughMesh, LineOcclusion::HiddenByMesh];
 
 /// Gives marks their looks, and says how each is drawn.
 fn drawn_marks<'m>(
     marks: &'m Marks,
     queue: &wgpu::Queue,
     style: impl Fn(f32) -> StyleUniform,
-) -> impl Iterator<Item = (&'m LineSet, Visibility)> {
+) -> impl Iterator<Item = (&'m LineSet, LineOcclusion)> {
     for (set, alpha) in marks.iter().zip(FAINT_AND_STRONG) {
         set.set_style(queue, &style(alpha));
     }
-    marks.iter().zip(THROUGH_AND_HIDDEN)
+    marks.iter().zip(BOTH_OCCLUSIONS)
 }
 
 fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
@@ -117,14 +118,14 @@ type Marks = [LineSet; 2];
 /// A set of lines of one kind: which it is, once it is on the GPU, and on the way there.
 struct Lines<K, S = LineSet> {
     ready: Option<(K, S)>,
-    gathering: Wanted<K, Vec<Line>>,
+    gathering: KeyedTask<K, Vec<Line>>,
 }
 
 impl<K, S> Default for Lines<K, S> {
     fn default() -> Self {
         Self {
             ready: None,
-            gathering: Wanted::default(),
+            gathering: KeyedTask::default(),
         }
     }
 }
@@ -158,7 +159,7 @@ pub enum OverlayError {
     Gpu(#[from] GpuError),
     /// Gathering lines failed.
     #[error(transparent)]
-    Broken(#[from] Broken),
+    TaskPanicked(#[from] TaskPanicked),
 }
 
 /// The overlay of the window's picture.
@@ -169,7 +170,7 @@ pub struct OverlayLayer {
     overlay: Overlay,
     scene: Option<Arc<Scene>>,
     mesh: Option<DepthMesh>,
-    wireframe: Lines<Edges>,
+    wireframe: Lines<WireframeEdges>,
     normals: Lines<Shading>,
     elements: Lines<()>,
     flaws: Lines<Flaw, Marks>,
@@ -333,18 +334,18 @@ impl OverlayLayer {
 
     fn redraw(&mut self, view: &ViewUniform, options: &Options) {
         let RenderState { device, queue, .. } = &self.render_state;
-        let mut sets: Vec<(&LineSet, Visibility)> = Vec::new();
+        let mut sets: Vec<(&LineSet, LineOcclusion)> = Vec::new();
         if let (Some(_), Some((_, set))) = (options.wireframe, &self.wireframe.ready) {
             set.set_style(queue, &options.wire_style());
-            sets.push((set, Visibility::Hidden));
+            sets.push((set, LineOcclusion::HiddenByMesh));
         }
         if let (Some(_), Some((_, set))) = (options.normals, &self.normals.ready) {
             set.set_style(queue, &options.normal_style());
-            sets.push((set, Visibility::Hidden));
+            sets.push((set, LineOcclusion::HiddenByMesh));
         }
         if let (true, Some((_, set))) = (options.elements, &self.elements.ready) {
             set.set_style(queue, &options.element_style());
-            sets.push((set, Visibility::Hidden));
+            sets.push((set, LineOcclusion::HiddenByMesh));
         }
         if let Some((flaw, flaws)) = &self.flaws.ready
             && options.flaw == Some(*flaw)

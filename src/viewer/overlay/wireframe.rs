@@ -6,7 +6,7 @@ use hitscope_core::TriangleMesh;
 
 /// Which edges are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Edges {
+pub enum WireframeEdges {
     /// Those of the file's polygons.
     Polygons,
     /// Those of all triangles, diagonals included.
@@ -14,11 +14,12 @@ pub enum Edges {
 }
 
 /// Each edge once, with the smaller height of its triangles as the gap to the next line.
-pub fn lines(mesh: &TriangleMesh, edges: Edges) -> Vec<Line> {
+pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
     let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
         for k in 0..3u8 {
-            if edges == Edges::Polygons && mesh.outline_of(triangle as u32) & (1 << k) == 0 {
+            if edges == WireframeEdges::Polygons && mesh.outline_of(triangle as u32) & (1 << k) == 0
+            {
                 continue;
             }
             let (a, b) = (corners[usize::from(k)], corners[(usize::from(k) + 1) % 3]);
@@ -74,8 +75,8 @@ mod tests {
 
     #[test]
     fn diagonals_are_hidden_and_shared_edges_drawn_once() {
-        assert_eq!(lines(&square(), Edges::Polygons).len(), 4);
-        let all = lines(&square(), Edges::Triangles);
+        assert_eq!(lines(&square(), WireframeEdges::Polygons).len(), 4);
+        let all = lines(&square(), WireframeEdges::Triangles);
         assert_eq!(all.len(), 5);
         let diagonal = all
             .iter()

@@ -3,7 +3,7 @@
 use super::{lines, row_ui, section_ui};
 use crate::app::grouped;
 use crate::bindings::Action;
-use crate::document::{Document, Findings};
+use crate::document::{Document, MeshReport};
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::mesh::{FLAWS, Flaw, Health};
@@ -132,7 +132,7 @@ fn packing_ui(ui: &mut egui::Ui, document: &Document, settings: &mut Settings) -
     response.on_hover_text(hint).changed()
 }
 
-fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&Findings>) {
+fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>) {
     let loaded = &document.loaded;
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
     let kb = |bytes: usize| format!("{} kB", grouped(bytes.div_ceil(1000)));

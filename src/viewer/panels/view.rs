@@ -4,7 +4,7 @@ use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::camera::{StandardView, Turntable};
-use hitscope_core::integrator::{Against, INTEGRATORS, Legend};
+use hitscope_core::integrator::{Comparison, INTEGRATORS, Legend};
 use hitscope_core::kernel::{
     KernelInfo, TRIANGLE_KERNELS, default_triangle_kernel, triangle_kernel,
 };
@@ -50,7 +50,7 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
     ui.label(RichText::new(settings.integrator().about).weak());
     legend_ui(ui, &(settings.integrator().legend)());
-    if settings.integrator().against == Against::Second {
+    if settings.integrator().against == Comparison::Second {
         ui.horizontal(|ui| {
             let label = ui.label("against");
             kernel_combo_ui(ui, "against", &mut settings.against).labelled_by(label.id);

@@ -3,7 +3,7 @@
 use super::{STRICT, load_path};
 use glam::{DVec3, Vec2, Vec3};
 use hitscope_core::TriangleMesh;
-use hitscope_core::mesh::shapes::{Place, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, sphere, torus};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
@@ -169,7 +169,7 @@ fn large_clean_files_are_read_as_by_tobj() {
     let library = "newmtl a\nmap_Kd t.png\n";
     std::fs::write(folder.path().join("a.mtl"), library).expect("written");
     let path = folder.path().join("x.obj");
-    let mesh = torus(300, 250, Place::UNIT);
+    let mesh = torus(300, 250, Placement::UNIT);
     assert!(mesh.triangles.len() > 2 << 16);
     for with in [With::Nothing, With::Colours, With::Everything] {
         for offset in [DVec3::ZERO, DVec3::new(5e6, -1e5, 3e6)] {
@@ -201,7 +201,7 @@ fn files_of_programs_are_read_as_by_tobj() {
 fn quads_are_read_as_by_tobj() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("x.obj");
-    let ball = sphere(3, Place::UNIT);
+    let ball = sphere(3, Placement::UNIT);
     let mut text = written(
         &TriangleMesh {
             triangles: Vec::new(),

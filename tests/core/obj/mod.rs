@@ -15,15 +15,15 @@ mod differential;
 // Files that were made to hurt.
 mod hostile;
 
-use hitscope_core::obj::{self, Faults, LoadError, LoadOptions, Loaded};
+use hitscope_core::obj::{self, FaultPolicy, LoadError, LoadOptions, Loaded};
 use hitscope_core::progress::Progress;
 use std::io;
 use std::path::{Path, PathBuf};
 
-const STRICT: LoadOptions = options(Faults::Strict);
-const LENIENT: LoadOptions = options(Faults::Lenient);
+const STRICT: LoadOptions = options(FaultPolicy::Strict);
+const LENIENT: LoadOptions = options(FaultPolicy::Lenient);
 
-const fn options(faults: Faults) -> LoadOptions {
+const fn options(faults: FaultPolicy) -> LoadOptions {
     LoadOptions {
         recentre: obj::Recentre::Auto,
         faults,

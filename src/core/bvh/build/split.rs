@@ -129,12 +129,12 @@ impl Grid {
 }
 
 /// What lies in each bin of each axis.
-struct Filled {
+struct FilledBins {
     bounds: [[Bounds; BINS]; 3],
     counts: [[u32; BINS]; 3],
 }
 
-impl Filled {
+impl FilledBins {
     const EMPTY: Self = Self {
         bounds: [[Bounds::EMPTY; BINS]; 3],
         counts: [[0; BINS]; 3],
@@ -181,14 +181,14 @@ struct Cut {
 /// Cuts ranges in two. It keeps its bins from range to range.
 pub(super) struct Splitter {
     pub scale: Scale,
-    filled: Box<Filled>,
+    filled: Box<FilledBins>,
 }
 
 impl Splitter {
     pub fn new(scale: Scale) -> Self {
         Self {
             scale,
-            filled: Box::new(Filled::EMPTY),
+            filled: Box::new(FilledBins::EMPTY),
         }
     }
 
@@ -215,7 +215,7 @@ impl Splitter {
     pub fn halve<'a>(&self, range: Range<'a>) -> [Range<'a>; 2] {
         let middle = range.items.len() / 2;
         let (low, high) = range.items.split_at(middle);
-        let side = |items: &[Item]| Side {
+        let side = |items: &[Item]| SideBoxes {
             bounds: around(items),
             centres: self.scale.centres(items),
         };
@@ -230,11 +230,11 @@ impl Splitter {
             return;
         }
         let fill = |items: &[Item]| {
-            let mut filled = Box::new(Filled::EMPTY);
+            let mut filled = Box::new(FilledBins::EMPTY);
             filled.fill(grid, items);
             filled
         };
-        let add = |mut a: Box<Filled>, b: Box<Filled>| {
+        let add = |mut a: Box<FilledBins>, b: Box<FilledBins>| {
             a.add(&b, grid.bins);
             a
         };
@@ -285,12 +285,12 @@ fn blocks(count: u32) -> f32 {
 
 /// The boxes of one side of a cut.
 #[derive(Clone, Copy)]
-struct Side {
+struct SideBoxes {
     bounds: Bounds,
     centres: Bounds,
 }
 
-impl Side {
+impl SideBoxes {
     const EMPTY: Self = Self {
         bounds: Bounds::EMPTY,
         centres: Bounds::EMPTY,
@@ -309,9 +309,9 @@ impl Side {
     }
 }
 
-fn halves(items: &mut [Item], middle: usize, [low, high]: [Side; 2]) -> [Range<'_>; 2] {
+fn halves(items: &mut [Item], middle: usize, [low, high]: [SideBoxes; 2]) -> [Range<'_>; 2] {
     let (first, second) = items.split_at_mut(middle);
-    let range = |items, side: Side| Range {
+    let range = |items, side: SideBoxes| Range {
         items,
         bounds: side.bounds,
         centres: side.centres,
@@ -326,7 +326,7 @@ fn partition(
     items: &mut [Item],
     scale: Scale,
     is_below: &(impl Fn(Bounds) -> bool + Sync),
-) -> (usize, [Side; 2]) {
+) -> (usize, [SideBoxes; 2]) {
     if items.len() < TOGETHER_FROM {
         return partition_alone(items, scale, is_below);
     }
@@ -347,8 +347,8 @@ fn partition_alone(
     items: &mut [Item],
     scale: Scale,
     is_below: &impl Fn(Bounds) -> bool,
-) -> (usize, [Side; 2]) {
-    let [mut low, mut high] = [Side::EMPTY; 2];
+) -> (usize, [SideBoxes; 2]) {
+    let [mut low, mut high] = [SideBoxes::EMPTY; 2];
     let (mut start, mut end) = (0, items.len());
     loop {
         while start < end {

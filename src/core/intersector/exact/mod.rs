@@ -18,7 +18,7 @@ use glam::Vec3;
 use std::cmp::Ordering;
 use std::ops::ControlFlow;
 use std::sync::Arc;
-use visitors::{Any, Each, Kept, Nearest, Sighted, Tester};
+use visitors::{Any, Each, KeptHits, LaneCandidate, Nearest, Tester};
 
 type Vector<S> = <f32 as Number>::Lanes<S>;
 
@@ -72,7 +72,7 @@ impl ExactIntersector {
     ) -> Option<Candidate> {
         let mut visitor = Nearest {
             tester: self.tester::<MAYBE_COMPACT, S>(token, ray, scratch),
-            best: Sighted {
+            best: LaneCandidate {
                 primitive: NO_PRIMITIVE,
                 slot: 0,
                 near: f32::INFINITY,
@@ -102,7 +102,7 @@ impl ExactIntersector {
         visitor.is_hit
     }
 
-    fn each(&self, ray: &Ray, kept: Kept) -> (Vec<Candidate>, Cost) {
+    fn each(&self, ray: &Ray, kept: KeptHits) -> (Vec<Candidate>, Cost) {
         with_stack(|stack| {
             let mut scratch = Scratch::new();
             let mut visitor = Each {
@@ -142,7 +142,7 @@ impl ExactIntersector {
         &self,
         token: S,
         rays: &[Ray],
-        batch: &mut Batch,
+        batch: &mut CandidateBatch,
         stack: &mut Stack,
     ) {
         let mut scratch = Scratch::new();
@@ -182,7 +182,13 @@ impl ExactIntersector {
 
     /// Rounds what was found.
     #[inline(always)]
-    fn round<S: Simd>(&self, token: S, rays: &[Ray], batch: &Batch, hits: &mut [Option<Hit>]) {
+    fn round<S: Simd>(
+        &self,
+        token: S,
+        rays: &[Ray],
+        batch: &CandidateBatch,
+        hits: &mut [Option<Hit>],
+    ) {
         let groups = batch.found[..batch.count].chunks(LANES);
         for (found, lanes) in groups.zip(&batch.lanes) {
             let values = lanes.values(token);
@@ -197,7 +203,7 @@ impl ExactIntersector {
 }
 
 /// What some rays hit, before it is rounded.
-struct Batch {
+struct CandidateBatch {
     lanes: [HitLanes; ROUNDED_TOGETHER / LANES],
     /// The ray's index, and the hit.
     found: [Option<(usize, Candidate)>; ROUNDED_TOGETHER],
@@ -216,7 +222,7 @@ impl Intersector for ExactIntersector {
         with_stack(|stack| {
             let chunks = rays.chunks(ROUNDED_TOGETHER);
             for (rays, hits) in chunks.zip(hits.chunks_mut(ROUNDED_TOGETHER)) {
-                let mut batch = Batch {
+                let mut batch = CandidateBatch {
                     lanes: [HitLanes::EMPTY; ROUNDED_TOGETHER / LANES],
                     found: [None; ROUNDED_TOGETHER],
                     count: 0,
@@ -236,7 +242,7 @@ impl Intersector for ExactIntersector {
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
-        let (nearest, cost) = self.each(ray, Kept::Nearest);
+        let (nearest, cost) = self.each(ray, KeptHits::Nearest);
         let judge = Judge::new(ray, |slot| self.corners(slot));
         (nearest.first().map(|hit| judge.hit(*hit)), cost)
     }
@@ -256,7 +262,7 @@ impl Intersector for ExactIntersector {
     }
 
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
-        let (mut hits, _) = self.each(ray, Kept::All);
+        let (mut hits, _) = self.each(ray, KeptHits::All);
         let mut judge = Judge::new(ray, |slot| self.corners(slot));
         if hits.len() > 1 {
             // Once, before each is compared with several.

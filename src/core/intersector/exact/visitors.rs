@@ -26,7 +26,7 @@ pub(super) struct Tester<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
 
 /// A lane of a block that isn't a certain miss, and not certainly too deep.
 #[derive(Clone, Copy)]
-pub(super) struct Sighted {
+pub(super) struct LaneCandidate {
     pub primitive: u32,
     /// Where its corners are found.
     pub slot: u32,
@@ -36,7 +36,7 @@ pub(super) struct Sighted {
     pub is_certain: bool,
 }
 
-impl Sighted {
+impl LaneCandidate {
     pub fn candidate(&self) -> Candidate {
         Candidate::new(self.primitive, self.slot as usize, self.near, self.far)
     }
@@ -46,13 +46,13 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
     Tester<'_, S, F, MAYBE_COMPACT>
 {
     /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to
-    /// `sighted`, until that breaks.
+    /// `on_candidate`, until that breaks.
     #[inline(always)]
     pub fn test(
         &mut self,
         block: usize,
         deepest: f32,
-        mut sighted: impl FnMut(&mut Judge<'_, F>, Sighted) -> ControlFlow<()>,
+        mut on_candidate: impl FnMut(&mut Judge<'_, F>, LaneCandidate) -> ControlFlow<()>,
     ) -> ControlFlow<()> {
         let blocks = &self.intersector.blocks;
         let rows = blocks.rows::<MAYBE_COMPACT>(block, VALUES, self.scratch, pack_corners);
@@ -78,14 +78,14 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
             lanes &= lanes - 1;
             let primitive = primitives[lane];
             if is_asked(primitive, self.judge.ray().exclude) {
-                let hit = Sighted {
+                let hit = LaneCandidate {
                     primitive,
                     slot: (block * BLOCK_SIZE + lane) as u32,
                     near: near[lane],
                     far: far[lane],
                     is_certain: certain >> lane & 1 == 1,
                 };
-                sighted(&mut self.judge, hit)?;
+                on_candidate(&mut self.judge, hit)?;
             }
         }
         ControlFlow::Continue(())
@@ -101,7 +101,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
 pub(super) struct Nearest<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
     pub tester: Tester<'a, S, F, MAYBE_COMPACT>,
     /// The nearest so far, or [`NO_PRIMITIVE`] and infinity.
-    pub best: Sighted,
+    pub best: LaneCandidate,
     /// The same, where it had to be looked at more closely.
     pub weighed: Option<Candidate>,
     pub t_max: f32,
@@ -119,7 +119,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
 
 /// The nearest hit so far as it was weighed last.
 #[inline(always)]
-fn candidate_of(best: &Sighted, weighed: Option<Candidate>) -> Option<Candidate> {
+fn candidate_of(best: &LaneCandidate, weighed: Option<Candidate>) -> Option<Candidate> {
     let is_hit = best.primitive != NO_PRIMITIVE;
     is_hit.then(|| weighed.unwrap_or_else(|| best.candidate()))
 }
@@ -166,7 +166,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
 #[inline(never)]
 fn nearer<F: Fn(usize) -> [Vec3; 3]>(
     judge: &mut Judge<'_, F>,
-    hit: &Sighted,
+    hit: &LaneCandidate,
     best: Option<Candidate>,
 ) -> Option<Candidate> {
     let Some(mut hit) = judge.within(hit.candidate(), hit.is_certain) else {
@@ -218,7 +218,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
 
 /// Which hits are kept.
 #[derive(Clone, Copy, PartialEq, Eq)]
-pub(super) enum Kept {
+pub(super) enum KeptHits {
     Nearest,
     All,
 }
@@ -227,7 +227,7 @@ pub(super) enum Kept {
 /// their origin.
 pub(super) struct Each<'a, S: Simd, F> {
     pub tester: Tester<'a, S, F, true>,
-    pub kept: Kept,
+    pub kept: KeptHits,
     pub hits: Vec<Candidate>,
     pub cost: Cost,
 }
@@ -236,7 +236,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Each<'_, S, F> {
     /// Hits deeper than this aren't kept.
     fn deepest(&self) -> f32 {
         match self.hits.first() {
-            Some(nearest) if self.kept == Kept::Nearest => nearest.bounds_f32()[1],
+            Some(nearest) if self.kept == KeptHits::Nearest => nearest.bounds_f32()[1],
             _ => f32::INFINITY,
         }
     }
@@ -251,11 +251,11 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Visitor<S> for Each<'_, S, F> {
         let (deepest, kept, hits) = (self.deepest(), self.kept, &mut self.hits);
         _ = self.tester.test(block, deepest, |judge, hit| {
             match kept {
-                Kept::Nearest => {
+                KeptHits::Nearest => {
                     let nearest = nearer(judge, &hit, hits.pop());
                     hits.extend(nearest);
                 }
-                Kept::All => hits.extend(judge.within(hit.candidate(), hit.is_certain)),
+                KeptHits::All => hits.extend(judge.within(hit.candidate(), hit.is_certain)),
             }
             ControlFlow::Continue(())
         });

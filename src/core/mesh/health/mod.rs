@@ -5,7 +5,7 @@ mod triangles;
 
 pub use triangles::SLIVER_ASPECT;
 
-use super::edges::{Edges, Fans};
+use super::edges::{EdgeTable, VertexFans};
 use super::{TriangleMesh, Welded};
 use crate::aabb::Aabb;
 use rayon::prelude::*;
@@ -90,7 +90,7 @@ pub static FLAWS: [FlawInfo; 7] = [
 
 /// Where a kind of flaw is.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Places {
+pub enum FlawLocations {
     /// Between these vertices.
     Edges(Vec<[u32; 2]>),
     /// In these triangles.
@@ -101,7 +101,7 @@ pub enum Places {
     Unknown,
 }
 
-impl Places {
+impl FlawLocations {
     /// How many there are, if somebody looked.
     pub fn count(&self) -> Option<usize> {
         match self {
@@ -117,7 +117,7 @@ impl Places {
 #[derive(Clone, Debug)]
 pub struct Health {
     /// By [`Flaw`], in the order of [`FLAWS`].
-    places: [Places; 7],
+    places: [FlawLocations; 7],
     /// Around the triangles at these places.
     bounds: [Aabb; 7],
     /// The largest ratio of longest edge to height.
@@ -128,7 +128,7 @@ impl Health {
     /// Looks at every triangle and every edge. Vertices at the same place count as one.
     pub fn of(mesh: &TriangleMesh) -> Self {
         let welded = Welded::of(mesh);
-        let edges = Edges::of(mesh, |vertex| welded.vertex(vertex));
+        let edges = EdgeTable::of(mesh, |vertex| welded.vertex(vertex));
         let (mut open, mut non_manifold, mut flipped) = (Vec::new(), Vec::new(), Vec::new());
         for uses in edges.iter() {
             match uses {
@@ -141,13 +141,13 @@ impl Health {
         let (slivers, max_aspect) = triangles::slivers(mesh);
         let t_junctions = t_junctions::find(mesh, &open);
         let places = [
-            Places::Edges(open),
-            Places::Edges(non_manifold),
-            Places::Edges(flipped),
-            t_junctions.map_or(Places::Unknown, Places::Vertices),
-            Places::Vertices(touching_vertices(mesh, &welded, &edges)),
-            Places::Triangles(triangles::duplicates(mesh, &welded)),
-            Places::Triangles(slivers),
+            FlawLocations::Edges(open),
+            FlawLocations::Edges(non_manifold),
+            FlawLocations::Edges(flipped),
+            t_junctions.map_or(FlawLocations::Unknown, FlawLocations::Vertices),
+            FlawLocations::Vertices(touching_vertices(mesh, &welded, &edges)),
+            FlawLocations::Triangles(triangles::duplicates(mesh, &welded)),
+            FlawLocations::Triangles(slivers),
         ];
         Self {
             bounds: places.each_ref().map(|places| bounds(mesh, places)),
@@ -157,7 +157,7 @@ impl Health {
     }
 
     /// Where flaws of a kind are.
-    pub fn places(&self, flaw: Flaw) -> &Places {
+    pub fn places(&self, flaw: Flaw) -> &FlawLocations {
         &self.places[flaw as usize]
     }
 
@@ -176,15 +176,15 @@ impl Health {
 }
 
 /// The box around all triangles that have a vertex at one of the places.
-fn bounds(mesh: &TriangleMesh, places: &Places) -> Aabb {
+fn bounds(mesh: &TriangleMesh, places: &FlawLocations) -> Aabb {
     let mut is_there = vec![false; mesh.positions.len()];
     let mut mark = |vertex: u32| is_there[vertex as usize] = true;
     match places {
-        Places::Unknown => return Aabb::EMPTY,
+        FlawLocations::Unknown => return Aabb::EMPTY,
         _ if places.count() == Some(0) => return Aabb::EMPTY,
-        Places::Edges(edges) => edges.as_flattened().iter().copied().for_each(mark),
-        Places::Vertices(vertices) => vertices.iter().copied().for_each(mark),
-        Places::Triangles(triangles) => triangles
+        FlawLocations::Edges(edges) => edges.as_flattened().iter().copied().for_each(mark),
+        FlawLocations::Vertices(vertices) => vertices.iter().copied().for_each(mark),
+        FlawLocations::Triangles(triangles) => triangles
             .iter()
             .flat_map(|&triangle| mesh.triangles[triangle as usize])
             .for_each(&mut mark),
@@ -196,8 +196,8 @@ fn bounds(mesh: &TriangleMesh, places: &Places) -> Aabb {
 }
 
 /// Vertices whose corners hang together in more than one set.
-fn touching_vertices(mesh: &TriangleMesh, welded: &Welded, edges: &Edges) -> Vec<u32> {
-    let mut fans = Fans::of(mesh, edges, |_, _| true);
+fn touching_vertices(mesh: &TriangleMesh, welded: &Welded, edges: &EdgeTable) -> Vec<u32> {
+    let mut fans = VertexFans::of(mesh, edges, |_, _| true);
     let mut fan_count = vec![0u8; mesh.positions.len()];
     for (triangle, &corners) in (0..).zip(&mesh.triangles) {
         for (k, vertex) in (0..).zip(welded.corners(corners)) {
@@ -274,7 +274,7 @@ mod tests {
         let health = Health::of(&mesh);
         assert_eq!(
             health.places(Flaw::TouchingVertex),
-            &Places::Vertices(vec![0])
+            &FlawLocations::Vertices(vec![0])
         );
     }
 
@@ -296,6 +296,9 @@ mod tests {
             ..TriangleMesh::default()
         };
         let health = Health::of(&mesh);
-        assert_eq!(health.places(Flaw::TJunction), &Places::Vertices(vec![4]));
+        assert_eq!(
+            health.places(Flaw::TJunction),
+            &FlawLocations::Vertices(vec![4])
+        );
     }
 }

@@ -5,14 +5,14 @@ use glam::{DVec3, Vec3};
 use hitscope_core::random::Random;
 
 /// A recipe and what it is called.
-pub(super) struct Named {
+pub(super) struct NamedRecipe {
     name: String,
     about: &'static str,
     dir_length: Option<f64>,
     recipe: Recipe,
 }
 
-impl Named {
+impl NamedRecipe {
     /// The recipe, its ray aimed so.
     pub fn case(self, aim: Aim) -> Case {
         let (name, title) = match aim {
@@ -51,8 +51,8 @@ fn named(
     name: impl Into<String>,
     about: &'static str,
     recipe: impl Fn(&mut Random) -> (Vec3, [Vec3; 3]) + Send + Sync + 'static,
-) -> Named {
-    Named {
+) -> NamedRecipe {
+    NamedRecipe {
         name: name.into(),
         about,
         dir_length: None,
@@ -67,7 +67,7 @@ fn ordinary(random: &mut Random, scale: f64) -> (Vec3, [Vec3; 3]) {
 }
 
 /// Every recipe.
-pub(super) fn all() -> Vec<Named> {
+pub(super) fn all() -> Vec<NamedRecipe> {
     let mut all = Vec::new();
     for offset in [0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7] {
         let place = DVec3::new(offset, -offset, offset);
@@ -91,7 +91,7 @@ pub(super) fn all() -> Vec<Named> {
     }
     for length in [1e-42, 1e-20, 1e-10, 1e10, 1e20] {
         let about = "A direction of this length; the ray starts within its reach in f32.";
-        all.push(Named {
+        all.push(NamedRecipe {
             dir_length: Some(length),
             ..named(format!("direction {length:e}"), about, |random| {
                 ordinary(random, 1e-6)
@@ -127,7 +127,7 @@ pub(super) fn all() -> Vec<Named> {
     all
 }
 
-fn special_recipes() -> Vec<Named> {
+fn special_recipes() -> Vec<NamedRecipe> {
     let mut all = vec![
         named(
             "in plane",
@@ -174,7 +174,7 @@ fn special_recipes() -> Vec<Named> {
 }
 
 /// What is special about the numbers themselves.
-fn number_recipes() -> Vec<Named> {
+fn number_recipes() -> Vec<NamedRecipe> {
     let mut all = Vec::new();
     for side in [4, 64, 4096] {
         all.push(named(

@@ -2,7 +2,7 @@
 //! integers.
 
 use super::super::shear::ShearedRay;
-use super::rounding::GOOD;
+use super::rounding::MAX_F64_ERROR;
 use super::{VALUES, filter, integer};
 use crate::kernel::{OneTriangle, pack_corners};
 use crate::lane::LaneMask;
@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 
 /// How often f32 could not decide.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub(crate) struct Work {
+pub(crate) struct JudgeCounters {
     /// Triangles whose bounds f32 left too wide for a decision.
     pub in_f64: u32,
     /// Decisions about hit, interval or order that f64 left open.
@@ -89,7 +89,7 @@ pub(crate) struct Judge<'a, F> {
     /// The interval's ends as depths, exactly: 24 digits by 24. What is farther than f32's largest number is
     /// never hit.
     interval: [f64; 2],
-    pub work: Work,
+    pub work: JudgeCounters,
 }
 
 impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
@@ -101,7 +101,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
             corners,
             dir_z,
             interval: [f64::from(ray.t_min) * dir_z, f64::from(end) * dir_z],
-            work: Work::default(),
+            work: JudgeCounters::default(),
         }
     }
 
@@ -218,12 +218,12 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         self.work.in_f64 += 1;
         let corners = (self.corners)(candidate.slot);
         match in_f64(self.ray, corners) {
-            Sight::Missed => false,
-            Sight::Certain { near, far, .. } => {
+            F64Verdict::Missed => false,
+            F64Verdict::Certain { near, far, .. } => {
                 (candidate.near, candidate.far) = (near, far);
                 true
             }
-            Sight::Doubtful => {
+            F64Verdict::Doubtful => {
                 self.work.in_integers += 1;
                 let is_inside = integer::is_inside(self.ray, corners);
                 if is_inside {
@@ -243,16 +243,16 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         candidate.hit(self.values(candidate))
     }
 
-    /// t, u and v, off by at most [`GOOD`].
+    /// t, u and v, off by at most [`MAX_F64_ERROR`].
     pub fn values(&self, candidate: Candidate) -> [f64; 3] {
         let corners = (self.corners)(candidate.slot);
         match in_f64(self.ray, corners) {
-            Sight::Certain {
+            F64Verdict::Certain {
                 near,
                 far,
                 weights: [u, v],
                 weight_error,
-            } if far - near <= GOOD * near.abs() && weight_error <= GOOD => {
+            } if far - near <= MAX_F64_ERROR * near.abs() && weight_error <= MAX_F64_ERROR => {
                 [0.5 * (near + far) / self.dir_z, u, v]
             }
             _ => integer::rounded(self.ray, corners),
@@ -261,7 +261,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
 }
 
 /// What f64 knows of a triangle.
-enum Sight {
+enum F64Verdict {
     Missed,
     Doubtful,
     Certain {
@@ -274,17 +274,17 @@ enum Sight {
 
 // Out of line: it is the rare path, and the common one is the better for it.
 #[inline(never)]
-fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Sight {
+fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> F64Verdict {
     let mut values = [0.0; VALUES];
     pack_corners(corners, &mut values);
     match filter(&ShearedRay::<f64>::of((), ray), &OneTriangle(&values)) {
-        None => Sight::Missed,
-        Some(filtered) if filtered.certain.any() => Sight::Certain {
+        None => F64Verdict::Missed,
+        Some(filtered) if filtered.certain.any() => F64Verdict::Certain {
             near: filtered.near,
             far: filtered.far,
             weights: filtered.weights,
             weight_error: filtered.weight_error,
         },
-        Some(_) => Sight::Doubtful,
+        Some(_) => F64Verdict::Doubtful,
     }
 }

@@ -9,7 +9,7 @@ use glam::Vec3;
 
 /// f64 results are used if t's bounds are at most this apart, relatively, and weights off by at most
 /// this: 2⁻⁶ of f32's half ulp of 1.
-pub(super) const GOOD: f64 = 1.0 / (1u64 << 31) as f64;
+pub(super) const MAX_F64_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
 
 /// Rays and the triangles that they hit, side by side. Each ray's own axes come first, second and third, so
 /// that all lanes look along the third.
@@ -29,7 +29,7 @@ pub(crate) struct RoundedLanes {
 }
 
 impl RoundedLanes {
-    /// t, u and v in a lane, unless they may be off by more than [`GOOD`].
+    /// t, u and v in a lane, unless they may be off by more than [`MAX_F64_ERROR`].
     pub fn of(&self, lane: usize) -> Option<[f64; 3]> {
         let is_good = self.good >> lane & 1 == 1;
         is_good.then(|| [self.t[lane], self.u[lane], self.v[lane]])
@@ -105,8 +105,8 @@ impl HitLanes {
         let number = |x: f64| f64x8::splat(token, x);
         let (near, far) = (filtered.near, filtered.far);
         let is_good = filtered.certain
-            & (far - near).le(number(GOOD) * near.abs())
-            & filtered.weight_error.le(number(GOOD));
+            & (far - near).le(number(MAX_F64_ERROR) * near.abs())
+            & filtered.weight_error.le(number(MAX_F64_ERROR));
         let t = number(0.5) * (near + far) / sheared.dir_z().abs();
         let [u, v] = filtered.weights;
         RoundedLanes {

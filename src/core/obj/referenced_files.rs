@@ -7,7 +7,7 @@ use std::io;
 use std::path::{Path, PathBuf};
 
 /// Reads a file that an OBJ or its material library names, by a name with `/` between folders.
-pub type Beside<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
+pub type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
 /// The files in and around an OBJ's folder, and those that it names by a whole path.
 pub(super) struct Folder {
@@ -134,7 +134,7 @@ mod tests {
         std::fs::create_dir(&sub).expect("written");
         std::fs::write(sub.join("Wood.PNG"), "w").expect("written");
         std::fs::write(folder.path().join("a b.mtl"), "m").expect("written");
-        let beside = Folder::of(&folder.path().join("x.obj"));
+        let folder_files = Folder::of(&folder.path().join("x.obj"));
         for (name, expected) in [
             ("Maps/Wood.PNG", Some("w")),
             ("maps/wood.png", Some("w")),
@@ -143,11 +143,11 @@ mod tests {
             ("missing.mtl", None),
             ("//server/share/a b.mtl", Some("m")),
         ] {
-            let found = beside.read(name).ok();
+            let found = folder_files.read(name).ok();
             assert_eq!(found.as_deref(), expected.map(str::as_bytes), "{name}");
         }
-        assert!(beside.read("Maps").is_err());
-        let wanted = beside.into_wanted();
+        assert!(folder_files.read("Maps").is_err());
+        let wanted = folder_files.into_wanted();
         assert!(wanted.contains(&folder.path().join("missing.mtl")));
     }
 }
