@@ -12,8 +12,8 @@ mod inspection;
 // The exact kernel against the oracle; the accurate ones where f64 suffices.
 mod exact;
 
-// The README's table is what is measured.
-mod readme;
+// The table in docs/accuracy.md is what the laboratory measures.
+mod accuracy;
 
 // The lecture's slips.
 mod lecture;

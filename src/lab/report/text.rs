@@ -1,4 +1,4 @@
-//! Tables for a terminal, and the one in the README.
+//! Tables for a terminal, and the one in `docs/accuracy.md`.
 
 use crate::measure::contestants::{Contestant, contestants};
 use crate::measure::statistics::{per_million, rate_text, short};
@@ -278,7 +278,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_table(out, &rows)
 }
 
-/// Cases of the README's table: name and title.
+/// Columns of the table in `docs/accuracy.md`: case and title.
 const SHOWN: [(&str, &str); 8] = [
     ("offset-0e0", "ordinary"),
     ("offset-0e0-edges", "at edges"),
@@ -290,12 +290,12 @@ const SHOWN: [(&str, &str); 8] = [
     ("direction-1e20", "direction 10²⁰"),
 ];
 
-/// Whether the README's table shows this case.
+/// Whether the table in `docs/accuracy.md` shows this case.
 pub fn is_in_accuracy_table(case: &str) -> bool {
     SHOWN.iter().any(|(name, _)| *name == case)
 }
 
-/// The README's table: for each kernel, wrong decisions a million rays and the error of t, case by case.
+/// The table in `docs/accuracy.md`: wrong decisions per million rays and the error of t, per kernel and case.
 pub fn accuracy_table(all: &Measurements) -> String {
     let mut text = String::from("| kernel |");
     for (_, title) in SHOWN {
