@@ -15,14 +15,14 @@ pub struct Aabb {
 pub(crate) type Planes<T> = [T; 6];
 
 impl Aabb {
-    /// The box that holds nothing; growing it gives what it was grown by.
+    /// The empty box, neutral under [`union`](Self::union).
     pub const EMPTY: Self = Self {
         min: Vec3::INFINITY,
         max: Vec3::NEG_INFINITY,
     };
 
-    /// The smallest box around the points; [`Aabb::EMPTY`] for none. Of points with a NaN it is anyone's
-    /// guess: leave them out.
+    /// The smallest box around the points; [`Aabb::EMPTY`] for none. The result is unspecified if a point holds
+    /// a NaN.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {
         points.into_iter().fold(Self::EMPTY, |b, p| Self {
             min: b.min.min(p),
@@ -39,28 +39,28 @@ impl Aabb {
         }
     }
 
-    /// Whether it holds no point.
+    /// Whether the box contains no point.
     pub fn is_empty(&self) -> bool {
         !self.min.cmple(self.max).all()
     }
 
-    /// Its middle. Halved before added, so that it can't overflow.
+    /// The centre. It can't overflow, as both corners are halved before they are added.
     pub fn centre(&self) -> Vec3 {
         0.5 * self.min + 0.5 * self.max
     }
 
-    /// Its edges' lengths; zero if it is empty. In f64, where those of the largest box are finite.
+    /// Lengths of the edges; zero if the box is empty. In f64, so that those of the largest box are finite.
     pub fn extent(&self) -> DVec3 {
         (self.max.as_dvec3() - self.min.as_dvec3()).max(DVec3::ZERO)
     }
 
-    /// Half its surface, what the surface-area heuristic weighs by; zero if it is empty.
+    /// Half the surface area, which the surface-area heuristic needs; zero if the box is empty.
     pub fn half_area(&self) -> f64 {
         let e = self.extent();
         e.x * (e.y + e.z) + e.y * e.z
     }
 
-    /// The radius of the sphere about [`centre`](Self::centre) through the corners; zero if it is empty.
+    /// The radius of the sphere about [`centre`](Self::centre) through the corners; zero if the box is empty.
     pub fn radius(&self) -> f64 {
         0.5 * self.extent().length()
     }

@@ -1,22 +1,22 @@
-//! What does the picture look like so far?
+//! Film: accumulates samples and encodes them for display.
 //!
-//! Sums of samples as integers: adding them gives the same picture in whatever order tiles arrive.
-//! Pixels not yet sampled show their block's colour from a coarser pass.
+//! Sums are integers, so the picture doesn't depend on the order in which tiles arrive. Pixels without a
+//! sample show the colour of their block from a coarser pass.
 
 use crate::render::plan::{Pass, Plan, WorkUnit};
 use crate::srgb::to_display;
 use glam::{UVec2, Vec3};
 use std::sync::LazyLock;
 
-/// A sum of samples in linear RGB, in units of 2⁻¹⁶: finer than any display shows.
+/// A sum of samples in linear RGB, in units of 2⁻¹⁶, which is finer than 8-bit sRGB.
 pub type FixedRgb = [u32; 3];
 
-/// One in [`FixedRgb`].
+/// The value 1 in [`FixedRgb`].
 const ONE: f32 = 65536.0;
-/// Brighter samples count as this bright, which keeps 4096 of them below 2³².
+/// Samples are clamped to this radiance, so that the sum of 4096 of them stays below 2³².
 const BRIGHTEST: f32 = 15.0;
 
-/// A sample's radiance for summing up; `None` if it isn't finite.
+/// The radiance of a sample in fixed point; `None` if it isn't finite.
 pub fn fixed(radiance: Vec3) -> Option<FixedRgb> {
     let channel = |x: f32| (x.clamp(0.0, BRIGHTEST) * ONE).round() as u32;
     radiance
@@ -33,12 +33,12 @@ pub struct TileSamples {
     pub sums: Vec<FixedRgb>,
 }
 
-/// A rectangle of pixels: from, and up to but not including.
+/// A rectangle of pixels; `max` is exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct PixelRect {
-    /// Left and top.
+    /// Left and top edge.
     pub min: UVec2,
-    /// Right and bottom, not included.
+    /// Right and bottom edge, exclusive.
     pub max: UVec2,
 }
 
@@ -53,22 +53,22 @@ impl PixelRect {
     }
 }
 
-/// A picture in the making.
+/// A picture that is being rendered.
 #[derive(Clone, Debug)]
 pub struct Film {
     plan: Plan,
     sums: Vec<FixedRgb>,
     counts: Vec<u16>,
-    /// The size of the block whose colour a pixel shows; 0 once it has its own.
+    /// Size in pixels of the block whose colour a pixel shows; 0 once the pixel has a sample of its own.
     shown_step: Vec<u8>,
     /// sRGB with alpha 255, row by row from the top.
     pixels: Vec<[u8; 4]>,
-    /// Tiles done, by pass.
+    /// Finished tiles per pass.
     tiles_done: Vec<usize>,
 }
 
 impl Film {
-    /// An empty film for a plan, all pixels of one linear colour.
+    /// An empty film; every pixel shows the background, a linear colour.
     pub fn new(plan: Plan, background: Vec3) -> Self {
         let count = plan.size().element_product() as usize;
         Self {
@@ -81,8 +81,8 @@ impl Film {
         }
     }
 
-    /// Forgets all samples for another plan. Pixels keep their colour until they get a new one, if
-    /// the size is the same.
+    /// Discards all samples and starts another plan. If the size stays the same, pixels keep their colour until
+    /// they receive a sample.
     pub fn restart(&mut self, plan: Plan, background: Vec3) {
         if plan.size() != self.plan.size() {
             *self = Self::new(plan, background);
@@ -95,7 +95,7 @@ impl Film {
         self.plan = plan;
     }
 
-    /// Adds a tile, and says which pixels changed.
+    /// Adds a tile and returns the pixels that changed.
     pub fn add(&mut self, tile: &TileSamples) -> PixelRect {
         let pass = self.plan.pass(tile.unit.pass);
         let rect = self.plan.tile_rect(tile.unit.tile);
@@ -117,12 +117,12 @@ impl Film {
         rect
     }
 
-    /// Counts a tile as done that couldn't be traced; its pixels stay as they are.
+    /// Counts a tile that couldn't be traced as finished; its pixels keep their colour.
     pub fn skip(&mut self, unit: WorkUnit) {
         self.tiles_done[unit.pass] += 1;
     }
 
-    /// Gives a pixel's colour to those of its block that show a coarser one.
+    /// Copies a pixel's colour to those pixels of its block that show a coarser block.
     fn fill_block(&mut self, pixel: UVec2, step: u32) {
         let colour = self.pixels[self.index(pixel)];
         let min = pixel / step * step;
@@ -138,23 +138,23 @@ impl Film {
         }
     }
 
-    /// Passes whose tiles are all there.
+    /// Number of finished passes.
     pub fn passes_done(&self) -> usize {
         let is_done = |&&done: &&usize| done == self.plan.tile_count();
         self.tiles_done.iter().take_while(is_done).count()
     }
 
-    /// Whether every sample of the plan is there.
+    /// Whether every pass is finished.
     pub fn is_complete(&self) -> bool {
         self.passes_done() == self.plan.pass_count()
     }
 
-    /// Samples that every pixel has; 0 while there are coarse blocks.
+    /// Samples per pixel; 0 while some pixels show coarse blocks.
     pub fn samples(&self) -> u32 {
         self.plan.samples_after(self.passes_done())
     }
 
-    /// What was to be rendered.
+    /// The plan being rendered.
     pub fn plan(&self) -> &Plan {
         &self.plan
     }
@@ -176,7 +176,7 @@ impl Film {
 
 /// The mean of a pixel's samples as 8-bit sRGB.
 fn encode(sum: FixedRgb, count: u32) -> [u8; 4] {
-    /// For each linear value in units of 2⁻¹⁶. A table: powf for each pixel would stall the window.
+    /// sRGB for each linear value in units of 2⁻¹⁶. A table, because `powf` per pixel is too slow for the UI thread.
     static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
         let encoded = |i: u32| (255.0 * to_display(i as f32 / ONE)).round() as u8;
         (0..=ONE as u32).map(encoded).collect()
@@ -199,7 +199,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_not_finite_is_not_a_colour() {
+    fn a_sample_that_is_not_finite_is_rejected_and_others_are_clamped() {
         assert_eq!(fixed(Vec3::new(0.0, f32::NAN, 0.0)), None);
         assert_eq!(fixed(Vec3::splat(-1.0)), Some([0; 3]));
         assert_eq!(fixed(Vec3::splat(1e9)), fixed(Vec3::splat(BRIGHTEST)));

@@ -1,24 +1,23 @@
-//! What is the surface like at a hit?
+//! The surface at a hit: normals, material, texture coordinates and colour.
 
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use glam::{Vec2, Vec3};
 
-/// A hit, and what the mesh says of that place.
+/// Normals and material at a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceInteraction {
-    /// Unit length, by the right-hand rule over A, B, C, whichever side is seen.
+    /// Unit normal by the right-hand rule over A, B, C, independent of the side that the ray sees.
     pub geometric_normal: Vec3,
-    /// Unit length; equal to the geometric one in flat shading and where no other is known.
+    /// Unit normal for shading; equals the geometric normal in flat shading and where the mesh has no other.
     pub shading_normal: Vec3,
     /// Index into the mesh's materials.
     pub material: u32,
 }
 
 impl SurfaceInteraction {
-    /// Looks up a hit in the scene. Normals at vertices are computed when the first smooth one is
-    /// asked for.
+    /// Looks up a hit in the scene. The first smooth lookup computes the vertex normals of the whole mesh.
     pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
         let weights = hit.barycentric();
@@ -39,7 +38,7 @@ impl SurfaceInteraction {
         }
     }
 
-    /// The shading normal on the side from which the ray comes.
+    /// The shading normal, flipped to the side that the ray comes from.
     pub fn facing_normal(&self, ray: &Ray) -> Vec3 {
         if self.geometric_normal.dot(ray.dir) > 0.0 {
             -self.shading_normal
@@ -49,7 +48,7 @@ impl SurfaceInteraction {
     }
 }
 
-/// Where on a texture a hit lies, if the file says so.
+/// Texture coordinates at a hit; `None` if a corner has none.
 pub fn texture_coordinates(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec2> {
     let corners = mesh.corner_textures.get(hit.primitive as usize)?;
     let [a, b, c] = corners.map(|index| mesh.texture_coordinates.get(index as usize).copied());
@@ -57,7 +56,7 @@ pub fn texture_coordinates(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec2> {
     Some(l1 * a? + l2 * b? + l3 * c?)
 }
 
-/// The colour of the vertices around a hit, sRGB, if the file gives them one.
+/// Vertex colour interpolated at a hit, in sRGB; `None` if the mesh has no vertex colours.
 pub fn vertex_colour(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec3> {
     if mesh.colours.is_empty() {
         return None;
@@ -77,7 +76,7 @@ mod tests {
     use super::*;
     use crate::progress::Progress;
 
-    /// A triangle in z = 0 whose corners have normals of their own.
+    /// A triangle in the plane z = 0 with three different vertex normals.
     fn scene() -> Scene {
         let mesh = TriangleMesh {
             positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],

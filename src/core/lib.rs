@@ -1,25 +1,25 @@
-//! hitscope's headless core: what a ray meets in a mesh, and the picture that follows from it.
+//! The headless core of hitscope: intersection of rays with meshes, and rendering.
 //!
-//! A map, in the order in which data flows:
+//! The modules, in the order in which data flows:
 //!
-//! | module | answers |
+//! | module | contents |
 //! |---|---|
-//! | [`obj`] | what does this OBJ file hold? |
-//! | [`mesh`] | which triangles, about which origin, and are they healthy? |
-//! | [`scene`] | what is there to be seen? |
-//! | [`camera`] | which ray belongs to a pixel? |
-//! | [`bvh`] | which boxes does a ray meet, nearest first? |
-//! | [`kernel`] | **where does a ray meet a triangle?** One file an algorithm |
-//! | [`intersector`] | where does a ray meet the scene: the tree and one kernel together |
-//! | [`interaction`] | what is the surface like at a hit? |
-//! | [`integrator`] | which colour does a ray bring back? |
-//! | [`spawn`] | where does a ray begin that leaves a surface? |
-//! | [`film`] | what does the picture look like so far? |
-//! | [`render`] | which pixel is traced when, and by which thread? |
-//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`] | what the others speak in |
+//! | [`obj`] | OBJ and MTL reader |
+//! | [`mesh`] | triangle mesh, its origin, and checks of its quality |
+//! | [`scene`] | the scene: mesh, bounds and acceleration structure |
+//! | [`camera`] | camera rays and navigation |
+//! | [`bvh`] | bounding volume hierarchy: building and traversal |
+//! | [`kernel`] | **ray–triangle intersection**, one file per algorithm |
+//! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
+//! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
+//! | [`integrator`] | the views: from a hit to a colour |
+//! | [`spawn`] | origins of rays that leave a surface |
+//! | [`film`] | accumulation of samples |
+//! | [`render`] | progressive rendering on several threads |
+//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`] | shared types |
 //!
-//! The question is always put in f32: a mesh of f32 positions about an f64 origin, and f32 rays.
-//! Nothing here depends on a scene's size, place or units.
+//! Meshes and rays consist of f32 numbers; a mesh is stored relative to an f64 origin. Nothing here
+//! depends on a scene's size, position or units.
 
 pub mod aabb;
 pub mod bvh;

@@ -1,4 +1,4 @@
-//! How far a load has come, and whether anyone still wants it.
+//! Progress and cancellation of a load.
 
 use std::io;
 use std::sync::Arc;
@@ -6,7 +6,7 @@ use std::sync::atomic::{AtomicBool, AtomicU8, AtomicU64, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::Duration;
 
-/// What a load is doing.
+/// A phase of a load.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 #[repr(u8)]
 pub enum Phase {
@@ -19,7 +19,7 @@ pub enum Phase {
 }
 
 impl Phase {
-    /// For a user's eyes.
+    /// Label for the progress bar.
     pub fn label(self) -> &'static str {
         match self {
             Self::Reading => "Reading",
@@ -29,7 +29,8 @@ impl Phase {
     }
 }
 
-/// Shared by the thread that loads and the one that waits for it. Clones are of the same load.
+/// Progress of one load, shared by the loading thread and the thread that waits for it. Clones refer to the
+/// same load.
 #[derive(Clone, Debug, Default)]
 pub struct Progress(Arc<State>);
 
@@ -41,13 +42,13 @@ struct State {
     cancelled: AtomicBool,
 }
 
-/// The load was cancelled: its result is wanted no more.
+/// Error: the load was cancelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("cancelled")]
 pub struct Cancelled;
 
 impl Progress {
-    /// Bytes read, and bytes in all.
+    /// Bytes read so far and in total.
     pub fn bytes(&self) -> (u64, u64) {
         (
             self.0.bytes_read.load(Relaxed),
@@ -55,7 +56,7 @@ impl Progress {
         )
     }
 
-    /// What is being done.
+    /// The current phase.
     pub fn phase(&self) -> Phase {
         match self.0.phase.load(Relaxed) {
             0 => Phase::Reading,
@@ -64,15 +65,15 @@ impl Progress {
         }
     }
 
-    /// Asks the loading thread to stop. It looks every few thousand steps.
+    /// Asks the loading thread to stop, which it does at its next [`check`](Self::check).
     pub fn cancel(&self) {
         self.0.cancelled.store(true, Relaxed);
     }
 
-    /// Called by the loading thread every few thousand steps.
+    /// Fails if the load was cancelled. The loading thread calls it every few thousand steps.
     ///
     /// # Errors
-    /// [`Cancelled`] when the result is wanted no more.
+    /// [`Cancelled`] after [`cancel`](Self::cancel).
     pub fn check(&self) -> Result<(), Cancelled> {
         if self.0.cancelled.load(Relaxed) {
             Err(Cancelled)
@@ -89,7 +90,7 @@ impl Progress {
         self.0.bytes_read.fetch_add(bytes, Relaxed);
     }
 
-    /// The file is read once more.
+    /// Resets the bytes read, for a second pass over the file.
     pub(crate) fn restart(&self) {
         self.0.bytes_read.store(0, Relaxed);
     }
@@ -98,25 +99,26 @@ impl Progress {
         self.0.phase.store(phase as u8, Relaxed);
     }
 
-    /// Works on a thread of its own, for which nobody waits any more once the result isn't wanted. Some steps of a
-    /// load, and giving back its memory, take longer than a user would wait for a cancel.
+    /// Runs `work` on another thread and waits for its result, but no longer than until the load is cancelled.
+    /// Then the thread is abandoned. Some steps, and freeing a load's memory, take longer than a user waits
+    /// for a cancel.
     ///
     /// # Errors
-    /// [`Cancelled`], or the system grants no thread.
+    /// See [`BackgroundError`].
     ///
     /// # Panics
-    /// As the work does.
+    /// If `work` panics.
     pub(crate) fn run_in_background<T: Send + 'static>(
         &self,
         name: &str,
         work: impl FnOnce() -> T + Send + 'static,
     ) -> Result<T, BackgroundError> {
-        /// How often it is looked whether the result is wanted.
+        /// Interval of the checks for cancellation.
         const PATIENCE: Duration = Duration::from_millis(10);
         let (sender, receiver) = sync_channel(1);
         let thread = std::thread::Builder::new().name(name.to_owned());
         let handle = thread.spawn(move || {
-            // Nobody waits any more if the load was cancelled.
+            // The receiver is gone if the load was cancelled.
             _ = sender.send(work());
         });
         let handle = handle.map_err(BackgroundError::NoThread)?;
@@ -133,7 +135,7 @@ impl Progress {
     }
 }
 
-/// Why there is no result of work on another thread.
+/// Why [`Progress::run_in_background`] has no result.
 #[derive(Debug)]
 pub(crate) enum BackgroundError {
     Cancelled,
@@ -151,7 +153,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nobody_waits_for_what_is_not_wanted() {
+    fn a_cancelled_wait_ends_while_the_work_goes_on() {
         let progress = Progress::default();
         assert!(matches!(progress.run_in_background("two", || 2), Ok(2)));
         let (_keep, endless) = sync_channel::<()>(0);
@@ -162,7 +164,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "on purpose")]
-    fn a_panic_aside_is_a_panic_here() {
+    fn a_panic_of_the_work_is_a_panic_of_the_caller() {
         _ = Progress::default().run_in_background("panicking", || panic!("on purpose"));
     }
 }

@@ -1,27 +1,27 @@
-//! Numbers that look random and never change.
+//! Pseudorandom numbers, reproducible from a seed.
 
 use crate::sampler::mix;
 use glam::{DVec3, Vec3};
 
-/// A sequence that its seed determines.
+/// A SplitMix64 generator.
 ///
 /// Source: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014.
 pub struct Random(u64);
 
 impl Random {
-    /// Another sequence for each seed.
+    /// A generator whose sequence depends only on the seed.
     pub fn new(seed: u64) -> Self {
         Self(mix(seed))
     }
 
-    /// 64 bits.
+    /// 64 random bits.
     pub fn bits(&mut self) -> u64 {
-        // 2⁶⁴ over the golden ratio, as the paper has it.
+        // 2⁶⁴ divided by the golden ratio, as in the paper.
         self.0 = self.0.wrapping_add(0x9e37_79b9_7f4a_7c15);
         mix(self.0)
     }
 
-    /// A number below `count`.
+    /// An index in `0..count`; the bias is below `count`/2⁶⁴.
     pub fn index(&mut self, count: usize) -> usize {
         (self.bits() % count as u64) as usize
     }
@@ -36,12 +36,12 @@ impl Random {
         2.0 * self.unit() - 1.0
     }
 
-    /// A point in the cube from −1 to 1.
+    /// A point distributed uniformly in the cube [−1, 1)³.
     pub fn in_cube(&mut self) -> DVec3 {
         DVec3::new(self.signed(), self.signed(), self.signed())
     }
 
-    /// A direction of unit length, every one as likely.
+    /// A unit vector distributed uniformly over the sphere.
     pub fn direction(&mut self) -> DVec3 {
         loop {
             let p = self.in_cube();
@@ -52,7 +52,7 @@ impl Random {
         }
     }
 
-    /// The same as in the cube, rounded.
+    /// [`in_cube`](Self::in_cube), rounded to f32.
     pub fn in_cube_f32(&mut self) -> Vec3 {
         self.in_cube().as_vec3()
     }

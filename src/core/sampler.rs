@@ -1,8 +1,8 @@
-//! Where in its pixel a sample lies.
+//! Sample positions within a pixel.
 //!
-//! The first sample is the pixel's centre, the ray that a click asks about. The others follow the R2
-//! sequence, shifted for each pixel by a hash, so that neighbours don't share a pattern. A position
-//! depends on pixel and sample alone, never on threads or time.
+//! The first sample is the pixel's centre, which is also the ray that a click inspects. The others follow
+//! the R2 sequence, shifted per pixel by a hash to decorrelate neighbours. A position depends only on pixel
+//! and sample index, never on threads or time.
 //!
 //! Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (R2).
 
@@ -11,7 +11,7 @@ use glam::{UVec2, Vec2};
 /// 2⁶⁴/φ₂ and 2⁶⁴/φ₂², φ₂ = 1.3247… the plastic number, the root of x³ = x + 1.
 const STEP: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1c];
 
-/// The place of a sample in its pixel, each coordinate in [0, 1); (0.5, 0.5) is the centre.
+/// Position of a sample in its pixel, each coordinate in [0, 1); (0.5, 0.5) is the centre.
 pub fn sample_position(pixel: UVec2, sample: u32) -> Vec2 {
     if sample == 0 {
         return Vec2::splat(0.5);
@@ -20,13 +20,13 @@ pub fn sample_position(pixel: UVec2, sample: u32) -> Vec2 {
     let shift = [seed, mix(seed)];
     let coordinate = |axis: usize| {
         let bits = shift[axis].wrapping_add(STEP[axis].wrapping_mul(u64::from(sample)));
-        // 24 bits: what an f32 below 1 holds exactly.
+        // An f32 below 1 holds 24 bits exactly.
         (bits >> 40) as f32 / (1u32 << 24) as f32
     };
     Vec2::new(coordinate(0), coordinate(1))
 }
 
-/// A bijection of 64-bit words that leaves no visible pattern.
+/// A bijective hash of 64-bit words (a finaliser).
 ///
 /// Source: G. Steele, D. Lea, C. Flood, "Fast Splittable Pseudorandom Number Generators",
 /// OOPSLA 2014; constants: D. Stafford's variant 13.

@@ -1,22 +1,22 @@
-//! Which SIMD instructions are used, and what can be asked of the cache.
+//! SIMD levels and cache prefetching.
 //!
-//! The best level of the machine is chosen at run time, so that a build for any CPU is as fast as one
-//! for this CPU. A level changes how fast an answer comes, never its bits.
+//! The best level of the CPU is chosen at run time, so a generic build is as fast as a native one. The level
+//! changes the speed, never a bit of a result.
 
 use fearless_simd::{Level, Simd};
 use std::sync::OnceLock;
 
-/// The environment variable that forces a level, for tests.
+/// The environment variable that overrides the level.
 pub const VARIABLE: &str = "HITSCOPE_SIMD";
 
-/// SIMD instructions that this machine has.
+/// A set of SIMD instructions that this machine supports.
 #[derive(Clone, Copy, Debug)]
 pub struct SimdLevel {
     name: &'static str,
     level: Level,
 }
 
-/// A level was asked for that there isn't.
+/// Error: the requested level doesn't exist on this machine.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("{VARIABLE}={asked}: this machine has {}", available.join(", "))]
 pub struct SimdError {
@@ -25,7 +25,7 @@ pub struct SimdError {
 }
 
 impl SimdLevel {
-    /// Every level that this machine has, the weakest first: plain code for any CPU.
+    /// Every level of this machine, in ascending order. The first one is plain code for any CPU.
     pub fn available() -> Vec<Self> {
         let named = |(name, level): (_, Option<Level>)| {
             Some(Self {
@@ -36,10 +36,10 @@ impl SimdLevel {
         levels(Level::new()).into_iter().filter_map(named).collect()
     }
 
-    /// The one that [`VARIABLE`] names, or the strongest.
+    /// The level that [`VARIABLE`] names, or else the highest.
     ///
     /// # Errors
-    /// [`SimdError`] if it names none of this machine's.
+    /// [`SimdError`] if the variable names no level of this machine.
     pub fn chosen() -> Result<Self, SimdError> {
         static CHOSEN: OnceLock<Result<SimdLevel, SimdError>> = OnceLock::new();
         CHOSEN
@@ -53,7 +53,7 @@ impl SimdLevel {
     /// The level of this name.
     ///
     /// # Errors
-    /// [`SimdError`] if this machine hasn't got it.
+    /// [`SimdError`] if this machine doesn't support it.
     pub fn named(name: &str) -> Result<Self, SimdError> {
         let available = Self::available();
         let found = available.iter().find(|level| level.name == name);
@@ -63,13 +63,13 @@ impl SimdLevel {
         })
     }
 
-    /// As [`VARIABLE`] takes it.
+    /// The name, as in [`VARIABLE`].
     pub fn name(self) -> &'static str {
         self.name
     }
 
-    /// What is used unless something else is asked for. A program says at its start that the variable
-    /// can't be obeyed; here it is ignored then.
+    /// The default level of the process. An invalid [`VARIABLE`] is ignored here; programs report it at their
+    /// start.
     pub fn current() -> Self {
         Self::chosen().unwrap_or_else(|_| Self::strongest())
     }
@@ -107,15 +107,15 @@ fn levels(_: Level) -> Vec<(&'static str, Option<Level>)> {
     vec![("fallback", Some(Level::baseline()))]
 }
 
-/// What every machine of the target has. Questions that are asked rarely are answered by it alone: each
-/// level more is each kernel's code once more, which takes long to compile.
+/// The level that every machine of the target supports. Rare queries are compiled for it alone, because each
+/// further level compiles every kernel once more.
 #[cfg(target_arch = "x86_64")]
 pub(crate) fn baseline() -> impl Simd {
     let token = Level::baseline().as_sse2();
     token.expect("every x86-64 has SSE2")
 }
 
-/// What every machine of the target has.
+/// The level that every machine of the target supports.
 #[cfg(not(target_arch = "x86_64"))]
 pub(crate) fn baseline() -> impl Simd {
     #[cfg(target_arch = "aarch64")]
@@ -124,8 +124,7 @@ pub(crate) fn baseline() -> impl Simd {
     return fearless_simd::Fallback::new();
 }
 
-/// Asks the cache for an element that will be read soon, and for what follows it up to `bytes`. A hint:
-/// where the element isn't, nothing happens.
+/// Prefetches `bytes` bytes from the element of this index on. Does nothing if the index is out of range.
 #[inline(always)]
 pub(crate) fn prefetch<S: Simd, T>(token: S, slice: &[T], index: usize, bytes: usize) {
     #[cfg(target_arch = "x86_64")]
@@ -144,7 +143,7 @@ pub(crate) fn prefetch<S: Simd, T>(token: S, slice: &[T], index: usize, bytes: u
 #[cfg(target_arch = "x86_64")]
 mod line {
     fearless_simd::kernel!(
-        /// Asks for the cache line at an address, which is not read.
+        /// Prefetches the cache line at an address, without reading it.
         #[inline(always)]
         pub(super) fn prefetch(_token: Sse2, address: *const i8) {
             std::arch::x86_64::_mm_prefetch::<{ std::arch::x86_64::_MM_HINT_T0 }>(address)

@@ -1,9 +1,9 @@
-//! How much light is a colour, as displays and pictures spell it?
+//! Conversion between linear RGB and sRGB.
 
 use glam::Vec3;
 use std::sync::LazyLock;
 
-/// Linear RGB of a colour that is to be seen as these sRGB values in 0…1; outside, clamped. NaN stays NaN.
+/// Linear RGB from sRGB values, which are clamped to 0…1; NaN stays NaN.
 ///
 /// Source: IEC 61966-2-1.
 pub fn from_display(srgb: Vec3) -> Vec3 {
@@ -17,7 +17,7 @@ pub fn from_display(srgb: Vec3) -> Vec3 {
     Vec3::from_array(srgb.clamp(Vec3::ZERO, Vec3::ONE).to_array().map(linear))
 }
 
-/// sRGB value in 0…1 of a linear one, clamped; NaN stays NaN. The inverse of [`from_display`].
+/// sRGB value from a linear one, which is clamped to 0…1; NaN stays NaN. The inverse of [`from_display`].
 ///
 /// Source: IEC 61966-2-1.
 pub fn to_display(linear: f32) -> f32 {
@@ -29,7 +29,7 @@ pub fn to_display(linear: f32) -> f32 {
     }
 }
 
-/// [`from_display`] of a texel.
+/// Linear RGB of an 8-bit sRGB texel.
 pub fn from_texel(texel: [u8; 3]) -> Vec3 {
     static LINEAR: LazyLock<[f32; 256]> =
         LazyLock::new(|| std::array::from_fn(|x| from_display(Vec3::splat(x as f32 / 255.0)).x));
@@ -51,7 +51,7 @@ mod tests {
     }
 
     #[test]
-    fn a_texel_has_the_light_of_its_display_colour() {
+    fn a_texel_is_decoded_like_a_colour() {
         let texel = from_texel([0, 128, 255]);
         let expected = from_display(Vec3::new(0.0, 128.0, 255.0) / 255.0);
         assert!((texel - expected).length() < 1e-6);

@@ -45,7 +45,7 @@ fn a_view_that_compares_packs_a_second_kernel_and_others_drop_it() {
         ("Disagreement", "exact"),
         ("Error of t", "exact"),
         ("Depth", chosen),
-        ("Error of weights", "exact"),
+        ("Barycentric error", "exact"),
     ] {
         window.get_by_label(view).click();
         wait(&mut window, view, |app| {

@@ -1,4 +1,4 @@
-//! Which ray belongs to a pixel?
+//! Cameras: rays of pixels, and pixels of points.
 //!
 //! Pixel (0, 0) is at the top left; its centre is at (0.5, 0.5). Right-handed: x right, y up, and
 //! the camera looks along −z of its own space.
@@ -10,12 +10,12 @@ pub use turntable::{StandardView, Turntable, UpAxis};
 use crate::ray::Ray;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2, Vec3};
 
-/// How the picture narrows with distance.
+/// Perspective or orthographic projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
     /// All rays start at the eye.
     Perspective {
-        /// Angle between the picture's upper and lower edge.
+        /// Angle between the upper and the lower edge of the picture.
         fov_y_radians: f64,
     },
     /// All rays are parallel; they start in the plane through the eye.
@@ -25,7 +25,7 @@ pub enum Projection {
     },
 }
 
-/// Why a camera is refused.
+/// Why a camera can't be made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
     /// A position or the orthographic height isn't finite, or too large for f32.
@@ -47,10 +47,9 @@ pub enum CameraError {
     NoPixels,
 }
 
-/// A camera with its resolution: everything that makes a ray of a pixel. Immutable.
+/// A camera with its resolution. Immutable.
 ///
-/// The eye is rounded to f32, the start of every ray, so that whatever else is drawn for this camera
-/// can start from the same point.
+/// The eye is rounded to f32 like the origin of every ray, so that the overlay is drawn from the same point.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: Vec3,
@@ -58,12 +57,12 @@ pub struct Camera {
     world_from_camera: DMat3,
     projection: Projection,
     resolution: UVec2,
-    /// Half the picture's width and height, at distance 1 in perspective.
+    /// Half the width and height of the picture, at distance 1 in perspective.
     half_extent: DVec2,
 }
 
 impl Camera {
-    /// A camera at `eye` that sees `target` in the middle, with `up` pointing up.
+    /// A camera at `eye` with `target` in the centre of the picture and `up` pointing upwards.
     ///
     /// # Errors
     /// See [`CameraError`].
@@ -81,7 +80,7 @@ impl Camera {
         let back = back.ok_or(CameraError::NoDirection)?;
         let up = up.try_normalize().ok_or(CameraError::NoUp)?;
         let right = up.cross(back);
-        // Below this the up vector's own rounding decides which way is right.
+        // Below this, rounding of the up vector decides which way is right.
         if right.length() < 1e-12 {
             return Err(CameraError::NoUp);
         }
@@ -118,7 +117,7 @@ impl Camera {
         };
         let aspect = f64::from(resolution.x) / f64::from(resolution.y);
         let half_extent = DVec2::new(half_height * aspect, half_height);
-        // Parallel rays start up to the half extent beside the eye.
+        // Orthographic rays start up to the half extent away from the eye.
         let eye = eye.as_vec3();
         if !(eye.abs().max_element() + half_extent.as_vec2().max_element()).is_finite() {
             return Err(CameraError::NotFinite);
@@ -132,14 +131,14 @@ impl Camera {
         })
     }
 
-    /// The ray through a place in a pixel; `sample` is (0.5, 0.5) for its centre.
+    /// The ray through a position in a pixel; `sample` is (0.5, 0.5) for its centre.
     ///
-    /// The direction has unit length, but for its rounding to f32.
+    /// The direction has unit length up to its rounding to f32.
     pub fn ray(&self, pixel: UVec2, sample: Vec2) -> Ray {
         self.ray_through(pixel.as_dvec2() + sample.as_dvec2())
     }
 
-    /// The ray through a place in the picture, in pixels from its top left corner.
+    /// The ray through a position in the picture, in pixels from the top left corner.
     pub fn ray_through(&self, at: DVec2) -> Ray {
         let on_plane = self.plane_from_pixel(at);
         let (origin, dir) = match self.projection {
@@ -163,8 +162,8 @@ impl Camera {
         }
     }
 
-    /// Where a point appears, in pixels from the top left corner; `None` if it isn't in front or not
-    /// finite.
+    /// The position of a point in the picture, in pixels from the top left corner; `None` if the point isn't in
+    /// front of the camera or isn't finite.
     pub fn pixel_of(&self, point: DVec3) -> Option<DVec2> {
         let in_camera = self.world_from_camera.transpose() * (point - self.eye.as_dvec3());
         let depth = match self.projection {
@@ -179,10 +178,10 @@ impl Camera {
         Some((clip * DVec2::new(0.5, -0.5) + 0.5) * size)
     }
 
-    /// The clip space of a GPU, from coordinates relative to the eye (the scene's axes).
+    /// Matrix from coordinates relative to the eye (along the scene's axes) to the clip space of a GPU.
     ///
-    /// Depth is 1 at `near` and falls with distance: to 0 at infinity in perspective, which loses no
-    /// precision far away, and to 0 at `far` in an orthographic picture.
+    /// Depth is 1 at `near` and decreases: to 0 at infinity in perspective, which keeps precision far away, and
+    /// to 0 at `far` in an orthographic picture.
     pub fn clip_from_eye(&self, near: f64, far: f64) -> DMat4 {
         let half = self.half_extent;
         let clip_from_camera = match self.projection {
@@ -202,7 +201,7 @@ impl Camera {
         clip_from_camera * DMat4::from_mat3(self.world_from_camera.transpose())
     }
 
-    /// Where the rays start, or the middle of the plane in which they do.
+    /// The origin of perspective rays; the centre of the plane where orthographic rays start.
     pub fn eye(&self) -> Vec3 {
         self.eye
     }
@@ -222,7 +221,7 @@ impl Camera {
         self.world_from_camera.z_axis
     }
 
-    /// How the picture narrows with distance.
+    /// The projection.
     pub fn projection(&self) -> Projection {
         self.projection
     }
@@ -232,7 +231,7 @@ impl Camera {
         self.resolution
     }
 
-    /// Length that a pixel spans at a distance along the view.
+    /// Size of a pixel, in the scene's units, at a distance along the viewing direction.
     pub fn pixel_size_at(&self, depth: f64) -> f64 {
         let scale = match self.projection {
             Projection::Perspective { .. } => depth,
@@ -277,7 +276,7 @@ mod tests {
     }
 
     #[test]
-    fn the_middle_of_the_picture_shows_the_target_with_up_above() {
+    fn the_centre_of_the_picture_shows_the_target_and_up_is_above_it() {
         for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
             let camera = camera(projection);
             let middle = camera

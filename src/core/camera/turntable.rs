@@ -1,17 +1,17 @@
-//! Orbit, pan and zoom: the camera as a hand moves it.
+//! Turntable navigation: orbit, pan and zoom.
 
 use super::{Camera, Projection};
 use crate::aabb::Aabb;
 use glam::{DMat3, DVec2, DVec3, UVec2};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
 
-/// Which axis of the file points up. OBJ doesn't say.
+/// The axis of the file that points up. OBJ doesn't define it.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum UpAxis {
-    /// As most modellers write it.
+    /// The convention of most modellers.
     #[default]
     Y,
-    /// As CAD and surveying have it.
+    /// The convention of CAD and surveying.
     Z,
 }
 
@@ -20,7 +20,7 @@ pub enum UpAxis {
 pub enum StandardView {
     /// From +Z (Y up) or −Y (Z up).
     Front,
-    /// Opposite to the front.
+    /// From the opposite side.
     Back,
     /// From +X.
     Right,
@@ -32,40 +32,39 @@ pub enum StandardView {
     Bottom,
 }
 
-/// A camera on a sphere around a pivot, which always keeps the horizon level.
+/// A camera on a sphere around a pivot, with a level horizon.
 ///
 /// Lengths are in the scene's units; nothing depends on the scene's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Turntable {
-    /// What it turns about, in the middle of the picture.
+    /// Centre of rotation and of the picture.
     pub pivot: DVec3,
-    /// From the pivot to the eye.
+    /// Distance from the pivot to the eye.
     pub distance: f64,
     /// Angle about the up axis, from 0 to 2π; 0 looks from the front.
     pub yaw_radians: f64,
     /// Angle above the horizon, from −π/2 to π/2.
     pub pitch_radians: f64,
-    /// Vertical field of view; in an orthographic picture it gives the height at the pivot.
+    /// Vertical field of view in radians; in an orthographic picture it defines the height at the pivot.
     pub fov_y_radians: f64,
-    /// Whether rays are parallel.
+    /// Whether the projection is orthographic.
     pub is_orthographic: bool,
-    /// Which axis points up.
+    /// The axis that points up.
     pub up_axis: UpAxis,
-    /// The scene, as a sphere about its box.
+    /// Bounding sphere of the scene's box.
     centre: DVec3,
     radius: f64,
 }
 
 impl Turntable {
-    /// Radians that a drag across the picture's height turns by.
+    /// Rotation in radians by a drag across the height of the picture.
     const RADIANS_PER_HEIGHT: f64 = PI;
-    /// How near to the pivot the eye may come, relative to the scene: there f32 still resolves a
-    /// hundredth of the distance.
+    /// Minimum distance from the pivot, relative to the scene: f32 still resolves a hundredth of it.
     const NEAREST: f64 = 1e-5;
-    /// How far from the pivot it may go, in radii.
+    /// Maximum distance from the pivot, in radii of the scene.
     const FARTHEST: f64 = 1e4;
 
-    /// Looks at all of a scene, from a little above and to the right.
+    /// The default view: the whole scene, from slightly above and to the right.
     pub fn framing(bounds: Aabb, resolution: UVec2) -> Self {
         let mut turntable = Self {
             pivot: DVec3::ZERO,
@@ -82,12 +81,12 @@ impl Turntable {
         turntable
     }
 
-    /// Moves back or forth until the scene's box fits, with the direction as it is.
+    /// Moves along the viewing direction until the scene's box fits the picture.
     ///
-    /// An empty scene or one of a single point counts as one of radius 1, or as small as f32 can
-    /// tell from its place.
+    /// An empty scene, or a point at the origin, counts as a sphere of radius 1; another point as one whose radius
+    /// is a thousandth of its largest coordinate.
     pub fn frame(&mut self, bounds: Aabb, resolution: UVec2) {
-        /// Room between the box and the picture's edge.
+        /// Margin between the box and the edge of the picture.
         const MARGIN: f64 = 1.06;
         self.set_scene(bounds);
         self.pivot = self.centre;
@@ -102,32 +101,32 @@ impl Turntable {
         self.distance = needed.fold(self.radius, f64::max);
     }
 
-    /// Goes on from where it stands, with another scene.
+    /// Replaces the scene and keeps the camera.
     pub fn set_scene(&mut self, bounds: Aabb) {
         (self.centre, self.radius) = sphere(bounds);
     }
 
-    /// Turns by a drag, in pixels to the right and down.
+    /// Rotates by a drag, in pixels to the right and down.
     pub fn orbit(&mut self, drag_px: DVec2, resolution: UVec2) {
         let angle = drag_px * Self::RADIANS_PER_HEIGHT / f64::from(resolution.y.max(1));
         self.turn(-angle.x);
         self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
     }
 
-    /// Turns about the pivot, to the left as seen from above.
+    /// Rotates about the pivot, counterclockwise as seen from above.
     pub fn turn(&mut self, radians: f64) {
         self.yaw_radians = (self.yaw_radians + radians).rem_euclid(TAU);
     }
 
-    /// Shifts by a drag, so that the pivot's plane follows the pointer.
+    /// Pans by a drag, so that the plane through the pivot follows the pointer.
     pub fn pan(&mut self, drag_px: DVec2, resolution: UVec2) {
         let axes = self.world_from_camera();
         let per_pixel = self.height_at_pivot() / f64::from(resolution.y.max(1));
         self.pivot += (axes.y_axis * drag_px.y - axes.x_axis * drag_px.x) * per_pixel;
     }
 
-    /// Scales the distance by `factor` about `anchor`, which keeps its place in the picture. Not beyond
-    /// the limits, nor by a factor or about an anchor that isn't finite.
+    /// Scales the distance by `factor`, within the limits, and keeps `anchor` at its position in the picture.
+    /// Ignores a factor or an anchor that isn't finite.
     pub fn zoom(&mut self, factor: f64, anchor: DVec3) {
         let nearest = Self::NEAREST * (self.radius + (self.pivot - self.centre).length());
         let distance = (self.distance * factor).clamp(nearest, Self::FARTHEST * self.radius);
@@ -138,8 +137,7 @@ impl Turntable {
         }
     }
 
-    /// Turns about another point from now on, which comes to the middle of the picture; the eye
-    /// keeps its distance.
+    /// Moves the pivot, and with it the centre of the picture; the eye keeps its distance.
     pub fn set_pivot(&mut self, pivot: DVec3) {
         self.pivot = pivot;
     }
@@ -156,7 +154,7 @@ impl Turntable {
         };
     }
 
-    /// The point under a pixel in the plane through the pivot that faces the camera.
+    /// The point under a pixel in the plane that contains the pivot and faces the camera.
     pub fn on_pivot_plane(&self, at_px: DVec2, resolution: UVec2) -> DVec3 {
         let axes = self.world_from_camera();
         let from_middle = at_px - 0.5 * resolution.as_dvec2();
@@ -164,14 +162,14 @@ impl Turntable {
         self.pivot + (axes.x_axis * from_middle.x - axes.y_axis * from_middle.y) * per_pixel
     }
 
-    /// The camera, for a picture of this size; at least one pixel is assumed.
+    /// The camera for a picture of this size; a size of zero counts as one pixel.
     ///
-    /// The eye of an orthographic camera stands outside of the scene, so that nothing is cut off.
-    /// Where f32 can't hold the eye, it stands at the largest number that it can.
+    /// The eye of an orthographic camera is outside the scene, so that nothing is cut off. Coordinates of
+    /// the eye are clamped to the range of f32.
     pub fn camera(&self, resolution: UVec2) -> Camera {
         let axes = self.world_from_camera();
         let (projection, distance) = if self.is_orthographic {
-            // Also the widest picture's rays then start where f32 can hold it.
+            // The rays of the widest picture then start within the range of f32, too.
             let height = self.height_at_pivot().min(f64::from(f32::MAX) / 1e5);
             let outside = 2.0 * self.radius + (self.pivot - self.centre).length();
             (
@@ -188,7 +186,7 @@ impl Turntable {
             .expect("the eye is finite, the projection within its limits")
     }
 
-    /// Right, up and back, level with the horizon; well-defined also straight from above.
+    /// Right, up and back, with a level horizon; well defined from straight above, too.
     fn world_from_camera(&self) -> DMat3 {
         let (sin_yaw, cos_yaw) = self.yaw_radians.sin_cos();
         let (sin_pitch, cos_pitch) = self.pitch_radians.sin_cos();
@@ -207,7 +205,7 @@ impl Turntable {
     }
 }
 
-/// Centre and radius of a scene, neither of them zero or infinite.
+/// Centre and radius of a scene; the radius is positive and finite.
 fn sphere(bounds: Aabb) -> (DVec3, f64) {
     if bounds.is_empty() {
         return (DVec3::ZERO, 1.0);
@@ -221,7 +219,7 @@ fn sphere(bounds: Aabb) -> (DVec3, f64) {
     }
 }
 
-/// The eight corners of a box; none of an empty one.
+/// The eight corners of a box; none if it is empty.
 fn corners(bounds: Aabb) -> Vec<DVec3> {
     let corner = |k: usize| {
         let pick = |axis: usize| [bounds.min, bounds.max][k >> axis & 1][axis];

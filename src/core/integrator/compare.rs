@@ -1,4 +1,4 @@
-//! Views that hold the chosen kernel against another one, as a rule the exact one.
+//! Views that compare the chosen kernel with another one, usually the exact kernel.
 
 use super::Context;
 use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, ramp};
@@ -7,27 +7,27 @@ use crate::kernel::exact_answer;
 use crate::ray::{Hit, Ray, ulp_at};
 use glam::Vec3;
 
-/// Ulps of t at the ends of the scale: a tenth of what a correct rounding may err by, and where four
-/// digits of f32's seven are wrong.
+/// Range of the scale for t in ulps: from a tenth of the error of correct rounding to four wrong digits of f32's
+/// seven.
 pub(super) const T_RANGE: [f64; 2] = [0.05, 5e4];
-/// Errors of a weight at the ends of the scale: a sixth of f32's half ulp of 1, and a tenth of all there is.
+/// Range of the scale for barycentric errors: from a sixth of half an f32 ulp of 1 to a tenth.
 pub(super) const WEIGHT_RANGE: [f64; 2] = [1e-8, 0.1];
 
-/// By how many ulps of f32 t errs.
+/// The error of t in f32 ulps.
 pub(super) fn error_t(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     error(context, ray, hit, |hit, [t, _, _]| {
         log_colour((f64::from(hit.t) - t).abs() / ulp_at(t), T_RANGE)
     })
 }
 
-/// By how much the weight errs that errs most.
+/// The largest error of a barycentric coordinate.
 pub(super) fn error_barycentric(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     error(context, ray, hit, |hit, [_, u, v]| {
         log_colour(hit.weight_error([1.0 - u - v, u, v]), WEIGHT_RANGE)
     })
 }
 
-/// A hit's colour by the exact t, u and v of its triangle; others where the decision itself is wrong.
+/// The colour of a hit's error against the exact t, u and v of its triangle; other colours mark wrong decisions.
 fn error(
     context: &Context,
     ray: &Ray,
@@ -49,7 +49,7 @@ fn error(
     }
 }
 
-/// Where the two kernels differ about what is hit; elsewhere a faint picture, to find one's way.
+/// Marks where the two kernels disagree; elsewhere shows a faint picture for orientation.
 pub(super) fn disagreement(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     match (hit, context.second.closest_hit(ray)) {
         (None, None) => context.background,
@@ -64,9 +64,9 @@ pub(super) fn disagreement(context: &Context, ray: &Ray, hit: Option<Hit>) -> Ve
     }
 }
 
-/// The ramp's colour for a number by its logarithm within a range.
+/// The ramp's colour for a number, on a logarithmic scale over a range.
 pub(super) fn log_colour(x: f64, [least, most]: [f64; 2]) -> Vec3 {
-    // A 0 has no logarithm, and belongs to the least.
+    // 0 has no logarithm; it gets the colour of the lower end.
     let part = (x.max(least) / least).ln() / (most / least).ln();
     ramp(part as f32)
 }

@@ -1,4 +1,4 @@
-//! What the colours of a view mean.
+//! Legends of the views.
 
 use super::Legend;
 use super::compare::{T_RANGE, WEIGHT_RANGE, log_colour};

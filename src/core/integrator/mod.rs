@@ -1,6 +1,6 @@
-//! Which colour does a ray bring back?
+//! Views: functions from a ray to a colour.
 //!
-//! One function a view; the table is [`INTEGRATORS`]. Colours are linear RGB.
+//! Each view is a row of [`INTEGRATORS`]. Colours are linear RGB.
 
 mod compare;
 mod legend;
@@ -16,59 +16,59 @@ use crate::scene::{Scene, Shading};
 use glam::Vec3;
 use std::sync::Arc;
 
-/// What is looked at, and how: all that a colour depends on besides the ray.
+/// Everything that a colour depends on besides the ray.
 #[derive(Clone)]
 pub struct Context {
-    /// The triangles.
+    /// The scene.
     pub scene: Arc<Scene>,
-    /// Answers the rays.
+    /// The intersector of the chosen kernel.
     pub intersector: Arc<dyn Intersector>,
-    /// What it is held against by views that compare; for others any will do.
+    /// The intersector that comparing views compare with; any one for the others.
     pub second: Arc<dyn Intersector>,
-    /// From where.
+    /// The camera.
     pub camera: Camera,
-    /// Flat or smooth.
+    /// Flat or smooth shading.
     pub shading: Shading,
-    /// What a ray that hits nothing brings back.
+    /// The colour of rays that hit nothing.
     pub background: Vec3,
 }
 
-/// A way to see a scene.
+/// A view: how a ray gets its colour.
 pub struct Integrator {
-    /// As `--view` takes it.
+    /// The name, as in `--view`.
     pub name: &'static str,
-    /// For menus.
+    /// The title in menus.
     pub title: &'static str,
-    /// What the colours mean, in a sentence.
+    /// The meaning of the colours, in one sentence.
     pub about: &'static str,
-    /// What it holds the chosen kernel against.
+    /// The kernel that the view compares the chosen one with.
     pub against: Comparison,
-    /// What single colours mean.
+    /// The legend.
     pub legend: fn() -> Legend,
     colour: Colour,
 }
 
-/// What a view makes a ray's colour of.
+/// The input of a view.
 enum Colour {
-    /// Of what the chosen kernel says that it hits first.
+    /// The first hit of the chosen kernel.
     OfHit(fn(&Context, &Ray, Option<Hit>) -> Vec3),
-    /// Of what the ray costs, which the view finds out by itself.
+    /// The ray itself; the view traces it and measures its cost.
     OfRay(fn(&Context, &Ray) -> Vec3),
 }
 
-/// What a view holds the chosen kernel against.
+/// The kernel that a view compares the chosen one with.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Comparison {
-    /// Nothing: there is one kernel.
+    /// None: the view uses one kernel.
     Nothing,
     /// The exact kernel.
     Exact,
-    /// A second kernel of the user's choice.
+    /// A second kernel that the user chooses.
     Second,
 }
 
 impl Comparison {
-    /// The second kernel of a view, where the user's choice is `chosen`.
+    /// The kernel to compare with, where the user's second kernel is `chosen`.
     pub fn kernel(self, chosen: &'static TriangleKernel) -> Option<&'static TriangleKernel> {
         match self {
             Self::Nothing => None,
@@ -78,11 +78,11 @@ impl Comparison {
     }
 }
 
-/// Colours, in linear RGB, and what they mean; line by line.
+/// Colours in linear RGB and their meaning, line by line.
 pub type Legend = Vec<Vec<(Vec3, String)>>;
 
 impl Integrator {
-    /// What the view holds `first` against; `first` itself where it holds it against nothing.
+    /// The intersector to compare `first` with; `first` itself if the view doesn't compare.
     pub fn second(
         &self,
         scene: &Scene,
@@ -96,13 +96,12 @@ impl Integrator {
         )
     }
 
-    /// Whether it shows what rays cost, which another tree changes; what they hit it doesn't.
+    /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
     pub fn depends_on_tree(&self) -> bool {
         matches!(self.colour, Colour::OfRay(_))
     }
 
-    /// What the view needs to know of rays before it makes colours of them: what they hit first. Quickest for
-    /// rays that go together.
+    /// The first hits of rays, if the view needs them. Fastest for coherent rays.
     pub fn first_hits(&self, context: &Context, rays: &[Ray], hits: &mut [Option<Hit>]) {
         match self.colour {
             Colour::OfHit(_) => context.intersector.coherent_hits(rays, hits),
@@ -110,7 +109,7 @@ impl Integrator {
         }
     }
 
-    /// The colour that a ray brings back, in linear RGB, by what [`first_hits`](Self::first_hits) found.
+    /// The colour of a ray in linear RGB, given its hit from [`first_hits`](Self::first_hits).
     pub fn radiance(&self, context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
         match self.colour {
             Colour::OfHit(colour) => colour(context, ray, hit),
@@ -119,7 +118,7 @@ impl Integrator {
     }
 }
 
-/// Every view, in the menu's order.
+/// All views, in the order of the menu.
 pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "shaded",
@@ -140,7 +139,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "barycentric",
         title: "Barycentric",
-        about: "The weights of the three corners as red, green, blue.",
+        about: "The barycentric coordinates of the three corners as red, green, blue.",
         against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(views::barycentric),
@@ -148,7 +147,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "depth",
         title: "Depth",
-        about: "Distance from the eye, white at the nearest place of the scene's sphere, dark at the farthest.",
+        about: "Distance from the eye: white at the near side of the scene's bounding sphere, dark at the far side.",
         against: Comparison::Nothing,
         legend: legend::none,
         colour: Colour::OfHit(views::depth),
@@ -172,15 +171,15 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "error-t",
         title: "Error of t",
-        about: "By how many ulps of f32 the chosen kernel's t errs, on a logarithmic scale.",
+        about: "Error of t of the chosen kernel, in f32 ulps, on a logarithmic scale.",
         against: Comparison::Exact,
         legend: legend::error_t,
         colour: Colour::OfHit(compare::error_t),
     },
     Integrator {
         name: "error-barycentric",
-        title: "Error of weights",
-        about: "By how much the chosen kernel's worst weight errs, on a logarithmic scale.",
+        title: "Barycentric error",
+        about: "Largest error of a barycentric coordinate of the chosen kernel, on a logarithmic scale.",
         against: Comparison::Exact,
         legend: legend::error_barycentric,
         colour: Colour::OfHit(compare::error_barycentric),
@@ -188,7 +187,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "disagreement",
         title: "Disagreement",
-        about: "Where the chosen kernel and a second one differ about what is hit.",
+        about: "Where the chosen kernel and a second one hit different triangles, or only one of them hits.",
         against: Comparison::Second,
         legend: legend::decisions,
         colour: Colour::OfHit(compare::disagreement),

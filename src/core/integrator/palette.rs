@@ -1,26 +1,26 @@
-//! Colours for numbers.
+//! Colour maps.
 
 use crate::sampler::mix;
 use glam::Vec3;
 
 use crate::srgb::from_display;
 
-/// A colour for an id; neighbours' ids get different ones.
+/// A colour for an id; consecutive ids get different colours.
 pub fn id_colour(id: u32) -> Vec3 {
     let bits = mix(u64::from(id) + 1);
     let channel = |shift: u32| 0.25 + 0.7 * (bits >> shift & 0xff) as f32 / 255.0;
     from_display(Vec3::new(channel(0), channel(8), channel(16)))
 }
 
-/// Cost at the upper end of [`cost_colour`]'s scale: a bad ray in a good tree.
+/// Number of tests at the upper end of [`cost_colour`]'s scale: an expensive ray in a good tree.
 pub const COST_SCALE: u32 = 1024;
 
-/// A colour for a count of tests: [`ramp`] from none to [`COST_SCALE`] and above, by the logarithm.
+/// A colour for a number of tests: [`ramp`] on a logarithmic scale from 0 to [`COST_SCALE`].
 pub fn cost_colour(tests: u32) -> Vec3 {
     ramp((1.0 + tests as f32).log2() / (1.0 + COST_SCALE as f32).log2())
 }
 
-/// Black at 0, over blue, red and yellow to white at 1; outside, clamped.
+/// The colour map: black at 0, then blue, red and yellow, white at 1; clamped outside.
 pub fn ramp(part: f32) -> Vec3 {
     const STOPS: [Vec3; 6] = [
         Vec3::new(0.0, 0.0, 0.0),
@@ -35,13 +35,13 @@ pub fn ramp(part: f32) -> Vec3 {
     from_display(STOPS[stop].lerp(STOPS[stop + 1], at - stop as f32))
 }
 
-// Colours that aren't on the ramp, nor near a background.
+// Colours that differ from the ramp and from both backgrounds.
 
-/// The kernel misses what the other one hits.
+/// The kernel misses, the other one hits.
 pub const MISSED: Vec3 = Vec3::new(0.0, 0.80, 0.90);
-/// The kernel hits where the other one doesn't.
+/// The kernel hits, the other one misses.
 pub const FALSE_HIT: Vec3 = Vec3::new(0.20, 0.90, 0.05);
-/// Both hit, not the same triangle.
+/// Both hit, but different triangles.
 pub const OTHER_TRIANGLE: Vec3 = Vec3::new(0.90, 0.02, 0.75);
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! A model of the file's materials, of clay where it has none, under a studio light fixed to the camera.
+//! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
 use super::Context;
 use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
@@ -8,24 +8,23 @@ use crate::spawn::{Departure, default_spawn_policy};
 use crate::srgb::from_display;
 use glam::Vec3;
 
-/// Reflectance of faces of which the file says nothing.
+/// Reflectance of faces without a material.
 const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
-/// Light from everywhere; the rest comes from the two lamps.
+/// Ambient light; the rest comes from the two lamps.
 const AMBIENT: f32 = 0.10;
-/// Lamps in camera space: where the light comes from, and how strong it is. The key light stands
-/// above the left shoulder, the fill light low on the right.
+/// Directions and strengths of the lamps in camera space: a key light at the upper left, a fill light at the
+/// lower right.
 const LAMPS: [(Vec3, f32); 2] = [
     (Vec3::new(-0.45, 0.65, 0.62), 0.85),
     (Vec3::new(0.80, -0.10, 0.60), 0.22),
 ];
-/// Surfaces that a ray goes through, at most; behind these it sees the background. Half as many glasses, one in the
-/// other, are more than a picture shows.
+/// Maximum number of transparent surfaces along a ray; behind the last one it sees the background.
 const MOST_LAYERS: usize = 32;
-/// What is left of a ray that can't be seen any more: half a step of eight bits.
+/// Transmittance below which a ray is ended: half a step of 8 bits.
 const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// Reflection of the lamps on both sides of triangles, and the light of their own; through surfaces that aren't
-/// opaque also what is behind. No ray is cast to the lamps: they cast no shadows.
+/// Light of the lamps reflected by both sides of surfaces, and emission; through transparent surfaces also what is
+/// behind them. The lamps cast no shadows.
 pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     let (mut ray, mut hit) = (*ray, hit);
     let (mut light, mut left) = (Vec3::ZERO, 1.0);
@@ -52,7 +51,7 @@ pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     light + left * context.background
 }
 
-/// The light that a surface sends back along a ray, and its opacity.
+/// The light that a surface reflects and emits towards the eye, and its opacity.
 ///
 /// Source: Blinn, "Models of Light Reflection for Computer Synthesized Pictures", SIGGRAPH 1977, for the
 /// highlights.
@@ -79,7 +78,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     if let Some(material) = material
         && illumination == Illumination::Highlights
         && material.specular != Vec3::ZERO
-        // An exponent of 0 is no highlight, but light everywhere: programs write it for matt materials.
+        // Programs write an exponent of 0 for matt materials; taken literally, it would light everything.
         && material.shininess > 0.0
     {
         let to_eye = (-ray.dir).normalize_or_zero();
@@ -94,10 +93,10 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     (sum, opacity)
 }
 
-/// The material's colour, times its texture's, times the vertices'; clay if there is none of them.
+/// The product of the colours of material, texture and vertices; clay if there are none.
 fn diffuse(mesh: &TriangleMesh, material: Option<&Material>, hit: &Hit) -> Vec3 {
     let map = material.and_then(|material| material.diffuse_map.as_ref());
-    // A face without texture coordinates has none of the picture.
+    // A face without texture coordinates shows no texture.
     let of_texture = map
         .zip(texture_coordinates(mesh, hit))
         .map(|(map, uv)| map.colour(&mesh.textures, uv));
@@ -122,8 +121,8 @@ mod tests {
 
     const BACKGROUND: Vec3 = Vec3::new(0.0, 0.25, 0.0);
 
-    /// What a ray straight down brings back from layers of triangles, each of its own material, the
-    /// first one on top.
+    /// The colour of a ray straight down through layers of triangles, each with its own material, the first one
+    /// on top.
     fn seen(materials: &[Material], change: impl Fn(&mut TriangleMesh)) -> Vec3 {
         let layer = |k: usize| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p - Vec3::Z * k as f32);
         let corners: Vec<_> = (0..materials.len()).map(layer).collect();
@@ -161,7 +160,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_behind_shines_through_in_order() {
+    fn transparent_layers_are_blended_in_order() {
         let (red, blue) = (constant(Vec3::X, 0.5), constant(Vec3::Z, 0.25));
         let light = seen(&[red, blue], |_| {});
         let expected = 0.5 * Vec3::X + 0.5 * (0.25 * Vec3::Z + 0.75 * BACKGROUND);
@@ -170,7 +169,7 @@ mod tests {
     }
 
     #[test]
-    fn highlights_and_own_light_are_added_as_the_material_says() {
+    fn highlights_and_emission_are_added() {
         let plain = Material {
             diffuse: Some(Vec3::splat(0.5)),
             ..Material::default()
@@ -195,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn texture_and_vertex_colours_multiply_the_materials() {
+    fn texture_and_vertex_colours_multiply_the_materials_colour() {
         let map = TextureMap {
             texture: 0,
             scale: Vec2::ONE,

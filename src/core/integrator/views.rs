@@ -1,4 +1,4 @@
-//! Views that show a number of the hit as a colour.
+//! Views that show one property of a hit as a colour.
 
 use super::Context;
 use super::palette::{cost_colour, id_colour};
@@ -24,7 +24,7 @@ pub(super) fn barycentric(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 
 pub(super) fn depth(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     hit.map_or(context.background, |hit| {
         let bounds = context.scene.bounds();
-        // From the eye, or from its plane, to the scene's sphere, front and back.
+        // Distances from the eye, or from its plane, to the near and far side of the scene's bounding sphere.
         let camera = &context.camera;
         let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
         let middle = match camera.projection() {
@@ -42,7 +42,7 @@ pub(super) fn triangle(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
     hit.map_or(context.background, |hit| id_colour(hit.primitive))
 }
 
-/// Rays that hit nothing cost something, too: they have no background here.
+/// Rays that hit nothing have a cost, too; this view has no background.
 pub(super) fn cost(context: &Context, ray: &Ray) -> Vec3 {
     let (_, cost) = context.intersector.closest_hit_with_cost(ray);
     cost_colour(cost.boxes + cost.triangles)

@@ -1,9 +1,9 @@
-//! What a kernel needs from a number, be it one f32 or f64 or a SIMD vector of them.
+//! The arithmetic that kernels use, for one f32 or f64 or a SIMD vector of them.
 //!
-//! Kernels are written once over [`Lane`]; a scalar and a vector then do the same operations in the
-//! same order, so that they give the same bits, but for NaN in [`Lane::lesser`] and
-//! [`Lane::greater`], which a kernel must reject by other means. There is no fused multiply-add here:
-//! it would make results depend on the CPU, and break the watertight kernel's proof.
+//! Kernels are written once over [`Lane`]. A scalar and a vector then do the same operations in the same
+//! order and give the same bits, except for NaN in [`Lane::lesser`] and [`Lane::greater`], which a kernel
+//! must reject by other means. There is no fused multiply-add: it would make results depend on the CPU and
+//! break the proof of the watertight kernel.
 
 mod scalar;
 mod vector;
@@ -11,22 +11,22 @@ mod vector;
 use fearless_simd::Simd;
 use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
 
-/// Numbers in a vector of triangles.
+/// Width of a vector over triangles.
 pub const LANES: usize = 8;
-/// Numbers in a vector of rays.
+/// Width of a vector over rays.
 pub const PACKET: usize = 16;
 
-/// Which lanes a comparison holds for.
+/// The lanes for which a comparison holds.
 pub trait LaneMask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> {
-    /// Whether it holds for any lane.
+    /// Whether it holds in any lane.
     fn any(self) -> bool;
-    /// Whether it holds for all lanes.
+    /// Whether it holds in all lanes.
     fn all(self) -> bool;
-    /// One bit a lane, the first lane lowest.
+    /// One bit per lane; the first lane is the lowest bit.
     fn bits(self) -> u32;
 }
 
-/// One number, or several of them side by side.
+/// One number, or a vector of numbers.
 pub trait Lane:
     Copy
     + Add<Output = Self>
@@ -35,35 +35,35 @@ pub trait Lane:
     + Div<Output = Self>
     + Neg<Output = Self>
 {
-    /// What makes one: nothing for a scalar, the proof of the CPU's features for a vector.
+    /// Proof that the CPU has the instructions; `()` for a scalar.
     type Token: Copy;
-    /// What comparing two of them gives.
+    /// Result of a comparison.
     type Mask: LaneMask;
-    /// What is in one lane.
+    /// The number in one lane.
     type Number: Number;
 
     /// The same number in all lanes.
     fn splat(token: Self::Token, x: Self::Number) -> Self;
-    /// The token this was made with.
+    /// The token that this was made with.
     fn token(self) -> Self::Token;
     /// `|x|`.
     fn abs(self) -> Self;
-    /// The number, negated where `sign` has its sign bit set.
+    /// Negated in the lanes where `sign` has its sign bit set.
     fn flip(self, sign: Self) -> Self;
-    /// The smaller one. Where one is NaN, either.
+    /// The smaller number; unspecified which one if either is NaN.
     fn lesser(self, other: Self) -> Self;
-    /// The larger one. Where one is NaN, either.
+    /// The larger number; unspecified which one if either is NaN.
     fn greater(self, other: Self) -> Self;
-    /// `self < other`; never for a NaN.
+    /// `self < other`; false for NaN.
     fn lt(self, other: Self) -> Self::Mask;
-    /// `self ≤ other`; never for a NaN.
+    /// `self ≤ other`; false for NaN.
     fn le(self, other: Self) -> Self::Mask;
-    /// `self = other`; never for a NaN.
+    /// `self = other`; false for NaN.
     fn eq(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
-    /// What this, computed as `a·b − c·d`, would be in the next wider format; only its sign counts.
-    /// As it is where there is none: f64. For what is rarely needed: it is slow.
+    /// Recomputes `self`, which is `a·b − c·d`, in the next wider format; only the sign is meaningful.
+    /// Unchanged for f64, which has no wider format. Slow; meant for rare cases.
     fn widened(self, factors: [Self; 4]) -> Self;
 
     /// The same f32 in all lanes.
@@ -73,7 +73,7 @@ pub trait Lane:
     }
 }
 
-/// What a lane holds: f32 or f64.
+/// A scalar type of kernels: f32 or f64.
 pub trait Number:
     Lane<Token = (), Mask = bool, Number = Self>
     + Stored<Self>
@@ -85,28 +85,28 @@ pub trait Number:
     + Sync
     + 'static
 {
-    /// [`LANES`] of them side by side.
+    /// A vector of [`LANES`] of them.
     type Lanes<S: Simd>: Lane<Token = S, Number = Self>;
-    /// What a rounding errs by at most, relatively: 2⁻²⁴ or 2⁻⁵³.
+    /// Unit roundoff, the largest relative error of one operation: 2⁻²⁴ or 2⁻⁵³.
     const U: Self;
     /// The least normal number.
     const LEAST_NORMAL: Self;
-    /// Whether it holds the product of two f32 exactly.
+    /// Whether the product of any two f32 is exact.
     const HOLDS_PRODUCTS: bool;
-    /// Rounded; infinite where f32 has no such number.
+    /// Rounded to f32; infinite if it overflows.
     fn to_f32(self) -> f32;
-    /// So many f32.
+    /// Widens [`LANES`] f32.
     fn load<S: Simd>(token: S, from: &[f32; LANES]) -> Self::Lanes<S>;
     /// The numbers of a vector.
     fn store<S: Simd>(lanes: Self::Lanes<S>) -> [Self; LANES];
 }
 
-/// What a kernel that works in `N` may keep its triangles as: `N`, or f32 where it keeps nothing but
-/// corners, which are f32 in the mesh and widened exactly.
+/// The storage type of a kernel that computes in `N`: `N` itself, or f32 if it stores corners only, which
+/// are f32 in the mesh and widen exactly.
 pub trait Stored<N>: Copy + Default + Send + Sync + 'static {
-    /// One of them, in `N`.
+    /// The value widened to `N`.
     fn number(self) -> N;
-    /// [`LANES`] of them, in `N`.
+    /// [`LANES`] values widened to `N`.
     fn lanes<S: Simd>(token: S, from: &[Self; LANES]) -> N::Lanes<S>
     where
         N: Number;
@@ -134,7 +134,8 @@ pub fn minus<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
     [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
 }
 
-/// `s · v`. Written out, like the others: what an array's `map` calls may lose the CPU's features.
+/// `s · v`. Written out, like the others, because a closure passed to an array's `map` may be compiled
+/// without the CPU's features.
 #[inline(always)]
 pub fn times<L: Lane>(s: L, v: &[L; 3]) -> [L; 3] {
     [s * v[0], s * v[1], s * v[2]]
@@ -146,7 +147,7 @@ pub fn plus<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
-/// The axis along which a vector is longest; of several the first.
+/// The axis of the component that is largest in magnitude; the first one of several.
 #[inline(always)]
 pub fn longest_axis<N: Number>(v: [N; 3]) -> usize {
     let size = v.map(N::abs);

@@ -73,8 +73,8 @@ macro_rules! scalar_lane {
 scalar_lane!(f32, |_, factors: [f32; 4]| difference_of_products(factors));
 scalar_lane!(f64, |x, _| x);
 
-/// `a·b − c·d` in f64, where the products of two f32 are exact, so that the sign is right; the way
-/// back to f32 doesn't lose it.
+/// `a·b − c·d` in f64, where products of two f32 are exact, so that the sign is right. Rounding to f32 keeps the
+/// sign.
 pub(super) fn difference_of_products(factors: [f32; 4]) -> f32 {
     let [a, b, c, d] = factors.map(f64::from);
     let difference = a * b - c * d;
@@ -136,7 +136,7 @@ impl<N: Number> Stored<N> for f32 {
     }
 }
 
-/// For those that f32 holds.
+/// Exact for numbers that f32 holds.
 impl Stored<f32> for f64 {
     #[inline(always)]
     fn number(self) -> f32 {

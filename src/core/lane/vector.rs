@@ -1,4 +1,4 @@
-//! Several numbers side by side as a lane.
+//! [`Lane`] for SIMD vectors.
 
 use super::scalar::difference_of_products;
 use super::{Lane, LaneMask};

@@ -1,4 +1,4 @@
-//! What is rendered: jobs, and the tracing of one tile.
+//! Rendering jobs, and the tracing of one tile.
 
 use super::plan::{Plan, WorkUnit};
 use super::worker::{Message, Renderer};
@@ -14,31 +14,31 @@ use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::slice::from_ref;
 use std::time::{Duration, Instant};
 
-/// A picture to be rendered.
+/// A picture to render.
 #[derive(Clone)]
 pub struct Job {
-    /// What is looked at, and from where.
+    /// Scene, kernel and camera.
     pub context: Context,
-    /// How it is seen.
+    /// The view.
     pub integrator: &'static Integrator,
-    /// Which pixel when. Its size is the camera's resolution.
+    /// The order of pixels and samples. Its size is the camera's resolution.
     pub plan: Plan,
 }
 
-/// A tile that has been traced.
+/// A traced tile.
 #[derive(Debug)]
 pub struct TileResult {
-    /// What it shows.
+    /// Its samples.
     pub samples: TileSamples,
-    /// Samples whose colour wasn't finite; they count as black.
+    /// Number of samples whose colour wasn't finite; they count as black.
     pub non_finite: u32,
-    /// Rays traced.
+    /// Number of rays traced.
     pub rays: u32,
-    /// How long it took.
+    /// Time it took.
     pub busy: Duration,
 }
 
-/// A sample whose tracing panicked; its tile stays as it was.
+/// A panic while a sample was traced. Its tile keeps its earlier samples.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 #[error(
     "rendering failed at pixel {},{}, sample {sample}, kernel {kernel}: {message}; \
@@ -46,20 +46,20 @@ pub struct TileResult {
     pixel.x, pixel.y, pixel.x, pixel.y
 )]
 pub struct RenderPanic {
-    /// Where.
+    /// The pixel.
     pub pixel: UVec2,
-    /// Number of the sample in the pixel.
+    /// Index of the sample in the pixel.
     pub sample: u32,
     /// The kernel in use.
     pub kernel: &'static str,
-    /// What the panic said.
+    /// The message of the panic.
     pub message: String,
     /// The camera, as arguments of a command.
     pub camera: String,
 }
 
 impl Job {
-    /// Traces a tile; `None` if `is_stale` said so between two batches of rays.
+    /// Traces a tile; `None` if `is_stale` became true between two batches of rays.
     pub(super) fn trace(
         &self,
         unit: WorkUnit,
@@ -99,7 +99,7 @@ impl Job {
                 batch.add(pixel, sample);
                 rays += 1;
                 if batch.rays.len() == RAYS_AT_ONCE {
-                    // A relaxed load costs nothing beside rays, and rays may be slow.
+                    // A relaxed load is cheap compared with a ray, and rays may be slow.
                     if is_stale() {
                         return None;
                     }
@@ -120,24 +120,23 @@ impl Job {
     }
 }
 
-/// Rays that are traced in one call: two packets. More gains nothing, and whoever wants a tile given up waits
-/// for them.
+/// Rays traced in one call: two packets. More gains no speed and delays cancellation.
 const RAYS_AT_ONCE: usize = 2 * PACKET;
 
-/// Rays that wait to be traced, and what the pixels of their tile have come to so far.
+/// Rays collected for one call, and the sums of their tile's pixels.
 struct SampleBatch<'a> {
     job: &'a Job,
-    /// What is being traced, should it panic.
+    /// The sample being traced, for the message if it panics.
     at: &'a Cell<(UVec2, u32)>,
     rays: Vec<Ray>,
-    /// The index of the pixel's sum, the pixel, and the sample.
+    /// Index of the pixel's sum, the pixel, and the index of the sample.
     places: Vec<(usize, UVec2, u32)>,
     sums: Vec<FixedRgb>,
     non_finite: u32,
 }
 
 impl SampleBatch<'_> {
-    /// Adds a sample of the last pixel.
+    /// Adds a sample to the last pixel.
     fn add(&mut self, pixel: UVec2, sample: u32) {
         self.at.set((pixel, sample));
         let place = Plan::position(pixel, sample);
@@ -151,7 +150,7 @@ impl SampleBatch<'_> {
         let hits = &mut hits[..self.rays.len()];
         let together = || integrator.first_hits(context, &self.rays, hits);
         if let Err(panic) = catch_unwind(AssertUnwindSafe(together)) {
-            // Which of them was it? Unless none is by itself, this panics in its turn.
+            // Trace the rays one by one to find the sample that panics.
             for (ray, &(_, pixel, sample)) in self.rays.iter().zip(&self.places) {
                 self.at.set((pixel, sample));
                 integrator.first_hits(context, from_ref(ray), &mut [None]);
@@ -188,7 +187,7 @@ pub fn render(job: Job, threads: usize) -> Result<Film, RenderPanic> {
     Ok(film)
 }
 
-/// The camera as the command line takes it, in the file's coordinates.
+/// The camera as arguments of a command, in the file's coordinates.
 fn camera_arguments(context: &Context) -> String {
     let camera = &context.camera;
     let list = |v: DVec3| format!("{},{},{}", v.x, v.y, v.z);

@@ -1,8 +1,8 @@
-//! Which pixel is traced when, and by which thread?
+//! Progressive rendering on several threads.
 //!
-//! A [`Job`] says what to render; [`Renderer`] has threads that take its tiles one after the other
-//! and send them back over a bounded channel. Posting a job makes the one before stale: its threads
-//! notice within a pixel, and what still arrives is dropped.
+//! A [`Job`] describes what to render. The threads of a [`Renderer`] trace its tiles in order and return
+//! them through a bounded channel. Posting a job makes the previous one stale: threads notice between two
+//! batches of rays, and results of the stale job are dropped.
 
 mod job;
 pub mod plan;

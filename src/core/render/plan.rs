@@ -1,7 +1,7 @@
-//! Which pixel is traced when?
+//! The order in which pixels and samples are traced.
 //!
-//! First one pixel of each block, then of smaller blocks, until every pixel has its centre sample;
-//! then passes that double the samples. No sample is taken twice.
+//! The first pass traces one pixel per block, the following ones use smaller blocks until every pixel has its
+//! centre sample; later passes double the number of samples. No sample is traced twice.
 //!
 //! ```text
 //! step 4          step 2          step 1
@@ -16,32 +16,32 @@ use glam::{UVec2, Vec2};
 use crate::film::PixelRect;
 use crate::sampler::sample_position;
 
-/// Width and height of a tile in pixels; every block size divides it.
+/// Width and height of a tile in pixels; a multiple of every block size.
 pub const TILE_PX: u32 = 48;
-/// The block sizes that a first pass can have.
+/// Block sizes, in pixels.
 pub const STEPS: [u32; 8] = [1, 2, 3, 4, 6, 8, 12, 16];
-/// Most samples a pixel that the film can sum up.
+/// Maximum number of samples per pixel, which the film's sums can hold.
 pub const MAX_SAMPLES: u32 = 4096;
 
-/// What is traced in one go over the picture.
+/// One pass over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Pass {
-    /// One pixel of each block of `step` × `step`, unless it was traced before.
+    /// One pixel of each block of `step` × `step` pixels, unless an earlier pass traced it.
     Lattice {
         /// Block size in pixels.
         step: u32,
     },
     /// The samples `first..first + count` of every pixel.
     Samples {
-        /// Number of the first one.
+        /// Index of the first sample.
         first: u32,
-        /// How many.
+        /// Number of samples.
         count: u32,
     },
 }
 
 impl Pass {
-    /// Samples that each of its pixels gets.
+    /// Number of samples that the pass adds to each of its pixels.
     pub fn samples_per_pixel(self) -> u32 {
         match self {
             Self::Lattice { .. } => 1,
@@ -49,7 +49,7 @@ impl Pass {
         }
     }
 
-    /// Numbers of the samples that each of its pixels gets.
+    /// Indices of the samples that the pass adds to each of its pixels.
     pub fn samples(self) -> std::ops::Range<u32> {
         match self {
             Self::Lattice { .. } => 0..1,
@@ -58,12 +58,12 @@ impl Pass {
     }
 }
 
-/// A piece of work: one tile of one pass.
+/// A unit of work: one tile of one pass.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct WorkUnit {
     /// Index of the pass.
     pub pass: usize,
-    /// Index of the tile, row by row.
+    /// Index of the tile, in rows from the top left.
     pub tile: usize,
 }
 
@@ -75,9 +75,9 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// A plan for a picture of `size`, whose first pass traces a pixel in each block of
-    /// `first_step` (rounded up to one of [`STEPS`]), and which ends with at least `samples` a pixel
-    /// (rounded up to a power of two, at most [`MAX_SAMPLES`]).
+    /// A plan for a picture of `size` pixels. The first pass uses blocks of `first_step` pixels, rounded up to one
+    /// of [`STEPS`]. The last one ends with `samples` per pixel, rounded up to a power of two and limited to
+    /// [`MAX_SAMPLES`].
     pub fn new(size: UVec2, first_step: u32, samples: u32) -> Self {
         let last = STEPS[STEPS.len() - 1];
         let mut step = STEPS.into_iter().find(|&s| s >= first_step).unwrap_or(last);
@@ -103,27 +103,27 @@ impl Plan {
         self.size
     }
 
-    /// How many passes there are.
+    /// Number of passes.
     pub fn pass_count(&self) -> usize {
         self.passes.len()
     }
 
-    /// A pass.
+    /// The pass of this index.
     pub fn pass(&self, index: usize) -> Pass {
         self.passes[index]
     }
 
-    /// Tiles in a pass.
+    /// Number of tiles per pass.
     pub fn tile_count(&self) -> usize {
         self.tiles().element_product() as usize
     }
 
-    /// Pieces of work in all.
+    /// Number of work units in all passes.
     pub fn unit_count(&self) -> usize {
         self.tile_count() * self.pass_count()
     }
 
-    /// A piece of work, in the order in which they are done.
+    /// The work unit of this index; units are traced in this order.
     pub fn unit(&self, index: usize) -> WorkUnit {
         WorkUnit {
             pass: index / self.tile_count(),
@@ -131,7 +131,7 @@ impl Plan {
         }
     }
 
-    /// Samples that every pixel has after so many passes.
+    /// Samples per pixel after `passes_done` passes.
     pub fn samples_after(&self, passes_done: usize) -> u32 {
         match passes_done.checked_sub(1).map(|last| self.passes[last]) {
             Some(Pass::Samples { first, count }) => first + count,
@@ -140,7 +140,7 @@ impl Plan {
         }
     }
 
-    /// The pixels of a tile.
+    /// The rectangle of a tile.
     pub fn tile_rect(&self, tile: usize) -> PixelRect {
         let across = self.tiles().x;
         let min = UVec2::new(tile as u32 % across, tile as u32 / across) * TILE_PX;
@@ -150,7 +150,7 @@ impl Plan {
         }
     }
 
-    /// The pixels that a piece of work traces, in blocks of 4 × 4: rays of neighbours go together.
+    /// The pixels that a work unit traces, in blocks of 4 × 4, so that neighbouring rays are traced together.
     pub fn pixels(&self, unit: WorkUnit) -> impl Iterator<Item = UVec2> + '_ {
         const BLOCK: u32 = 4;
         let rect = self.tile_rect(unit.tile);
@@ -175,12 +175,12 @@ impl Plan {
             .filter(move |&pixel| !coarser.iter().any(|&pass| self.lattice_holds(pass, pixel)))
     }
 
-    /// The place of a sample in its pixel.
+    /// Position of a sample in its pixel.
     pub fn position(pixel: UVec2, sample: u32) -> Vec2 {
         sample_position(pixel, sample)
     }
 
-    /// The pixel that stands for the block around `pixel`: its middle, if that is in the picture.
+    /// The pixel that represents the block around `pixel`: its centre, clamped to the picture.
     fn representative(&self, pixel: UVec2, step: u32) -> UVec2 {
         (pixel / step * step + step / 2).min(self.size - 1)
     }
@@ -239,7 +239,7 @@ mod tests {
     }
 
     #[test]
-    fn samples_double_up_to_what_was_asked_for() {
+    fn samples_double_up_to_the_requested_number() {
         let plan = Plan::new(UVec2::splat(10), 1, 16);
         let samples: Vec<u32> = (0..=plan.pass_count())
             .map(|k| plan.samples_after(k))

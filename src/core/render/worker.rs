@@ -1,4 +1,4 @@
-//! The threads that render.
+//! The rendering threads.
 
 use super::job::{Job, RenderPanic, TileResult};
 use super::plan::WorkUnit;
@@ -8,14 +8,14 @@ use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
 use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
-/// Tiles that wait to be collected before the threads wait, too: a pass over 1280 × 720 and more.
+/// Capacity of the channel in tiles: more than one pass over 1280 × 720.
 const CHANNEL_TILES: usize = 512;
-/// Between two calls of `wake` within a pass.
+/// Minimum time between two calls of `wake` within a pass.
 const WAKE_INTERVAL: Duration = Duration::from_millis(30);
-/// The same in the first pass: if it takes so long, a part of it is better than nothing.
+/// The same in the first pass, which is shown as a whole unless it takes longer than this.
 const FIRST_PASS_WAKE_INTERVAL: Duration = Duration::from_millis(100);
 
-/// What a thread sends.
+/// A message from a rendering thread.
 #[derive(Debug)]
 pub enum Message {
     /// A tile of the newest job.
@@ -24,7 +24,7 @@ pub enum Message {
     Panicked(WorkUnit, RenderPanic),
 }
 
-/// The job that the threads work on, and the next tile of it.
+/// The current job and its next tile.
 struct PostedJob {
     job: Job,
     generation: u64,
@@ -33,8 +33,7 @@ struct PostedJob {
 }
 
 impl PostedJob {
-    /// Counts a message, and tells whether it is time to wake whoever collects them: a pass is
-    /// complete, or some time has gone by.
+    /// Counts a message, and returns whether to call `wake`: a pass is complete, or enough time has passed.
     fn is_time_to_wake(&self, last_wake: &mut Instant) -> bool {
         let sent = self.sent.fetch_add(1, Relaxed) + 1;
         let tiles = self.job.plan.tile_count();
@@ -65,21 +64,21 @@ struct State {
 struct Shared {
     state: Mutex<State>,
     changed: Condvar,
-    /// The newest job's; 0 at the end, which makes whatever is being traced stale.
+    /// Generation of the newest job; 0 at the end, which makes every job stale.
     generation: AtomicU64,
 }
 
 impl Shared {
     fn state(&self) -> MutexGuard<'_, State> {
-        // Nothing panics while it holds the lock; if it did, the state would still be whole.
+        // Nothing panics while it holds the lock, and the state would stay consistent if it did.
         self.state.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 
-/// Threads that render the job posted last. Dropping it ends them within a batch of rays.
+/// Threads that render the newest job. Dropping it ends them within one batch of rays.
 pub struct Renderer {
     shared: Arc<Shared>,
-    /// `None` only while it is dropped.
+    /// `None` only while the renderer is dropped.
     messages: Option<Receiver<(u64, Message)>>,
     threads: Vec<JoinHandle<()>>,
     generation: u64,
@@ -113,12 +112,12 @@ impl Renderer {
         }
     }
 
-    /// How many threads there are.
+    /// Number of threads.
     pub fn thread_count(&self) -> usize {
         self.threads.len()
     }
 
-    /// Renders this from now on, and nothing else.
+    /// Replaces the current job.
     pub fn post(&mut self, job: Job) {
         self.generation += 1;
         let mut state = self.shared.state();
@@ -132,33 +131,33 @@ impl Renderer {
         self.shared.changed.notify_all();
     }
 
-    /// Drops the job: what is being traced is given up within a batch of rays.
+    /// Drops the job; threads stop within one batch of rays.
     pub fn cancel(&mut self) {
         self.generation += 1;
         self.shared.state().posted = None;
         self.shared.generation.store(self.generation, Relaxed);
     }
 
-    /// Stops after the first, coarse pass, or after the tiles that are being traced. No work is
-    /// lost, and jobs posted while paused still get their first pass: the picture follows the camera.
+    /// Stops after the current tiles, but not before the first, coarse pass is complete. No work is lost. Jobs
+    /// posted while paused still get their first pass, so the picture follows the camera.
     pub fn pause(&mut self) {
         self.shared.state().is_paused = true;
     }
 
-    /// Goes on where [`pause`](Self::pause) stopped.
+    /// Continues where [`pause`](Self::pause) stopped.
     pub fn resume(&mut self) {
         self.shared.state().is_paused = false;
         self.shared.changed.notify_all();
     }
 
-    /// A message that is there, of the newest job. Never waits.
+    /// The next message of the newest job that has arrived already. Never waits.
     pub fn try_next(&self) -> Option<Message> {
         let messages = self.messages.as_ref()?;
         let newest = |(generation, message)| (generation == self.generation).then_some(message);
         messages.try_iter().find_map(newest)
     }
 
-    /// The next message of the newest job. Waits for it, so call it only while there is work left.
+    /// The next message of the newest job. Blocks until it arrives; call it only while there is work left.
     pub fn wait_next(&self) -> Message {
         let messages = self.messages.iter().flatten();
         let newest = |(generation, message)| (generation == self.generation).then_some(message);
@@ -174,10 +173,10 @@ impl Drop for Renderer {
         self.shared.state().is_ending = true;
         self.shared.generation.store(0, Relaxed);
         self.shared.changed.notify_all();
-        // A thread that waits for room in the channel now gets an error instead, and ends.
+        // A thread that waits for room in the channel now receives an error and ends.
         self.messages = None;
         for thread in self.threads.drain(..) {
-            // A panic outside of tracing has already been printed by the thread.
+            // The thread has already printed its panic.
             _ = thread.join();
         }
     }
@@ -220,7 +219,7 @@ fn work(shared: &Shared, sender: &SyncSender<(u64, Message)>, wake: &(dyn Fn() +
     }
 }
 
-/// The newest job, once it isn't the one that is done and isn't held up by a pause; `None` at the end.
+/// Waits for a job that is neither finished nor paused; `None` at the end.
 fn wait_for_work(shared: &Shared, done: u64) -> Option<Arc<PostedJob>> {
     let mut state = shared.state();
     loop {

@@ -1,4 +1,4 @@
-//! What is there to be seen?
+//! The scene: mesh, bounds and acceleration structure; loading it from a file.
 
 mod tree;
 
@@ -17,24 +17,24 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 use tree::Tree;
 
-/// How normals vary over a triangle.
+/// Flat or smooth shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Shading {
-    /// One normal a triangle.
+    /// One normal per triangle.
     #[default]
     Flat,
     /// Normals interpolated from the vertices.
     Smooth,
 }
 
-/// A mesh with its tree. Immutable, as far as rays can tell: another scene replaces it.
+/// A mesh with its acceleration structure. No answer to a ray ever changes; a changed file makes another scene.
 #[derive(Debug)]
 pub struct Scene {
     mesh: Arc<TriangleMesh>,
     bounds: Aabb,
     tree: Arc<Tree>,
     crease: Crease,
-    /// Made when smooth shading first asks for it.
+    /// Computed on first use.
     vertex_normals: OnceLock<VertexNormals>,
 }
 
@@ -47,7 +47,7 @@ impl Scene {
         Self::with_options(mesh, SceneOptions::default(), progress)
     }
 
-    /// A scene for speed or for memory, with its first picture soon or at its best.
+    /// Builds the tree over a mesh, optimised as `options` say.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
@@ -66,7 +66,7 @@ impl Scene {
         })
     }
 
-    /// The same triangles and the same tree, with other edges in smooth shading.
+    /// The same mesh and tree with another crease angle for smooth shading.
     #[must_use]
     pub fn with_crease(&self, crease: Crease) -> Self {
         Self {
@@ -78,12 +78,12 @@ impl Scene {
         }
     }
 
-    /// Where smooth shading has edges.
+    /// Which edges smooth shading keeps sharp.
     pub fn crease(&self) -> Crease {
         self.crease
     }
 
-    /// Only some of a mesh's triangles, in their order, without what is known of their faces.
+    /// A scene of the given triangles of a mesh, in this order, without normals, materials and faces.
     pub fn of_triangles(mesh: &TriangleMesh, triangles: &[u32]) -> Self {
         let corners = triangles
             .iter()
@@ -98,42 +98,41 @@ impl Scene {
         Self::new(mesh, &Progress::default()).expect("nobody cancels")
     }
 
-    /// The triangles.
+    /// The mesh.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
 
-    /// The tree over the triangles' boxes, as it is at present.
+    /// The current tree; [`improve`](Self::improve) may replace it.
     pub fn bvh(&self) -> Arc<Bvh> {
         self.tree.bvh()
     }
 
-    /// Whether no better tree is to come.
+    /// Whether the tree is the final one.
     pub fn has_best_tree(&self) -> bool {
         self.tree.is_best()
     }
 
-    /// Replaces a quick tree by the best one, also under intersectors that were made with the former; what
-    /// rays hit doesn't change by a bit, what they cost does. Where it was replaced already, nothing
-    /// happens; where another thread is at it, this one waits.
+    /// Replaces a quick tree by the best one, also in intersectors that already use it. Hits keep all bits; only
+    /// their cost changes. Does nothing if the tree is the best one; waits if another thread is building it.
     ///
     /// # Errors
-    /// [`Cancelled`] if `progress` was cancelled; another call goes on from there.
+    /// [`Cancelled`] if `progress` was cancelled; another call resumes.
     pub fn improve(&self, progress: &Progress) -> Result<(), Cancelled> {
         self.tree.improve(&self.mesh, progress)
     }
 
-    /// The box around everything, in the mesh's coordinates.
+    /// The bounds of the mesh, in its own coordinates (relative to its origin).
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// How long the tree took that there is at present.
+    /// Time it took to build the current tree.
     pub fn build_time(&self) -> Duration {
         self.tree.build_time()
     }
 
-    /// Normals at the corners, computed at the first call.
+    /// Vertex normals, computed by the first call.
     pub fn vertex_normals(&self) -> &VertexNormals {
         self.vertex_normals
             .get_or_init(|| VertexNormals::of(&self.mesh, self.crease))
@@ -144,7 +143,7 @@ impl Scene {
         self.intersector_at(kernel, SimdLevel::current())
     }
 
-    /// The same, for one of this machine's SIMD levels.
+    /// Packs the scene for a kernel at one of this machine's SIMD levels.
     pub fn intersector_at(
         &self,
         kernel: &'static TriangleKernel,
@@ -154,20 +153,20 @@ impl Scene {
     }
 }
 
-/// A scene from a file, and what is known of the file besides.
+/// A scene and facts about the file that it was loaded from.
 #[derive(Clone, Debug)]
 pub struct LoadedScene {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What was dropped or ignored, for the user to know.
+    /// What was dropped or ignored.
     pub warnings: Vec<Warning>,
-    /// `v` statements in the file.
+    /// Number of `v` statements in the file.
     pub vertex_count: usize,
     /// The largest distance, in a coordinate, between the file's decimals and what is traced.
     pub max_rounding: f64,
-    /// The libraries and textures that were looked for, whether or not they are there.
+    /// Material libraries and textures that the file names, whether or not they exist.
     pub files: Vec<PathBuf>,
-    /// How long reading, parsing and checking took; the tree's time is the scene's.
+    /// Time for reading, parsing and checking; the tree's time is [`Scene::build_time`].
     pub load_time: Duration,
 }
 
@@ -229,14 +228,14 @@ impl LoadedScene {
     }
 }
 
-/// What there is to say of a mesh that is too large or too small for f32 kernels.
+/// The warning for a mesh that is too large or too small for f32 kernels.
 fn size_warning(bounds: Aabb) -> Option<Warning> {
     let size = 2.0 * bounds.radius();
     let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
     (!SAFE_SIZE.contains(&size)).then(|| Warning {
         line: None,
         message: format!(
-            "the mesh is {size:.1e} units large: outside of {least:e} to {most:e} hits may be missed or inaccurate; scale it"
+            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, f32 kernels may miss hits: scale the mesh or use `precise` or `exact`"
         ),
     })
 }
@@ -247,7 +246,7 @@ mod tests {
     use std::io;
 
     #[test]
-    fn a_mesh_too_large_or_too_small_for_f32_kernels_is_warned_of() {
+    fn a_mesh_too_large_or_too_small_for_f32_kernels_has_a_warning() {
         let library = |_: &str| Err(io::ErrorKind::NotFound.into());
         let (path, progress) = (Path::new("x.obj"), Progress::default());
         for (scale, is_warned) in [

@@ -1,4 +1,4 @@
-//! The tree over a scene's triangles, and the better one that takes its place.
+//! The tree over a scene's triangles, and its replacement by a better one.
 
 use crate::bvh::Bvh;
 use crate::intersector::improving::{Current, Improving, WeakCurrent};
@@ -10,26 +10,26 @@ use crate::simd::SimdLevel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 use std::time::{Duration, Instant};
 
-/// Which tree a scene begins with. The answers are the same, bit for bit.
+/// The tree that a scene starts with. Either gives the same hits, bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FirstTree {
-    /// The one that rays take the least time with.
+    /// The tree that is fastest to trace.
     #[default]
     Best,
-    /// For a large mesh one that is there sooner; [`Scene::improve`](crate::Scene::improve) replaces it.
+    /// For a large mesh, one that is built sooner; [`Scene::improve`](crate::Scene::improve) replaces it.
     Quick,
 }
 
-/// What a scene is to be good at.
+/// Options of a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct SceneOptions {
-    /// The first picture soon, or the best tree at once.
+    /// The tree to start with.
     pub first_tree: FirstTree,
-    /// Speed, or memory.
+    /// Whether triangles are packed for speed or for memory.
     pub packing: Packing,
 }
 
-/// Fewer triangles than this have their best tree within 0.1 s on two cores (2026-11).
+/// From this many triangles on, the best tree takes more than 0.1 s on two cores (2026-11).
 const LARGE: usize = 200_000;
 
 #[derive(Clone, Debug)]
@@ -44,12 +44,12 @@ struct Built {
 pub(super) struct Tree {
     built: RwLock<Built>,
     packing: Packing,
-    /// Held by who improves it.
+    /// Held while the better tree is built.
     turn: Mutex<()>,
     waiting: Mutex<Vec<PendingIntersector>>,
 }
 
-/// An intersector made with the first tree.
+/// An intersector that uses the first tree and waits for the better one.
 struct PendingIntersector {
     current: WeakCurrent,
     kernel: &'static TriangleKernel,
@@ -99,7 +99,7 @@ impl Tree {
         built.clone()
     }
 
-    /// Packs a mesh for a kernel, and again once there is a better tree.
+    /// Packs a mesh for a kernel; [`improve`](Self::improve) packs it again.
     pub fn intersector(
         &self,
         mesh: &TriangleMesh,
@@ -114,7 +114,7 @@ impl Tree {
         let current = Current::new(packed);
         let mut waiting = locked(&self.waiting);
         if self.is_best() {
-            // The better tree came meanwhile, and nobody looks at the list any more.
+            // The better tree has arrived meanwhile; the list is no longer read.
             drop(waiting);
             return self.intersector(mesh, kernel, level);
         }
@@ -130,7 +130,7 @@ impl Tree {
     }
 
     pub fn improve(&self, mesh: &TriangleMesh, progress: &Progress) -> Result<(), Cancelled> {
-        // One builds, others wait for it.
+        // One thread builds, the others wait.
         let _turn = locked(&self.turn);
         if !self.is_best() {
             let better = built(mesh, FirstTree::Best, progress)?;
@@ -152,7 +152,7 @@ impl Tree {
     }
 }
 
-/// What a panic left behind is whole: nothing is half written under these locks.
+/// Locks, also after a panic: no data is half written under these locks.
 fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn the_better_tree_answers_where_the_first_one_was_packed() {
+    fn the_better_tree_replaces_the_first_one_in_existing_intersectors() {
         let scene = large();
         let quick = scene.intersector(default_triangle_kernel());
         let ray = Ray::new(Vec3::new(0.1, 0.2, 3.0), -Vec3::Z).expect("a ray");
@@ -207,7 +207,7 @@ mod tests {
     }
 
     #[test]
-    fn a_cancelled_improvement_leaves_the_first_tree_and_can_be_begun_again() {
+    fn a_cancelled_improvement_keeps_the_first_tree_and_can_be_restarted() {
         let scene = large();
         let cancelled = Progress::default();
         cancelled.cancel();
