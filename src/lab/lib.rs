@@ -1,14 +1,14 @@
-//! hitscope's laboratory: exact answers, inspection of single rays, and the commands that need no
-//! window.
+//! The laboratory of hitscope: exact arithmetic, inspection of single rays, measurements, and the commands
+//! that need no window.
 //!
-//! | module | answers |
+//! | module | contents |
 //! |---|---|
-//! | [`oracle`] | what does exact arithmetic say of this ray and this triangle? |
-//! | [`inspection`] | what happens to this ray: every kernel beside the exact answer |
-//! | [`measure`] | what does speed cost in accuracy? |
-//! | [`requirement`] | which tier does a scene require? |
-//! | [`report`] | how is what was measured shown? |
-//! | [`commands`] | what do `render`, `inspect`, `trace`, `info` and `lab` do? |
+//! | [`oracle`] | the exact answer for a ray and a triangle |
+//! | [`inspection`] | one ray: every kernel and the exact answer |
+//! | [`measure`] | measurements of speed and accuracy |
+//! | [`requirement`] | the kernel tier that a scene requires |
+//! | [`report`] | measurements as JSON, HTML and text |
+//! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `lab` and `bench` |
 
 pub mod commands;
 pub mod inspection;

@@ -1,4 +1,4 @@
-//! Do boxes lose what the ray hits? The tree's leaves against the oracle, whatever the kernel.
+//! Measures whether the tree's boxes lose triangles that a ray hits, independently of any kernel.
 
 use super::statistics::{bound_per_million, per_million};
 use crate::oracle;
@@ -10,36 +10,36 @@ use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, scene, soup};
 use hitscope_core::random::Random;
 use serde::Serialize;
 
-/// Boxes of a kind, and rays that touch them.
+/// A kind of boxes, and rays that touch them.
 pub struct BoxCase {
-    /// As `--case` takes it.
+    /// The name, as in `--case`.
     pub name: &'static str,
-    /// For tables.
+    /// The title in tables.
     pub title: &'static str,
-    /// What is difficult about it.
+    /// What makes it difficult.
     pub about: &'static str,
     mesh: fn(&mut Random) -> TriangleMesh,
     ray: fn(&TriangleMesh, &mut Random) -> Option<Ray>,
-    /// How many rays a mesh is good for.
+    /// Rays per mesh.
     rays_per_mesh: u64,
 }
 
-/// One case.
+/// The result of one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct BoxCell {
     /// The case.
     pub case: &'static str,
-    /// Triangles that rays hit, exactly, each a box that must be met.
+    /// Exact hits of rays and triangles; each ray must meet the triangle's box.
     pub n: u64,
-    /// Those in leaves that the ray didn't meet.
+    /// Hits on triangles in leaves that the ray didn't meet.
     pub lost: u64,
-    /// The same, a million.
+    /// The same per million.
     pub lost_per_million: f64,
-    /// What a zero means with a confidence of 95 %, a million.
+    /// The upper bound per million, with 95 % confidence, if the count is zero.
     pub bound_per_million: f64,
 }
 
-/// Every case.
+/// All cases.
 pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-unit",
@@ -52,7 +52,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-size-1e-30",
         title: "size 1e-30",
-        about: "The same, of size 1e-30.",
+        about: "The same with size 1e-30.",
         mesh: |random| triangles(random, DVec3::splat(1e-30), 0.0),
         ray: |mesh, random| aimed(mesh, random, 3e-30),
         rays_per_mesh: 16,
@@ -60,7 +60,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-size-1e30",
         title: "size 1e30",
-        about: "The same, of size 1e30.",
+        about: "The same with size 1e30.",
         mesh: |random| triangles(random, DVec3::splat(1e30), 0.0),
         ray: |mesh, random| aimed(mesh, random, 3e30),
         rays_per_mesh: 16,
@@ -68,7 +68,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-offset-1e5",
         title: "offset 1e5",
-        about: "The same, 1e5 sizes from the world's origin.",
+        about: "The same at an offset of 1e5 sizes from the world origin.",
         mesh: |random| triangles(random, DVec3::ONE, 1e5),
         ray: |mesh, random| aimed(mesh, random, 3.0),
         rays_per_mesh: 16,
@@ -76,7 +76,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-far-1e5",
         title: "far 1e5",
-        about: "The same, the rays from 1e5 sizes away.",
+        about: "The same with rays from 1e5 sizes away.",
         mesh: |random| triangles(random, DVec3::ONE, 0.0),
         ray: |mesh, random| aimed(mesh, random, 1e5),
         rays_per_mesh: 16,
@@ -84,7 +84,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-thin-1e-7",
         title: "thin, 1e-7",
-        about: "Boxes 1e-7 thick.",
+        about: "Boxes with a thickness of 1e-7.",
         mesh: |random| triangles(random, DVec3::new(1.0, 1.0, 1e-7), 0.0),
         ray: |mesh, random| aimed(mesh, random, 3.0),
         rays_per_mesh: 16,
@@ -92,7 +92,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-flat",
         title: "flat",
-        about: "Boxes without thickness.",
+        about: "Boxes with zero thickness.",
         mesh: |random| triangles(random, DVec3::new(1.0, 1.0, 0.0), 0.0),
         ray: |mesh, random| aimed(mesh, random, 3.0),
         rays_per_mesh: 16,
@@ -100,31 +100,31 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-thin-offset-far",
         title: "thin, offset and far",
-        about: "1e-7 thick, 1e5 from the world's origin, seen from 1e4 away.",
+        about: "A thickness of 1e-7, at an offset of 1e5, with rays from 1e4 away.",
         mesh: |random| triangles(random, DVec3::new(1.0, 1.0, 1e-7), 1e5),
         ray: |mesh, random| aimed(mesh, random, 1e4),
         rays_per_mesh: 16,
     },
     BoxCase {
         name: "box-flat-border",
-        title: "a flat grid's border",
-        about: "Axis-aligned rays, zeros of either sign, at a flat grid's edges and corners.",
+        title: "border of a flat grid",
+        about: "Axis-aligned rays, with zeros of either sign, at the edges and corners of a flat grid.",
         mesh: |random| grid(random),
         ray: |mesh, random| at_border(mesh, random),
         rays_per_mesh: 64,
     },
     BoxCase {
         name: "box-in-plane",
-        title: "in a face's plane",
-        about: "Axis-aligned rays in the planes of a cube's faces: they hit its neighbours.",
+        title: "in the plane of a face",
+        about: "Axis-aligned rays in the plane of a cube's face, which hit the neighbouring faces.",
         mesh: |_| cube(2, Placement::UNIT),
         ray: |mesh, random| in_face(mesh, random),
         rays_per_mesh: 4096,
     },
     BoxCase {
         name: "box-lattice",
-        title: "whole numbers",
-        about: "Rays between points of a lattice at the vertices of a cube on it.",
+        title: "integers",
+        about: "Rays from lattice points to the vertices of a cube on the lattice.",
         mesh: |_| cube(4, Placement::UNIT),
         ray: |mesh, random| on_lattice(mesh, random),
         rays_per_mesh: 4096,
@@ -132,7 +132,7 @@ pub static BOX_CASES: &[BoxCase] = &[
     BoxCase {
         name: "box-tiny-slope",
         title: "a slope of 1e-42",
-        about: "Directions with a coordinate whose inverse is infinite, at a flat grid's border.",
+        about: "Directions with a component whose reciprocal overflows, at the border of a flat grid.",
         mesh: |random| grid(random),
         ray: |mesh, random| {
             let ray = at_border(mesh, random)?;
@@ -152,7 +152,7 @@ pub static BOX_CASES: &[BoxCase] = &[
 ];
 
 impl BoxCase {
-    /// Traces rays until the oracle has found `n` hits, or has looked at four times as many.
+    /// Traces rays until the oracle has found `n` hits, but at most 4·`n` rays.
     pub fn measure(&self, n: u64, seed: u64) -> BoxCell {
         let mut random = Random::new(seed);
         let (mut met, mut lost, mut rays) = (0, 0, 0);
@@ -183,16 +183,16 @@ impl BoxCase {
     }
 }
 
-/// A few triangles within a box of this extent, moved.
+/// A few triangles within a box of this extent, translated.
 fn triangles(random: &mut Random, extent: DVec3, offset: f64) -> TriangleMesh {
     let place = DVec3::new(offset, -offset, offset);
     let mut corner = || (place + extent * random.in_cube()).as_vec3();
-    // Several leaves, so that there are boxes below the root's.
+    // Several leaves, so that the tree has boxes below the root.
     let corners: Vec<[Vec3; 3]> = (0..24).map(|_| [corner(), corner(), corner()]).collect();
     soup(&corners)
 }
 
-/// A ray from so many sizes away to a corner or a point on an edge of a triangle.
+/// A ray from `distance` sizes away to a corner of a triangle or a point on one of its edges.
 fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray> {
     if mesh.triangles.is_empty() {
         return None;
@@ -203,7 +203,7 @@ fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray>
     Ray::new(origin, target - origin).ok()
 }
 
-/// A grid across one of the axes, somewhere.
+/// A grid perpendicular to an axis, at a random position.
 fn grid(random: &mut Random) -> TriangleMesh {
     let place = Placement::new(1.0, [0.0, 0.5, 4096.0][random.index(3)]);
     let mut mesh = flat_grid(2, place);
@@ -214,7 +214,7 @@ fn grid(random: &mut Random) -> TriangleMesh {
     mesh
 }
 
-/// Straight at the edge or a corner of a grid, zeros of either sign in the other coordinates.
+/// A perpendicular ray at the edge or a corner of a grid, with zeros of either sign in the other components.
 fn at_border(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     let count = mesh.positions.len();
     let [a, b] = [(); 2].map(|()| mesh.positions[random.index(count)]);
@@ -232,7 +232,7 @@ fn at_border(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     Ray::new(target - dir, dir).ok()
 }
 
-/// Along an axis, in the plane of a face of the cube from 0 to 2.
+/// A ray along an axis in the plane of a face of the cube [0, 2]³.
 fn in_face(_: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     let axis = random.index(3);
     let (x, y) = ((axis + 1) % 3, (axis + 2) % 3);
@@ -246,7 +246,7 @@ fn in_face(_: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     Ray::new(origin, dir).ok()
 }
 
-/// From a half-whole point to a vertex of the cube's surface.
+/// A ray from a half-integer point to a vertex on the cube's surface.
 fn on_lattice(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     let mut half = || 0.5 * (random.index(25) as f32 - 8.0);
     let origin = Vec3::new(half(), half(), half());

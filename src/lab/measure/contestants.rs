@@ -1,21 +1,21 @@
-//! Who is measured: every kernel in the table, and the lecture's programs as they are printed.
+//! What is measured: all kernels, and the programs of the lecture as printed.
 
 use super::lecture;
 use glam::Vec3;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::{Hit, Ray};
 
-/// Something that tells where a ray meets a triangle.
+/// A ray–triangle test to measure.
 #[derive(Clone, Copy)]
 pub enum Contestant {
-    /// A kernel that a user can choose.
+    /// A kernel of the table.
     Kernel(&'static TriangleKernel),
-    /// A program of the lecture, its slips included.
+    /// A program of the lecture, including its mistakes.
     AsPrinted(&'static lecture::AsPrinted),
 }
 
 impl Contestant {
-    /// As tables call it.
+    /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Kernel(kernel) => kernel.info.name,
@@ -23,7 +23,7 @@ impl Contestant {
         }
     }
 
-    /// Its answer. A program of the lecture may answer with numbers that aren't finite.
+    /// Tests a ray and a triangle. A program of the lecture may return numbers that aren't finite.
     pub fn intersect(self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
         match self {
             Self::Kernel(kernel) => kernel.intersect(ray, corners),
@@ -32,7 +32,7 @@ impl Contestant {
     }
 }
 
-/// All of them, the kernels first.
+/// All contestants, kernels first.
 pub fn contestants() -> Vec<Contestant> {
     let kernels = TRIANGLE_KERNELS.iter().map(Contestant::Kernel);
     let programs = lecture::AS_PRINTED.iter().map(Contestant::AsPrinted);

@@ -1,41 +1,41 @@
-//! The lecture's programs as they are printed, slips included: what porting them literally gives.
+//! The programs of the lecture as printed, including their mistakes.
 //!
-//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022. None of this is
-//! used for pictures; the kernels of the same names are the corrected ones.
+//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022. The kernels
+//! of the same names are the corrected versions; these are only measured.
 
 use glam::Vec3;
 use hitscope_core::{Aabb, Hit, Ray};
 
 /// A program of the lecture.
 pub struct AsPrinted {
-    /// As tables call it.
+    /// The name in tables.
     pub name: &'static str,
-    /// For tables.
+    /// The title in tables.
     pub title: &'static str,
-    /// What is wrong with it.
+    /// Its mistakes.
     pub summary: &'static str,
-    /// Where it says that the ray hits.
+    /// The hit that it reports.
     pub intersect: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
 }
 
-/// The three methods.
+/// The three methods of the lecture.
 pub static AS_PRINTED: &[AsPrinted] = &[
     AsPrinted {
         name: "plane-projection as printed",
         title: "Plane and projection, as printed",
-        summary: "Weights of B and C exchanged; t < 1e-6 is no hit; D = A·n cancels away from the origin.",
+        summary: "Swaps the weights of B and C; rejects t < 1e-6; D = A·n cancels far from the origin.",
         intersect: plane_projection,
     },
     AsPrinted {
         name: "parametric as printed",
         title: "Parametric, as printed",
-        summary: "P = α(B − A) + β(C − A) lacks A: right only where A is the origin.",
+        summary: "P = α(B − A) + β(C − A) lacks A, so it is right only if A is the origin.",
         intersect: parametric,
     },
     AsPrinted {
         name: "edge-planes as printed",
         title: "Edge planes, as printed",
-        summary: "One side only; normals are made unit length, a NaN where the origin lies on an edge's line.",
+        summary: "Culls back faces; normalising gives NaN if the ray's origin lies on the line of an edge.",
         intersect: edge_planes,
     },
 ];
@@ -43,7 +43,7 @@ pub static AS_PRINTED: &[AsPrinted] = &[
 /// The lecture's tolerance on t.
 const EPSILON: f32 = 0.000_001;
 
-/// Method (1), the pseudo-code; its missing parenthesis is where it must be.
+/// Method (1), the pseudo-code, with its missing parenthesis added.
 pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     let n = program_normal([a, b, c]);
     let (b, c) = (b - a, c - a);
@@ -71,7 +71,7 @@ pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     if gamma < 0.0 || beta + gamma > 1.0 {
         return None;
     }
-    // Taken for the weights of B and C, in that order, as a reader of HIT(t, beta, gamma) would.
+    // A reader of HIT(t, beta, gamma) takes these as the weights of B and C, in this order.
     Some(Hit {
         t,
         u: beta,
@@ -80,17 +80,17 @@ pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     })
 }
 
-/// The normal of the pseudo-code: c × b, where the slide on normals has (v1 − v0) × (v2 − v0).
+/// The normal of the pseudo-code, c × b. The slide on normals has (v1 − v0) × (v2 − v0), the opposite.
 pub fn program_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
     (c - a).cross(b - a).normalize()
 }
 
-/// Whether a hit passes the slide on precision: there |t| < ε is none.
+/// Whether a hit passes the test of the slide on precision, which rejects |t| < ε.
 pub fn passes_slide(t: f32) -> bool {
     t.abs() >= EPSILON
 }
 
-/// Method (2): P = α(B − A) + β(C − A), solved by least squares.
+/// Method (2): solves P = α(B − A) + β(C − A) by least squares.
 pub fn parametric(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     let (e1, e2) = (b - a, c - a);
     let n = e1.cross(e2);
@@ -111,7 +111,7 @@ pub fn parametric(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     })
 }
 
-/// Method (3); t by the plane, the weights by areas, of which the lecture says nothing.
+/// Method (3). The lecture doesn't define t and the weights; they come from the plane and from areas.
 pub fn edge_planes(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     let o = ray.origin;
     let [a, b, c] = corners.map(|corner| corner - o);
@@ -138,7 +138,7 @@ pub fn edge_planes(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     })
 }
 
-/// The box test of the slides: a miss if t_near > t_far for one pair of planes, each pair by itself.
+/// The box test of the slides: a miss if t_near > t_far for one pair of planes, each pair on its own.
 pub fn meets_box(ray: &Ray, bounds: &Aabb) -> bool {
     (0..3).all(|axis| {
         let to = |plane: Vec3| (plane[axis] - ray.origin[axis]) / ray.dir[axis];

@@ -1,17 +1,17 @@
-//! What does speed cost in accuracy? Every kernel, every extreme, against the oracle.
+//! Measurements of speed and accuracy: all kernels in extreme cases, compared with the oracle.
 //!
-//! | module | answers |
+//! | module | measures |
 //! |---|---|
-//! | [`cases`], [`triangles`] | how wrong is a kernel about one triangle, by how extreme it is? |
-//! | [`meshes`] | does a ray get out of a closed mesh? |
-//! | [`order`] | is the nearest triangle the nearest? |
-//! | [`boxes`] | do the tree's boxes lose what the ray hits? |
-//! | [`spawning`] | does a ray that leaves a surface meet it again? |
-//! | [`speed`], [`workloads`] | how fast is a kernel, on which rays? |
-//! | [`scene`] | all of that for the user's own scene |
-//! | [`lecture`] | the lecture's programs as they are printed |
+//! | [`cases`], [`triangles`] | errors of kernels for single triangles |
+//! | [`meshes`] | rays that leave a closed mesh |
+//! | [`order`] | wrong nearest triangles |
+//! | [`boxes`] | hits that the tree's boxes lose |
+//! | [`spawning`] | rays that hit the surface which they leave |
+//! | [`speed`], [`workloads`] | rays per second |
+//! | [`scene`] | kernels in the user's scene |
+//! | [`lecture`] | the programs of the lecture as printed |
 //!
-//! Everything but speed is the same from run to run and machine to machine, for the same seed.
+//! All results except speed depend only on the seed, not on the run or the machine.
 
 pub mod boxes;
 pub mod cases;
@@ -41,31 +41,31 @@ use std::sync::Arc;
 use std::time::{Duration, Instant};
 use triangles::TriangleCell;
 
-/// How much is measured.
+/// Sizes of the measurements.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Sizes {
-    /// Rays for each case of one triangle.
+    /// Rays per case of single triangles.
     pub triangle_rays: u64,
-    /// Rays for each closed mesh and each kernel that promises to be watertight.
+    /// Rays per closed mesh for each kernel that promises to be watertight.
     pub watertight_rays: u64,
-    /// The same for the other kernels.
+    /// Rays per closed mesh for each other kernel.
     pub leaking_rays: u64,
-    /// Rays for each case of order.
+    /// Rays per case of order.
     pub order_rays: u64,
-    /// Hits for each case of boxes.
+    /// Hits per case of boxes.
     pub box_hits: u64,
-    /// Rays for each case of spawning and each tier's kernel; a tenth for the others.
+    /// Rays per case of spawning for each tier's kernel; a tenth for the others.
     pub spawn_rays: u64,
-    /// Rays for each workload; none: speed isn't measured.
+    /// Rays per workload; 0 skips the measurement of speed.
     pub speed_rays: usize,
-    /// How often they are traced; the middle counts.
+    /// Rounds per workload, of which the median counts.
     pub speed_rounds: usize,
-    /// Quads along an edge of the cube that the sphere for it is blown up from.
+    /// Resolution of the sphere for measuring speed: quads along an edge of the cube that it is made from.
     pub speed_cells: u32,
 }
 
 impl Sizes {
-    /// Half a minute on two cores, a minute on slow ones.
+    /// Takes 30 to 60 seconds on two cores.
     pub const QUICK: Self = Self {
         triangle_rays: 4_000,
         watertight_rays: 40_000,
@@ -78,8 +78,8 @@ impl Sizes {
         speed_cells: 83,
     };
 
-    /// What the bars ask for: 10⁷ rays against single triangles, 10⁸ from inside closed meshes for each
-    /// kernel that promises to be watertight, 10⁶ for each case of spawning.
+    /// 10⁷ rays for single triangles, 10⁸ rays from inside closed meshes for each kernel that promises to be
+    /// watertight, 10⁶ rays per case of spawning.
     pub const FULL: Self = Self {
         triangle_rays: 100_000,
         watertight_rays: 4_200_000,
@@ -100,7 +100,7 @@ impl Sizes {
         }
     }
 
-    /// Kernels that serve no tier are there to be compared: fewer rays will do.
+    /// Kernels without a tier are traced with fewer rays.
     fn leaving_rays(&self, kernel: &TriangleKernel) -> u64 {
         match kernel.info.tier {
             Some(_) => self.spawn_rays,
@@ -109,37 +109,37 @@ impl Sizes {
     }
 }
 
-/// Everything that was measured.
+/// All results.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurements {
-    /// One triangle.
+    /// Single triangles.
     pub triangles: Vec<TriangleCell>,
     /// Closed meshes.
     pub meshes: Vec<MeshCell>,
-    /// The nearest triangle.
+    /// Order of hits.
     pub order: Vec<OrderCell>,
     /// Boxes.
     pub boxes: Vec<BoxCell>,
-    /// Leaving rays.
+    /// Rays that leave a surface.
     pub spawning: Vec<SpawnCell>,
-    /// One row a kernel.
+    /// One row per kernel.
     pub speed: Vec<Speed>,
 }
 
-/// What a case is called, and what it is about.
+/// Name and description of a case.
 #[derive(Clone, Debug, PartialEq, serde::Serialize)]
 pub struct CaseInfo {
-    /// As `--case` takes it.
+    /// The name, as in `--case`.
     pub name: String,
-    /// Which of the measurements it belongs to.
+    /// The measurement that it belongs to.
     pub section: &'static str,
-    /// For tables.
+    /// The title in tables.
     pub title: String,
-    /// What is extreme about it.
+    /// What makes it extreme.
     pub about: String,
 }
 
-/// Every case of every section.
+/// All cases of all measurements.
 pub fn all_cases() -> Vec<CaseInfo> {
     let info = |section, name: &str, title: &str, about: &str| CaseInfo {
         name: name.to_owned(),
@@ -173,14 +173,14 @@ pub fn all_cases() -> Vec<CaseInfo> {
         .collect()
 }
 
-/// A part of the work, and what it is expected to take, in seconds of one thread.
+/// A part of the work, and its expected time in seconds on one thread.
 struct Task {
     seconds: f64,
     run: Box<dyn Fn() -> Measurements + Send + Sync>,
 }
 
 impl Task {
-    /// Measures `n` of something that takes so many seconds each (2026-11).
+    /// A task of `n` items that take `seconds` each (measured 2026-11).
     fn new(
         n: u64,
         seconds_each: f64,
@@ -193,16 +193,16 @@ impl Task {
     }
 }
 
-/// How far a run has come.
+/// Progress of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunProgress {
-    /// Part of the work that is done, 0 to 1.
+    /// Finished part of the work, 0 to 1.
     pub done: f64,
-    /// What is left, by what the work done so far took.
+    /// Estimated time left.
     pub left: Duration,
 }
 
-/// Runs the cases for which `is_wanted` holds; speed only if all are.
+/// Runs the cases for which `is_wanted` holds. Measures speed only if all cases are wanted.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -242,7 +242,7 @@ pub fn run(
     Ok(all)
 }
 
-/// What a run will take on so many threads, by what its parts took on one machine (2026-11).
+/// Expected time of a run on `threads` threads, from times measured on one machine (2026-11).
 pub fn expected(
     sizes: Sizes,
     is_wanted: &(dyn Fn(&str) -> bool + Sync),
@@ -264,7 +264,7 @@ impl Measurements {
     }
 }
 
-/// A case's seed is its own: what else is measured doesn't change it.
+/// The seed of a case, which doesn't depend on the other cases.
 fn seed_of(seed: u64, name: &str) -> u64 {
     let mixed = |seed, byte: u8| mix(seed ^ u64::from(byte));
     name.bytes().fold(mix(seed), mixed)
@@ -347,7 +347,7 @@ fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<S
         .collect()
 }
 
-/// What a contestant's cells come to.
+/// The cells of one contestant.
 pub fn cells_of(
     cells: &[TriangleCell],
     contestant: Contestant,

@@ -1,5 +1,5 @@
-//! Is the nearest triangle the nearest, and are crossings in their order? Small heaps of triangles,
-//! through the tree, against the oracle.
+//! Measures whether kernels find the nearest triangle and order all crossings correctly: small sets of
+//! triangles, traced through the tree, compared with the oracle.
 
 use super::statistics::{bound_per_million, per_million};
 use crate::oracle::{self, Crossing};
@@ -10,13 +10,13 @@ use hitscope_core::random::Random;
 use hitscope_core::{Intersector, Ray};
 use serde::Serialize;
 
-/// A kind of heap, and where its rays go.
+/// A kind of triangle set, and its rays.
 pub struct OrderCase {
-    /// As `--case` takes it.
+    /// The name, as in `--case`.
     pub name: &'static str,
-    /// For tables.
+    /// The title in tables.
     pub title: &'static str,
-    /// What is difficult about it.
+    /// What makes it difficult.
     pub about: &'static str,
     recipe: fn(&mut Random) -> Heap,
 }
@@ -24,35 +24,35 @@ pub struct OrderCase {
 /// Triangles, and a ray's origin and target.
 type Heap = (Vec<[Vec3; 3]>, Vec3, Vec3);
 
-/// One kernel in one case.
+/// The result of one kernel in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct OrderCell {
     /// The case.
     pub case: &'static str,
     /// The kernel.
     pub kernel: &'static str,
-    /// Rays.
+    /// Number of rays.
     pub n: u64,
-    /// Of these, those with two triangles or more at the same t.
+    /// Rays with two or more triangles at the same t.
     pub ties: u64,
-    /// Rays whose nearest triangle is another one than the oracle's, or missing.
+    /// Rays whose nearest triangle differs from the oracle's or is missing.
     pub wrong_nearest: u64,
-    /// The same, a million.
+    /// The same per million.
     pub wrong_nearest_per_million: f64,
-    /// Rays whose crossings aren't the oracle's, in its order, with its ties.
+    /// Rays whose crossings differ from the oracle's in any hit, order or tie.
     pub wrong_crossings: u64,
-    /// The same, a million.
+    /// The same per million.
     pub wrong_crossings_per_million: f64,
-    /// What a zero means with a confidence of 95 %, a million.
+    /// The upper bound per million, with 95 % confidence, if a count is zero.
     pub bound_per_million: f64,
 }
 
-/// Every case.
+/// All cases.
 pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-independent",
         title: "independent",
-        about: "Triangles anywhere.",
+        about: "Random triangles.",
         recipe: |random| {
             let triangles = (0..6).map(|_| [(); 3].map(|()| random.in_cube_f32()));
             let triangles = triangles.collect();
@@ -66,7 +66,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-fan",
         title: "a shared vertex",
-        about: "Six triangles about a vertex at which the ray is aimed.",
+        about: "Six triangles around a vertex that the ray is aimed at.",
         recipe: |random| {
             let tip = random.in_cube_f32();
             let ring = [(); 6].map(|()| random.in_cube_f32());
@@ -77,7 +77,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-edge",
         title: "a shared edge",
-        about: "Four triangles at an edge at which the ray is aimed.",
+        about: "Four triangles at an edge that the ray is aimed at.",
         recipe: |random| {
             let [a, b] = [(); 2].map(|()| random.in_cube_f32());
             let triangles = (0..4).map(|_| [a, b, random.in_cube_f32()]).collect();
@@ -88,7 +88,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-duplicates",
         title: "duplicates",
-        about: "The same triangle several times, its corners in turn.",
+        about: "The same triangle several times, with rotated corners.",
         recipe: |random| {
             let [a, b, c] = [(); 3].map(|()| random.in_cube_f32());
             let triangles = vec![[a, b, c], [b, c, a], [a, b, c], [a, c, b], [c, a, b]];
@@ -103,7 +103,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-coplanar",
         title: "overlapping in a plane",
-        about: "Different triangles in one plane of whole numbers: t is equal, and no float says so.",
+        about: "Different triangles in one plane with integer coordinates: t is equal, though rounding hides it.",
         recipe: |random| {
             let mut whole = || (random.index(129) as i64 - 64) as f32;
             let triangles = (0..6)
@@ -125,7 +125,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-ulp",
         title: "one ulp apart",
-        about: "The same triangle with one coordinate an ulp further each time.",
+        about: "Copies of a triangle, each with one coordinate an ulp further.",
         recipe: |random| {
             let mut corners = [(); 3].map(|()| random.in_cube_f32());
             let middle = corners.iter().sum::<Vec3>() / 3.0;
@@ -144,8 +144,8 @@ pub static ORDER_CASES: &[OrderCase] = &[
     },
     OrderCase {
         name: "order-grid",
-        title: "whole numbers",
-        about: "Triangles with small whole coordinates, a ray from a whole point to a vertex.",
+        title: "integers",
+        about: "Triangles with small integer coordinates; rays from an integer point to a vertex.",
         recipe: |random| {
             let mut whole = || (random.index(9) as i64 - 4) as f32;
             let mut point = || Vec3::new(whole(), whole(), whole());
@@ -156,7 +156,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-stack",
         title: "a far stack",
-        about: "Layers 1e-7 apart, seen from a million sizes away.",
+        about: "Layers at distances of 1e-7, seen from a million sizes away.",
         recipe: |random| {
             let corners = [(); 3].map(|()| random.in_cube_f32());
             let lifted = |k: usize| corners.map(|p| p + Vec3::Z * (1e-7 * k as f32));
@@ -172,7 +172,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
     OrderCase {
         name: "order-mixed",
         title: "mixed exponents",
-        about: "Coordinates from 2 to minus 40 to 2 to 40, each its own.",
+        about: "Coordinates of independent magnitudes from 2^-40 to 2^40.",
         recipe: |random| {
             let mut number = || (random.signed() * 2f64.powi(random.index(81) as i32 - 40)) as f32;
             let mut point = || Vec3::new(number(), number(), number());
@@ -184,7 +184,7 @@ pub static ORDER_CASES: &[OrderCase] = &[
 ];
 
 impl OrderCase {
-    /// Asks every kernel about the same `n` rays.
+    /// Measures all kernels with the same `n` rays.
     pub fn measure(
         &self,
         kernels: &[&'static TriangleKernel],

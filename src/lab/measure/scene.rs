@@ -1,4 +1,4 @@
-//! The user's own scene: what each kernel reaches there, and what it gets wrong.
+//! Speed and errors of every kernel in the user's scene.
 
 use super::speed::{Bench, Speed};
 use super::statistics::{Quantiles, bound_per_million, per_million};
@@ -10,25 +10,25 @@ use hitscope_core::ray::ulp_at;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
 use serde::Serialize;
 
-/// How much of a scene is looked at.
+/// Sizes of the measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneSizes {
-    /// Pixels whose rays are held against the oracle, and as many bounce rays as they have hits.
+    /// Camera rays to compare with the oracle; each hit adds a bounce ray.
     pub checked: usize,
-    /// Rays that are timed for each workload.
+    /// Rays per workload for measuring speed.
     pub timed: usize,
-    /// How often.
+    /// Rounds per workload.
     pub rounds: usize,
 }
 
 impl SceneSizes {
-    /// For the command.
+    /// Sizes for the command line.
     pub const COMMAND: Self = Self {
         checked: 20_000,
         timed: 200_000,
         rounds: 5,
     };
-    /// For the panel, in the background.
+    /// Sizes for the viewer's panel, which measures in the background.
     pub const PANEL: Self = Self {
         checked: 4_000,
         timed: 40_000,
@@ -36,33 +36,33 @@ impl SceneSizes {
     };
 }
 
-/// One kernel in one scene.
+/// The result of one kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneRow {
     /// The kernel.
     pub kernel: &'static str,
-    /// Camera and bounce rays that were held against the oracle.
+    /// Camera and bounce rays compared with the oracle.
     pub n: u64,
-    /// Of these, those that hit, exactly.
+    /// Rays that hit, according to the oracle.
     pub hits: u64,
-    /// Hits that it missed. The oracle is asked about the triangles in boxes that the ray meets: what a box
-    /// lost would be missed by both, which is measured by itself.
+    /// Hits that the kernel missed. The oracle tests the triangles in boxes that the ray meets; [`boxes`](super::boxes)
+    /// measures whether boxes lose hits.
     pub missed: u64,
-    /// Hits that aren't.
+    /// False hits.
     pub false_hits: u64,
-    /// Hits on another triangle than the nearest, or the lowest of those as near.
+    /// Hits on a triangle other than the nearest one with the lowest index.
     pub other_triangle: u64,
-    /// All wrong decisions, a million.
+    /// All wrong decisions per million.
     pub wrong_per_million: f64,
-    /// What a zero means with a confidence of 95 %, a million.
+    /// The upper bound per million, with 95 % confidence, if there are none.
     pub bound_per_million: f64,
-    /// Errors of t on the right triangle, in ulps of f32.
+    /// Errors of t on the right triangle, in f32 ulps.
     pub t_ulps: Option<Quantiles>,
-    /// How fast it is here.
+    /// Its speed in this scene.
     pub speed: Speed,
 }
 
-/// Measures every kernel in a scene, as a camera sees it; hands each row to `each` as soon as it is there.
+/// Measures every kernel in a scene as seen by a camera. Passes each row to `each` once it is measured.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -87,7 +87,7 @@ pub fn measure(
     Ok(())
 }
 
-/// Of the camera's and the bounce rays so many, evenly.
+/// An even selection of camera and bounce rays.
 fn checked_rays(workloads: &Workloads, count: usize) -> Vec<Ray> {
     let evenly = |rays: &[Ray]| {
         let count = count.min(rays.len());
@@ -99,14 +99,14 @@ fn checked_rays(workloads: &Workloads, count: usize) -> Vec<Ray> {
     rays
 }
 
-/// A ray and the oracle's nearest hit.
+/// A ray and its nearest hit according to the oracle.
 struct Answer {
     ray: Ray,
     nearest: Option<(u32, ExactHit)>,
 }
 
 fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answer>, Cancelled> {
-    // Whatever the kernel, the candidates are all that the ray could hit.
+    // The candidates contain every triangle that the ray can hit, whichever the kernel.
     let intersector = scene.intersector(default_triangle_kernel());
     let mut answers = Vec::with_capacity(rays.len());
     for ray in rays {

@@ -1,11 +1,10 @@
-//! Does a ray that leaves a surface meet it again, and how high above it does it begin?
+//! Measures self-hits of rays that leave a surface, and the height at which they start.
 //!
-//! Surfaces, each of which an outgoing ray can't meet again, whatever its size and place: a convex
-//! body, an octahedron turned at random, its corners rounded to f32; a plane of two triangles whose
-//! corners lie in it exactly, whole multiples of a power of two; and a single triangle whose coordinates
-//! have magnitudes from 10⁻⁸ to 10⁸, each its own.
+//! A ray that leaves one of these surfaces can't hit it again: a convex body (a randomly rotated octahedron
+//! with corners rounded to f32); a plane of two triangles whose corners lie in it exactly (multiples of a power
+//! of two); and a single triangle whose coordinates have independent magnitudes from 10⁻⁸ to 10⁸.
 //!
-//! Source of the last: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests
+//! Source of the last one: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests
 //! of its shapes.
 
 use super::statistics::{Quantiles, bound_per_million, per_million};
@@ -18,27 +17,27 @@ use hitscope_core::spawn::{Departure, SPAWN_POLICIES};
 use hitscope_core::{Hit, Intersector, Ray};
 use serde::Serialize;
 
-/// How large a surface is and where it lies.
+/// Size and position of a surface.
 pub struct SpawnCase {
-    /// As `--case` takes it.
+    /// The name, as in `--case`.
     pub name: String,
-    /// For tables.
+    /// The title in tables.
     pub title: String,
-    /// What is extreme about it.
+    /// What makes it extreme.
     pub about: &'static str,
     surfaces: Surfaces,
 }
 
-/// What rays leave.
+/// The surfaces that rays leave.
 #[derive(Clone, Copy)]
 enum Surfaces {
-    /// Octahedra and planes of this size, so many sizes from the world's origin.
+    /// Octahedra and planes of this size at this offset, in sizes, from the world origin.
     Bodies { size: f64, offset: f64 },
-    /// A triangle, every coordinate of a magnitude of its own.
+    /// A triangle with coordinates of independent magnitudes.
     Triangle,
 }
 
-/// One policy and one kernel in one case.
+/// The result of one policy and one kernel in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SpawnCell {
     /// The case.
@@ -47,21 +46,21 @@ pub struct SpawnCell {
     pub policy: &'static str,
     /// The kernel.
     pub kernel: &'static str,
-    /// Rays that left.
+    /// Number of rays.
     pub n: u64,
-    /// Those that met the surface again.
+    /// Rays that hit the surface again.
     pub self_hits: u64,
-    /// The same, a million.
+    /// The same per million.
     pub self_hits_per_million: f64,
-    /// What a zero means with a confidence of 95 %, a million.
+    /// The upper bound per million, with 95 % confidence, if there are none.
     pub bound_per_million: f64,
-    /// The middle height above the triangle at which rays begin, in the surface's sizes.
+    /// Median height of the rays' origins above the triangle, in sizes of the surface.
     pub height_p50: f64,
-    /// The largest.
+    /// The largest height.
     pub height_max: f64,
 }
 
-/// Every case.
+/// All cases.
 pub fn spawn_cases() -> Vec<SpawnCase> {
     let sizes = [1e-3, 1.0, 1e4];
     sizes
@@ -70,20 +69,20 @@ pub fn spawn_cases() -> Vec<SpawnCase> {
             [0.0, 1e2, 1e4, 1e6].map(|offset| SpawnCase {
                 name: format!("spawn-size-{size:e}-offset-{offset:e}"),
                 title: format!("size {size:e}, offset {offset:e}"),
-                about: "An octahedron and a plane of this size, so many sizes from the world's origin.",
+                about: "An octahedron and a plane of this size, at this offset (in sizes) from the world origin.",
                 surfaces: Surfaces::Bodies { size, offset },
             })
         })
         .chain([SpawnCase {
             name: "spawn-exponents-8".to_owned(),
             title: "one triangle, 1e-8 to 1e8".to_owned(),
-            about: "A triangle whose coordinates have magnitudes from 1e-8 to 1e8, each its own.",
+            about: "A triangle whose coordinates have independent magnitudes from 1e-8 to 1e8.",
             surfaces: Surfaces::Triangle,
         }])
         .collect()
 }
 
-/// Rays that one surface is good for.
+/// Rays per surface.
 const RAYS_PER_SURFACE: u64 = 64;
 
 impl SpawnCase {
@@ -163,8 +162,8 @@ impl SpawnCase {
     }
 }
 
-/// Convex also when its corners are rounded, as its faces meet at 109°: but where there are only a
-/// few floats within its size, which the caller notices by the triangles that vanish.
+/// It stays convex when its corners are rounded, as its faces meet at 109°, unless its size spans only a few
+/// floats; the caller detects that by degenerate triangles.
 fn octahedron(place: Placement, random: &mut Random) -> TriangleMesh {
     let x = random.in_cube().normalize_or(DVec3::X);
     let y = x.cross(random.in_cube()).normalize_or(DVec3::Y);
@@ -175,7 +174,7 @@ fn octahedron(place: Placement, random: &mut Random) -> TriangleMesh {
         for (l, y) in [y, -y].into_iter().enumerate() {
             for (m, z) in [z, -z].into_iter().enumerate() {
                 let [a, b, c] = [at(x), at(y), at(z)];
-                // Mirrored as often as an axis is turned round.
+                // An odd number of mirrored axes reverses the winding.
                 triangles.push(if (k + l + m) % 2 == 0 {
                     [a, b, c]
                 } else {
@@ -187,11 +186,10 @@ fn octahedron(place: Placement, random: &mut Random) -> TriangleMesh {
     soup(&triangles)
 }
 
-/// Two triangles of a slanted parallelogram, its corners whole multiples of the last place of the
-/// farthest coordinate.
+/// Two triangles of a slanted parallelogram whose corners are multiples of the ulp of the largest coordinate.
 fn plane(place: Placement, random: &mut Random) -> TriangleMesh {
     let farthest = place.offset.abs().max_element() + 2.0 * place.scale;
-    // The power of two above it, from its bits: a logarithm may differ from machine to machine.
+    // The next power of two, from its bits, because a logarithm may differ between machines.
     let step = f64::from(f32::from_bits(
         (((farthest as f32).to_bits() >> 23) + 1) << 23,
     )) / f64::from(1 << 23);
@@ -203,8 +201,8 @@ fn plane(place: Placement, random: &mut Random) -> TriangleMesh {
     soup(&[[a, b, c], [a, c, d]])
 }
 
-/// A ray that arrives at a triangle's outside, its hit, and where it goes from there; `None` if the kernel
-/// finds no hit so often that it may never.
+/// A ray that arrives at a triangle's outside, its hit, and the direction in which it leaves; `None` if the kernel
+/// keeps finding no hit.
 fn bounce(
     mesh: &TriangleMesh,
     size: f64,
@@ -230,7 +228,7 @@ fn bounce(
         let Some(hit) = intersector.closest_hit(&ray) else {
             continue;
         };
-        // What it hit may be another triangle: it must leave on the side on which it arrived.
+        // The hit may be on another triangle; the ray must leave on the side where it arrived.
         let normal = unit_normal(mesh.corners(hit.primitive));
         let is_outside = normal.dot(ray.dir.as_dvec3()) < 0.0;
         if is_outside && normal.dot(leaving.as_dvec3()) > 0.0 {
@@ -240,13 +238,13 @@ fn bounce(
     None
 }
 
-/// A direction on the normal's side.
+/// A random direction on the side of the normal.
 fn outwards(dir: DVec3, normal: DVec3) -> DVec3 {
     let dir = dir.normalize_or(normal);
     if dir.dot(normal) < 0.0 { -dir } else { dir }
 }
 
-/// How high above the triangle's plane a ray begins, on the side to which it goes.
+/// Height of a ray's origin above the triangle's plane, on the side to which the ray leaves.
 fn height(ray: &Ray, corners: [Vec3; 3], dir: Vec3) -> f64 {
     let normal = unit_normal(corners);
     let side = normal.dot(dir.as_dvec3()).signum();

@@ -1,4 +1,4 @@
-//! How fast is a kernel? In the real traversal, with rays as a renderer has them, and by itself.
+//! Speed of kernels: rays per second through the tree, and nanoseconds per test.
 
 use super::workloads::Workloads;
 use cpu_time::ThreadTime;
@@ -13,50 +13,50 @@ use hitscope_core::{Camera, Intersector, Ray, Scene};
 use serde::Serialize;
 use std::hint::black_box;
 
-/// What one kernel reached.
+/// The speed of one kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Speed {
     /// The kernel.
     #[serde(skip)]
     pub kernel: &'static str,
-    /// What was traced.
+    /// The scene.
     pub mesh: String,
-    /// Millions of rays a second of one thread's CPU time.
+    /// Millions of rays per second of CPU time, on one thread.
     pub mrays_per_s: Rates,
-    /// Time for a ray, the mean over the workloads of its ratio to `fast` in the same round.
+    /// Time per ray relative to `fast` in the same round; the mean over the workloads.
     pub time_relative_to_fast: f64,
-    /// Nanoseconds a triangle, the tree aside.
+    /// Nanoseconds per triangle test, without the tree.
     pub ns_per_test: f64,
-    /// Packed triangles and tree.
+    /// Bytes per triangle for packed triangles and tree.
     pub bytes_per_triangle: f64,
-    /// Triangles narrowed in f64, a million rays; `None` for kernels that don't adapt.
+    /// Triangles decided in f64, per million rays; `None` for kernels that aren't adaptive.
     pub in_f64_per_million: Option<f64>,
-    /// Decisions taken in integers, likewise.
+    /// Decisions in integers, per million rays; `None` for kernels that aren't adaptive.
     pub in_integers_per_million: Option<f64>,
 }
 
-/// One rate a workload.
+/// A rate per workload.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Rates {
-    /// Camera rays through pixels' centres.
+    /// Camera rays through the centres of pixels.
     pub primary: f64,
-    /// Diffuse rays from where those hit; 0 where none does.
+    /// Diffuse rays from the hits of the camera rays; 0 if there are none.
     pub bounce: f64,
-    /// Rays across the scene's sphere.
+    /// Random rays through the scene's bounding sphere.
     pub random: f64,
 }
 
-/// The view that the viewer starts with, 1280×720.
+/// The default camera at 1280×720.
 pub fn default_camera(scene: &Scene) -> Camera {
     let size = UVec2::new(1280, 720);
     Turntable::framing(scene.bounds(), size).camera(size)
 }
 
-/// Measures kernels in one scene, each beside `fast` in the same rounds, so that what else the machine
-/// does meets both alike. Two packed meshes are in memory at a time, not all of them.
+/// Measures kernels in one scene, each in the same rounds as `fast`, so that other load on the machine affects
+/// both. At most two packed meshes are in memory.
 pub struct Bench<'a> {
     scene: &'a Scene,
-    /// What the report calls the scene.
+    /// Title of the scene in the report.
     name: String,
     workloads: &'a Workloads,
     fast: Box<dyn Intersector>,
@@ -65,7 +65,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// Packs the scene for `fast`. The middle of so many rounds counts.
+    /// Packs the scene for `fast`. The median of `rounds` rounds counts.
     pub fn new(scene: &'a Scene, name: String, workloads: &'a Workloads, rounds: usize) -> Self {
         let fast = triangle_kernel("fast").expect("the fast tier is in the table");
         Self {
@@ -78,7 +78,7 @@ impl<'a> Bench<'a> {
         }
     }
 
-    /// How fast a kernel is; `intersector` is the scene packed for it.
+    /// Measures a kernel; `intersector` is the scene packed for it.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
@@ -91,7 +91,7 @@ impl<'a> Bench<'a> {
         let mut rates = [0.0; 3];
         let mut ratios = Vec::new();
         for (rate, rays) in rates.iter_mut().zip(self.workloads) {
-            // Nothing bounces where the camera sees nothing.
+            // There are no bounce rays if the camera sees nothing.
             if rays.is_empty() {
                 continue;
             }
@@ -107,7 +107,7 @@ impl<'a> Bench<'a> {
             *rate = rays.len() as f64 / median(own).max(1e-9) / 1e6;
             ratios.push(median(ratio));
         }
-        // Beside itself it is no slower than that, whatever two measurements of it say.
+        // `fast` relative to itself is 1 by definition, whatever two measurements say.
         let is_fast = kernel.info.name == self.fast.kernel().name;
         let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
         let triangles = self.scene.mesh().triangles.len().max(1) as f64;
@@ -130,7 +130,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Rays that are handed to an intersector in one call: what its level costs to choose then doesn't show.
+/// Rays per call of an intersector, so many that the cost of the call doesn't matter.
 pub const RAYS_AT_ONCE: usize = 64;
 
 fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {
@@ -143,7 +143,7 @@ fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {
     start.elapsed().as_secs_f64()
 }
 
-/// Of a million rays, decisions in f64 and in integers.
+/// Decisions in f64 and in integers per million rays.
 fn adaptive(intersector: &dyn Intersector, workloads: &Workloads) -> Option<[f64; 2]> {
     if !intersector.kernel().promises.is_exact {
         return None;
@@ -159,8 +159,8 @@ fn adaptive(intersector: &dyn Intersector, workloads: &Workloads) -> Option<[f64
     Some([rate(total.in_f64), rate(total.in_integers)])
 }
 
-/// What a test alone is timed on, where no tree is asked: rays against 4096 triangles of size 0.2 in a
-/// cube of size 2, of which one in some hundreds hits.
+/// Data for timing tests without a tree: rays against 4096 triangles of size 0.2 in a cube of size 2. One test in
+/// several hundred is a hit.
 struct TestBench {
     scene: Scene,
     rays: Vec<Ray>,

@@ -1,20 +1,20 @@
-//! What is printed of many measurements.
+//! Quantiles and rates.
 
 use serde::Serialize;
 
-/// The middle, the hundredth from the top, and the largest.
+/// Median, 99th percentile and maximum.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct Quantiles {
-    /// Half are at most this.
+    /// The median.
     pub p50: f64,
-    /// 99 of a hundred are at most this.
+    /// The 99th percentile.
     pub p99: f64,
-    /// The largest.
+    /// The maximum.
     pub max: f64,
 }
 
 impl Quantiles {
-    /// Of finite numbers; `None` of none.
+    /// The quantiles of finite numbers; `None` if there are none.
     pub fn of(mut values: Vec<f64>) -> Option<Self> {
         values.sort_unstable_by(f64::total_cmp);
         let at = |part: f64| values[((values.len() - 1) as f64 * part).ceil() as usize];
@@ -26,19 +26,19 @@ impl Quantiles {
     }
 }
 
-/// So many of n, a million.
+/// `count` of `n` as a rate per million.
 pub fn per_million(count: u64, n: u64) -> f64 {
     count as f64 / (n.max(1) as f64) * 1e6
 }
 
-/// Where none of n failed, the rate a million is below this with a confidence of 95 %: 3/n.
+/// The upper bound per million, with 95 % confidence, if none of `n` failed: 3/n.
 ///
 /// Source: Hanley, Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249(13), 1983.
 pub fn bound_per_million(n: u64) -> f64 {
     per_million(3, n)
 }
 
-/// `0 (< 30)` or `12`: a rate a million, with its bound where it is zero.
+/// A rate per million, such as `12`; with its upper bound if it is zero, such as `0 (<30.0)`.
 pub fn rate_text(count: u64, n: u64) -> String {
     if count == 0 {
         format!("0 (<{})", short(bound_per_million(n)))
@@ -47,7 +47,7 @@ pub fn rate_text(count: u64, n: u64) -> String {
     }
 }
 
-/// Three digits: `0`, `12.3`, `4570`, `1.2e5`.
+/// A number with about three digits, such as `0`, `12.3`, `4570`, `1.2e5`.
 pub fn short(x: f64) -> String {
     let size = x.abs();
     if x == 0.0 {

@@ -1,4 +1,4 @@
-//! How often, and by how much, is a kernel wrong about one triangle?
+//! Errors of kernels for single triangles.
 
 use super::cases::Case;
 use super::contestants::Contestant;
@@ -10,40 +10,40 @@ use hitscope_core::ray::ulp_at;
 use hitscope_core::{Hit, Ray};
 use serde::Serialize;
 
-/// One contestant in one case.
+/// The result of one contestant in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct TriangleCell {
     /// The case.
     pub case: String,
     /// The contestant.
     pub kernel: &'static str,
-    /// Rays.
+    /// Number of rays.
     pub n: u64,
-    /// Of these, those that hit, exactly.
+    /// Rays that hit, according to the oracle.
     pub hits: u64,
-    /// Of these, those that the kernel missed.
+    /// Hits that the kernel missed.
     pub missed: u64,
-    /// Hits that the kernel reported and that aren't.
+    /// False hits.
     pub false_hits: u64,
-    /// Answers with a NaN or an infinity.
+    /// Answers that contain a NaN or an infinity.
     pub non_finite: u64,
-    /// Errors of t where both hit, in ulps of f32.
+    /// Errors of t where both hit, in f32 ulps.
     pub t_ulps: Option<Quantiles>,
-    /// The largest error of a weight of each, likewise.
+    /// The largest error of a barycentric coordinate of each ray, where both hit.
     pub barycentric_error: Option<Quantiles>,
-    /// Where both hit, how far the point by the kernel's weights lies from the point at its t along the ray,
-    /// in units of the largest coordinate of the ray's origin and the corners.
+    /// Distance between the kernel's point by barycentric coordinates and its point by t, where both hit, in units of
+    /// the largest coordinate of the ray's origin and the corners.
     pub gap: Option<Quantiles>,
 }
 
 impl TriangleCell {
-    /// Wrong decisions.
+    /// Number of wrong decisions.
     pub fn wrong(&self) -> u64 {
         self.missed + self.false_hits
     }
 }
 
-/// What has been counted of a contestant so far.
+/// Counts of one contestant.
 #[derive(Default)]
 struct ContestantCounts {
     missed: u64,
@@ -54,15 +54,15 @@ struct ContestantCounts {
     gaps: Vec<f64>,
 }
 
-/// The answer that a hit is held against, rounded once.
+/// The exact answer, rounded once, that hits are compared with.
 struct Answer {
     t: f64,
-    /// What an ulp of f32 is at t.
+    /// The f32 ulp at t.
     ulp: f64,
     barycentric: [f64; 3],
 }
 
-/// Asks every contestant about the same `n` rays.
+/// Measures all contestants with the same `n` rays.
 pub fn measure(case: &Case, contestants: &[Contestant], n: u64, seed: u64) -> Vec<TriangleCell> {
     let mut random = Random::new(seed);
     let mut tallies: Vec<ContestantCounts> = contestants
@@ -77,7 +77,7 @@ pub fn measure(case: &Case, contestants: &[Contestant], n: u64, seed: u64) -> Ve
         for (contestant, tally) in contestants.iter().zip(&mut tallies) {
             let found = contestant.intersect(&ray, corners);
             if let (Some(hit), Some(_)) = (found, &answer) {
-                // Non-finite answers are counted by themselves.
+                // Answers that aren't finite are counted separately.
                 let gap = Some(gap(&ray, corners, &hit));
                 tally.gaps.extend(gap.filter(|gap| gap.is_finite()));
             }

@@ -1,5 +1,4 @@
-//! Which rays is a tracer timed on? As a renderer has them: the camera's, those that bounce off what they hit,
-//! and rays without any order.
+//! Workloads for measuring speed: camera rays, bounce rays and random rays.
 
 use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::kernel::default_triangle_kernel;
@@ -10,17 +9,17 @@ use hitscope_core::{Camera, Intersector, Ray, Scene};
 /// The rays of each workload, in the order of [`WORKLOADS`].
 pub type Workloads = [Vec<Ray>; 3];
 
-/// What the workloads are called.
+/// Names of the workloads.
 pub const WORKLOADS: [&str; 3] = ["primary", "bounce", "random"];
 
-/// Side of the blocks of pixels that camera rays are taken in, in pixels; a power of two.
+/// Side of the blocks of camera rays in pixels; a power of two.
 const BLOCK_PX: u32 = 8;
 
-/// How far above the surface bounce rays start, in diagonals of the scene's box: so far that no kernel's
-/// error reaches it, so that all of them trace the same rays.
+/// Height of the origins of bounce rays above the surface, in diagonals of the scene's box. It exceeds the error of
+/// every kernel, so that all kernels trace the same rays.
 const LIFT: f64 = 1e-5;
 
-/// The workloads of a scene: at most `count` camera rays, what bounces off their hits, and `count` random
+/// The workloads of a scene: at most `count` camera rays, a bounce ray from each of their hits, and `count` random
 /// rays.
 pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> Workloads {
     let mut random = Random::new(seed);
@@ -31,8 +30,8 @@ pub fn workloads(scene: &Scene, camera: &Camera, count: usize, seed: u64) -> Wor
     [primary, bounce, random]
 }
 
-/// Through pixels' centres, block by block in rows, in Morton order within a block. If there are more pixels
-/// than `count`, through every so manieth in both directions.
+/// Camera rays through the centres of pixels, in rows of blocks and in Morton order within a block. If there are
+/// more pixels than `count`, every k-th pixel in both directions.
 fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
     let size = camera.resolution();
     let pixels = u64::from(size.x) * u64::from(size.y);
@@ -52,12 +51,12 @@ fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
         .collect()
 }
 
-/// Bits 0, 2, 4 of a number as bits 0, 1, 2: one coordinate of a place on the Morton curve.
+/// Moves bits 0, 2, 4 … to bits 0, 1, 2 …: one coordinate of a point on the Morton curve.
 fn every_second(k: u32) -> u32 {
     k & 1 | (k >> 2 & 1) << 1 | (k >> 4 & 1) << 2
 }
 
-/// Cosine-distributed about the normal that faces the ray, from each hit.
+/// A ray from each hit, cosine-distributed about the normal that faces the camera ray.
 fn bounce_rays(
     scene: &Scene,
     intersector: &dyn Intersector,
@@ -85,7 +84,7 @@ fn bounce_rays(
     arriving.iter().zip(hits).filter_map(bounce).collect()
 }
 
-/// From the sphere about the scene, its diagonal in radius, through a point of its box.
+/// A ray from a sphere around the scene, whose radius is the diagonal of its box, through a point of the box.
 fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
     let bounds = scene.bounds();
     let centre = bounds.centre().as_dvec3();

@@ -1,11 +1,11 @@
-//! Fractions of integers of any size, and their correct rounding.
+//! Fractions of arbitrary-precision integers, and their correct rounding.
 
 use dashu_int::ops::{BitTest, Gcd, UnsignedAbs};
 use dashu_int::{IBig, UBig};
 use std::cmp::Ordering;
 use std::fmt;
 
-/// An exact number, numerator over positive denominator; not always in lowest terms.
+/// An exact rational number with a positive denominator, not always in lowest terms.
 #[derive(Clone, Debug)]
 pub struct Fraction {
     numerator: IBig,
@@ -34,7 +34,7 @@ impl Fraction {
         Self::new(IBig::from(mantissa), IBig::ONE).map(|fraction| fraction.scaled(exponent))
     }
 
-    /// Times 2^`exponent`.
+    /// The product with 2^`exponent`.
     #[must_use]
     pub fn scaled(self, exponent: i32) -> Self {
         let shift = exponent.unsigned_abs() as usize;
@@ -51,7 +51,7 @@ impl Fraction {
         }
     }
 
-    /// The difference.
+    /// The difference of two fractions.
     #[must_use]
     pub fn minus(&self, other: &Self) -> Self {
         Self {
@@ -60,7 +60,7 @@ impl Fraction {
         }
     }
 
-    /// In lowest terms.
+    /// The same number in lowest terms.
     #[must_use]
     pub fn reduced(&self) -> Self {
         let divisor = IBig::from((&self.numerator).gcd(&self.denominator));
@@ -70,17 +70,17 @@ impl Fraction {
         }
     }
 
-    /// The nearest f64; of two equally near, the even one.
+    /// The nearest f64, ties to even.
     pub fn to_f64(&self) -> f64 {
         self.round(f64::MANTISSA_DIGITS, -1074)
     }
 
-    /// The nearest f32; of two equally near, the even one.
+    /// The nearest f32, ties to even.
     pub fn to_f32(&self) -> f32 {
         self.round(f32::MANTISSA_DIGITS, -149) as f32
     }
 
-    /// Rounds to `digits` binary digits, the last one worth at least 2^`lowest`.
+    /// Rounds to `digits` binary digits, the last of which is worth at least 2^`lowest`.
     fn round(&self, digits: u32, lowest: i64) -> f64 {
         let (size, denominator) = (
             (&self.numerator).unsigned_abs(),
@@ -89,7 +89,7 @@ impl Fraction {
         if size == UBig::ZERO {
             return 0.0;
         }
-        // A quotient of two or three digits more than asked for, and whether something is left.
+        // A quotient with two or three extra digits, and whether there is a remainder.
         let digits = i64::from(digits);
         let shift = digits + 2 - (size.bit_len() as i64 - denominator.bit_len() as i64);
         let (size, denominator) = if shift >= 0 {
@@ -100,7 +100,7 @@ impl Fraction {
         let quotient = &size / &denominator;
         let is_inexact = &quotient * &denominator != size;
 
-        // Drop the superfluous digits, more of them where the number is subnormal.
+        // Drop the extra digits, and more of them if the number is subnormal.
         let drop = (quotient.bit_len() as i64 - digits).max(lowest + shift);
         let quotient = u64::try_from(quotient).expect("at most 56 digits");
         if drop > 60 {
@@ -111,7 +111,7 @@ impl Fraction {
         let is_up = rest > half || (rest == half && (is_inexact || kept & 1 == 1));
         let kept = kept + u64::from(is_up);
 
-        // In two steps, so that neither power of two leaves f64's range.
+        // In two steps, so that neither power of two exceeds the range of f64.
         let exponent = drop - shift;
         let power = |e: i64| 2f64.powi(e.clamp(-1074, 1100) as i32);
         let value = kept as f64 * power(exponent / 2) * power(exponent - exponent / 2);
@@ -145,7 +145,7 @@ impl Ord for Fraction {
 }
 
 impl fmt::Display for Fraction {
-    /// In lowest terms, as `3/4` or `2`.
+    /// In lowest terms, such as `3/4` or `2`.
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         let Self {
             numerator,
@@ -178,7 +178,7 @@ pub(super) fn decode(x: f64) -> Option<(i64, i32)> {
 mod tests {
     use super::*;
 
-    /// Numbers of all magnitudes, subnormals included, by a bijection of 64-bit words.
+    /// Numbers of all magnitudes, including subnormals.
     fn numbers(count: u64) -> impl Iterator<Item = f64> {
         let finite = |i| {
             Some(f64::from_bits(hitscope_core::sampler::mix(i))).filter(|x: &f64| x.is_finite())

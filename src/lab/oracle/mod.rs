@@ -1,4 +1,4 @@
-//! What does exact arithmetic say? Integers of any size; no rounding, no formula of the kernels.
+//! The oracle: exact answers in integers of any size. It doesn't round and shares no formula with the kernels.
 
 mod fraction;
 mod triangle;

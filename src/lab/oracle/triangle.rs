@@ -1,37 +1,37 @@
-//! Where does a ray meet a triangle, exactly?
+//! Exact ray–triangle intersection.
 //!
-//! First the point on the plane, then its weights in two of the three coordinates: no kernel's exact
-//! arithmetic takes this way, so that a wrong sign here or there shows. With e = B − A, f = C − A:
+//! It computes the point on the plane first, then its barycentric coordinates from two of its three
+//! coordinates. No kernel uses this method, so an error in either shows. With e = B − A, f = C − A:
 //!
 //! ```text
 //! n = e×f,  det = d·n,  t = (A − o)·n/det,  p = det·(P − A) = det·(o − A) + (A − o)·n·d
 //! l2 = (p_x·f_y − p_y·f_x)/(det·n_k),  l3 = (e_x·p_y − e_y·p_x)/(det·n_k),  l1 = 1 − l2 − l3
 //! ```
 //!
-//! where k is a coordinate in which n isn't 0, and x and y are the ones after it.
+//! where k is a coordinate in which n isn't 0, and x and y are the two following ones.
 //!
-//! Every f32 is an integer times a power of two, so all of it is integer arithmetic.
+//! Every f32 is an integer times a power of two, so integers suffice.
 
 use super::fraction::{Fraction, decode};
 use dashu_int::IBig;
 use glam::Vec3;
 use hitscope_core::{Ray, TriangleMesh};
 
-/// The exact answer for a ray and a triangle that it hits.
+/// The exact hit of a ray and a triangle.
 #[derive(Clone, Debug)]
 pub struct ExactHit {
-    /// Distance in lengths of the direction.
+    /// Distance, in lengths of the direction.
     pub t: Fraction,
-    /// Weights of the three corners; they add up to 1.
+    /// Barycentric coordinates of the three corners; their sum is 1.
     pub barycentric: [Fraction; 3],
-    /// Whether it lies on an edge or at a corner.
+    /// Whether the hit lies on an edge or at a corner.
     pub is_on_boundary: bool,
 }
 
 /// The hit with `t_min < t < t_max`, or `None`.
 ///
-/// The triangle is closed: its boundary belongs to it. A ray in its plane misses it, and so does any
-/// ray a triangle of zero area. A NaN or an infinity anywhere but in `t_max` is a miss.
+/// The triangle is closed: its boundary belongs to it. A ray in its plane misses it; every ray misses a
+/// triangle of zero area. A NaN or an infinity anywhere except in `t_max` is a miss.
 pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     let places = [ray.origin, corners[0], corners[1], corners[2]];
     let (places, length_exponent) = integers(&places)?;
@@ -59,7 +59,7 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     let l3 = &e[x] * &p_y - &e[y] * &p_x;
     let weights = [&whole - &l2 - &l3, l2, l3];
 
-    // Inside: no weight has the sign opposite to the whole's.
+    // Inside: no weight has the opposite sign of their sum.
     let outside = whole.cmp(&IBig::ZERO).reverse();
     if weights.iter().any(|w| w.cmp(&IBig::ZERO) == outside) {
         return None;
@@ -80,14 +80,14 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     })
 }
 
-/// A place where a ray meets triangles of a mesh: the hit, and which, in the order they were asked.
+/// A crossing of a ray with a mesh: the hit, and its triangles in the order in which they were tested.
 pub type Crossing = (ExactHit, Vec<u32>);
 
-/// What a ray meets of some triangles, nearest first, those at exactly the same t together.
+/// All crossings of a ray with some triangles, nearest first; hits at exactly the same t are one crossing.
 pub fn crossings(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Vec<Crossing> {
     let hit = |&triangle| Some((intersect(ray, mesh.corners(triangle))?, triangle));
     let mut hits: Vec<(ExactHit, u32)> = triangles.iter().filter_map(hit).collect();
-    // Stable: of those at the same t the first stays first.
+    // The sort is stable: triangles at the same t keep their order.
     hits.sort_by(|a, b| a.0.t.cmp(&b.0.t));
     let mut crossings: Vec<Crossing> = Vec::new();
     for (hit, triangle) in hits {
@@ -99,7 +99,7 @@ pub fn crossings(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Vec<Cross
     crossings
 }
 
-/// The nearest of some triangles' hits, and its triangle; of several at the same t the first.
+/// The nearest hit and its triangle; the first triangle of several at the same t.
 pub fn nearest(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Option<(u32, ExactHit)> {
     triangles
         .iter()
@@ -107,7 +107,7 @@ pub fn nearest(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Option<(u32
         .min_by(|a, b| a.1.t.cmp(&b.1.t))
 }
 
-/// The vectors as integers times a common power of two, whose exponent comes second.
+/// The vectors as integers times a common power of two, and its exponent.
 fn integers(vectors: &[Vec3]) -> Option<(Vec<[IBig; 3]>, i32)> {
     let mut decoded = Vec::with_capacity(vectors.len());
     for v in vectors {
@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn what_has_no_answer_is_a_miss() {
+    fn a_ray_or_triangle_that_is_not_finite_is_a_miss() {
         let ray = Ray::new(Vec3::Z, Vec3::NEG_Z).expect("a ray");
         assert!(intersect(&ray, [Vec3::ZERO; 3]).is_none());
         assert!(intersect(&ray, [Vec3::NAN, Vec3::X, Vec3::Y]).is_none());

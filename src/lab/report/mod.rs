@@ -1,4 +1,4 @@
-//! The laboratory's results: as JSON, as a page, as tables of text.
+//! Reports of measurements: JSON, an HTML page and tables of text.
 
 mod text;
 
@@ -11,7 +11,7 @@ use crate::measure::{CaseInfo, Measurements, all_cases, cells_of};
 use hitscope_core::spawn::SPAWN_POLICIES;
 use serde_json::{Value, json};
 
-/// The page, which draws itself from the JSON that is put into it, and what goes where in it.
+/// The page, whose script draws the plots and tables from the embedded JSON, and its placeholders.
 const PAGE: &str = include_str!("page/page.html");
 const STYLE: (&str, &str) = ("/*CSS*/", include_str!("page/page.css"));
 const SCRIPT: (&str, &str) = (
@@ -25,26 +25,26 @@ const SCRIPT: (&str, &str) = (
 );
 const JSON: &str = "/*LAB_JSON*/";
 
-/// How and where it was measured.
+/// Facts about a run.
 #[derive(Clone, Debug, serde::Serialize)]
 pub struct RunInfo {
-    /// hitscope's.
+    /// Version of hitscope.
     pub version: &'static str,
-    /// What was typed.
+    /// The command line.
     pub command: String,
     /// CPU, threads, SIMD level.
     pub machine: String,
-    /// UTC, in seconds, ISO 8601.
+    /// Start, in UTC and ISO 8601, to the second.
     pub started: String,
-    /// How long it took.
+    /// Duration.
     pub seconds: f64,
-    /// What random numbers began with.
+    /// The random seed.
     pub seed: u64,
     /// `quick` or `full`.
     pub size: &'static str,
 }
 
-/// All results, as `lab.json` holds them.
+/// All results as JSON, the contents of `lab.json`.
 pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
     let cases: Vec<CaseInfo> = all_cases()
         .into_iter()
@@ -73,9 +73,9 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
     })
 }
 
-/// The same as a page that needs nothing else.
+/// All results as a self-contained HTML page.
 pub fn to_page(json: &Value) -> String {
-    // Text in a script element ends at the first `</`.
+    // The first `</` would end the script element.
     PAGE.replace(STYLE.0, STYLE.1)
         .replace(SCRIPT.0, SCRIPT.1)
         .replace(JSON, &json.to_string().replace("</", "<\\/"))
@@ -132,7 +132,7 @@ fn triangle_json(cell: &TriangleCell) -> Value {
     json
 }
 
-/// A contestant over all cases of one triangle.
+/// A contestant over all cases of single triangles.
 #[derive(Clone, Copy, Debug, Default, serde::Serialize)]
 struct Accuracy {
     n: u64,
@@ -140,7 +140,7 @@ struct Accuracy {
     missed: u64,
     false_hits: u64,
     wrong_per_million: f64,
-    /// The worst case's.
+    /// The value in the worst case.
     t_ulps_p99: Option<f64>,
     t_ulps_max: Option<f64>,
     barycentric_max: Option<f64>,
@@ -175,7 +175,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_page_holds_its_style_its_script_and_the_data_and_nothing_is_left_to_fill() {
+    fn the_page_contains_style_script_and_data_and_no_placeholder() {
         let about = RunInfo {
             version: "0",
             command: "</script>".to_owned(),

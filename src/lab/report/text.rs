@@ -8,10 +8,10 @@ use hitscope_core::kernel::TRIANGLE_KERNELS;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
-/// Prints what was measured, section by section.
+/// Prints all results, section by section.
 ///
 /// # Errors
-/// What writing gives.
+/// Errors of the writer.
 pub fn print(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_speed(all, out)?;
     print_triangles(all, out)?;
@@ -21,7 +21,7 @@ pub fn print(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_spawning(all, out)
 }
 
-/// Columns as wide as their widest cell, the first two to the left.
+/// Prints columns as wide as their widest cell, the first two left-aligned.
 fn print_table(out: &mut dyn Write, rows: &[Vec<String>]) -> io::Result<()> {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |k: usize| {
@@ -57,7 +57,7 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     };
     writeln!(
         out,
-        "Speed: {}; Mrays/s of one thread's CPU time",
+        "Speed: {}; Mrays/s of CPU time on one thread",
         first.mesh
     )?;
     let mut rows = header(&[
@@ -97,7 +97,7 @@ fn print_triangles(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "One triangle against the oracle; rates a million rays, errors of t in ulps of f32"
+        "Single triangles compared with the oracle; rates per million rays, errors of t in f32 ulps"
     )?;
     let mut rows = header(&[
         "case",
@@ -110,8 +110,8 @@ fn print_triangles(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         "t p50",
         "t p99",
         "t max",
-        "weights p99",
-        "weights max",
+        "barycentric p99",
+        "barycentric max",
         "gap max",
     ]);
     for cell in &all.triangles {
@@ -149,7 +149,7 @@ fn print_meshes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "Closed meshes through the tree, from inside; a million rays"
+        "Rays from inside closed meshes, through the tree; per million rays"
     )?;
     let mut rows = header(&[
         "case",
@@ -203,7 +203,7 @@ fn print_order(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "The nearest of a few triangles, and all crossings in order; a million rays"
+        "The nearest of a few triangles, and the order of all crossings; per million rays"
     )?;
     let mut rows = header(&[
         "case",
@@ -232,7 +232,7 @@ fn print_boxes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "Triangles that the ray hits, exactly, in boxes that it doesn't meet; a million"
+        "Exact hits in boxes that the ray doesn't meet; per million hits"
     )?;
     let mut rows = header(&["case", "", "n", "lost"]);
     for cell in &all.boxes {
@@ -253,7 +253,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "Rays that leave a surface; a million, heights in the surface's sizes"
+        "Rays that leave a surface; per million rays, heights in sizes of the surface"
     )?;
     let mut rows = header(&[
         "case",
@@ -325,7 +325,7 @@ fn name(contestant: Contestant) -> String {
     }
 }
 
-/// `250 · 14`: wrong decisions a million, and the error of t that 99 of a hundred hits don't exceed.
+/// A cell such as `250 · 14`: wrong decisions per million, and the 99th percentile of the error of t in ulps.
 fn cell_text(cell: &TriangleCell) -> String {
     let wrong = short(per_million(cell.wrong(), cell.n));
     match cell.t_ulps {

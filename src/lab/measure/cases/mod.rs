@@ -1,8 +1,8 @@
-//! The extremes: rays and single triangles, case by case.
+//! Extreme cases of a ray and a single triangle.
 //!
-//! Every case is a recipe for a ray's origin and a triangle. The ray is then aimed over the triangle
-//! and a little beyond, or at its edges and corners to the last bit. Only sums, products, quotients and
-//! roots, so that the numbers are the same on every machine.
+//! A case is a recipe for a ray's origin and a triangle. The ray is then aimed at the triangle and slightly
+//! beyond, or exactly at its edges and corners. Recipes use only sums, products, quotients and roots, so the
+//! numbers are the same on every machine.
 
 mod recipes;
 
@@ -10,19 +10,19 @@ use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::random::Random;
 
-/// A row of the matrix.
+/// One case.
 pub struct Case {
-    /// As `--case` takes it.
+    /// The name, as in `--case`.
     pub name: String,
-    /// For tables.
+    /// The title in tables.
     pub title: String,
-    /// What is extreme about it.
+    /// What makes it extreme.
     pub about: &'static str,
-    /// Whether it asks for more than f64's digits: a distance 10¹³ times a size, coordinates 10¹² times
-    /// others, a ray that starts on its triangle or meets it in its plane, or an aim at edges to the last bit.
+    /// Whether f64 doesn't suffice: a distance of 10¹³ sizes, coordinates 10¹² times as large as others, a ray that
+    /// starts on its triangle or lies in its plane, or an exact aim at edges.
     pub is_beyond_f64: bool,
     aim: Aim,
-    /// How long directions are made; as long as the way to the triangle if `None`.
+    /// Length of directions; the distance to the triangle if `None`.
     dir_length: Option<f64>,
     recipe: Recipe,
 }
@@ -30,17 +30,17 @@ pub struct Case {
 /// Makes an origin and a triangle.
 type Recipe = Box<dyn Fn(&mut Random) -> (Vec3, [Vec3; 3]) + Send + Sync>;
 
-/// Where the ray goes.
+/// Where a ray is aimed.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Aim {
-    /// Over the triangle and a tenth beyond.
+    /// At the triangle and a tenth beyond it.
     Spread,
-    /// To edges and corners, exactly as f32 aims, one ulp beside, and a little inside and outside.
+    /// At edges and corners: as exactly as f32 can, one ulp beside, and slightly inside or outside.
     Edges,
 }
 
 impl Case {
-    /// A ray and a triangle; tries again where the numbers leave f32 or the direction is zero.
+    /// Makes a ray and a triangle; retries if a number overflows f32 or the direction is zero.
     pub fn sample(&self, random: &mut Random) -> (Ray, [Vec3; 3]) {
         loop {
             let (origin, corners) = (self.recipe)(random);
@@ -77,7 +77,7 @@ impl Case {
     }
 }
 
-/// Weights over the triangle, blown up by 1.2 about its middle.
+/// Barycentric coordinates over the triangle, scaled by 1.2 about its centroid.
 fn spread_weights(random: &mut Random) -> [f64; 3] {
     let (mut u, mut v) = (random.unit(), random.unit());
     if u + v > 1.0 {
@@ -88,7 +88,7 @@ fn spread_weights(random: &mut Random) -> [f64; 3] {
     [1.0 - u - v, u, v]
 }
 
-/// Weights on an edge, at a corner or near an edge, and by how many ulps the aim is to be off.
+/// Barycentric coordinates on an edge, at a corner or near an edge, and the offset of the aim in ulps.
 fn edge_weights(random: &mut Random) -> ([f64; 3], i32) {
     let start = random.index(3);
     let [a, b, c] = [start, (start + 1) % 3, (start + 2) % 3];
@@ -99,7 +99,7 @@ fn edge_weights(random: &mut Random) -> ([f64; 3], i32) {
         0 | 1 => (weights[a], weights[b]) = (part, 1.0 - part),
         2 | 3 => weights[a] = 1.0,
         _ => {
-            // From a thousandth down to f64's last place, inside or outside.
+            // From 10⁻³ down to the last digit of f64, inside or outside.
             let size = 2f64.powi(-10 - random.index(43) as i32);
             let beside = if random.index(2) == 0 { size } else { -size };
             weights[a] = part * (1.0 - beside);
@@ -115,7 +115,7 @@ fn edge_weights(random: &mut Random) -> ([f64; 3], i32) {
     (weights, ulps)
 }
 
-/// Every case, those aimed at edges after those that aren't.
+/// All cases; those aimed at edges come last.
 pub fn triangle_cases() -> Vec<Case> {
     [Aim::Spread, Aim::Edges]
         .into_iter()

@@ -1,10 +1,10 @@
-//! How to make a ray's origin and a triangle that are extreme.
+//! Recipes for extreme rays and triangles.
 
 use super::{Aim, Case, Recipe};
 use glam::{DVec3, Vec3};
 use hitscope_core::random::Random;
 
-/// A recipe and what it is called.
+/// A recipe with its name.
 pub(super) struct NamedRecipe {
     name: String,
     about: &'static str,
@@ -13,7 +13,7 @@ pub(super) struct NamedRecipe {
 }
 
 impl NamedRecipe {
-    /// The recipe, its ray aimed so.
+    /// The case of this recipe with this aim.
     pub fn case(self, aim: Aim) -> Case {
         let (name, title) = match aim {
             Aim::Spread => (self.name.clone(), self.name),
@@ -27,9 +27,9 @@ impl NamedRecipe {
             "tiny 1e-13",
             "tiny 1e-40",
             "origin on triangle",
-            // Where the differences of coordinates are floats, the aim is exact.
+            // The aim is exact if differences of coordinates are floats.
             "needle",
-            // Some rays start on their triangle.
+            // Some rays start on the triangle.
             "integer grid 4",
             "mixed exponents 20",
             "mixed exponents 60",
@@ -60,20 +60,20 @@ fn named(
     }
 }
 
-/// Three times as far as the triangle is large, both about the origin, times `scale`.
+/// A triangle about the origin and a ray from three sizes away, both scaled by `scale`.
 fn ordinary(random: &mut Random, scale: f64) -> (Vec3, [Vec3; 3]) {
     let mut point = |size: f64| (size * scale * random.in_cube()).as_vec3();
     (point(3.0), [point(1.0), point(1.0), point(1.0)])
 }
 
-/// Every recipe.
+/// All recipes.
 pub(super) fn all() -> Vec<NamedRecipe> {
     let mut all = Vec::new();
     for offset in [0.0, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7] {
         let place = DVec3::new(offset, -offset, offset);
         all.push(named(
             format!("offset {offset:e}"),
-            "A triangle of size 1 so far from the world's origin, at 1e7 with an ulp of 1, so that most collapse; the ray starts three sizes away.",
+            "A triangle of size 1 at this offset from the world origin; the ray starts three sizes away. At 1e7 the ulp is 1, so most triangles degenerate.",
             move |random| {
                 let mut point = |size: f64| (place + size * random.in_cube()).as_vec3();
                 (point(3.0), [point(1.0), point(1.0), point(1.0)])
@@ -85,12 +85,12 @@ pub(super) fn all() -> Vec<NamedRecipe> {
     ] {
         all.push(named(
             format!("scale {scale:e}"),
-            "Triangle and ray scaled together.",
+            "Triangle and ray scaled by this factor.",
             move |random| ordinary(random, scale),
         ));
     }
     for length in [1e-42, 1e-20, 1e-10, 1e10, 1e20] {
-        let about = "A direction of this length; the ray starts within its reach in f32.";
+        let about = "A direction of this length, with an origin so close that t is a float.";
         all.push(NamedRecipe {
             dir_length: Some(length),
             ..named(format!("direction {length:e}"), about, |random| {
@@ -101,7 +101,7 @@ pub(super) fn all() -> Vec<NamedRecipe> {
     for aspect in [1e3, 1e5, 1e6, 1e8, 1e10, 1e12] {
         all.push(named(
             format!("sliver {aspect:e}"),
-            "So many times longer than high, askew in space.",
+            "A triangle of this aspect ratio in a random orientation.",
             move |random| sliver(random, aspect),
         ));
     }
@@ -109,14 +109,14 @@ pub(super) fn all() -> Vec<NamedRecipe> {
         let angle = 1.0 / 10f64.powi(digit);
         all.push(named(
             format!("grazing 1e-{digit}"),
-            "A ray at this angle, in radians, to the triangle's plane.",
+            "A ray at this angle, in radians, to the plane of the triangle.",
             move |random| grazing(random, angle),
         ));
     }
     for distance in [1e3, 1e4, 1e5, 1e6, 1e7, 1e9, 1e12] {
         all.push(named(
             format!("far {distance:e}"),
-            "A ray that starts so many sizes away.",
+            "A ray that starts at this distance, in sizes of the triangle.",
             move |random| {
                 let (_, corners) = ordinary(random, 1.0);
                 ((distance * random.direction()).as_vec3(), corners)
@@ -131,17 +131,17 @@ fn special_recipes() -> Vec<NamedRecipe> {
     let mut all = vec![
         named(
             "in plane",
-            "A ray in the plane of an axis-aligned triangle, which misses it.",
+            "A ray in the plane of an axis-aligned triangle: a miss.",
             in_plane,
         ),
         named(
             "zero area",
-            "Two corners the same, or all on a line; loaded meshes hold none.",
+            "Triangles with equal or collinear corners, which loading removes.",
             zero_area,
         ),
         named(
             "needle",
-            "Three corners on a line along an axis, aimed at: a false hit in pbrt's tests (BadCases).",
+            "Three corners on an axis-parallel line that the ray is aimed at: a false hit in the tests of pbrt (BadCases).",
             needle,
         ),
         named("tiny 2e-4", "Edges of 2e-4 at a distance of 3.", |random| {
@@ -157,7 +157,7 @@ fn special_recipes() -> Vec<NamedRecipe> {
         ),
         named(
             "tiny 1e-40",
-            "Edges that only subnormal numbers hold, at a distance of 1.",
+            "Edges of subnormal length, at a distance of 1.",
             |random| {
                 let (origin, corners) = ordinary(random, 1.0);
                 (origin, corners.map(|p| (p.as_dvec3() * 1e-40).as_vec3()))
@@ -165,7 +165,7 @@ fn special_recipes() -> Vec<NamedRecipe> {
         ),
         named(
             "origin on triangle",
-            "A ray that starts at a corner, on an edge or inside, or an ulp beside.",
+            "A ray that starts at a corner, on an edge, inside the triangle, or an ulp beside.",
             origin_on_triangle,
         ),
     ];
@@ -173,13 +173,13 @@ fn special_recipes() -> Vec<NamedRecipe> {
     all
 }
 
-/// What is special about the numbers themselves.
+/// Recipes with special numbers.
 fn number_recipes() -> Vec<NamedRecipe> {
     let mut all = Vec::new();
     for side in [4, 64, 4096] {
         all.push(named(
             format!("integer grid {side}"),
-            "All coordinates whole numbers up to this: hits on edges and corners are exact.",
+            "Integer coordinates up to this: hits on edges and corners are exact.",
             move |random| {
                 let mut whole = || (random.index(2 * side + 1) as i64 - side as i64) as f32;
                 let mut point = || Vec3::new(whole(), whole(), whole());
@@ -190,7 +190,7 @@ fn number_recipes() -> Vec<NamedRecipe> {
     for range in [20, 60, 126] {
         all.push(named(
             format!("mixed exponents {range}"),
-            "Coordinates from 2 to minus this to 2 to this, each its own.",
+            "Coordinates of independent magnitudes, from 2 to the power of minus this to 2 to the power of this.",
             move |random| {
                 let mut number = || {
                     let exponent = random.index(2 * range + 1) as i32 - range as i32;
