@@ -105,7 +105,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "error-bounded",
         title: "Error-bounded",
         source: "Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, 6.8.6",
-        summary: "Lifted by a bound on the error of the weighted corners, then rounded away from the surface.",
+        summary: "Lifted by a bound on the errors of the point and of the next test, then rounded away from the surface.",
         begin: |departure| RayStart::at(error_bounded(departure)),
     },
     SpawnPolicy {
@@ -209,17 +209,34 @@ fn nvidia(departure: &Departure<'_>) -> Vec3 {
     p + normal * error.dot(normal.abs())
 }
 
-/// Bound on the weighted corners' error: γ(7) of the sum of their sizes.
+/// The point lifted along the normal n by γ(7)·Σ|nᵢ|·(sᵢ + eᵢ), where s bounds the error of the point and e
+/// the error with which the next test sees the plane.
 ///
-/// 1 − u − v is off by 1.5u, which moves the point along the normal n by 1.5u·|n·P|, where |n·P| is at
-/// most Σ|lᵢPᵢ|·|n|; a product and two sums add 3u. The rest is the source's, whose weights err more.
+/// s is the sum of the weighted corners' sizes. 1 − u − v is off by 1.5u, which moves the point along the
+/// normal by 1.5u·|n·P|, where |n·P| is at most Σ|lᵢPᵢ|·|n|; a product and two sums add 3u. The rest is the
+/// source's, whose weights err more.
+///
+/// e is how far the corners lie from the point. A test in f32 moves the corners to the new origin and shears
+/// them along the new ray, which moves each by up to 7u of its distance from the origin (see
+/// `kernel::triangle::exact::filter`): it sees a neighbour in the same plane, as large as this triangle, that
+/// much higher or lower. The source leaves e out, so that a point is not lifted at all where the weighted
+/// corners' coordinates are 0, as on an edge that lies in an axis.
+///
+/// A neighbour many times as large is seen less well; that is left to kernels that decide exactly whether t is
+/// positive.
 fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     const GAMMA_7: f32 = 7.0 * U / (1.0 - 7.0 * U);
-    let corners = departure.weighted_corners();
-    let size: Vec3 = corners.iter().map(|p| p.abs()).sum();
-    let p: Vec3 = corners.into_iter().sum();
+    let weighted = departure.weighted_corners();
+    let size: Vec3 = weighted.iter().map(|p| p.abs()).sum();
+    let p: Vec3 = weighted.into_iter().sum();
+    // Halves, as an extent may leave f32.
+    let half_distances = departure
+        .corners
+        .map(|corner| (0.5 * corner - 0.5 * p).abs());
+    let half_extent = half_distances.into_iter().fold(Vec3::ZERO, Vec3::max);
+    let error = GAMMA_7 * size + 2.0 * GAMMA_7 * half_extent;
     let normal = departure.facing_normal();
-    let offset = normal * (GAMMA_7 * size).dot(normal.abs());
+    let offset = normal * error.dot(normal.abs());
     // The sum is rounded away from the surface.
     let coordinate = |axis: usize| {
         let (x, offset) = (p[axis] + offset[axis], offset[axis]);

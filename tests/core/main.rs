@@ -17,6 +17,9 @@ mod trees;
 // Kernels that promise it: no ray leaves a closed mesh.
 mod watertight;
 
+// A ray that leaves a surface doesn't meet it again.
+mod reintersect;
+
 // What holds for any triangle and ray: scaling, permuting, reversing.
 mod properties;
 // Any file that people have is a mesh or a clear error.

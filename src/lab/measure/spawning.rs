@@ -2,9 +2,10 @@
 //!
 //! A ray that leaves one of these surfaces can't hit it again: a convex body (a randomly rotated octahedron
 //! with corners rounded to f32); a plane of two triangles whose corners lie in it exactly (multiples of a power
-//! of two); and a single triangle whose coordinates have independent magnitudes from 10⁻⁸ to 10⁸.
+//! of two); a single triangle whose coordinates have independent magnitudes from 10⁻⁸ to 10⁸; and a plane around
+//! an edge in an axis, where coordinates are 0, left at small angles.
 //!
-//! Source of the last one: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests
+//! Source of the third one: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests
 //! of its shapes.
 
 use super::statistics::{Quantiles, bound_per_million, per_million};
@@ -35,6 +36,8 @@ enum Surfaces {
     Bodies { size: f64, offset: f64 },
     /// A triangle with coordinates of independent magnitudes.
     Triangle,
+    /// Triangles of one plane around an edge that lies in an axis.
+    AroundAxis,
 }
 
 /// The result of one policy and one kernel in one case.
@@ -79,6 +82,12 @@ pub fn spawn_cases() -> Vec<SpawnCase> {
             about: "A triangle whose coordinates have independent magnitudes from 1e-8 to 1e8.",
             surfaces: Surfaces::Triangle,
         }])
+        .chain([SpawnCase {
+            name: "spawn-axis".to_owned(),
+            title: "an edge in an axis".to_owned(),
+            about: "Coplanar triangles around an edge in an axis, left from that edge, almost along the plane.",
+            surfaces: Surfaces::AroundAxis,
+        }])
         .collect()
 }
 
@@ -101,7 +110,7 @@ impl SpawnCase {
             let scene = scene(mesh);
             let intersector = scene.intersector(kernel);
             for _ in 0..RAYS_PER_SURFACE.min(n - count) {
-                let bounce = bounce(scene.mesh(), size, &*intersector, &mut random);
+                let bounce = self.bounce(scene.mesh(), size, &*intersector, &mut random);
                 let Some((arrived_by, hit, dir)) = bounce else {
                     break;
                 };
@@ -158,8 +167,81 @@ impl SpawnCase {
                 let size = (b - a).abs().max((c - a).abs()).max_element();
                 (soup(&[corners]), size)
             }
+            Surfaces::AroundAxis => around_axis(random),
         }
     }
+
+    /// A ray that arrives at a triangle's outside, its hit, and the direction in which it leaves; `None` if the
+    /// kernel keeps finding no hit.
+    fn bounce(
+        &self,
+        mesh: &TriangleMesh,
+        size: f64,
+        intersector: &dyn Intersector,
+        random: &mut Random,
+    ) -> Option<(Ray, Hit, Vec3)> {
+        for _ in 0..256 {
+            let [a, b, c] = mesh
+                .corners(random.index(mesh.triangles.len()) as u32)
+                .map(Vec3::as_dvec3);
+            let normal = unit_normal([a, b, c].map(|p| p.as_vec3()));
+            let (mut u, mut v) = (random.unit(), random.unit());
+            if u + v > 1.0 {
+                (u, v) = (1.0 - u, 1.0 - v);
+            }
+            let mut leaving = outwards(random.in_cube(), normal);
+            if let Surfaces::AroundAxis = self.surfaces {
+                // The target is on the edge from A to C; the angle to the plane is down to 2⁻²⁴.
+                u = 0.0;
+                let along = leaving - leaving.dot(normal) * normal;
+                leaving = along + 2f64.powi(-(random.index(25) as i32)) * normal;
+            }
+            let target = a + u * (b - a) + v * (c - a);
+            let towards = outwards(random.in_cube(), normal);
+            let origin = (target + 2.0 * size * towards).as_vec3();
+            let leaving = leaving.as_vec3();
+            let Ok(ray) = Ray::new(origin, (target - origin.as_dvec3()).as_vec3()) else {
+                continue;
+            };
+            let Some(hit) = intersector.closest_hit(&ray) else {
+                continue;
+            };
+            // The hit may be on another triangle; the ray must leave on the side where it arrived.
+            let normal = unit_normal(mesh.corners(hit.primitive));
+            let is_outside = normal.dot(ray.dir.as_dvec3()) < 0.0;
+            if is_outside && normal.dot(leaving.as_dvec3()) > 0.0 {
+                return Some((ray, hit, leaving));
+            }
+        }
+        None
+    }
+}
+
+/// Four triangles of a plane around an edge in an axis, and their size. Corners are multiples of a power of two; in
+/// the plane two coordinates are equal, or one is 0.
+fn around_axis(random: &mut Random) -> (TriangleMesh, f64) {
+    let [x, y, z] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]][random.index(3)];
+    let size = 2f64.powi(random.index(21) as i32 - 10);
+    let step = size / 1024.0;
+    let slope = random.index(2) as f64;
+    let mut whole = |from: usize| (from + random.index(1024)) as f64 * step;
+    let at = |across: f64, along: f64| {
+        let mut p = DVec3::ZERO;
+        (p[x], p[y], p[z]) = (across, slope * across, along);
+        p.as_vec3()
+    };
+    let (start, end) = (at(0.0, -whole(1)), at(0.0, whole(1)));
+    let (right, left) = (at(whole(1), whole(0)), at(-whole(1), -whole(0)));
+    let beyond = at(2.0 * size, 0.0);
+    let before = at(-2.0 * size, 0.0);
+    // The edge is the one from A to C, in triangles that are wound alike.
+    let triangles = [
+        [start, right, end],
+        [end, left, start],
+        [start, beyond, right],
+        [end, before, left],
+    ];
+    (soup(&triangles), size)
 }
 
 /// It stays convex when its corners are rounded, as its faces meet at 109°, unless its size spans only a few
@@ -199,43 +281,6 @@ fn plane(place: Placement, random: &mut Random) -> TriangleMesh {
     let (e1, e2) = (edge(), edge());
     let [a, b, c, d] = [a, a + e1, a + e1 + e2, a + e2].map(|p| p.as_vec3());
     soup(&[[a, b, c], [a, c, d]])
-}
-
-/// A ray that arrives at a triangle's outside, its hit, and the direction in which it leaves; `None` if the kernel
-/// keeps finding no hit.
-fn bounce(
-    mesh: &TriangleMesh,
-    size: f64,
-    intersector: &dyn Intersector,
-    random: &mut Random,
-) -> Option<(Ray, Hit, Vec3)> {
-    for _ in 0..256 {
-        let [a, b, c] = mesh
-            .corners(random.index(mesh.triangles.len()) as u32)
-            .map(Vec3::as_dvec3);
-        let normal = unit_normal([a, b, c].map(|p| p.as_vec3()));
-        let (mut u, mut v) = (random.unit(), random.unit());
-        if u + v > 1.0 {
-            (u, v) = (1.0 - u, 1.0 - v);
-        }
-        let target = a + u * (b - a) + v * (c - a);
-        let towards = outwards(random.in_cube(), normal);
-        let origin = (target + 2.0 * size * towards).as_vec3();
-        let leaving = outwards(random.in_cube(), normal).as_vec3();
-        let Ok(ray) = Ray::new(origin, (target - origin.as_dvec3()).as_vec3()) else {
-            continue;
-        };
-        let Some(hit) = intersector.closest_hit(&ray) else {
-            continue;
-        };
-        // The hit may be on another triangle; the ray must leave on the side where it arrived.
-        let normal = unit_normal(mesh.corners(hit.primitive));
-        let is_outside = normal.dot(ray.dir.as_dvec3()) < 0.0;
-        if is_outside && normal.dot(leaving.as_dvec3()) > 0.0 {
-            return Some((ray, hit, leaving));
-        }
-    }
-    None
 }
 
 /// A random direction on the side of the normal.

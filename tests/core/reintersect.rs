@@ -1,0 +1,181 @@
+//! A ray that leaves a surface by the default policy doesn't begin in or below it, nor meet it again.
+
+use glam::{DVec3, Vec3};
+use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, exact_triangle_kernel};
+use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::unit_normal;
+use hitscope_core::random::Random;
+use hitscope_core::spawn::{Departure, default_spawn_policy};
+use hitscope_core::{Hit, Intersector, Ray};
+
+/// Half an ulp of 1 in f32.
+const U: f64 = 1.0 / (1 << 24) as f64;
+
+fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
+    TRIANGLE_KERNELS
+        .iter()
+        .filter(|kernel| kernel.info.promises.is_watertight)
+}
+
+/// The ray that leaves a triangle where the exact kernel's ray from `origin` to `target` hits it.
+fn leaving(corners: [Vec3; 3], origin: Vec3, target: Vec3, dir: Vec3) -> Option<(Ray, Hit)> {
+    let arrived_by = Ray::new(origin, target - origin).ok()?;
+    let hit = exact_triangle_kernel().intersect(&arrived_by, corners)?;
+    let departure = Departure {
+        arrived_by: &arrived_by,
+        hit: &hit,
+        corners,
+        dir,
+    };
+    let ray = default_spawn_policy().spawn(&departure);
+    Some((ray.expect("a finite place and direction"), hit))
+}
+
+#[test]
+fn a_coplanar_neighbour_is_not_hit_from_an_edge_where_coordinates_are_zero() {
+    // Both lie in the plane x = y, and the ray begins on their common edge, where x = y = 0.
+    let left = [
+        Vec3::splat(-1024.0),
+        Vec3::ZERO,
+        Vec3::new(0.0, 0.0, -1024.0),
+    ];
+    let neighbour = [
+        Vec3::ZERO,
+        Vec3::new(1024.0, 1024.0, 0.0),
+        Vec3::new(0.0, 0.0, -1024.0),
+    ];
+    let target = Vec3::new(0.0, 0.0, -661.8242);
+    let dir = Vec3::new(0.166_239_16, 0.166_241_72, 0.971_931_33);
+    let (ray, hit) =
+        leaving(left, Vec3::new(-8.0, 8.0, target.z), target, dir).expect("hit on the edge");
+    assert_eq!(hit.barycentric()[0], 0.0);
+    assert!(ray.origin.y > ray.origin.x, "not lifted: {}", ray.origin);
+    let surface = scene(soup(&[left, neighbour]));
+    for kernel in watertight_kernels() {
+        let found = surface.intersector(kernel).closest_hit(&ray);
+        assert_eq!(found, None, "{}", kernel.info.name);
+    }
+}
+
+/// A triangle of whole numbers times a power of two, some of whose coordinates are 0, often one in all
+/// corners.
+fn with_zeros(random: &mut Random) -> [Vec3; 3] {
+    let zero_axis = random.index(4);
+    let scale = 2f32.powi(random.index(41) as i32 - 20);
+    [(); 3].map(|()| {
+        Vec3::from_array(std::array::from_fn(|axis| {
+            if axis == zero_axis || random.index(4) == 0 {
+                0.0
+            } else {
+                (random.index(2049) as f32 - 1024.0) * scale
+            }
+        }))
+    })
+}
+
+#[test]
+fn a_ray_begins_above_the_computed_point_by_the_bound_that_the_policy_derives() {
+    let mut random = Random::new(7);
+    let mut count = 0;
+    while count < 20_000 {
+        let corners = if count % 2 == 0 {
+            with_zeros(&mut random)
+        } else {
+            [(); 3].map(|()| random.in_cube_f32() + random.in_cube_f32() * 100.0)
+        };
+        let normal = unit_normal(corners);
+        // Inside, on an edge, in a corner.
+        let mut weights = [random.unit(), random.unit(), random.unit()];
+        weights[random.index(3)] *= random.index(2) as f64;
+        weights[random.index(3)] *= random.index(2) as f64;
+        let sum: f64 = weights.iter().sum();
+        if sum == 0.0 || normal == DVec3::ZERO {
+            continue;
+        }
+        let [a, b, c] = corners;
+        let hit = Hit {
+            t: 1.0,
+            u: (weights[1] / sum) as f32,
+            v: (weights[2] / sum) as f32,
+            primitive: 0,
+        };
+        let dir = random.direction().as_vec3();
+        let side = if normal.dot(dir.as_dvec3()) < 0.0 {
+            -normal
+        } else {
+            normal
+        };
+        let departure = Departure {
+            arrived_by: &Ray::new(a + dir, -dir).expect("a ray"),
+            hit: &hit,
+            corners,
+            dir,
+        };
+        let ray = default_spawn_policy().spawn(&departure).expect("a ray");
+        let [l1, l2, l3] = hit.barycentric();
+        let [a, b, c] = [l1 * a, l2 * b, l3 * c];
+        let p = a + b + c;
+        let size = a.abs() + b.abs() + c.abs();
+        let extent = corners.map(|corner| (corner.as_dvec3() - p.as_dvec3()).abs());
+        let extent = extent.into_iter().fold(DVec3::ZERO, DVec3::max);
+        let height = side.dot(ray.origin.as_dvec3() - p.as_dvec3());
+        // The lift itself takes some ten operations in f32, which lose 10u of it at most.
+        let least = 7.0 * U * (size.as_dvec3() + extent).dot(normal.abs()) * (1.0 - 10.0 * U);
+        assert!(
+            height >= least && least > 0.0,
+            "{height:e} {least:e} {corners:?} {hit:?} {dir}"
+        );
+        count += 1;
+    }
+}
+
+/// Triangles of the plane in which two coordinates are equal around an edge in the third one's axis.
+fn around_axis(random: &mut Random) -> (Vec<[Vec3; 3]>, impl Fn(f32, f32, f32) -> Vec3 + use<>) {
+    let axes = [[0, 1, 2], [1, 2, 0], [2, 0, 1]][random.index(3)];
+    let step = 2f32.powi(random.index(21) as i32 - 20);
+    let at = move |x: f32, y: f32, z: f32| {
+        let mut p = Vec3::ZERO;
+        for (axis, coordinate) in axes.into_iter().zip([x, y, z]) {
+            p[axis] = coordinate * step;
+        }
+        p
+    };
+    let mut whole = || (1 + random.index(1024)) as f32;
+    let (start, end) = (at(0.0, 0.0, -whole()), at(0.0, 0.0, whole()));
+    let (r, l) = (whole(), whole());
+    let (right, left) = (at(r, r, whole()), at(-l, -l, -whole()));
+    (vec![[start, right, end], [end, left, start]], at)
+}
+
+#[test]
+fn rays_almost_along_a_plane_do_not_meet_it_again_from_an_edge_in_an_axis() {
+    let mut random = Random::new(3);
+    let mut count = 0;
+    while count < 4000 {
+        let (triangles, at) = around_axis(&mut random);
+        let surface = scene(soup(&triangles));
+        let intersectors: Vec<_> = watertight_kernels()
+            .map(|kernel| surface.intersector(kernel))
+            .collect();
+        for _ in 0..20 {
+            let [start, _, end] = triangles[0];
+            let target = start + (random.unit() as f32) * (end - start);
+            // Up by down to 2⁻²⁴ of the way.
+            let (along, across) = (random.signed() as f32, random.signed() as f32);
+            let up = 2f32.powi(-(random.index(25) as i32));
+            let dir = at(across - up, across + up, along);
+            let from = at(-64.0, 64.0, 0.0) + target;
+            let Some((ray, _)) = leaving(triangles[0], from, target, dir) else {
+                continue;
+            };
+            for intersector in &intersectors {
+                assert!(
+                    !intersector.any_hit(&ray),
+                    "{} {ray:?} {triangles:?}",
+                    intersector.kernel().name
+                );
+            }
+            count += 1;
+        }
+    }
+}
