@@ -209,21 +209,21 @@ fn nvidia(departure: &Departure<'_>) -> Vec3 {
     p + normal * error.dot(normal.abs())
 }
 
-/// The point lifted along the normal n by γ(7)·Σ|nᵢ|·(sᵢ + eᵢ), where s bounds the error of the point and e
-/// the error with which the next test sees the plane.
+/// The point lifted along the normal n by γ(7)·Σ|nᵢ|·(sᵢ + e), where s bounds the error of the point and e the
+/// error with which the next test sees the plane.
 ///
 /// s is the sum of the weighted corners' sizes. 1 − u − v is off by 1.5u, which moves the point along the
 /// normal by 1.5u·|n·P|, where |n·P| is at most Σ|lᵢPᵢ|·|n|; a product and two sums add 3u. The rest is the
 /// source's, whose weights err more.
 ///
-/// e is how far the corners lie from the point. A test in f32 moves the corners to the new origin and shears
-/// them along the new ray, which moves each by up to 7u of its distance from the origin (see
+/// e is the largest coordinate of a corner as seen from the point. A test in f32 moves the corners to the new
+/// origin and shears them along the new ray, which moves each coordinate by up to 7u·e (see
 /// `kernel::triangle::exact::filter`): it sees a neighbour in the same plane, as large as this triangle, that
-/// much higher or lower. The source leaves e out, so that a point is not lifted at all where the weighted
-/// corners' coordinates are 0, as on an edge that lies in an axis.
+/// much higher or lower. The source leaves e out, and so lifts a point by nothing where the weighted corners'
+/// coordinates are 0: on an edge that lies in an axis, or anywhere in a plane through two axes.
 ///
-/// A neighbour many times as large is seen less well; that is left to kernels that decide exactly whether t is
-/// positive.
+/// Only a kernel that decides exactly whether t is positive doesn't meet neighbours that are many times as
+/// large or as narrow.
 fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     const GAMMA_7: f32 = 7.0 * U / (1.0 - 7.0 * U);
     let weighted = departure.weighted_corners();
@@ -233,8 +233,9 @@ fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     let half_distances = departure
         .corners
         .map(|corner| (0.5 * corner - 0.5 * p).abs());
-    let half_extent = half_distances.into_iter().fold(Vec3::ZERO, Vec3::max);
-    let error = GAMMA_7 * size + 2.0 * GAMMA_7 * half_extent;
+    let half_extent = half_distances.map(Vec3::max_element);
+    let half_extent = half_extent.into_iter().fold(0.0, f32::max);
+    let error = GAMMA_7 * size + Vec3::splat(2.0 * GAMMA_7 * half_extent);
     let normal = departure.facing_normal();
     let offset = normal * error.dot(normal.abs());
     // The sum is rounded away from the surface.

@@ -17,6 +17,9 @@ mod trees;
 // Kernels that promise it: no ray leaves a closed mesh.
 mod watertight;
 
+// The exact kernel where a hair's breadth decides.
+mod exact;
+
 // A ray that leaves a surface doesn't meet it again.
 mod reintersect;
 
