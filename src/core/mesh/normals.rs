@@ -220,8 +220,10 @@ mod tests {
         [0, 1].map(|triangle| normals.of_triangle(mesh, triangle))
     }
 
+    /// Whether `a` is the direction of `b`, rounded. Its coordinates, at most 1, are off by 2⁻²⁵ at most: √3 of
+    /// that in length.
     fn is_near(a: Vec3, b: Vec3) -> bool {
-        (a - b.normalize()).length() < 1e-6
+        (a.as_dvec3() - b.as_dvec3().normalize()).length() < 2f64.powi(-24)
     }
 
     #[test]
