@@ -1,22 +1,40 @@
 //! What holds for any triangle and ray: scaling, permuting, reversing; and the two ways to the point.
 //!
-//! The seed is fixed, so that a failure comes again; proptest prints the case, shrunk.
+//! Each run tries other cases. A failure prints the case, shrunk, and the seed; PROPTEST_RNG_SEED=… tries the same
+//! cases again, PROPTEST_CASES=… as many as asked for. Cases that failed once are kept in `properties.txt`, and
+//! tried first from then on: commit them with the mend.
 
 use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use proptest::prelude::*;
-use proptest::test_runner::RngSeed;
+use proptest::test_runner::{FileFailurePersistence, RngSeed};
+use std::hash::{BuildHasher, RandomState};
 
 /// Half an ulp of 1, by which a rounding to f32 errs.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
 fn config() -> ProptestConfig {
+    /// Beside this file.
+    const FAILED: &str = concat!(
+        env!("CARGO_MANIFEST_DIR"),
+        "/../../tests/core/properties.txt"
+    );
+    let from_environment = ProptestConfig::default();
+    let seed = match from_environment.rng_seed {
+        RngSeed::Fixed(seed) => seed,
+        RngSeed::Random => RandomState::new().hash_one("seed"),
+    };
+    // Shown where the test fails.
+    eprintln!("PROPTEST_RNG_SEED={seed}");
     ProptestConfig {
-        cases: 2000,
-        rng_seed: RngSeed::Fixed(20_130_601),
-        failure_persistence: None,
-        ..ProptestConfig::default()
+        cases: match std::env::var_os("PROPTEST_CASES") {
+            Some(_) => from_environment.cases,
+            None => 2000,
+        },
+        rng_seed: RngSeed::Fixed(seed),
+        failure_persistence: Some(Box::new(FileFailurePersistence::Direct(FAILED))),
+        ..from_environment
     }
 }
 
