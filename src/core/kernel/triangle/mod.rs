@@ -156,14 +156,20 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::kernel::Tier;
 
     #[test]
     fn names_and_tiers_find_their_kernel_and_are_unique() {
+        let answers = |kernel: &TriangleKernel, name: &str| {
+            kernel.info.name == name || kernel.info.tier.is_some_and(|tier| tier.name() == name)
+        };
         for kernel in TRIANGLE_KERNELS {
-            let named = |name| triangle_kernel(name).expect("found").info.name;
-            assert_eq!(named(kernel.info.name), kernel.info.name);
-            if let Some(tier) = kernel.info.tier {
-                assert_eq!(named(tier.name()), kernel.info.name);
+            let tier = kernel.info.tier.map(Tier::name);
+            for name in [Some(kernel.info.name), tier].into_iter().flatten() {
+                let found = triangle_kernel(name).expect("in the table");
+                assert!(std::ptr::eq(found, kernel), "{name}");
+                let count = TRIANGLE_KERNELS.iter().filter(|k| answers(k, name)).count();
+                assert_eq!(count, 1, "{name}");
             }
         }
         assert!(triangle_kernel("no such kernel").is_none());
