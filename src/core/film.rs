@@ -230,6 +230,36 @@ mod tests {
     }
 
     #[test]
+    fn a_pixel_without_a_sample_shows_the_colour_of_its_block() {
+        let size = UVec2::new(101, 53);
+        let shade = |p: UVec2| [p.x * 600, p.y * 1200, 77];
+        for first_step in [16, 12, 6] {
+            let plan = Plan::new(size, first_step, 1);
+            let mut film = Film::new(plan.clone(), Vec3::ONE);
+            let mut has_sample = vec![false; size.element_product() as usize];
+            for pass in 0..plan.pass_count() {
+                for tile in 0..plan.tile_count() {
+                    let unit = WorkUnit { pass, tile };
+                    plan.pixels(unit)
+                        .for_each(|p| has_sample[film.index(p)] = true);
+                    let sums = plan.pixels(unit).map(shade).collect();
+                    film.add(&TileSamples { unit, sums });
+                }
+                let Pass::Lattice { step } = plan.pass(pass) else {
+                    panic!("{pass} is a pass of a plan of one sample");
+                };
+                for i in 0..size.element_product() {
+                    let p = UVec2::new(i % size.x, i / size.x);
+                    let middle = (p / step * step + step / 2).min(size - 1);
+                    let shown = if has_sample[i as usize] { p } else { middle };
+                    let expected = encode(shade(shown), 1);
+                    assert_eq!(film.pixels()[i as usize], expected, "{p} by {step}");
+                }
+            }
+        }
+    }
+
+    #[test]
     fn the_first_pass_covers_the_whole_picture() {
         let plan = Plan::new(UVec2::new(101, 53), 8, 1);
         let mut film = Film::new(plan.clone(), Vec3::ZERO);

@@ -85,6 +85,14 @@ mod tests {
     }
 
     #[test]
+    fn a_corner_moved_by_less_than_f64_tells_gives_a_triangle_area() {
+        // With an x of 0 the corners lie on one line; f64 rounds the six terms' sum to 0.
+        let [a, b] = [Vec3::new(4.0, 3.0, 0.0), Vec3::new(2.0, 7.0, 4.0)];
+        assert!(has_zero_area([a, b, Vec3::new(0.0, 11.0, 8.0)]));
+        assert!(!has_zero_area([a, b, Vec3::new(-1e-45, 11.0, 8.0)]));
+    }
+
+    #[test]
     fn a_sum_that_f64_would_round_to_zero_is_not_zero() {
         assert!(!exact_sum_is_zero([1e30, 1.0, -1e30, 0.0, 0.0, 0.0]));
         assert!(exact_sum_is_zero([1e30, 1.0, -1e30, -0.5, -0.5, 0.0]));

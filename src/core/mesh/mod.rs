@@ -256,6 +256,9 @@ mod tests {
             (4_649_776.0, 4_649_776.25),
             (0.0, 0.1),
             (0.0, -1.234_567e-20),
+            // 14 and 16 digits: with fewer another vertex, and what f64 holds exactly is another number.
+            (4_649_776.0, 4_649_776.123_456_7),
+            (1.0, 1.000_000_012_345_679),
         ] {
             let mesh = TriangleMesh {
                 origin: DVec3::splat(origin),

@@ -107,6 +107,15 @@ fn a_mesh_far_away_keeps_its_detail() {
 }
 
 #[test]
+fn the_largest_rounding_of_a_coordinate_is_told() {
+    let loaded = load_text("v 0.1 0 0\nv 1 0.3 0\nv 0 1 0.75\nf 1 2 3\n").expect("good");
+    // 0.3 errs by more than 0.1. That decimals are rounded to f64 adds 2⁻⁵⁴ at most.
+    let expected = f64::from(0.3f32) - 0.3;
+    let difference = (loaded.max_rounding - expected).abs();
+    assert!(difference <= 2f64.powi(-54), "{}", loaded.max_rounding);
+}
+
+#[test]
 fn an_ordinary_mesh_keeps_the_files_numbers() {
     let loaded = load_text(&format!("{TRIANGLE}f 1 2 3\n")).expect("good");
     assert_eq!(loaded.mesh.origin, DVec3::ZERO);

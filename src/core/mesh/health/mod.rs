@@ -264,6 +264,18 @@ mod tests {
     }
 
     #[test]
+    fn a_sliver_is_a_thousand_times_longer_than_high() {
+        for (height, expected) in [(1.0 / 999.0, 0), (1.0 / 1001.0, 1)] {
+            let mesh = TriangleMesh {
+                positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.5, height, 0.0)],
+                triangles: vec![[0, 1, 2]],
+                ..TriangleMesh::default()
+            };
+            assert_eq!(counts(&mesh)[6], expected, "{height}");
+        }
+    }
+
+    #[test]
     fn two_solids_that_share_a_point_touch_there() {
         let mut mesh = tetrahedron();
         let mirrored = [Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z, Vec3::ZERO];

@@ -1,0 +1,154 @@
+//! The exact kernel where a hair's breadth decides: the interval's ends, f32's largest number, equal t.
+
+use glam::Vec3;
+use hitscope_core::kernel::{exact_answer, exact_triangle_kernel};
+use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::{Hit, Ray};
+
+const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
+
+/// What the kernel finds alone, which it must find through a tree, too.
+fn closest(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
+    let alone = exact_triangle_kernel().intersect(ray, corners);
+    let intersector = scene(soup(&[corners])).intersector(exact_triangle_kernel());
+    assert_eq!(intersector.closest_hit(ray), alone, "{ray:?}");
+    assert_eq!(intersector.any_hit(ray), alone.is_some(), "{ray:?}");
+    let all = intersector.all_hits(ray);
+    assert_eq!(all.first().map(|crossing| crossing.hit), alone, "{ray:?}");
+    assert_eq!(intersector.count_hits(ray), all.len(), "{ray:?}");
+    alone
+}
+
+#[test]
+fn a_hit_at_either_end_of_the_interval_is_a_miss() {
+    let down = |t_min: f32, t_max: f32| {
+        let ray = Ray::with_interval(Vec3::new(0.2, 0.2, 1.0), -Vec3::Z, t_min, t_max);
+        closest(&ray.expect("a ray"), TRIANGLE).map(|hit| hit.t)
+    };
+    assert_eq!(down(0.0, 1.0), None);
+    assert_eq!(down(1.0, 2.0), None);
+    assert_eq!(down(0.0, 1.0f32.next_up()), Some(1.0));
+    assert_eq!(down(1.0f32.next_down(), 2.0), Some(1.0));
+    assert_eq!(down(-1.0, 1.0), None);
+    assert_eq!(down(-1.0, 1.0f32.next_up()), Some(1.0));
+}
+
+#[test]
+fn a_hit_farther_than_the_largest_f32_is_a_miss() {
+    // t is the distance times 2¹⁶.
+    let far = |z: f32| {
+        let ray = Ray::new(Vec3::new(0.0, 0.0, -z), Vec3::Z * 2f32.powi(-16)).expect("a ray");
+        assert_eq!(ray.scale, 0);
+        let size = 2f32.powi(100);
+        let corners = [
+            Vec3::new(-1.0, -1.0, 0.0),
+            Vec3::new(2.0, 0.0, 0.0),
+            Vec3::Y * 3.0,
+        ];
+        exact_triangle_kernel().intersect(&ray, corners.map(|p| p * size))
+    };
+    let limit = 2f32.powi(112);
+    for beyond in [limit, limit.next_up(), 2.0 * limit, 2f32.powi(126)] {
+        assert_eq!(far(beyond), None, "{beyond:e}");
+    }
+    assert_eq!(
+        far(limit.next_down()).map(|hit| hit.t),
+        None,
+        "t is the largest f32, where the interval ends"
+    );
+    let nearer = limit.next_down().next_down();
+    assert_eq!(far(nearer).map(|hit| hit.t), Some(f32::MAX.next_down()));
+}
+
+#[test]
+fn of_triangles_at_equal_t_the_lowest_is_hit_though_their_fractions_round_apart() {
+    // The rays meet the corner that both triangles share at t = p/q. Their integers give fractions of t that
+    // aren't reduced alike, and f64 rounds one up and the other down, as t lies near the middle of two f64.
+    let cases: [(f32, f32, [[f32; 6]; 2]); 6] = [
+        (
+            16_632_947.0,
+            98_121.0,
+            [
+                [-450.0, 259.0, -449.0, 0.0, -376.0, 850.0],
+                [537.0, -528.0, -597.0, 669.0, -322.0, 707.0],
+            ],
+        ),
+        (
+            16_162_422.0,
+            99_101.0,
+            [
+                [60.0, -487.0, -353.0, 406.0, 522.0, 323.0],
+                [-61.0, -211.0, 550.0, 163.0, -561.0, 981.0],
+            ],
+        ),
+        (
+            12_411_443.0,
+            86_755.0,
+            [
+                [684.0, 845.0, -535.0, -351.0, 834.0, 956.0],
+                [364.0, -144.0, -885.0, -824.0, 390.0, -711.0],
+            ],
+        ),
+        (
+            9_152_036.0,
+            66_455.0,
+            [
+                [-945.0, 709.0, 773.0, -702.0, 267.0, 460.0],
+                [525.0, 69.0, 205.0, -947.0, -371.0, -400.0],
+            ],
+        ),
+        (
+            15_415_987.0,
+            44_353.0,
+            [
+                [-120.0, 800.0, 153.0, -551.0, 173.0, 907.0],
+                [-31.0, -129.0, 436.0, 573.0, 944.0, 530.0],
+            ],
+        ),
+        (
+            16_303_187.0,
+            92_195.0,
+            [
+                [-74.0, 326.0, -589.0, -660.0, 190.0, 651.0],
+                [178.0, -600.0, 583.0, 554.0, -299.0, 48.0],
+            ],
+        ),
+    ];
+    for (p, q, others) in cases {
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z * q).expect("a ray");
+        let [first, second] =
+            others.map(|[a, b, c, d, e, f]| [Vec3::Z * p, Vec3::new(a, b, c), Vec3::new(d, e, f)]);
+        for triangles in [[first, second], [second, first]] {
+            let intersector = scene(soup(&triangles)).intersector(exact_triangle_kernel());
+            let hit = intersector.closest_hit(&ray).expect("the corner is hit");
+            assert_eq!(hit.primitive, 0, "{p}/{q}");
+            let crossings = intersector.all_hits(&ray);
+            assert_eq!(crossings.len(), 1, "{p}/{q}");
+            assert_eq!(crossings[0].also, [1], "{p}/{q}");
+        }
+    }
+}
+
+#[test]
+fn t_and_weights_are_right_to_more_digits_than_f32_has_where_lengths_differ_a_hundred_thousand_times()
+ {
+    // The planes z = 1 + ax + by are met at t = 1; all coordinates are exact. The weights are fractions of whole numbers below 2⁵³.
+    for size in [1.0f32, 1024.0, 16_384.0, 131_072.0] {
+        for slope in [1.0f32 / 64.0, 3.0, -5.0 / 16.0] {
+            let (a, b) = (slope, 0.25 * slope);
+            let corner =
+                |x: f32, y: f32| Vec3::new(x * size, y * size, 1.0 + a * x * size + b * y * size);
+            let corners = [corner(-3.0, -1.0), corner(2.0, -2.0), corner(1.0, 5.0)];
+            let ray = Ray::new(Vec3::ZERO, Vec3::Z).expect("a ray");
+            let [t, u, v] = exact_answer(&ray, corners).expect("a hit");
+            // As the edge functions of (−3, −1), (2, −2), (1, 5) say.
+            let det = 8.0 + 12.0 + 14.0;
+            let expected = [1.0, 14.0 / det, 8.0 / det];
+            let errors = [t - expected[0], u - expected[1], v - expected[2]];
+            let most = [2f64.powi(-32), 2f64.powi(-31), 2f64.powi(-31)];
+            for (error, most) in errors.into_iter().zip(most) {
+                assert!(error.abs() <= most, "{size} {slope}: {errors:?}");
+            }
+        }
+    }
+}
