@@ -3,6 +3,7 @@
 use glam::Vec3;
 use hitscope_core::kernel::{exact_answer, exact_triangle_kernel};
 use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::random::Random;
 use hitscope_core::{Hit, Ray};
 
 const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
@@ -151,4 +152,37 @@ fn t_and_weights_are_right_to_more_digits_than_f32_has_where_lengths_differ_a_hu
             }
         }
     }
+}
+
+#[test]
+fn tiny_triangles_are_decided_as_the_same_ones_enlarged() {
+    // Of products of such lengths f32 holds a few digits, or none: what is lost there is no larger than f32's
+    // least normal number, which the filter's bounds allow for.
+    let count = |ray: &Ray, corners: [Vec3; 3]| {
+        let intersector = scene(soup(&[corners])).intersector(exact_triangle_kernel());
+        intersector.count_hits(ray)
+    };
+    let mut random = Random::new(1);
+    let mut hits = 0;
+    for _ in 0..12_000 {
+        let corners = [(); 3].map(|()| random.in_cube_f32());
+        let [_, b, c] = corners;
+        let origin = random.in_cube_f32() - 2.0 * Vec3::Z;
+        let on_edge = b.as_dvec3().lerp(c.as_dvec3(), random.unit());
+        let dir = (on_edge - origin.as_dvec3()).as_vec3();
+        let at = |scale: f32| {
+            let ray = Ray::new(scale * origin, dir).expect("a ray");
+            count(&ray, corners.map(|p| scale * p))
+        };
+        let expected = at(1.0);
+        hits += expected;
+        for exponent in [-64, -66, -68, -72] {
+            assert_eq!(
+                at(2f32.powi(exponent)),
+                expected,
+                "2^{exponent} {corners:?} {origin} {dir}"
+            );
+        }
+    }
+    assert!((3_000..9_000).contains(&hits), "{hits}");
 }

@@ -6,7 +6,7 @@ use hitscope_core::mesh::shapes::{scene, soup};
 use hitscope_core::mesh::unit_normal;
 use hitscope_core::random::Random;
 use hitscope_core::spawn::{Departure, default_spawn_policy};
-use hitscope_core::{Hit, Intersector, Ray};
+use hitscope_core::{Hit, Ray};
 
 /// Half an ulp of 1 in f32.
 const U: f64 = 1.0 / (1 << 24) as f64;
