@@ -76,9 +76,8 @@ impl Camera {
         if !(eye.as_vec3().is_finite() && target.as_vec3().is_finite()) {
             return Err(CameraError::NotFinite);
         }
-        let back = (eye - target).try_normalize();
-        let back = back.ok_or(CameraError::NoDirection)?;
-        let up = up.try_normalize().ok_or(CameraError::NoUp)?;
+        let back = direction(eye - target).ok_or(CameraError::NoDirection)?;
+        let up = direction(up).ok_or(CameraError::NoUp)?;
         let right = up.cross(back);
         // Below this, rounding of the up vector decides which way is right.
         if right.length() < 1e-12 {
@@ -246,6 +245,11 @@ impl Camera {
     }
 }
 
+/// The unit vector along a vector of any length: one whose square overflows or vanishes has a direction, too.
+fn direction(v: DVec3) -> Option<DVec3> {
+    (v / v.abs().max_element()).try_normalize()
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -337,6 +341,20 @@ mod tests {
                 last_depth = depth;
             }
         }
+    }
+
+    #[test]
+    fn up_vectors_and_distances_of_any_length_have_a_direction() {
+        let camera = |eye: DVec3, up: DVec3| {
+            Camera::look_at(eye, DVec3::ZERO, up, PERSPECTIVE, UVec2::ONE).expect("good")
+        };
+        let usual = camera(DVec3::Z, DVec3::new(1.0, 1.0, 0.0));
+        for length in [1e-320, 1e-200, 1e200, 1e308] {
+            let up = DVec3::new(length, length, 0.0);
+            assert_eq!(camera(DVec3::Z, up), usual, "{length}");
+        }
+        let near = camera(DVec3::Z * 1e-200, DVec3::Y);
+        assert_eq!(near.back(), DVec3::Z);
     }
 
     #[test]

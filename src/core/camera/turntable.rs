@@ -57,6 +57,8 @@ pub struct Turntable {
 }
 
 impl Turntable {
+    /// Default vertical field of view.
+    pub const FOV_Y_RADIANS: f64 = 40.0 * PI / 180.0;
     /// Rotation in radians by a drag across the height of the picture.
     const RADIANS_PER_HEIGHT: f64 = PI;
     /// Minimum distance from the pivot, relative to the scene: f32 still resolves a hundredth of it.
@@ -71,7 +73,7 @@ impl Turntable {
             distance: 1.0,
             yaw_radians: 30f64.to_radians(),
             pitch_radians: 20f64.to_radians(),
-            fov_y_radians: 40f64.to_radians(),
+            fov_y_radians: Self::FOV_Y_RADIANS,
             is_orthographic: false,
             up_axis: UpAxis::Y,
             centre: DVec3::ZERO,
