@@ -6,6 +6,7 @@
 use crate::render::plan::{Pass, Plan, WorkUnit};
 use crate::srgb::to_display;
 use glam::{UVec2, Vec3};
+use std::collections::TryReserveError;
 use std::sync::LazyLock;
 
 /// A sum of samples in linear RGB, in units of 2⁻¹⁶, which is finer than 8-bit sRGB.
@@ -67,18 +68,33 @@ pub struct Film {
     tiles_done: Vec<usize>,
 }
 
+/// Memory of a film.
+pub const BYTES_PER_PIXEL: usize =
+    size_of::<FixedRgb>() + size_of::<u16>() + size_of::<u8>() + size_of::<[u8; 4]>();
+
 impl Film {
     /// An empty film; every pixel shows the background, a linear colour.
+    ///
+    /// # Panics
+    /// If there isn't enough memory.
     pub fn new(plan: Plan, background: Vec3) -> Self {
+        Self::try_new(plan, background).expect("enough memory for a film")
+    }
+
+    /// The same as [`new`](Self::new).
+    ///
+    /// # Errors
+    /// There isn't enough memory; see [`BYTES_PER_PIXEL`].
+    pub fn try_new(plan: Plan, background: Vec3) -> Result<Self, TryReserveError> {
         let count = plan.size().element_product() as usize;
-        Self {
-            sums: vec![[0; 3]; count],
-            counts: vec![0; count],
-            shown_step: vec![u8::MAX; count],
-            pixels: vec![encode(fixed(background).unwrap_or_default(), 1); count],
+        Ok(Self {
+            sums: filled([0; 3], count)?,
+            counts: filled(0, count)?,
+            shown_step: filled(u8::MAX, count)?,
+            pixels: filled(encode(fixed(background).unwrap_or_default(), 1), count)?,
             tiles_done: vec![0; plan.pass_count()],
             plan,
-        }
+        })
     }
 
     /// Discards all samples and starts another plan. If the size stays the same, pixels keep their colour until
@@ -172,6 +188,14 @@ impl Film {
     fn index(&self, pixel: UVec2) -> usize {
         pixel.y as usize * self.plan.size().x as usize + pixel.x as usize
     }
+}
+
+/// `count` copies of a value, if there is enough memory.
+fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>, TryReserveError> {
+    let mut values = Vec::new();
+    values.try_reserve_exact(count)?;
+    values.resize(count, value);
+    Ok(values)
 }
 
 /// The mean of a pixel's samples as 8-bit sRGB.

@@ -11,7 +11,7 @@ use hitscope_core::mesh::shapes::{Placement, torus};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::render::plan::{Pass, Plan, WorkUnit};
-use hitscope_core::render::{Job, Message, Renderer, render};
+use hitscope_core::render::{Job, Message, RenderError, Renderer, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Film, Hit, Intersector, Ray, Scene};
 use std::io::{self, Read};
@@ -282,8 +282,11 @@ fn a_panic_is_reported_with_its_sample_and_the_other_tiles_arrive() {
 fn a_picture_that_panics_is_an_error() {
     let job = picture("shaded", Plan::new(UVec2::splat(30), 1, 1));
     let bad = with_before(job, |_| panic!("no ray works"));
-    let panic = in_time("a picture that panics", move || render(bad, 2).err());
-    assert_eq!(panic.expect("an error").message, "no ray works");
+    let error = in_time("a picture that panics", move || render(bad, 2).err());
+    let Some(RenderError::Panic(panic)) = error else {
+        panic!("{error:?}");
+    };
+    assert_eq!(panic.message, "no ray works");
 }
 
 /// A file without end, whose reader cancels the load after a megabyte.

@@ -10,6 +10,7 @@ use crate::ray::Ray;
 use glam::{DVec3, UVec2};
 use std::any::Any;
 use std::cell::Cell;
+use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind, resume_unwind};
 use std::slice::from_ref;
 use std::time::{Duration, Instant};
@@ -168,20 +169,39 @@ impl SampleBatch<'_> {
     }
 }
 
+/// Why there is no picture.
+#[derive(Debug, thiserror::Error)]
+pub enum RenderError {
+    /// A sample panicked.
+    #[error(transparent)]
+    Panic(#[from] RenderPanic),
+    /// There isn't enough memory for the film.
+    #[error("there isn't enough memory for a picture of {}x{} pixels", size.x, size.y)]
+    NoMemory {
+        /// Width and height in pixels.
+        size: UVec2,
+    },
+    /// No thread could be started.
+    #[error("the system grants no thread to render with: {0}")]
+    NoThread(io::Error),
+}
+
 /// Renders a whole job on `threads` threads and waits for it.
 ///
 /// # Errors
-/// The first [`RenderPanic`].
-pub fn render(job: Job, threads: usize) -> Result<Film, RenderPanic> {
-    let mut film = Film::new(job.plan.clone(), job.context.background);
-    let mut renderer = Renderer::new(threads, || ());
+/// See [`RenderError`]; of panics the first.
+pub fn render(job: Job, threads: usize) -> Result<Film, RenderError> {
+    let size = job.plan.size();
+    let film = Film::try_new(job.plan.clone(), job.context.background);
+    let mut film = film.map_err(|_| RenderError::NoMemory { size })?;
+    let mut renderer = Renderer::try_new(threads, || ()).map_err(RenderError::NoThread)?;
     renderer.post(job);
     while !film.is_complete() {
         match renderer.wait_next() {
             Message::Tile(tile) => {
                 film.add(&tile.samples);
             }
-            Message::Panicked(_, panic) => return Err(panic),
+            Message::Panicked(_, panic) => return Err(panic.into()),
         }
     }
     Ok(film)

@@ -8,5 +8,5 @@ mod job;
 pub mod plan;
 mod worker;
 
-pub use job::{Job, RenderPanic, TileResult, render};
+pub use job::{Job, RenderError, RenderPanic, TileResult, render};
 pub use worker::{Message, Renderer};

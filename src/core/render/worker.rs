@@ -2,6 +2,7 @@
 
 use super::job::{Job, RenderPanic, TileResult};
 use super::plan::WorkUnit;
+use std::io;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};
 use std::sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError};
@@ -87,7 +88,18 @@ pub struct Renderer {
 impl Renderer {
     /// Starts `threads` threads, at least one. `wake` is called when messages are worth collecting:
     /// after each pass, now and then within one, and whenever the channel is full.
+    ///
+    /// # Panics
+    /// If the system grants no thread.
     pub fn new(threads: usize, wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self::try_new(threads, wake).expect("a thread to render with")
+    }
+
+    /// The same as [`new`](Self::new).
+    ///
+    /// # Errors
+    /// The system grants no thread.
+    pub fn try_new(count: usize, wake: impl Fn() + Send + Sync + 'static) -> io::Result<Self> {
         let shared = Arc::new(Shared {
             state: Mutex::default(),
             changed: Condvar::new(),
@@ -102,14 +114,14 @@ impl Renderer {
                 .spawn(move || work(&shared, &sender, &*wake))
         };
         // Where the system grants fewer threads, those it grants do the work.
-        let threads: Vec<_> = (0..threads.max(1)).map_while(|k| start(k).ok()).collect();
-        assert!(!threads.is_empty(), "the system grants no thread at all");
-        Self {
+        let mut threads = vec![start(0)?];
+        threads.extend((1..count).map_while(|k| start(k).ok()));
+        Ok(Self {
             shared,
             messages: Some(messages),
             threads,
             generation: 0,
-        }
+        })
     }
 
     /// Number of threads.
