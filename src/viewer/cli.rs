@@ -1,4 +1,4 @@
-//! The command line: which command, and what it prints.
+//! The command line: parsing, the exit status, and the commands that need the viewer's crates.
 
 use crate::app::{App, StartOptions};
 use crate::document::embedded_scene;
@@ -6,32 +6,61 @@ use crate::gpu::GpuError;
 use crate::offscreen;
 use crate::overlay::wireframe::WireframeEdges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
-use clap::{Parser, Subcommand};
+use clap::error::ErrorKind;
+use clap::{CommandFactory, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use hitscope_core::obj::LoadOptions;
+use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
-    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, MemoryArg, PictureArgs, RenderArgs,
-    TraceArgs, load, write_png,
+    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output, PictureArgs,
+    RenderArgs, TraceArgs, is_stdin, load, parse_png, print_line, start_thread_pool,
 };
-use std::io::{BufWriter, ErrorKind, Write, stdout};
+use std::ffi::OsString;
+use std::io::{self, BufWriter, Write, stdout};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
 /// A ray-tracing mesh viewer that shows what a ray really does to your mesh
+///
+/// Without a command, a window opens. Where there is no display, a picture of the file is written to hitscope.png.
 #[derive(Parser, Debug)]
-#[command(version, args_conflicts_with_subcommands = true)]
+#[command(
+    version,
+    propagate_version = true,
+    args_conflicts_with_subcommands = true,
+    after_help = "\
+Examples:
+  hitscope                                        open the built-in scene
+  hitscope bunny.obj                              open a file
+  hitscope render bunny.obj -o bunny.png          render a picture without a window
+  hitscope trace bunny.obj --rays rays.txt        trace rays and print JSON
+  hitscope inspect bunny.obj --pixel 640,360      show one ray under every kernel
+  hitscope COMMAND --help                         all options of a command
+
+Exit status:
+  0  done
+  1  a file, or the machine, is at fault: one line on stderr says why
+  2  the command line is at fault
+
+Results go to stdout; warnings and errors go to stderr.
+
+Limits: 1.4 billion triangles; lines of 128 MB; pictures of 16384 x 16384 pixels; 1024 threads; the memory that
+--max-memory allows."
+)]
 struct Cli {
-    /// The OBJ file to open; the built-in scene without one
+    /// OBJ file to open, plain or gzipped [default: the built-in scene]
     file: Option<PathBuf>,
-    /// Save a picture of the whole window once the rendering has converged, and quit
-    #[arg(long, value_name = "OUT.png")]
+    /// Only there to be refused: the window shows one file.
+    #[arg(hide = true)]
+    more: Vec<PathBuf>,
+    /// Save a picture of the window when rendering has converged, and quit
+    #[arg(long, value_name = "OUT.png", value_parser = parse_png)]
     screenshot: Option<PathBuf>,
-    /// Take the picture after so many seconds instead
-    #[arg(long, value_name = "SECONDS", requires = "screenshot", value_parser = parse_seconds)]
+    /// Take the picture after this time instead
+    #[arg(long, value_name = "SECONDS", requires = "screenshot", allow_negative_numbers = true, value_parser = parse_seconds)]
     after: Option<Duration>,
     #[command(flatten)]
     memory: MemoryArg,
@@ -49,28 +78,79 @@ enum Command {
     Bench(BenchArgs),
 }
 
-/// Runs what the command line asks for. 0: done; 1: the input is bad, with one line on stderr; 2:
-/// the command line is.
+/// Runs the command line. The exit status is 0 when done, 1 if a file or the machine is at fault, with one line on
+/// stderr, and 2 if the command line is.
 pub fn run() -> ExitCode {
-    let cli = Cli::parse();
+    let arguments: Vec<OsString> = std::env::args_os().collect();
+    if let Some(message) = misspelt_command(&arguments) {
+        return refuse(message);
+    }
+    let cli = Cli::parse_from(arguments);
+    if let Err(message) = cli.check() {
+        return refuse(message);
+    }
     if let Err(error) = SimdLevel::chosen() {
-        eprintln!("hitscope: {error}");
+        print_line(format_args!("hitscope: {error}"));
         return ExitCode::from(2);
     }
-    let result = match &cli.command {
+    let result = start_thread_pool().and_then(|()| match &cli.command {
         Some(command) => command.run(),
         None => window(&cli),
-    };
+    });
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        // Whoever read our output has enough of it.
-        Err(CommandError::Stdout(error)) if error.kind() == ErrorKind::BrokenPipe => {
+        // The reader of our output has enough of it, as in `hitscope trace … | head`.
+        Err(CommandError::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
+        Err(error) if error.is_usage() => refuse(error.to_string()),
         Err(error) => {
-            eprintln!("hitscope: {error}");
+            print_line(format_args!("hitscope: {error}"));
             ExitCode::FAILURE
         }
+    }
+}
+
+/// Refuses the command line, as clap does.
+fn refuse(message: String) -> ExitCode {
+    let error = Cli::command().error(ErrorKind::ValueValidation, message);
+    _ = error.print();
+    ExitCode::from(2)
+}
+
+/// What is wrong if the first argument is a misspelt command: it would be taken for a file.
+fn misspelt_command(arguments: &[OsString]) -> Option<String> {
+    /// Letters that may be wrong, missing, too many or swapped.
+    const MOST_ERRORS: usize = 2;
+    let word = arguments.get(1)?.to_str()?;
+    let is_word = word.len() > MOST_ERRORS && word.bytes().all(|b| b.is_ascii_alphabetic());
+    if !is_word || Path::new(word).exists() {
+        return None;
+    }
+    let cli = Cli::command();
+    let distance = |command: &clap::Command| strsim::osa_distance(word, command.get_name());
+    let nearest = cli
+        .get_subcommands()
+        .min_by_key(|command| distance(command))?;
+    let name = nearest.get_name();
+    let is_near = (1..=MOST_ERRORS).contains(&distance(nearest));
+    is_near.then(|| format!("there is no command or file “{word}”; did you mean “{name}”?"))
+}
+
+impl Cli {
+    /// What is wrong with arguments that are right by themselves.
+    fn check(&self) -> Result<(), String> {
+        let file = self.file.as_deref();
+        if file.is_some_and(is_stdin) {
+            return Err("the window can't show standard input: save it as a file".to_owned());
+        }
+        if let (Some(first), Some(second)) = (file, self.more.first()) {
+            let (first, second) = (shown(first), shown(second));
+            return Err(format!(
+                "the window shows one file, not “{first}” and “{second}” together"
+            ));
+        }
+        Ok(())
     }
 }
 
@@ -91,24 +171,32 @@ impl Command {
 
 fn render(args: &RenderArgs) -> Result<(), CommandError> {
     let failed = |error: GpuError| CommandError::Other(error.to_string());
-    // Before the long work: without an adapter there is none to be done.
+    // Whatever can fail without the mesh fails before it is loaded.
+    args.check()?;
+    let output = Output::create(&args.output)?;
     let needs_gpu = args.wireframe || args.normals;
     let gpu = needs_gpu
         .then(offscreen::device)
         .transpose()
         .map_err(failed)?;
     let rendered = args.trace()?;
+    let size = rendered.film.size();
+    let Some(gpu) = gpu else {
+        return output.write_png(size, rendered.film.pixels());
+    };
     let mut pixels = rendered.film.pixels().to_vec();
-    if let Some(gpu) = &gpu {
+    {
         let edges = args.wireframe.then_some(WireframeEdges::Polygons);
         let normals = args.normals.then_some(rendered.shading);
-        offscreen::draw_over(gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
+        offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
     }
-    write_png(&args.output, rendered.film.size(), &pixels)
+    output.write_png(size, &pixels)
 }
 
-/// Opens the window; without a display, renders what it would have shown.
+/// Opens the window, or renders a picture where there is no display.
 fn window(cli: &Cli) -> Result<(), CommandError> {
+    // Before the window opens: a picture that can't be written isn't worth waiting for.
+    let output = cli.screenshot.as_deref().map(Output::create).transpose()?;
     let outcome = Outcome::default();
     let load_options = LoadOptions {
         max_memory: cli.memory.bytes(),
@@ -117,7 +205,7 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
     let start = StartOptions {
         file: cli.file.clone(),
         load_options,
-        screenshot: cli.screenshot.clone().map(|output| ScreenshotOptions {
+        screenshot: output.map(|output| ScreenshotOptions {
             output,
             after: cli.after,
             outcome: Arc::clone(&outcome),
@@ -133,7 +221,7 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
             wgpu_setup: WgpuSetup::CreateNew(wgpu_setup()),
             ..WgpuConfiguration::default()
         },
-        // The picture's bytes are to reach the screen as they are.
+        // The bytes of the picture must reach the screen unchanged.
         dithering: false,
         persist_window: cli.screenshot.is_none(),
         ..eframe::NativeOptions::default()
@@ -152,13 +240,13 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
         }
         (Err(error), Some(_)) => Err(CommandError::Other(no_window(&error))),
         (Err(error), None) => {
-            eprintln!("hitscope: {}", no_window(&error));
+            print_line(format_args!("hitscope: {}", no_window(&error)));
             render_instead(cli.file.as_deref(), load_options)
         }
     }
 }
 
-/// Why there is no window, without the places in source code that winit's error names.
+/// Why there is no window, without the source code locations in winit's error.
 fn no_window(error: &eframe::Error) -> String {
     match error {
         eframe::Error::WinitEventLoop(_) => "no window: there is no display".to_owned(),
@@ -169,7 +257,8 @@ fn no_window(error: &eframe::Error) -> String {
 /// The file or the embedded scene as a picture in the current folder.
 fn render_instead(file: Option<&Path>, load_options: LoadOptions) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
-    let input = file.unwrap_or(Path::new("the built-in scene"));
+    let input = file.map_or("the built-in scene".to_owned(), shown);
+    let output = Output::create(Path::new(OUTPUT))?;
     let loaded = match file {
         Some(path) => load(path, load_options, SceneOptions::default())?,
         None => embedded_scene(),
@@ -177,28 +266,24 @@ fn render_instead(file: Option<&Path>, load_options: LoadOptions) -> Result<(), 
     let rendered = PictureDefaults::parse_from(["hitscope"])
         .picture
         .trace(loaded)?;
-    write_png(
-        Path::new(OUTPUT),
-        rendered.film.size(),
-        rendered.film.pixels(),
-    )?;
+    output.write_png(rendered.film.size(), rendered.film.pixels())?;
     let mut out = stdout().lock();
-    writeln!(out, "rendered {} to {OUTPUT}", input.display())?;
+    writeln!(out, "rendered {input} to {OUTPUT}")?;
     writeln!(
         out,
-        "choose view, size and output with: hitscope render FILE -o OUT.png"
+        "to choose view, size and output: hitscope render FILE -o OUT.png"
     )?;
     Ok(())
 }
 
-/// A picture of which nothing is said.
+/// A picture with all options at their defaults.
 #[derive(Parser)]
 struct PictureDefaults {
     #[command(flatten)]
     picture: PictureArgs,
 }
 
-/// As eframe has it, but for the largest buffers that the adapter grants: a mesh may need them.
+/// eframe's setup, with the largest buffers that the adapter grants: a mesh may need them.
 fn wgpu_setup() -> WgpuSetupCreateNew {
     let setup = WgpuSetupCreateNew::without_display_handle();
     let base = Arc::clone(&setup.device_descriptor);
@@ -213,6 +298,8 @@ fn wgpu_setup() -> WgpuSetupCreateNew {
 }
 
 fn parse_seconds(text: &str) -> Result<Duration, String> {
-    let seconds: f64 = text.parse().map_err(|_| "expected a number of seconds")?;
-    Duration::try_from_secs_f64(seconds).map_err(|error| error.to_string())
+    let seconds = text.parse().ok();
+    seconds
+        .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
+        .ok_or_else(|| "expected a number of seconds, 0 or more".to_owned())
 }

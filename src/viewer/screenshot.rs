@@ -1,26 +1,25 @@
-//! `--screenshot`: a picture of the whole window once it has converged, then the end.
+//! `--screenshot`: saves a picture of the window when rendering has converged, and quits.
 
 use glam::UVec2;
-use hitscope_lab::commands::write_png;
-use std::path::PathBuf;
+use hitscope_lab::commands::Output;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// What was asked for.
+/// When a screenshot is taken, and where it goes.
 #[derive(Clone, Debug)]
 pub struct ScreenshotOptions {
     /// The PNG file to write.
-    pub output: PathBuf,
-    /// When; once the picture has converged without it.
+    pub output: Output,
+    /// When it is taken; `None`: when rendering has converged.
     pub after: Option<Duration>,
-    /// Where the result goes: the window is gone when the caller looks at it.
+    /// The result, for the caller to look at after the window has closed.
     pub outcome: Outcome,
 }
 
-/// What came of it; `None` while it isn't done.
+/// The result of a screenshot; `None` while it isn't done.
 pub type Outcome = Arc<Mutex<Option<Result<(), String>>>>;
 
-/// A screenshot on its way.
+/// A screenshot to be taken.
 pub struct Screenshot {
     options: ScreenshotOptions,
     since: Instant,
@@ -28,7 +27,7 @@ pub struct Screenshot {
 }
 
 impl Screenshot {
-    /// The clock starts now.
+    /// Starts the clock.
     pub fn new(options: ScreenshotOptions) -> Self {
         Self {
             options,
@@ -37,7 +36,7 @@ impl Screenshot {
         }
     }
 
-    /// Closes the window: there is nothing to take a picture of.
+    /// Gives up, and closes the window: there is nothing to take a picture of.
     pub fn fail(&self, ctx: &egui::Context, message: String) {
         let mut outcome = self
             .options
@@ -48,7 +47,7 @@ impl Screenshot {
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 
-    /// Takes the picture when it is time, and closes the window when it is written.
+    /// Takes the picture when it is time, and closes the window when it has been written.
     pub fn step(&mut self, ctx: &egui::Context, is_settled: bool) {
         if self.is_requested {
             let outcome = self.options.outcome.lock();
@@ -70,7 +69,10 @@ impl Screenshot {
         ctx.request_screenshot(move |image| {
             let size = UVec2::new(image.width() as u32, image.height() as u32);
             let pixels: Vec<[u8; 4]> = image.pixels.iter().map(egui::Color32::to_array).collect();
-            let result = write_png(&options.output, size, &pixels).map_err(|e| e.to_string());
+            let result = options
+                .output
+                .write_png(size, &pixels)
+                .map_err(|e| e.to_string());
             let mut outcome = options
                 .outcome
                 .lock()

@@ -1,7 +1,7 @@
 //! The commands' contract: what goes in, what comes out.
 
 use crate::folder::{CUBE, Folder};
-use hitscope_lab::commands::{BenchArgs, InfoArgs, InspectArgs, RenderArgs, TraceArgs, write_png};
+use hitscope_lab::commands::{BenchArgs, InfoArgs, InspectArgs, Output, RenderArgs, TraceArgs};
 use serde_json::Value;
 use std::path::Path;
 
@@ -127,7 +127,10 @@ fn inspect_refuses_a_pixel_outside_and_an_impossible_camera() {
         result.expect_err(line).to_string()
     };
     let outside = error("@cube.obj --pixel 100,0 --size 100x50");
-    assert_eq!(outside, "pixel 100,0 is outside of the picture of 100x50");
+    assert_eq!(
+        outside,
+        "pixel 100,0 is outside the picture of 100x50 pixels"
+    );
     let same = error("@cube.obj --pixel 1,1 --eye 1,1,1 --target 1,1,1");
     assert_eq!(same, "the camera's eye and target are the same point");
     assert!(error("@none.obj --pixel 1,1").contains("none.obj: "));
@@ -164,7 +167,10 @@ fn render_writes_a_png_of_the_size_asked_for() {
     let args: RenderArgs =
         folder.args("@cube.obj -o @out.png --size 40x30 --samples 4 --threads 2");
     let rendered = args.trace().expect("rendered");
-    write_png(&args.output, rendered.film.size(), rendered.film.pixels()).expect("written");
+    let output = Output::create(&args.output).expect("a place to write");
+    output
+        .write_png(rendered.film.size(), rendered.film.pixels())
+        .expect("written");
     let image = image::open(&args.output).expect("a PNG").to_rgba8();
     assert_eq!(image.dimensions(), (40, 30));
     assert_ne!(
@@ -172,11 +178,10 @@ fn render_writes_a_png_of_the_size_asked_for() {
         image.get_pixel(0, 0),
         "the cube is in the middle"
     );
-    let bad = write_png(
-        Path::new("/no/such/folder/x.png"),
-        rendered.film.size(),
-        rendered.film.pixels(),
-    );
+    // The very pixels, in their order.
+    let pixels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();
+    assert_eq!(pixels, rendered.film.pixels());
+    let bad = Output::create(Path::new("/no/such/folder/x.png"));
     assert!(
         bad.expect_err("no folder")
             .to_string()

@@ -2,18 +2,28 @@
 
 // The real app, driven by label and key.
 mod app;
-// The built program's commands, and what it does without a display.
+// The built program's exit statuses, and what it does without a display.
 mod cli;
 // The app in a harness, and the gate for tests that need a GPU.
 mod harness;
+// Standard input, warnings, and a machine that lacks memory or threads.
+#[cfg(unix)]
+mod machine;
 // What is made of the file: flaws, changes, creases.
 mod mesh;
+// Files that the program writes.
+#[cfg(unix)]
+mod outputs;
 // The pointer on its picture.
 mod pointer;
+// The built program, run in a folder.
+mod program;
 // Every shader parses and validates, without a GPU.
 mod shaders;
 // What the rasterizer draws is what the rays hit, pixel by pixel.
 mod triangle_ids;
+// Faults of the command line.
+mod usage;
 // The built program in a real window.
 mod window;
 // Views that compare kernels, and the Trade tab.

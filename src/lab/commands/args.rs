@@ -1,6 +1,7 @@
 //! Arguments that several commands share.
 
-use super::load;
+use super::picture::ShadingArg;
+use super::{CommandError, load};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
@@ -10,69 +11,104 @@ use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
 use hitscope_core::mesh::Crease;
-use hitscope_core::obj::{FaultPolicy, LoadError, LoadOptions, Recentre};
+use hitscope_core::obj::{FaultPolicy, LoadOptions, Recentre};
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Camera, Scene};
 use std::path::Path;
 use std::sync::Arc;
 
-/// From where a picture is taken. Positions are in the file's coordinates.
+/// The camera. Positions are in the file's coordinates.
 #[derive(Args, Clone, Debug)]
 pub struct CameraArgs {
-    /// Width and height of the picture in pixels
-    #[arg(long, value_name = "WxH", default_value = "1280x720", value_parser = parse_size)]
+    /// Width and height of the picture in pixels, each at most 16384
+    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse_size)]
     pub size: UVec2,
-    /// Where the camera stands; without it, the view that the viewer starts with
+    /// Position of the camera [default: as in the window, in view of the whole mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
     pub eye: Option<DVec3>,
-    /// What it looks at [default: the middle of the mesh]
+    /// The point in the middle of the picture [default: the centre of the mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub target: Option<DVec3>,
-    /// Which way is up in the picture [default: 0,1,0]
+    /// The direction that points up in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub up: Option<DVec3>,
-    /// Vertical field of view [default: 40]
-    #[arg(long, value_name = "DEGREES", conflicts_with = "ortho", value_parser = parse_fov)]
+    /// Vertical field of view, above 0 and below 180 [default: 40]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "ortho", value_parser = parse_fov)]
     pub fov: Option<f64>,
-    /// Parallel rays, and the height of the picture in the file's units
-    #[arg(long, value_name = "HEIGHT")]
+    /// Orthographic projection, in which the picture is HEIGHT units of the file high
+    #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true, value_parser = parse_height)]
     pub ortho: Option<f64>,
 }
 
 impl CameraArgs {
+    /// Checks what can be checked without a mesh. Call it before one is loaded.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(&self) -> Result<(), CommandError> {
+        let (Some(eye), Some(target)) = (self.eye, self.target) else {
+            return match self.up {
+                Some(DVec3::ZERO) => Err(usage(CameraError::NoUp)),
+                _ => Ok(()),
+            };
+        };
+        // Only directions count here: whether positions fit f32 depends on the mesh's origin.
+        match self.look_at(DVec3::ZERO, target - eye) {
+            Err(error) if error != CameraError::NotFinite => Err(usage(error)),
+            _ => Ok(()),
+        }
+    }
+
     /// The camera for a scene.
     ///
     /// # Errors
-    /// See [`CameraError`].
-    pub fn camera(&self, scene: &Scene) -> Result<Camera, CameraError> {
+    /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if the mesh can't be
+    /// seen with any.
+    pub fn camera(&self, scene: &Scene) -> Result<Camera, CommandError> {
+        let Some(eye) = self.eye else {
+            return Ok(self.framing(scene)?);
+        };
+        let origin = scene.mesh().origin;
+        let centre = scene.bounds().centre().as_dvec3();
+        let target = self.target.map_or(centre, |target| target - origin);
+        self.look_at(eye - origin, target).map_err(usage)
+    }
+
+    /// The camera that shows the whole mesh.
+    fn framing(&self, scene: &Scene) -> Result<Camera, CameraError> {
         let mut start = Turntable::framing(scene.bounds(), self.size);
         if let Some(degrees) = self.fov {
             start.fov_y_radians = degrees.to_radians();
+            start.frame(scene.bounds(), self.size);
         }
-        let projection = match self.ortho {
+        let from = start.camera(self.size);
+        let eye = start.pivot + start.distance * from.back();
+        Camera::look_at(eye, start.pivot, from.up(), self.projection(), self.size)
+    }
+
+    fn look_at(&self, eye: DVec3, target: DVec3) -> Result<Camera, CameraError> {
+        let up = self.up.unwrap_or(DVec3::Y);
+        Camera::look_at(eye, target, up, self.projection(), self.size)
+    }
+
+    fn projection(&self) -> Projection {
+        match self.ortho {
             Some(height) => Projection::Orthographic { height },
             None => Projection::Perspective {
-                fov_y_radians: start.fov_y_radians,
+                fov_y_radians: self.fov.map_or(Turntable::FOV_Y_RADIANS, f64::to_radians),
             },
-        };
-        let Some(eye) = self.eye else {
-            start.frame(scene.bounds(), self.size);
-            let from = start.camera(self.size);
-            let eye = start.pivot + start.distance * from.back();
-            return Camera::look_at(eye, start.pivot, from.up(), projection, self.size);
-        };
-        let origin = scene.mesh().origin;
-        let middle = scene.bounds().centre().as_dvec3();
-        let target = self.target.map_or(middle, |target| target - origin);
-        let up = self.up.unwrap_or(DVec3::Y);
-        Camera::look_at(eye - origin, target, up, projection, self.size)
+        }
     }
+}
+
+fn usage(error: CameraError) -> CommandError {
+    CommandError::Usage(error.to_string())
 }
 
 /// Which kernel answers the rays.
 #[derive(Args, Clone, Debug)]
 pub struct KernelArg {
-    /// Intersection kernel or tier
+    /// Intersection kernel, by its name or its tier's
     #[arg(long, value_name = "KERNEL", default_value = "watertight", value_parser = kernel_names())]
     pub kernel: String,
 }
@@ -87,23 +123,23 @@ impl KernelArg {
 /// How a mesh is loaded, and kept for tracing.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct MeshArgs {
-    /// Drop faces whose indices name nothing, and say how many, instead of refusing the file
+    /// Drop faces with invalid indices, with a warning, instead of refusing the file
     #[arg(long)]
     pub lenient: bool,
-    /// How much memory that may take.
+    /// Most memory that may be taken.
     #[command(flatten)]
     pub memory: MemoryArg,
-    /// Keep triangles and their tree in a third less memory; rays take longer
+    /// Store triangles and tree in a third less memory; rays take longer
     #[arg(long)]
     pub compact: bool,
 }
 
 impl MeshArgs {
-    /// Loads a scene, with a line about it on a terminal's stderr.
+    /// Loads a scene, and prints the file's warnings.
     ///
     /// # Errors
-    /// See [`LoadError`].
-    pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, LoadError> {
+    /// See [`load`].
+    pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, CommandError> {
         let load_options = LoadOptions {
             recentre,
             faults: if self.lenient {
@@ -125,10 +161,10 @@ impl MeshArgs {
     }
 }
 
-/// How much memory loading may take.
+/// Most memory that a mesh with its textures, and a picture of it, may take.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct MemoryArg {
-    /// Refuse a file that takes more memory to load than this
+    /// Refuse a file or a picture that takes more memory than this
     #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
     pub max_memory: u64,
 }
@@ -143,13 +179,25 @@ impl MemoryArg {
 /// Where smooth shading has edges.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct CreaseArg {
-    /// Smooth shading has an edge where triangles meet at a larger angle than this; the file's normals and
-    /// smoothing groups don't count then
-    #[arg(long, value_name = "DEGREES", value_parser = parse_crease)]
+    /// With smooth shading: show an edge where triangles meet at a larger angle than this, whatever normals and
+    /// smoothing groups the file has
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse_crease)]
     pub crease: Option<f32>,
 }
 
 impl CreaseArg {
+    /// Refuses a crease without smooth shading, which alone shows it.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(self, shading: ShadingArg) -> Result<(), CommandError> {
+        if self.crease.is_some() && shading == ShadingArg::Flat {
+            let message = "--crease has no effect on flat shading: it needs --shading smooth";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
+        Ok(())
+    }
+
     /// The scene with its edges there.
     pub fn apply(self, scene: Arc<Scene>) -> Arc<Scene> {
         match self.crease {
@@ -159,7 +207,7 @@ impl CreaseArg {
     }
 }
 
-/// How a scene is seen.
+/// What the colours of a picture show.
 #[derive(Args, Clone, Debug)]
 pub struct ViewArg {
     /// What the colours show
@@ -169,7 +217,7 @@ pub struct ViewArg {
 
 impl ViewArg {
     /// The view's row in the table.
-    pub fn integrator(&self) -> &'static Integrator {
+    pub fn view(&self) -> &'static Integrator {
         integrator(&self.view).expect("clap takes names from the table only")
     }
 }
@@ -193,7 +241,7 @@ fn view_names() -> impl clap::builder::TypedValueParser<Value = String> {
 
 /// `1280x720`.
 fn parse_size(text: &str) -> Result<UVec2, String> {
-    /// Largest side of a picture: what GPUs take, too.
+    /// Largest side of a picture, as of a GPU's textures.
     const LARGEST: u32 = 16384;
     let sides = text.split_once(['x', 'X', '×']);
     let [width, height] = sides
@@ -201,7 +249,9 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
         .ok_or("expected WIDTHxHEIGHT, as in 1280x720")?;
     match (width, height) {
         (Ok(width @ 1..=LARGEST), Ok(height @ 1..=LARGEST)) => Ok(UVec2::new(width, height)),
-        _ => Err(format!("width and height are numbers from 1 to {LARGEST}")),
+        _ => Err(format!(
+            "width and height must be whole numbers from 1 to {LARGEST}"
+        )),
     }
 }
 
@@ -209,7 +259,15 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
 fn parse_fov(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
-        _ => Err("expected degrees between 0 and 180".to_owned()),
+        _ => Err("expected degrees above 0 and below 180".to_owned()),
+    }
+}
+
+/// `2.5`.
+fn parse_height(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(height) if height > 0.0 && height <= f64::from(f32::MAX) => Ok(height),
+        _ => Err("expected a height above 0, in the file's units".to_owned()),
     }
 }
 
@@ -223,18 +281,16 @@ fn parse_crease(text: &str) -> Result<f32, String> {
 
 /// `1,-2.5,3e4`.
 fn parse_vector(text: &str) -> Result<DVec3, String> {
+    let expected = || "expected three numbers with commas between them, as in 1,-2.5,3".to_owned();
     let numbers: Vec<f64> = text
         .split(',')
         .map(|word| word.trim().parse())
         .collect::<Result<_, _>>()
-        .map_err(|_| "expected three numbers, as in 1,-2.5,3".to_owned())?;
+        .map_err(|_| expected())?;
     match numbers[..] {
         [x, y, z] if numbers.iter().all(|x| x.is_finite()) => Ok(DVec3::new(x, y, z)),
         [_, _, _] => Err("the numbers must be finite".to_owned()),
-        _ => Err(format!(
-            "expected three numbers, here are {}",
-            numbers.len()
-        )),
+        _ => Err(expected()),
     }
 }
 
@@ -243,7 +299,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn sizes_and_vectors_are_read_or_refused_with_a_reason() {
+    fn sizes_angles_and_vectors_are_read_or_refused_with_a_reason() {
         assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
         for bad in ["640", "0x5", "5x99999", "ax5", ""] {
             assert!(parse_size(bad).is_err(), "{bad}");
@@ -251,6 +307,10 @@ mod tests {
         assert_eq!(parse_fov("40"), Ok(40.0));
         for bad in ["0", "180", "200", "nan", "-1", ""] {
             assert!(parse_fov(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_height("1e-9"), Ok(1e-9));
+        for bad in ["0", "-1", "inf", "nan", "1e39", ""] {
+            assert!(parse_height(bad).is_err(), "{bad}");
         }
         assert_eq!(parse_vector("1,-2.5,3e4"), Ok(DVec3::new(1.0, -2.5, 3e4)));
         for bad in ["1,2", "1,2,3,4", "1,2,x", "1,2,nan", ""] {

@@ -1,7 +1,7 @@
-//! `hitscope bench`: how fast is a file loaded, its tree built, and the rays of each workload traced?
+//! `hitscope bench`: speed of loading a mesh, of building its tree, and of tracing rays through it.
 
 use super::args::{CameraArgs, MeshArgs, kernel_names};
-use super::{CommandError, default_thread_count};
+use super::{CommandError, ThreadsArg};
 use crate::measure::speed::{RAYS_AT_ONCE, median};
 use crate::measure::workloads::{WORKLOADS, workloads};
 use clap::Args;
@@ -14,45 +14,52 @@ use hitscope_core::{Intersector, Ray, TriangleMesh};
 use serde::Serialize;
 use std::hint::black_box;
 use std::io::Write;
-use std::num::NonZeroUsize;
 use std::path::PathBuf;
 use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-/// Measure loading, building and tracing
-///
-/// The rays: primary, through the pixels' centres; bounce, a diffuse one from each of their hits; random, across
-/// the scene's sphere; shadow, the bounce rays asked only whether they hit anything. Rates are rays over the
-/// CPU time of the tracing threads over their number, the middle of the rounds, in which the kernels take
-/// turns.
+/// Measure the speed of loading, building and tracing
 #[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Workloads:
+  primary  camera rays through the centres of the pixels
+  bounce   a diffuse ray from each hit of a primary ray
+  random   rays across the bounding sphere of the scene
+  shadow   the bounce rays again, asking only whether they hit anything
+
+A rate is the number of rays divided by the CPU time of the tracing threads and multiplied by their number: the
+median of all rounds. Kernels take turns in each round.
+
+Examples:
+  hitscope bench bunny.obj
+  hitscope bench bunny.obj --kernel fast --kernel exact --threads 1 --json")]
 pub struct BenchArgs {
-    /// The OBJ file
+    /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
-    /// From where primary rays start.
+    /// Camera of the primary rays.
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Kernel or tier, several times for several [default: the four tiers]
+    /// Kernel, by its name or its tier's; repeat it for several [default: the four tiers]
     #[arg(long = "kernel", value_name = "KERNEL", value_parser = kernel_names())]
     pub kernels: Vec<String>,
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// Threads that trace [default: as many as there are cores]
-    #[arg(long, value_name = "N")]
-    pub threads: Option<NonZeroUsize>,
-    /// Rounds, of which the middle counts
-    #[arg(long, value_name = "N", default_value = "5")]
-    pub rounds: NonZeroUsize,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadsArg,
+    /// Rounds to take the median of, 1 to 1000
+    #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1000))]
+    pub rounds: u16,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
 }
 
-/// Camera rays and random rays at most.
+/// Most camera rays, and most random rays.
 const MOST_RAYS: usize = 1 << 20;
-/// Rays that a thread takes at a time.
+/// Rays that a thread takes at once.
 const RAYS_PER_PART: usize = 4096;
 
 #[derive(Serialize)]
@@ -60,20 +67,20 @@ struct Report {
     triangles: usize,
     simd: &'static str,
     load_ms: f64,
-    /// The tree alone, on all threads.
+    /// Of the tree, on all cores.
     build_ms: f64,
-    /// The quick tree, which no ray is traced through here.
+    /// Of the quick tree that the window starts with. No ray is traced through it here.
     quick_build_ms: f64,
-    /// Tree and the first kernel's triangles.
+    /// Tree, and triangles packed for the first kernel.
     bytes_per_triangle: f64,
-    /// `None` where the system doesn't tell.
+    /// `None` where the system has no figure.
     peak_rss_bytes: Option<u64>,
-    kernels: Vec<Packed>,
+    kernels: Vec<PackedKernel>,
     workloads: Vec<Row>,
 }
 
 #[derive(Serialize)]
-struct Packed {
+struct PackedKernel {
     kernel: &'static str,
     pack_ms: f64,
     bytes_per_triangle: f64,
@@ -83,7 +90,7 @@ struct Packed {
 struct Row {
     name: &'static str,
     kernel: &'static str,
-    /// How many rays go through the tree together, where they go the same way.
+    /// Rays that go through the tree together where they are coherent.
     rays_together: usize,
     threads: usize,
     rays: usize,
@@ -92,7 +99,7 @@ struct Row {
     mrays_per_s_wall: f64,
 }
 
-/// What is asked of rays.
+/// The query for the rays of a workload.
 #[derive(Clone, Copy)]
 enum WorkloadQuery {
     Closest,
@@ -106,6 +113,7 @@ impl BenchArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        self.camera.check()?;
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene)?;
@@ -116,7 +124,7 @@ impl BenchArgs {
         for kernel in self.kernels() {
             let start = Instant::now();
             let intersector = scene.intersector(kernel);
-            packed.push(Packed {
+            packed.push(PackedKernel {
                 kernel: kernel.info.short_name(),
                 pack_ms: milliseconds(start.elapsed()),
                 bytes_per_triangle: per_triangle(scene.bvh().bytes() + intersector.bytes()),
@@ -130,7 +138,7 @@ impl BenchArgs {
             build_ms: milliseconds(scene.build_time()),
             quick_build_ms: milliseconds(quick_build_time(scene.mesh())),
             bytes_per_triangle: packed[0].bytes_per_triangle,
-            // Before the rays are there, which no viewer keeps.
+            // Before the rays are made: the viewer doesn't keep any.
             peak_rss_bytes: peak_rss_bytes(),
             kernels: packed,
             workloads: self.rows(&intersectors, &workloads(scene, &camera, MOST_RAYS, 1)),
@@ -156,7 +164,6 @@ impl BenchArgs {
     }
 
     fn rows(&self, intersectors: &[Box<dyn Intersector>], workloads: &[Vec<Ray>; 3]) -> Vec<Row> {
-        let threads = self.threads.map_or_else(default_thread_count, usize::from);
         let [primary, bounce, _] = workloads;
         let single = WORKLOADS.into_iter().zip(workloads);
         let single = single.map(|(name, rays)| (name, WorkloadQuery::Closest, rays));
@@ -165,13 +172,13 @@ impl BenchArgs {
             ("shadow", WorkloadQuery::Any, bounce),
         ];
         let mut rows = Vec::new();
-        for (name, question, rays) in single.chain(more) {
+        for (name, query, rays) in single.chain(more) {
             let mut times = vec![Vec::new(); intersectors.len()];
             let mut hits = vec![0; intersectors.len()];
-            // One round to warm up, which doesn't count.
-            for round in 0..=self.rounds.get() {
+            // The first round warms up and doesn't count.
+            for round in 0..=self.rounds {
                 for (k, intersector) in intersectors.iter().enumerate() {
-                    let traced = trace(&**intersector, question, rays, threads);
+                    let traced = trace(&**intersector, query, rays, self.threads.count());
                     hits[k] = traced.hits;
                     if round > 0 {
                         times[k].push(traced);
@@ -186,11 +193,11 @@ impl BenchArgs {
                 rows.push(Row {
                     name,
                     kernel: intersector.kernel().short_name(),
-                    rays_together: match question {
+                    rays_together: match query {
                         WorkloadQuery::Coherent => intersector.rays_together(),
                         WorkloadQuery::Closest | WorkloadQuery::Any => 1,
                     },
-                    threads,
+                    threads: times[0].threads,
                     rays: rays.len(),
                     hits,
                     mrays_per_s: rate(|traced| traced.cpu_seconds),
@@ -202,18 +209,19 @@ impl BenchArgs {
     }
 }
 
-/// A workload, traced once.
+/// One round of a workload.
 #[derive(Clone, Copy)]
 struct Traced {
     hits: u64,
-    /// Of all threads, over their number.
+    threads: usize,
+    /// Sum over the threads, divided by their number.
     cpu_seconds: f64,
     wall_seconds: f64,
 }
 
 fn trace(
     intersector: &dyn Intersector,
-    question: WorkloadQuery,
+    query: WorkloadQuery,
     rays: &[Ray],
     threads: usize,
 ) -> Traced {
@@ -226,33 +234,34 @@ fn trace(
         while let Some(part) = parts.get(next.fetch_add(1, Relaxed)) {
             count += part
                 .chunks(RAYS_AT_ONCE)
-                .map(|rays| hit_count(intersector, question, rays))
+                .map(|rays| hit_count(intersector, query, rays))
                 .sum::<u64>();
         }
         hits.fetch_add(count, Relaxed);
         *cpu.lock().expect("adding doesn't panic") += start.elapsed();
     };
     let start = Instant::now();
-    std::thread::scope(|scope| {
+    let threads = std::thread::scope(|scope| {
         // Where the system grants fewer threads, those it grants do the work.
-        for _ in 1..threads {
-            _ = std::thread::Builder::new().spawn_scoped(scope, work);
-        }
+        let start = |_| std::thread::Builder::new().spawn_scoped(scope, work).ok();
+        let others = (1..threads).map_while(start).count();
         work();
+        1 + others
     });
     let wall_seconds = start.elapsed().as_secs_f64();
     let cpu = cpu.into_inner().expect("adding doesn't panic");
     Traced {
         hits: hits.into_inner(),
+        threads,
         cpu_seconds: cpu.as_secs_f64() / threads as f64,
         wall_seconds,
     }
 }
 
-fn hit_count(intersector: &dyn Intersector, question: WorkloadQuery, rays: &[Ray]) -> u64 {
+fn hit_count(intersector: &dyn Intersector, query: WorkloadQuery, rays: &[Ray]) -> u64 {
     let (mut hits, mut are_hits) = ([None; RAYS_AT_ONCE], [false; RAYS_AT_ONCE]);
     let (hits, are_hits) = (&mut hits[..rays.len()], &mut are_hits[..rays.len()]);
-    match question {
+    match query {
         WorkloadQuery::Closest => intersector.closest_hits(black_box(rays), hits),
         WorkloadQuery::Coherent => intersector.coherent_hits(black_box(rays), hits),
         WorkloadQuery::Any => intersector.any_hits(black_box(rays), are_hits),
@@ -265,11 +274,11 @@ impl Report {
     fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         writeln!(
             out,
-            "{} triangles, {}; loaded in {:.0} ms, tree built in {:.0} ms, a quick one in {:.0} ms",
+            "{} triangles, {}; loaded in {:.0} ms, tree built in {:.0} ms, quick tree in {:.0} ms",
             self.triangles, self.simd, self.load_ms, self.build_ms, self.quick_build_ms
         )?;
         if let Some(bytes) = self.peak_rss_bytes {
-            writeln!(out, "{:.0} MB at most", bytes as f64 / 1e6)?;
+            writeln!(out, "peak memory {:.0} MB", bytes as f64 / 1e6)?;
         }
         writeln!(
             out,
@@ -282,13 +291,13 @@ impl Report {
         }
         writeln!(
             out,
-            "\n{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>10}",
-            "rays", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "by clock"
+            "\n{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>12}",
+            "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "wall clock"
         )?;
         for row in &self.workloads {
             writeln!(
                 out,
-                "{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10.2}{:>10.2}",
+                "{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10.2}{:>12.2}",
                 row.name,
                 row.kernel,
                 row.rays_together,
@@ -313,7 +322,7 @@ fn quick_build_time(mesh: &TriangleMesh) -> Duration {
     start.elapsed()
 }
 
-/// The most memory that the process has had so far.
+/// Peak memory of the process so far.
 fn peak_rss_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status

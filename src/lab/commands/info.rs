@@ -1,4 +1,4 @@
-//! `hitscope info`: what is in a file, and what it asks of a kernel.
+//! `hitscope info`: the contents of a file, and the kernel tier that they require.
 
 use super::CommandError;
 use super::args::MeshArgs;
@@ -13,15 +13,19 @@ use std::collections::BTreeMap;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Shows what a file holds: counts, bounds, memory, the mesh's health
+/// Show the contents of a file: counts, bounds, memory, mesh health, required kernel tier
 #[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Examples:
+  hitscope info bunny.obj
+  gunzip -c bunny.obj.gz | hitscope info - --json")]
 pub struct InfoArgs {
-    /// The OBJ file
+    /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// Print JSON
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
 }
@@ -33,15 +37,15 @@ struct Info {
     polygons: usize,
     materials: usize,
     groups: usize,
-    /// Straight pieces of the file's lines, and its points.
+    /// Straight segments of the file's lines.
     lines: usize,
     points: usize,
     bounds: Bounds,
     origin: [f64; 3],
-    /// Largest distance, in a coordinate, between the file's decimals and what is traced.
+    /// Largest difference in a coordinate between the file's decimals and the mesh that is traced.
     max_rounding: f64,
     bytes: BTreeMap<&'static str, usize>,
-    /// What the same surface takes in each way of writing it.
+    /// Memory of the same surface in other representations.
     bytes_as: BTreeMap<&'static str, usize>,
     dropped: BTreeMap<&'static str, usize>,
     warnings: Vec<String>,
@@ -63,14 +67,14 @@ struct HealthReport {
     degenerate: usize,
     non_finite: usize,
     bad_index: usize,
-    /// How many there are of each of [`FLAWS`]; null where nobody looked.
+    /// Count of each of [`FLAWS`]; null where it wasn't checked.
     #[serde(flatten)]
     flaws: BTreeMap<&'static str, Option<usize>>,
     max_aspect: f64,
 }
 
 impl InfoArgs {
-    /// Loads the file and prints what is in it.
+    /// Loads the file and prints its contents.
     ///
     /// # Errors
     /// See [`CommandError`].
@@ -161,7 +165,7 @@ impl Info {
             let title = info.title.to_lowercase();
             match self.health.flaws[info.name] {
                 Some(count) => writeln!(out, "{title:<20}{count}")?,
-                None => writeln!(out, "{title:<20}not looked for: the border is too long")?,
+                None => writeln!(out, "{title:<20}not checked: too many border edges")?,
             }
         }
         writeln!(

@@ -2,7 +2,7 @@
 
 use super::CommandError;
 use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs};
-use super::render::ShadingArg;
+use super::picture::ShadingArg;
 use crate::inspection::{HitReport, Inspection};
 use clap::Args;
 use glam::UVec2;
@@ -10,10 +10,14 @@ use hitscope_core::obj::Recentre;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Shows what happens to the ray of one pixel: the hit, the exact answer, and every kernel
+/// Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
 #[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Examples:
+  hitscope inspect bunny.obj --pixel 640,360
+  hitscope inspect bunny.obj --pixel 12,80 --size 100x100 --eye 3,2,4 --target 0,1,0 --json")]
 pub struct InspectArgs {
-    /// The OBJ file
+    /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
     /// The pixel, counted from 0,0 at the top left
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
@@ -53,6 +57,8 @@ impl InspectArgs {
                 height: size.y,
             });
         }
+        self.camera.check()?;
+        self.crease.check(self.shading)?;
         let scene = self.mesh.load(&self.file, Recentre::Auto)?.scene;
         let scene = self.crease.apply(scene);
         let camera = self.camera.camera(&scene)?;

@@ -1,47 +1,76 @@
-//! `hitscope lab`: what speed costs in accuracy, on this machine.
+//! `hitscope lab`: the accuracy of every kernel and its price in speed, measured on this machine.
 
-use super::args::CameraArgs;
-use super::render::default_thread_count;
-use super::{CommandError, file_error, load};
+use super::args::{CameraArgs, MeshArgs};
+use super::stderr::ProgressLine;
+use super::{CommandError, Output, default_thread_count, file_error};
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short};
 use crate::measure::{self, Measurements, RunProgress, Sizes};
 use crate::report::{self, RunInfo};
 use clap::Args;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::obj::LoadOptions;
+use hitscope_core::obj::Recentre;
 use hitscope_core::progress::Progress;
-use hitscope_core::scene::SceneOptions;
 use hitscope_core::simd::SimdLevel;
 use serde_json::json;
-use std::io::{self, IsTerminal, Write};
+use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Measures what speed costs in accuracy: every kernel, every extreme, against exact arithmetic
+/// Measure accuracy and speed of every kernel against exact arithmetic
+///
+/// Without --scene, the kernels are measured on built-in cases that cover extreme sizes, shapes and positions. With
+/// --scene, they are measured on the rays of a camera in your own mesh.
 #[derive(Args, Clone, Debug)]
+#[command(
+    mut_args(only_with_scene),
+    after_help = "\
+Examples:
+  hitscope lab --quick
+  hitscope lab --out report
+  hitscope lab --case closed --case order --seed 7
+  hitscope lab --scene bunny.obj --eye 3,2,4
+
+Everything but speed is the same on every machine for the same seed. Threads: one per core."
+)]
 pub struct LabArgs {
-    /// Half a minute instead of several: fewer rays
+    /// Measure fewer rays: half a minute instead of several
     #[arg(long)]
     pub quick: bool,
-    /// Write report.html, lab.json and accuracy.md there
+    /// Write report.html, lab.json and accuracy.md to this directory
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Only cases whose name begins so; speed is left out
+    /// Measure only cases whose names begin with NAME, and no speed; repeat it for several
     #[arg(long, value_name = "NAME")]
     pub case: Vec<String>,
-    /// Print JSON
+    /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// What random numbers begin with
+    /// Random seed
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Measure this OBJ file, as the camera sees it, instead
-    #[arg(long, value_name = "FILE", conflicts_with_all = ["out", "case", "seed"])]
+    /// Measure this OBJ file instead, as the camera sees it; - for standard input
+    #[arg(long, value_name = "FILE", conflicts_with_all = CASE_OPTIONS)]
     pub scene: Option<PathBuf>,
-    /// Camera, for --scene
-    #[command(flatten)]
+    /// Camera.
+    #[command(flatten, next_help_heading = "With --scene")]
     pub camera: CameraArgs,
+    /// How the mesh is loaded.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
+}
+
+/// Options of the lab itself. All others are about the mesh of `--scene`.
+const OWN_OPTIONS: [&str; 6] = ["quick", "out", "case", "json", "seed", "scene"];
+/// Options that have no effect on a scene.
+const CASE_OPTIONS: [&str; 3] = ["out", "case", "seed"];
+
+fn only_with_scene(arg: clap::Arg) -> clap::Arg {
+    if OWN_OPTIONS.contains(&arg.get_id().as_str()) {
+        arg
+    } else {
+        arg.requires("scene").conflicts_with_all(CASE_OPTIONS)
+    }
 }
 
 impl LabArgs {
@@ -52,11 +81,11 @@ impl LabArgs {
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         match &self.scene {
             Some(file) => self.measure_scene(file, out),
-            None => self.measure_matrix(out),
+            None => self.measure_cases(out),
         }
     }
 
-    fn measure_matrix(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+    fn measure_cases(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let mut sizes = if self.quick {
             Sizes::QUICK
         } else {
@@ -66,32 +95,26 @@ impl LabArgs {
             self.refuse_unknown_cases()?;
             sizes.speed_rays = 0;
         }
-        // Before the work: a folder that can't be made shouldn't cost minutes.
-        if let Some(folder) = &self.out {
-            std::fs::create_dir_all(folder).map_err(|source| file_error(folder, source))?;
-        }
+        let files = self.out.as_deref().map(ReportFiles::create).transpose()?;
         let is_wanted = |name: &str| {
             self.case.is_empty() || self.case.iter().any(|case| name.starts_with(&**case))
         };
         let (began, start) = (SystemTime::now(), Instant::now());
-        let is_told = io::stderr().is_terminal();
+        let progress = ProgressLine::new();
         let threads = default_thread_count();
-        if is_told {
-            let time = measure::expected(sizes, &is_wanted, threads);
-            eprintln!("about {} on {threads} threads", duration_text(time));
-        }
-        let tell = |advance: RunProgress| {
-            if is_told {
-                let (percent, left) = (100.0 * advance.done, duration_text(advance.left));
-                eprint!("\r{percent:3.0} %, {left} left but for the speed     ");
-            }
+        let time = measure::expected(sizes, &is_wanted, threads);
+        progress.print(format_args!(
+            "about {} on {threads} threads",
+            duration_text(time)
+        ));
+        let show = |run: RunProgress| {
+            let (percent, left) = (100.0 * run.done, duration_text(run.left));
+            progress.update(format_args!("{percent:3.0} %, {left} left without speed"));
         };
-        let progress = Progress::default();
-        let all =
-            measure::run(sizes, self.seed, &is_wanted, &progress, &tell).expect("nobody cancels");
-        if is_told {
-            eprintln!();
-        }
+        let never_cancelled = Progress::default();
+        let measured = measure::run(sizes, self.seed, &is_wanted, &never_cancelled, &show);
+        let all = measured.expect("nobody cancels");
+        progress.end();
         let about = RunInfo {
             version: env!("CARGO_PKG_VERSION"),
             command: self.command_line(),
@@ -101,34 +124,15 @@ impl LabArgs {
             seed: self.seed,
             size: if self.quick { "quick" } else { "full" },
         };
-        self.hand_over(&about, &all, out)
-    }
-
-    /// Writes the files and prints the tables.
-    fn hand_over(
-        &self,
-        about: &RunInfo,
-        all: &Measurements,
-        out: &mut dyn Write,
-    ) -> Result<(), CommandError> {
-        let json = report::to_json(about, all);
-        if let Some(folder) = &self.out {
-            write(&folder.join("lab.json"), &format!("{json:#}\n"))?;
-            write(&folder.join("report.html"), &report::to_page(&json))?;
-            write(&folder.join("accuracy.md"), &report::accuracy_table(all))?;
-        }
+        // The tables come first: they are worth as much if a file can't be written any more.
+        let json = report::to_json(&about, &all);
         if self.json {
             writeln!(out, "{json:#}")?;
         } else {
-            writeln!(out, "hitscope {}, {}", about.version, about.machine)?;
-            writeln!(
-                out,
-                "{}: {:.1} s, seed {}\n",
-                about.command, about.seconds, about.seed
-            )?;
-            report::print(all, out)?;
+            print_cases(&about, &all, out)?;
         }
-        Ok(out.flush()?)
+        out.flush()?;
+        files.map_or(Ok(()), |files| files.write(&json, &all))
     }
 
     fn refuse_unknown_cases(&self) -> Result<(), CommandError> {
@@ -137,15 +141,15 @@ impl LabArgs {
             if !known.iter().any(|info| info.name.starts_with(&**case)) {
                 let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
                 let names = names.join(", ");
-                return Err(CommandError::Other(format!(
-                    "no case begins with “{case}”; there are {names}"
+                return Err(CommandError::Usage(format!(
+                    "no case begins with “{case}”; the cases are {names}"
                 )));
             }
         }
         Ok(())
     }
 
-    /// What was typed, in its shortest form.
+    /// The shortest command line with the same effect.
     fn command_line(&self) -> String {
         let mut text = "hitscope lab".to_owned();
         if self.quick {
@@ -164,26 +168,24 @@ impl LabArgs {
     }
 
     fn measure_scene(&self, file: &Path, out: &mut dyn Write) -> Result<(), CommandError> {
-        let scene = load(file, LoadOptions::default(), SceneOptions::default())?.scene;
+        self.camera.check()?;
+        let scene = self.mesh.load(file, Recentre::Auto)?.scene;
         let camera = self.camera.camera(&scene)?;
-        let progress = Progress::default();
         let sizes = if self.quick {
             SceneSizes::PANEL
         } else {
             SceneSizes::COMMAND
         };
         let mut rows = Vec::new();
-        let is_told = io::stderr().is_terminal();
-        let measured = measure::scene::measure(&scene, &camera, sizes, &progress, |row| {
-            if is_told {
-                eprint!("\r{} of {} kernels", rows.len() + 1, TRIANGLE_KERNELS.len());
-            }
+        let progress = ProgressLine::new();
+        let never_cancelled = Progress::default();
+        let measured = measure::scene::measure(&scene, &camera, sizes, &never_cancelled, |row| {
+            let (done, all) = (rows.len() + 1, TRIANGLE_KERNELS.len());
+            progress.update(format_args!("{done} of {all} kernels"));
             rows.push(row);
         });
         measured.expect("nobody cancels");
-        if is_told {
-            eprintln!();
-        }
+        progress.end();
         if self.json {
             let json = json!({
                 "file": file.display().to_string(),
@@ -197,6 +199,43 @@ impl LabArgs {
         }
         Ok(out.flush()?)
     }
+}
+
+/// The files of a report. Made before the measurement, which takes minutes: they can be written.
+struct ReportFiles {
+    json: Output,
+    page: Output,
+    table: Output,
+}
+
+impl ReportFiles {
+    fn create(folder: &Path) -> Result<Self, CommandError> {
+        std::fs::create_dir_all(folder).map_err(|source| file_error(folder, source))?;
+        let create = |name: &str| Output::create(&folder.join(name));
+        Ok(Self {
+            json: create("lab.json")?,
+            page: create("report.html")?,
+            table: create("accuracy.md")?,
+        })
+    }
+
+    fn write(&self, json: &serde_json::Value, all: &Measurements) -> Result<(), CommandError> {
+        self.json.write(|out| writeln!(out, "{json:#}"))?;
+        self.page
+            .write(|out| out.write_all(report::to_page(json).as_bytes()))?;
+        self.table
+            .write(|out| out.write_all(report::accuracy_table(all).as_bytes()))
+    }
+}
+
+fn print_cases(about: &RunInfo, all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
+    writeln!(out, "hitscope {}, {}", about.version, about.machine)?;
+    writeln!(
+        out,
+        "{}: {:.1} s, seed {}\n",
+        about.command, about.seconds, about.seed
+    )?;
+    report::print(all, out)
 }
 
 fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
@@ -245,10 +284,6 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-fn write(path: &Path, text: &str) -> Result<(), CommandError> {
-    std::fs::write(path, text).map_err(|source| file_error(path, source))
-}
-
 /// CPU, threads and SIMD level.
 fn machine() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
@@ -263,7 +298,7 @@ fn machine() -> String {
     )
 }
 
-/// Whole seconds, as `2m 5s`.
+/// A duration in whole seconds, as in `2m 5s`.
 fn duration_text(time: Duration) -> String {
     let seconds = Duration::from_secs(time.as_secs_f64().ceil() as u64);
     humantime::format_duration(seconds).to_string()

@@ -1,8 +1,7 @@
 //! `hitscope trace`: rays in, hits out.
 
 use super::args::{KernelArg, MeshArgs};
-use super::render::default_thread_count;
-use super::{CommandError, file_error};
+use super::{CommandError, ThreadsArg, file_error, is_stdin};
 use crate::inspection::position_in_file;
 use clap::{Args, ValueEnum};
 use glam::DVec3;
@@ -20,10 +19,15 @@ use std::time::{Duration, Instant};
 /// Rays that are read, traced and printed at a time.
 const BATCH: usize = 1 << 16;
 
-/// Traces rays through a mesh and prints a JSON object for each
+/// Trace rays through a mesh and print a JSON object for each
 #[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Examples:
+  hitscope trace bunny.obj --rays rays.txt
+  echo '0 0.1 5 0 0 -1' | hitscope trace bunny.obj --rays - --all
+  hitscope trace bunny.obj --rays rays.txt --kernel exact --summary")]
 pub struct TraceArgs {
-    /// The OBJ file
+    /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
     /// Rays, one a line: ox oy oz dx dy dz [tmin tmax] in the file's coordinates; - for stdin
     #[arg(long, value_name = "RAYS")]
@@ -46,9 +50,9 @@ pub struct TraceArgs {
     /// Print counts and speed only
     #[arg(long)]
     pub summary: bool,
-    /// Threads [default: one a core]
-    #[arg(long, value_parser = clap::value_parser!(u16).range(1..=1024))]
-    pub threads: Option<u16>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadsArg,
 }
 
 /// Whether to recentre.
@@ -110,6 +114,10 @@ impl TraceArgs {
     /// # Errors
     /// See [`CommandError`]. A ray that can't be traced is no error: its line says why.
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        if is_stdin(&self.file) && is_stdin(&self.rays) {
+            let message = "the mesh and the rays can't both come from standard input";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
         let recentre = match self.recentre {
             RecentreArg::On => Recentre::Auto,
             RecentreArg::Off => Recentre::Off,
@@ -125,7 +133,7 @@ impl TraceArgs {
                 _ => RayQuery::Closest,
             },
             is_summary: self.summary,
-            threads: self.threads.map_or_else(default_thread_count, usize::from),
+            threads: self.threads.count(),
         };
         let totals = tracer.run(&mut *open(&self.rays)?, &self.rays, out)?;
         if self.summary {

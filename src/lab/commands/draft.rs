@@ -1,0 +1,115 @@
+//! A file that isn't complete yet.
+
+use std::fs::{File, Metadata};
+use std::io;
+use std::path::{Path, PathBuf};
+use tempfile::{Builder, NamedTempFile, TempPath};
+
+/// A file that is being written, in the directory where it is to appear. It vanishes unless it is renamed.
+pub(super) struct Draft {
+    file: File,
+    /// `None` while it has no name: then the system removes it even if the program is killed.
+    name: Option<TempPath>,
+    path: PathBuf,
+}
+
+impl Draft {
+    /// An empty file, with the permissions of the one that it is to replace.
+    pub(super) fn create(path: &Path) -> io::Result<Self> {
+        let directory = directory_of(path);
+        let (file, name) = match unnamed_file(directory) {
+            Some(file) => (file, None),
+            None => {
+                let (file, name) = named_file(directory)?.into_parts();
+                (file, Some(name))
+            }
+        };
+        if let Ok(old) = std::fs::metadata(path) {
+            keep_owner(&file, &old);
+            file.set_permissions(old.permissions())?;
+        }
+        Ok(Self {
+            file,
+            name,
+            path: path.to_owned(),
+        })
+    }
+
+    pub(super) fn file(&self) -> &File {
+        &self.file
+    }
+
+    /// Replaces the older file, if there is one.
+    pub(super) fn rename(self) -> io::Result<()> {
+        // On the disk before its name is: after a power failure the name mustn't lead to half a file.
+        self.file.sync_all()?;
+        let name = match self.name {
+            Some(name) => name,
+            None => name_file(&self.file, directory_of(&self.path))?,
+        };
+        name.persist(&self.path).map_err(|error| error.error)
+    }
+}
+
+fn directory_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+fn named_file(directory: &Path) -> io::Result<NamedTempFile> {
+    let mut builder = Builder::new();
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // As for any new file. The umask applies.
+        builder.permissions(std::fs::Permissions::from_mode(0o666));
+    }
+    builder.tempfile_in(directory)
+}
+
+/// Keeps the owner of the older file where the system allows it, as it does for root.
+fn keep_owner(file: &File, old: &Metadata) {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::{MetadataExt as _, fchown};
+        _ = fchown(file, Some(old.uid()), Some(old.gid()));
+    }
+    #[cfg(not(unix))]
+    let _ = (file, old);
+}
+
+/// A file without a name, if the file system supports such files and `/proc` is there to name it later.
+#[cfg(target_os = "linux")]
+fn unnamed_file(directory: &Path) -> Option<File> {
+    use rustix::fs::{Mode, OFlags, open};
+    if !Path::new("/proc/self/fd").exists() {
+        return None;
+    }
+    let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
+    // As for any new file. The umask applies.
+    let mode = Mode::from_raw_mode(0o666);
+    open(directory, flags, mode).ok().map(File::from)
+}
+
+/// Gives a file from [`unnamed_file`] a name.
+#[cfg(target_os = "linux")]
+fn name_file(file: &File, directory: &Path) -> io::Result<TempPath> {
+    use rustix::fs::{AtFlags, CWD, linkat};
+    use std::os::fd::AsRawFd as _;
+    let unnamed = format!("/proc/self/fd/{}", file.as_raw_fd());
+    let link = |name: &Path| Ok(linkat(CWD, &*unnamed, CWD, name, AtFlags::SYMLINK_FOLLOW)?);
+    let named = Builder::new().make_in(directory, link)?;
+    Ok(named.into_temp_path())
+}
+
+#[cfg(not(target_os = "linux"))]
+fn unnamed_file(_: &Path) -> Option<File> {
+    None
+}
+
+#[cfg(not(target_os = "linux"))]
+fn name_file(_: &File, _: &Path) -> io::Result<TempPath> {
+    unreachable!("only Linux has files without a name")
+}

@@ -1,0 +1,70 @@
+//! Loading the mesh of a command, from a file or from standard input.
+
+use super::CommandError;
+use super::stderr::{ProgressLine, print_line};
+use hitscope_core::obj::{self, FaultPolicy, LoadOptions, shown};
+use hitscope_core::progress::Progress;
+use hitscope_core::scene::{LoadedScene, SceneOptions};
+use std::io;
+use std::path::Path;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::time::Instant;
+
+/// The name of standard input on the command line.
+const STDIN: &str = "-";
+
+/// Whether an argument names standard input.
+pub fn is_stdin(path: &Path) -> bool {
+    path == Path::new(STDIN)
+}
+
+/// Loads a scene from a file, or from standard input if `path` is `-`, and prints the file's warnings to stderr, one
+/// in a line.
+///
+/// # Errors
+/// [`CommandError::Load`]; [`CommandError::Usage`] where standard input would have to be read twice.
+pub fn load(
+    path: &Path,
+    load_options: LoadOptions,
+    options: SceneOptions,
+) -> Result<LoadedScene, CommandError> {
+    let (name, loaded) = if is_stdin(path) {
+        let name = Path::new("standard input");
+        (name, load_stdin(name, load_options, options)?)
+    } else {
+        let loaded = LoadedScene::load(path, load_options, options, &Progress::default())?;
+        (path, loaded)
+    };
+    let triangles = loaded.scene.mesh().triangles.len();
+    let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;
+    ProgressLine::new().print(format_args!(
+        "{}: {triangles} triangles in {ms:.0} ms",
+        shown(name)
+    ));
+    for warning in &loaded.warnings {
+        print_line(format_args!("{}: warning: {warning}", shown(name)));
+    }
+    Ok(loaded)
+}
+
+fn load_stdin(
+    name: &Path,
+    load_options: LoadOptions,
+    options: SceneOptions,
+) -> Result<LoadedScene, CommandError> {
+    if load_options.faults == FaultPolicy::Lenient {
+        let message = "--lenient may read the mesh twice, which standard input doesn't allow";
+        return Err(CommandError::Usage(message.to_owned()));
+    }
+    let (start, progress) = (Instant::now(), Progress::default());
+    let is_read = AtomicBool::new(false);
+    let open = || {
+        if is_read.swap(true, Relaxed) {
+            return Err(io::Error::other("it can't be read twice"));
+        }
+        Ok(io::stdin())
+    };
+    let no_folder = |_: &str| Err(io::Error::other("standard input has no folder to look in"));
+    let loaded = obj::parse(open, name, load_options, &no_folder, &progress)?;
+    Ok(LoadedScene::of(loaded, start, options, &progress).expect("nobody cancels"))
+}

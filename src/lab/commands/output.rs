@@ -1,0 +1,142 @@
+//! Files that commands write: an output appears under its name when it is complete.
+
+use super::draft::Draft;
+use super::{CommandError, file_error};
+use glam::UVec2;
+use std::fs::{self, File, OpenOptions};
+use std::io::{self, BufWriter, Write};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+const STDOUT: &str = "/dev/stdout";
+
+/// A place for a file, which was writable when it was created.
+///
+/// A regular file is written beside its place and renamed when it is complete: whatever happens before, an older
+/// file keeps its content, and its permissions in any case. Symbolic links are followed. A pipe or a device is
+/// opened at once and written directly.
+#[derive(Clone, Debug)]
+pub struct Output {
+    path: PathBuf,
+    destination: Destination,
+}
+
+#[derive(Clone, Debug)]
+enum Destination {
+    /// A regular file, or none yet: its path with links followed.
+    Replaced(PathBuf),
+    /// A pipe or a device.
+    Opened(Arc<File>),
+}
+
+impl Output {
+    /// Checks that the place can be written. Call it before long work.
+    ///
+    /// # Errors
+    /// [`CommandError::File`] with what the system says.
+    pub fn create(path: &Path) -> Result<Self, CommandError> {
+        let destination = destination(path).map_err(|source| file_error(path, source))?;
+        Ok(Self {
+            path: path.to_owned(),
+            destination,
+        })
+    }
+
+    /// Writes the file. `content` is given a buffered writer.
+    ///
+    /// # Errors
+    /// [`CommandError::File`] with what the system says; the place is then as it was before.
+    pub fn write(
+        &self,
+        content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+    ) -> Result<(), CommandError> {
+        let written = match &self.destination {
+            Destination::Opened(file) => write_through(file, content),
+            Destination::Replaced(path) => Draft::create(path).and_then(|draft| {
+                write_through(draft.file(), content)?;
+                draft.rename()
+            }),
+        };
+        written.map_err(|source| file_error(&self.path, source))
+    }
+
+    /// Writes sRGB pixels, row by row from the top, as a PNG file.
+    ///
+    /// # Errors
+    /// See [`write`](Self::write).
+    ///
+    /// # Panics
+    /// If there aren't as many pixels as `size` says.
+    pub fn write_png(&self, size: UVec2, pixels: &[[u8; 4]]) -> Result<(), CommandError> {
+        assert_eq!(pixels.len(), size.as_usizevec2().element_product());
+        self.write(|out| {
+            let mut encoder = png::Encoder::new(out, size.x, size.y);
+            encoder.set_color(png::ColorType::Rgba);
+            encoder.set_depth(png::BitDepth::Eight);
+            encoder.set_compression(png::Compression::Fast);
+            encoder.set_filter(png::Filter::Adaptive);
+            let mut writer = encoder.write_header()?;
+            let mut stream = writer.stream_writer()?;
+            stream.write_all(pixels.as_flattened())?;
+            stream.finish()?;
+            Ok(writer.finish()?)
+        })
+    }
+}
+
+/// Whether writing to a path goes to a pipe or a device, rather than to a file of this name.
+pub(super) fn is_stream(path: &Path) -> bool {
+    // A file that stdout is redirected to mustn't be replaced: others may write to it, too.
+    let is_descriptor = [STDOUT, "/dev/stderr", "/dev/fd", "/proc"]
+        .iter()
+        .any(|place| path.starts_with(place));
+    is_descriptor || fs::metadata(path).is_ok_and(|info| !info.is_file() && !info.is_dir())
+}
+
+fn destination(path: &Path) -> io::Result<Destination> {
+    if is_stream(path) {
+        return Ok(Destination::Opened(Arc::new(stream(path)?)));
+    }
+    let path = behind_links(path)?;
+    match OpenOptions::new().write(true).open(&path) {
+        // A file that can't be written isn't replaced either.
+        Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
+        _ => {}
+    }
+    drop(Draft::create(&path)?);
+    Ok(Destination::Replaced(path))
+}
+
+fn stream(path: &Path) -> io::Result<File> {
+    // Opened by its name, a file that stdout is redirected to would be overwritten from its beginning.
+    #[cfg(unix)]
+    if path == Path::new(STDOUT) {
+        use std::os::fd::AsFd as _;
+        return Ok(io::stdout().as_fd().try_clone_to_owned()?.into());
+    }
+    OpenOptions::new().append(true).open(path)
+}
+
+/// Where a path leads if it, or what it leads to, is a symbolic link. The end needn't exist.
+fn behind_links(path: &Path) -> io::Result<PathBuf> {
+    /// As many as Linux follows.
+    const MOST_LINKS: u32 = 40;
+    let mut path = path.to_owned();
+    for _ in 0..MOST_LINKS {
+        let Ok(target) = fs::read_link(&path) else {
+            return Ok(path);
+        };
+        path = path.parent().unwrap_or(Path::new("")).join(target);
+    }
+    Err(io::Error::other("too many levels of symbolic links"))
+}
+
+/// Writes through a buffer.
+fn write_through(
+    file: &File,
+    content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> io::Result<()> {
+    let mut out = BufWriter::new(file);
+    content(&mut out)?;
+    out.flush()
+}

@@ -1,0 +1,174 @@
+//! What a traced picture shows, and the tracing of it.
+
+use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
+use super::{CommandError, ThreadsArg};
+use clap::{Args, ValueEnum};
+use glam::{UVec2, Vec3};
+use hitscope_core::film::BYTES_PER_PIXEL;
+use hitscope_core::integrator::{Comparison, Context};
+use hitscope_core::kernel::triangle_kernel;
+use hitscope_core::render::plan::Plan;
+use hitscope_core::render::{Job, render};
+use hitscope_core::scene::{LoadedScene, Shading};
+use hitscope_core::srgb::from_display;
+use hitscope_core::{Camera, Film, Intersector};
+use std::sync::Arc;
+
+/// What a traced picture shows
+#[derive(Args, Clone, Debug)]
+pub struct PictureArgs {
+    /// Camera.
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    /// Samples per pixel, 1 to 4096, rounded up to a power of two
+    #[arg(long, value_name = "N", default_value_t = 16, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    pub samples: u32,
+    /// How normals vary over a triangle
+    #[arg(long, default_value = "flat")]
+    pub shading: ShadingArg,
+    /// View.
+    #[command(flatten)]
+    pub view: ViewArg,
+    /// Kernel.
+    #[command(flatten)]
+    pub kernel: KernelArg,
+    /// Where smooth shading has edges.
+    #[command(flatten)]
+    pub crease: CreaseArg,
+    /// How the mesh is loaded.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
+    /// With the view “disagreement”: the kernel to compare with [default: exact]
+    #[arg(long, value_name = "KERNEL", value_parser = kernel_names())]
+    pub against: Option<String>,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadsArg,
+}
+
+/// How normals vary over a triangle.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub enum ShadingArg {
+    /// One normal per triangle
+    Flat,
+    /// Interpolated between the vertices
+    Smooth,
+}
+
+impl From<ShadingArg> for Shading {
+    fn from(arg: ShadingArg) -> Self {
+        match arg {
+            ShadingArg::Flat => Self::Flat,
+            ShadingArg::Smooth => Self::Smooth,
+        }
+    }
+}
+
+/// A picture, with what is needed to draw over it.
+pub struct Rendered {
+    /// The picture.
+    pub film: Film,
+    /// Its camera.
+    pub camera: Camera,
+    /// The scene that it shows.
+    pub loaded: LoadedScene,
+    /// How normals vary over its triangles.
+    pub shading: Shading,
+}
+
+/// The background of pictures without a window, in sRGB; the same as the dark theme's.
+pub const DARK_BACKGROUND: Vec3 = Vec3::new(0.13, 0.14, 0.16);
+
+impl PictureArgs {
+    /// Checks what can be checked without a mesh. Call it before one is loaded.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(&self) -> Result<(), CommandError> {
+        let refuse = |message: String| Err(CommandError::Usage(message));
+        self.camera.check()?;
+        if self.against.is_some() && self.view.view().against != Comparison::Second {
+            let view = &self.view.view;
+            return refuse(format!(
+                "--against has no effect on the view “{view}”: it needs --view disagreement"
+            ));
+        }
+        self.crease.check(self.shading)?;
+        let (bytes, most) = (self.picture_bytes(), self.mesh.memory.bytes());
+        if bytes > most {
+            return refuse(self.too_large(format_args!("takes {} MB", bytes.div_ceil(1 << 20))));
+        }
+        Ok(())
+    }
+
+    /// Traces the picture of a scene.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn trace(&self, mut loaded: LoadedScene) -> Result<Rendered, CommandError> {
+        loaded.scene = self.crease.apply(loaded.scene);
+        let camera = self.camera.camera(&loaded.scene)?;
+        let shading = self.shading.into();
+        let intersector: Arc<dyn Intersector> =
+            Arc::from(loaded.scene.intersector(self.kernel.kernel()));
+        let against = self.against.as_deref().unwrap_or("exact");
+        let chosen = triangle_kernel(against).expect("clap takes names from the table only");
+        let view = self.view.view();
+        let second = view.second(&loaded.scene, &intersector, chosen);
+        self.require_memory(&loaded, &[&intersector, &second])?;
+        let context = Context {
+            second,
+            intersector,
+            scene: Arc::clone(&loaded.scene),
+            camera,
+            shading,
+            background: from_display(DARK_BACKGROUND),
+        };
+        let job = Job {
+            context,
+            integrator: view,
+            plan: Plan::new(camera.resolution(), 1, self.samples),
+        };
+        Ok(Rendered {
+            film: render(job, self.threads.count())?,
+            camera,
+            loaded,
+            shading,
+        })
+    }
+
+    /// Refuses a picture for which the mesh leaves no room.
+    fn require_memory(
+        &self,
+        loaded: &LoadedScene,
+        [first, second]: &[&Arc<dyn Intersector>; 2],
+    ) -> Result<(), CommandError> {
+        let scene = &loaded.scene;
+        let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
+        let mut held = mesh + scene.bvh().bytes() + first.bytes();
+        if !Arc::ptr_eq(first, second) {
+            held += second.bytes();
+        }
+        let bytes = self.picture_bytes();
+        if held as u64 + bytes <= self.mesh.memory.bytes() {
+            return Ok(());
+        }
+        let [picture, mesh] = [bytes, held as u64].map(|bytes| bytes.div_ceil(1 << 20));
+        Err(CommandError::Other(self.too_large(format_args!(
+            "takes {picture} MB beside the mesh's {mesh} MB"
+        ))))
+    }
+
+    fn picture_bytes(&self) -> u64 {
+        let UVec2 { x, y } = self.camera.size;
+        u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
+    }
+
+    fn too_large(&self, takes: std::fmt::Arguments) -> String {
+        let UVec2 { x, y } = self.camera.size;
+        format!(
+            "a picture of {x}x{y} pixels {takes}, and hitscope may use {} MB (--max-memory)",
+            self.mesh.memory.max_memory
+        )
+    }
+}

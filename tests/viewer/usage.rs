@@ -1,0 +1,149 @@
+//! Faults of the command line: exit status 2, before the mesh is loaded.
+
+use crate::program::{Program, assert_fails, stderr, stdout};
+
+#[test]
+fn impossible_arguments_are_refused_before_the_mesh_is_loaded() {
+    let program = Program::new();
+    // There is no such mesh, which would be the error otherwise.
+    let render = "render none.obj -o out.png";
+    let cases = [
+        (&*format!("{render} --ortho 0"), "expected a height above 0"),
+        (&format!("{render} --ortho -2"), "expected a height above 0"),
+        (&format!("{render} --fov -1"), "expected degrees above 0"),
+        (&format!("{render} --samples -1"), "-1 is not in 1..=4096"),
+        (&format!("{render} --threads 0"), "0 is not in 1..=1024"),
+        (&format!("{render} --size 1x16385"), "from 1 to 16384"),
+        (&format!("{render} --eye 1,2"), "three numbers with commas"),
+        (
+            &format!("{render} --eye 1,1,1 --target 1,1,1"),
+            "eye and target are the same",
+        ),
+        (
+            &format!("{render} --eye 0,5,0 --target 0,1,0"),
+            "points along the view",
+        ),
+        (
+            &format!("{render} --eye 0,5,0 --up 0,0,0"),
+            "up vector is zero",
+        ),
+        ("inspect none.obj --pixel 9999,0", "is outside the picture"),
+        (
+            "inspect none.obj --pixel 0,0 --eye 1,1,1 --target 1,1,1",
+            "eye and target are the same",
+        ),
+        ("bench none.obj --threads 9999999", "is not in 1..=1024"),
+        ("bench none.obj --rounds 0", "0 is not in 1..=1000"),
+        (
+            "bench none.obj --eye 1,1,1 --target 1,1,1",
+            "eye and target are the same",
+        ),
+        ("lab --case nonsense", "no case begins with “nonsense”"),
+        (
+            "lab --scene none.obj --eye 1,1,1 --target 1,1,1",
+            "eye and target are the same",
+        ),
+        ("trace - --rays -", "can't both come from standard input"),
+        ("info - --lenient", "which standard input doesn't allow"),
+        ("-", "the window can't show standard input"),
+    ];
+    for (line, message) in cases {
+        let ran = program.run(line);
+        assert_fails(&ran, 2, "error: ");
+        assert!(stderr(&ran).contains(message), "{line}: {}", stderr(&ran));
+    }
+}
+
+#[test]
+fn options_without_effect_are_refused() {
+    let program = Program::new();
+    let render = "render none.obj -o out.png";
+    let cases = [
+        (
+            &*format!("{render} --against fast"),
+            "it needs --view disagreement",
+        ),
+        (
+            &format!("{render} --against fast --view error-t"),
+            "it needs --view disagreement",
+        ),
+        (
+            &format!("{render} --crease 30"),
+            "it needs --shading smooth",
+        ),
+        (
+            "inspect none.obj --pixel 1,1 --crease 30",
+            "it needs --shading smooth",
+        ),
+        ("lab --quick --eye 1,2,3", "--scene <FILE>"),
+        ("lab --quick --size 10x10", "--scene <FILE>"),
+        ("lab --quick --lenient", "--scene <FILE>"),
+        ("lab --quick --max-memory 5", "--scene <FILE>"),
+        ("lab --quick --compact", "--scene <FILE>"),
+        ("lab --quick --seed 2 --eye 1,2,3", "cannot be used with"),
+        ("lab --case order-edge --lenient", "cannot be used with"),
+        (&format!("{render} --target 1,2,3"), "--eye <X,Y,Z>"),
+        ("good.obj --after 3", "--screenshot <OUT.png>"),
+    ];
+    for (line, message) in cases {
+        let ran = program.run(line);
+        assert_fails(&ran, 2, "error: ");
+        assert!(stderr(&ran).contains(message), "{line}: {}", stderr(&ran));
+    }
+}
+
+#[test]
+fn a_camera_that_does_not_fit_the_mesh_is_the_command_lines_fault() {
+    let program = Program::new();
+    // The middle of the mesh.
+    let ran = program.run("inspect good.obj --pixel 0,0 --eye 0.5,0.5,0");
+    assert_fails(&ran, 2, "error: the camera's eye and target are the same");
+}
+
+#[test]
+fn up_vectors_of_any_length_have_a_direction() {
+    let program = Program::new();
+    let inspect = "inspect good.obj --pixel 3,3 --size 8x8 --eye 0.2,0.2,3 --json --up";
+    let usual = program.run(&format!("{inspect} 1,1,0"));
+    assert!(usual.status.success(), "{}", stderr(&usual));
+    let long = program.run(&format!("{inspect} 1e308,1e308,0"));
+    assert!(long.status.success(), "{}", stderr(&long));
+    assert_eq!(stdout(&long), stdout(&usual));
+}
+
+#[test]
+fn misspelt_commands_and_several_files_get_a_hint() {
+    let program = Program::new();
+    for (line, hint) in [
+        ("rander good.obj", "did you mean “render”?"),
+        ("rander good.obj -o out.png", "did you mean “render”?"),
+        ("ifno", "did you mean “info”?"),
+        ("traces good.obj --rays -", "did you mean “trace”?"),
+        ("good.obj bad.obj", "the window shows one file"),
+    ] {
+        let ran = program.run(line);
+        assert_fails(&ran, 2, "error: ");
+        assert!(stderr(&ran).contains(hint), "{line}: {}", stderr(&ran));
+    }
+    // A file that is there isn't a misspelt command.
+    std::fs::rename(program.path("bad.obj"), program.path("rander")).expect("renamed");
+    let ran = program.run("rander");
+    assert_eq!(ran.status.code(), Some(1));
+    assert!(stderr(&ran).contains("rander:2: "), "{}", stderr(&ran));
+}
+
+#[test]
+fn every_command_has_a_version_and_help_with_examples() {
+    let program = Program::new();
+    let version = concat!(env!("CARGO_PKG_VERSION"), "\n");
+    for command in ["", "render", "inspect", "trace", "info", "lab", "bench"] {
+        let ran = program.run(&format!("{command} --version"));
+        assert!(stdout(&ran).ends_with(version), "{command}");
+        let help = stdout(&program.run(&format!("{command} --help")));
+        assert!(help.contains("Examples:"), "{command}: {help}");
+    }
+    let help = stdout(&program.run("--help"));
+    for part in ["Exit status:", "Limits:"] {
+        assert!(help.contains(part), "{help}");
+    }
+}
