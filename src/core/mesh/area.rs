@@ -1,4 +1,4 @@
-//! Has a triangle exactly zero area? Such a triangle has no normal and no barycentric coordinates.
+//! Finds triangles whose area is exactly zero: they have no normal and no barycentric coordinates.
 
 use glam::Vec3;
 

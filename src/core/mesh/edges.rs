@@ -1,4 +1,4 @@
-//! Which triangles meet in an edge, and which corners in a vertex?
+//! The triangles at each edge, and the corners at each vertex.
 
 use super::TriangleMesh;
 use rayon::prelude::*;

@@ -1,9 +1,9 @@
-//! What does a face look like?
+//! Materials: colours, highlights and textures of faces.
 
 use super::Texture;
 use glam::{Vec2, Vec3};
 
-/// What a face looks like. Colours are linear RGB.
+/// A material. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// As the file calls it.
@@ -12,9 +12,9 @@ pub struct Material {
     pub diffuse: Option<Vec3>,
     /// Reflectance of highlights (`Ks`).
     pub specular: Vec3,
-    /// Exponent of the highlights (`Ns`): the larger, the smaller they are.
+    /// Exponent of the highlights (`Ns`): the larger it is, the smaller they are.
     pub shininess: f32,
-    /// Light of its own (`Ke`).
+    /// Emitted light (`Ke`).
     pub emission: Vec3,
     /// 1 hides what is behind, 0 is invisible (`d`, or 1 − `Tr`).
     pub opacity: f32,
@@ -24,7 +24,7 @@ pub struct Material {
     pub diffuse_map: Option<TextureMap>,
 }
 
-/// Which lights a material answers.
+/// The parts of shading that a material has.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Illumination {
     /// None: its diffuse colour as it is.

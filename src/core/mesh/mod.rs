@@ -1,4 +1,4 @@
-//! Which triangles, about which origin?
+//! Triangle meshes.
 //!
 //! An indexed mesh as the file gave it: each vertex once, triangles as three indices, and for each
 //! triangle the polygon that it came from, so that a wireframe can hide triangulation diagonals.

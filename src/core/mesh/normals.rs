@@ -1,4 +1,4 @@
-//! Which way does a smooth surface face at a corner?
+//! Vertex normals of smooth surfaces.
 
 use super::edges::{EdgeTable, EdgeUse, VertexFans};
 use super::{NO_INDEX, TriangleMesh, Welded, unit_normal};

@@ -1,4 +1,4 @@
-//! Which number has a triangle, where neighbours in the list mostly have the same?
+//! A number for each triangle, stored as runs of equal numbers.
 
 /// Numbers of triangles, kept as runs of equal ones; 0 before the first run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -10,7 +10,7 @@ pub struct Runs {
 impl Runs {
     /// From this triangle on, which is beyond all runs so far.
     pub fn begin(&mut self, triangle: u32, number: u32) {
-        // A run without a triangle is none.
+        // A run without triangles is removed.
         if self
             .runs
             .last()

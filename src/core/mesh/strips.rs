@@ -1,4 +1,4 @@
-//! How few indices can a surface be written with?
+//! Writes a surface with few indices.
 //!
 //! ```text
 //!   b───d───f     a strip a b c d e f: each index after the second makes a triangle with the two

@@ -1,4 +1,4 @@
-//! Which colour does a picture have at a place?
+//! Textures: pictures on surfaces.
 
 use crate::srgb::from_texel;
 use glam::{UVec2, Vec2, Vec3};
@@ -25,7 +25,7 @@ impl Texture {
         })
     }
 
-    /// What stands in for a picture that is missing.
+    /// The checkerboard that stands in for a missing picture.
     pub fn checker() -> Self {
         // Eight fields a side; several texels each, so that their edges are sharp.
         const SIDE: u32 = 64;

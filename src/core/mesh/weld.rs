@@ -1,4 +1,4 @@
-//! Which vertices are at the same place?
+//! Welds vertices that are at the same place.
 
 use super::TriangleMesh;
 use glam::Vec3;

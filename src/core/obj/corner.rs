@@ -1,8 +1,8 @@
-//! What does one corner of a face name?
+//! Parses the corners of faces, lines and points.
 
 use super::facts::shortened;
 
-/// What a corner's indices count, in the order in which it names them.
+/// The lists that a corner's indices count in, in the order in which it names them.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum List {
     Vertex,
@@ -17,7 +17,7 @@ impl List {
         ["vertex", "texture", "normal"][self as usize]
     }
 
-    /// Why an index can't be.
+    /// The message for an index that names nothing.
     pub(super) fn out_of_range(self, written: i64, count: usize) -> String {
         let what = self.name();
         match written {
@@ -35,7 +35,7 @@ pub(super) struct Corner {
     pub offset: usize,
 }
 
-/// A word that is no corner, where it begins, and why it isn't.
+/// A word that is no corner: where it begins, and what is wrong with it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Malformed {
     pub offset: usize,
@@ -128,7 +128,7 @@ impl Corners<'_> {
     }
 }
 
-/// Between words.
+/// Whether a byte separates words.
 pub(super) const fn is_blank(b: u8) -> bool {
     matches!(b, b' ' | b'\t' | 0x0B | 0x0C)
 }

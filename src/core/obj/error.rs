@@ -1,4 +1,4 @@
-//! What can be wrong with an OBJ file, and how is that said?
+//! Errors and warnings about OBJ files.
 
 use crate::progress::Cancelled;
 use std::fmt;
@@ -29,7 +29,7 @@ pub enum LoadError {
         path: PathBuf,
         /// The line, counted from 1.
         line: usize,
-        /// The character where the word begins that is wrong, counted from 1.
+        /// The character at which the wrong word begins, counted from 1.
         column: Option<usize>,
         /// What is wrong there.
         message: String,
@@ -39,7 +39,7 @@ pub enum LoadError {
     Content {
         /// The file.
         path: PathBuf,
-        /// What it is or lacks.
+        /// What the file is or lacks.
         message: String,
     },
     /// The user cancelled.
@@ -50,12 +50,12 @@ pub enum LoadError {
     },
 }
 
-/// A path fit for a message: without what would move a terminal's cursor.
+/// A path as messages show it: without control characters, which could move a terminal's cursor.
 pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
 }
 
-/// A text without what would move a terminal's cursor, or turn the direction in which it is read.
+/// A text without control characters and without marks that change the direction of reading.
 pub(super) fn printable(text: &str) -> String {
     let turns = |c: char| matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
     let plain = |c: char| {
@@ -116,12 +116,12 @@ impl From<Cancelled> for Problem {
     }
 }
 
-/// Something odd that didn't keep the mesh from loading.
+/// An oddity of a file whose mesh was loaded all the same.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
     /// The first line that it concerns, counted from 1.
     pub line: Option<usize>,
-    /// What it is, with how often.
+    /// What is odd, and how often it occurs.
     pub message: String,
 }
 

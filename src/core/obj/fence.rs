@@ -1,12 +1,12 @@
-//! What if another crate panics on a user's data?
+//! Turns panics of other crates on a user's data into errors.
 
 use super::error::Problem;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// What a crate makes of a user's data, or what it panicked about; `what` it was to do is for the message.
+/// The result of `work`, or an error that says what it panicked about. `what` names the work in the message.
 ///
-/// What the work was given mustn't be used after a panic, but to be dropped.
+/// After a panic, whatever the work was given may only be dropped.
 pub(super) fn fenced<T>(what: &str, work: impl FnOnce() -> T) -> Result<T, Problem> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         Problem::Content(format!("{what} failed unexpectedly: {}", reason(&*panic)))

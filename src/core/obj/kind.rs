@@ -1,8 +1,8 @@
-//! What is a file that is no OBJ?
+//! Recognises files that are no OBJ by their first bytes.
 
 use memchr::memchr;
 
-/// How a file of some kind begins, and what it is called.
+/// The first bytes of a kind of file, and its name.
 const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"<!doctype", "an HTML page"),
     (b"<html", "an HTML page"),
@@ -25,7 +25,7 @@ const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"BZh", "packed with bzip2"),
 ];
 
-/// What a file is, if its first bytes show that it is no OBJ.
+/// A message that says what a file is, if its first bytes show that it is no OBJ.
 pub(super) fn not_an_obj(first_bytes: &[u8]) -> Option<String> {
     if first_bytes.is_empty() {
         return Some("the file is empty".to_owned());

@@ -1,4 +1,4 @@
-//! Which names does a file use, and for which faces?
+//! The materials, groups and libraries that a file names.
 
 use std::collections::{HashMap, HashSet};
 
@@ -8,7 +8,7 @@ pub(super) struct NamedRuns {
     /// Distinct names; the first one, empty, is for faces before any run.
     pub names: Vec<String>,
     by_name: HashMap<String, u32>,
-    /// What the next face goes by.
+    /// The name that the next face gets.
     next: Option<String>,
     /// The first face, and the index of the name that it and those after it have.
     pub runs: Vec<(usize, u32)>,
@@ -28,12 +28,12 @@ impl Default for NamedRuns {
 }
 
 impl NamedRuns {
-    /// From the next face on.
+    /// Gives the next face and those after it a name.
     pub(super) fn begin(&mut self, name: String) {
         self.next = Some(name);
     }
 
-    /// A name without a face is none.
+    /// Notes a face. A name that no face gets isn't kept.
     pub(super) fn add_face(&mut self, face: usize) {
         let Some(name) = self.next.take() else {
             return;

@@ -1,4 +1,4 @@
-//! Which of the file's numbers does a corner have?
+//! Gathers the numbers that corners refer to.
 //!
 //! tobj gives a list for some ten thousand faces each; here they become one for the whole file.
 

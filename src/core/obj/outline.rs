@@ -1,4 +1,4 @@
-//! Which of a triangle's edges are edges of its polygon?
+//! Tells the edges of polygons from the diagonals of their triangles.
 
 /// Tells edges of a polygon from diagonals, and from bridges to its holes.
 ///

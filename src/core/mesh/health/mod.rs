@@ -1,4 +1,4 @@
-//! Is a mesh healthy: closed, manifold, consistently wound, free of slivers?
+//! Finds the flaws of a mesh: borders, edges of three triangles, flipped triangles, slivers and others.
 
 mod t_junctions;
 mod triangles;
@@ -29,16 +29,16 @@ pub enum Flaw {
     Sliver,
 }
 
-/// What there is to say of a kind of flaw.
+/// The name and description of a kind of flaw.
 #[derive(Clone, Copy, Debug)]
 pub struct FlawInfo {
-    /// Which.
+    /// The kind.
     pub flaw: Flaw,
-    /// As reports call them.
+    /// The name in reports.
     pub name: &'static str,
-    /// For menus.
+    /// The name in menus.
     pub title: &'static str,
-    /// What it is, in a sentence.
+    /// A sentence that describes it.
     pub about: &'static str,
 }
 
@@ -88,7 +88,7 @@ pub static FLAWS: [FlawInfo; 7] = [
     },
 ];
 
-/// Where a kind of flaw is.
+/// The places of a kind of flaw.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlawLocations {
     /// Between these vertices.
@@ -97,12 +97,12 @@ pub enum FlawLocations {
     Triangles(Vec<u32>),
     /// At these vertices.
     Vertices(Vec<u32>),
-    /// Nobody looked, as it would have taken too long.
+    /// Not checked, as that would have taken too long.
     Unknown,
 }
 
 impl FlawLocations {
-    /// How many there are, if somebody looked.
+    /// How many there are, if that was checked.
     pub fn count(&self) -> Option<usize> {
         match self {
             Self::Edges(edges) => Some(edges.len()),
@@ -113,7 +113,7 @@ impl FlawLocations {
     }
 }
 
-/// What is unusual about a mesh.
+/// The flaws of a mesh.
 #[derive(Clone, Debug)]
 pub struct Health {
     /// By [`Flaw`], in the order of [`FLAWS`].
@@ -156,7 +156,7 @@ impl Health {
         }
     }
 
-    /// Where flaws of a kind are.
+    /// The places of a kind of flaw.
     pub fn places(&self, flaw: Flaw) -> &FlawLocations {
         &self.places[flaw as usize]
     }
@@ -167,7 +167,7 @@ impl Health {
         (!bounds.is_empty()).then_some(bounds)
     }
 
-    /// Whether the surface has an inside: each edge has two triangles.
+    /// Whether the mesh is closed: each edge has two triangles.
     pub fn is_closed(&self) -> bool {
         [Flaw::OpenEdge, Flaw::NonManifoldEdge]
             .into_iter()

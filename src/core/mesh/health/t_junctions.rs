@@ -1,4 +1,4 @@
-//! Which vertices of a border lie inside another edge of a border?
+//! Finds vertices of a border that lie inside another edge of a border.
 
 use crate::mesh::TriangleMesh;
 use glam::DVec3;

@@ -1,4 +1,4 @@
-//! Which triangles are slivers or duplicates?
+//! Finds slivers and duplicate triangles.
 
 use crate::mesh::{TriangleMesh, Welded};
 use glam::{DVec3, Vec3};
