@@ -1,4 +1,4 @@
-//! Which mesh do the file's numbers make?
+//! Makes a mesh of the file's numbers.
 
 use super::error::{Problem, Warning};
 use super::facts::{Element, Facts, Tally};
@@ -6,28 +6,29 @@ use super::numbers::Numbers;
 use super::outline::Outline;
 use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
-use super::{LoadOptions, Loaded, ReadFile, materials};
+use super::referenced_files::ReferencedFiles;
+use super::{LoadOptions, Loaded, materials};
 use crate::mesh::{Dropped, Runs, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
 use glam::DVec3;
 use std::ops::Range;
 
-/// Elements between two looks at whether the load is still wanted.
+/// Elements between two checks whether the load was cancelled.
 const ELEMENTS_PER_CHECK: usize = 1 << 14;
 
 pub(super) fn assemble(
     mut numbers: Numbers,
     facts: &Facts,
     options: &LoadOptions,
-    read_file: ReadFile,
+    files: &dyn ReferencedFiles,
     progress: &Progress,
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
     let mut warnings = facts.warnings();
-    let looks = materials::look_up(facts, read_file, options.max_memory, progress)?;
+    let looks = materials::look_up(facts, files, options.max_memory, progress)?;
     warnings.extend(looks.warnings);
     if looks.textures.is_empty() {
-        // Nothing asks where on a picture a corner lies.
+        // Nothing uses texture coordinates.
         numbers.textures = Vec::new();
         numbers.corners[1] = Vec::new();
     }
@@ -63,7 +64,7 @@ pub(super) fn assemble(
     shrink(&mut mesh);
     require_content(&mesh, facts)?;
     Ok(Loaded {
-        max_rounding: max_rounding(&mesh, &numbers.positions),
+        max_rounding: max_rounding(&mesh, &numbers.positions, facts.has_long_numbers),
         mesh,
         warnings,
         vertex_count: facts.counts[0],
@@ -177,7 +178,7 @@ impl Assembly<'_> {
     }
 }
 
-/// Numbers of faces, becoming numbers of triangles.
+/// Turns runs of faces into runs of triangles.
 struct FaceRuns<'r> {
     rest: &'r [(usize, u32)],
 }
@@ -187,7 +188,7 @@ impl<'r> FaceRuns<'r> {
         Self { rest: runs }
     }
 
-    /// A face begins whose first triangle this would be.
+    /// Begins a face, whose first triangle is the given one.
     fn step(&mut self, face: usize, triangle: u32, of_triangles: &mut Runs) {
         while let [(first, number), rest @ ..] = self.rest
             && *first <= face
@@ -198,7 +199,7 @@ impl<'r> FaceRuns<'r> {
     }
 }
 
-/// Where each kind of oddity begins.
+/// How often each oddity occurs, and where first.
 #[derive(Default)]
 struct Oddities {
     non_finite: Tally,
@@ -234,7 +235,7 @@ impl Oddities {
     }
 }
 
-/// Gives back what lists took beyond their length as they grew.
+/// Gives back the unused capacity of lists.
 fn shrink(mesh: &mut TriangleMesh) {
     mesh.triangles.shrink_to_fit();
     mesh.faces.shrink_to_fit();
@@ -243,7 +244,7 @@ fn shrink(mesh: &mut TriangleMesh) {
     mesh.corner_textures.shrink_to_fit();
 }
 
-/// A mesh without triangles is an error that says why.
+/// An error that says why there are no triangles, if there are none.
 fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
     if !mesh.triangles.is_empty() {
         return Ok(());

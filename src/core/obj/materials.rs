@@ -1,41 +1,42 @@
-//! What do the materials look like that faces name?
+//! Looks up the materials that faces name, and reads their textures.
 
+use super::Warning;
 use super::error::Problem;
 use super::facts::{Facts, shortened};
-use super::fence::fenced;
-use super::mtl::{self, Definition, MapFile};
+use super::mtl::{self, Definition, MapFile, MaterialLibrary};
+use super::picture::{Picture, decoded};
+use super::referenced_files::ReferencedFiles;
 use super::words::before_comment;
-use super::{ReadFile, Warning};
 use crate::mesh::{Material, Texture, TextureMap};
 use crate::progress::Progress;
-use glam::UVec2;
-use image::{ImageReader, Limits};
 use std::collections::{HashMap, HashSet};
-use std::io::{self, Cursor};
+use std::io;
+use std::path::{Path, PathBuf};
 
-/// What faces look like: for each name that they use, in order, and the textures of these.
+/// The materials that faces name, in the order of their names, and the textures of these.
 pub(super) struct MaterialResolver {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
-    /// What is missing, then what was skipped.
+    /// Missing files first, then skipped statements.
     pub warnings: Vec<Warning>,
 }
 
 /// Looks up every material that faces name, and reads the pictures of those.
 pub(super) fn look_up(
     facts: &Facts,
-    read_file: ReadFile,
+    files: &dyn ReferencedFiles,
     max_memory: u64,
     progress: &Progress,
 ) -> Result<MaterialResolver, Problem> {
-    let libraries = Libraries::of(facts, read_file, progress)?;
+    let libraries = Libraries::of(facts, files, max_memory, progress)?;
     let mut textures = Textures {
-        read_file,
+        files,
         max_memory,
         list: Vec::new(),
         by_name: HashMap::new(),
+        by_path: HashMap::new(),
         checker: None,
-        missing: LimitedWarnings::default(),
+        odd: LimitedWarnings::default(),
     };
     let mut unknown: Vec<&str> = Vec::new();
     let mut materials = Vec::with_capacity(facts.materials.names.len());
@@ -59,7 +60,7 @@ pub(super) fn look_up(
         materials.push(material);
     }
     let mut warnings = libraries.missing.warnings("material libraries");
-    warnings.extend(textures.missing.warnings("textures"));
+    warnings.extend(textures.odd.warnings("textures"));
     warnings.extend(unknown.first().map(|first| {
         let count = unknown.len();
         let message = format!(
@@ -80,7 +81,7 @@ pub(super) fn look_up(
     })
 }
 
-/// Warnings of one kind, of which only so many are told one by one.
+/// Warnings of one kind, of which only the first ones are kept.
 #[derive(Default)]
 struct LimitedWarnings {
     told: Vec<Warning>,
@@ -105,16 +106,17 @@ impl LimitedWarnings {
     }
 }
 
-/// What the libraries say of the materials that faces name.
+/// The definitions of the materials that faces name.
 struct Libraries<'a> {
-    read_file: ReadFile<'a>,
+    files: &'a dyn ReferencedFiles,
+    max_memory: u64,
     /// The names that faces use, with and without what may be a comment.
     wanted: HashSet<&'a str>,
     progress: &'a Progress,
     /// Each material with its library's folder. Of several by one name the first one counts.
     known: HashMap<String, (String, Definition)>,
-    /// Names that were looked for, and whether they were found.
-    seen: HashMap<String, bool>,
+    /// Paths of libraries, and whether they could be read.
+    seen: HashMap<PathBuf, bool>,
     missing: LimitedWarnings,
     oddities: LimitedWarnings,
 }
@@ -123,13 +125,15 @@ impl<'a> Libraries<'a> {
     /// Reads every library of a file.
     fn of(
         facts: &'a Facts,
-        read_file: ReadFile<'a>,
+        files: &'a dyn ReferencedFiles,
+        max_memory: u64,
         progress: &'a Progress,
     ) -> Result<Self, Problem> {
         let names = facts.materials.names.iter();
         let spellings = names.flat_map(|name| [Some(name.as_str()), before_comment(name)]);
         let mut libraries = Self {
-            read_file,
+            files,
+            max_memory,
             wanted: spellings.flatten().collect(),
             progress,
             known: HashMap::new(),
@@ -143,7 +147,7 @@ impl<'a> Libraries<'a> {
         Ok(libraries)
     }
 
-    /// What a `mtllib` names: one library whose name may have spaces, or several.
+    /// Reads the libraries that a `mtllib` names: one, whose name may have spaces, or several.
     fn read(&mut self, line: usize, names: &str) -> Result<(), Problem> {
         let whole = names.trim_matches('"').replace('\\', "/");
         let Err(error) = self.read_one(&whole)? else {
@@ -176,21 +180,35 @@ impl<'a> Libraries<'a> {
         if library.is_empty() {
             return Ok(Err("a name is missing".to_owned()));
         }
-        match self.seen.get(library) {
+        let path = self.files.find(library);
+        match self.seen.get(&path) {
             Some(true) => return Ok(Ok(())),
             Some(false) => return Ok(Err("can't be read either".to_owned())),
             None if self.seen.len() >= MOST => return Ok(Err(format!("one of more than {MOST}"))),
             None => {}
         }
-        let bytes = (self.read_file)(library);
-        self.seen.insert(library.to_owned(), bytes.is_ok());
-        let bytes = match bytes {
+        let read = self.read_file(library, &path)?;
+        self.seen.insert(path, read.is_ok());
+        Ok(read)
+    }
+
+    /// Reads the file of a library.
+    fn read_file(&mut self, library: &str, path: &Path) -> Result<Result<(), String>, Problem> {
+        let bytes = match self.files.read(path, self.max_memory) {
             Ok(bytes) => bytes,
             Err(error) => return Ok(Err(reason(&error))),
         };
         let is_wanted = |name: &str| self.wanted.contains(name);
-        let (definitions, odd) = mtl::parse(&bytes, library, is_wanted, self.progress)?;
-        odd.into_iter().for_each(|oddity| self.oddities.add(oddity));
+        let Some(MaterialLibrary {
+            definitions,
+            warnings,
+        }) = mtl::parse(&bytes, library, is_wanted, self.progress)?
+        else {
+            return Ok(Err("not a material library".to_owned()));
+        };
+        for warning in warnings {
+            self.oddities.add(warning);
+        }
         let folder = library.rsplit_once('/').map_or("", |(folder, _)| folder);
         for definition in definitions {
             let name = definition.material.name.clone();
@@ -201,9 +219,9 @@ impl<'a> Libraries<'a> {
     }
 }
 
-/// Several libraries: each goes to where a word ends in `.mtl`; where none does, each is a word.
+/// The names of several libraries. Each ends with a word in `.mtl`; if there is no such word, each word is a name.
 fn names_in(several: &str) -> impl Iterator<Item = String> {
-    /// What Linux takes for a whole path.
+    /// The longest path on Linux.
     const LONGEST_NAME: usize = 4096;
     let is_end = |word: &str| word.trim_end_matches('"').to_lowercase().ends_with(".mtl");
     let has_ends = several.split_whitespace().any(is_end);
@@ -221,7 +239,7 @@ fn names_in(several: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// Why a file can't be read.
+/// The reason why a file can't be read.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "not found".to_owned(),
@@ -231,14 +249,17 @@ fn reason(error: &io::Error) -> String {
 
 /// The textures so far.
 struct Textures<'a> {
-    read_file: ReadFile<'a>,
-    /// Bytes that may be taken by those that are still to come.
+    files: &'a dyn ReferencedFiles,
+    /// Bytes that textures still to come may take.
     max_memory: u64,
     list: Vec<Texture>,
+    /// The texture of each name that was looked up.
     by_name: HashMap<String, u32>,
-    /// Stands in for all that are missing.
+    /// The texture of each file that was read.
+    by_path: HashMap<PathBuf, u32>,
+    /// Stands in for all that can't be read.
     checker: Option<u32>,
-    missing: LimitedWarnings,
+    odd: LimitedWarnings,
 }
 
 impl Textures<'_> {
@@ -252,7 +273,7 @@ impl Textures<'_> {
         let texture = match self.by_name.get(&in_folder) {
             Some(&texture) => texture,
             None => {
-                let texture = self.read(&map.name, &in_folder);
+                let texture = self.texture(&map.name, &in_folder);
                 self.by_name.insert(in_folder, texture);
                 texture
             }
@@ -264,56 +285,65 @@ impl Textures<'_> {
         }
     }
 
-    fn read(&mut self, name: &str, in_folder: &str) -> u32 {
-        let bytes = (self.read_file)(in_folder).or_else(|error| {
-            if in_folder == name {
-                Err(error)
-            } else {
-                (self.read_file)(name)
+    /// The texture of a name that wasn't looked up yet.
+    fn texture(&mut self, name: &str, in_folder: &str) -> u32 {
+        let mut why = String::new();
+        let names = [in_folder, name];
+        let names = if in_folder == name {
+            &names[..1]
+        } else {
+            &names
+        };
+        for name_in_folder in names {
+            let path = self.files.find(name_in_folder);
+            if let Some(&texture) = self.by_path.get(&path) {
+                return texture;
             }
-        });
-        let picture = bytes
-            .map_err(|error| reason(&error))
-            .and_then(|bytes| decoded(name, &bytes, self.max_memory));
-        match picture {
-            Ok(texture) => {
-                self.max_memory = self.max_memory.saturating_sub(texture.bytes() as u64);
-                self.push(texture)
-            }
-            Err(error) => {
-                let name = shortened(name);
-                let message = format!("texture “{name}”: {error}; shown as a checker");
-                self.missing.add(Warning::of_file(message));
-                let checker = self.checker;
-                let checker = checker.unwrap_or_else(|| self.push(Texture::checker()));
-                self.checker = Some(checker);
-                checker
+            match self.files.read(&path, self.max_memory) {
+                Ok(bytes) => {
+                    let texture = self.decode(name, &bytes);
+                    self.by_path.insert(path, texture);
+                    return texture;
+                }
+                Err(error) => why = reason(&error),
             }
         }
+        self.checker(name, &why)
+    }
+
+    fn decode(&mut self, name: &str, bytes: &[u8]) -> u32 {
+        let left = self.max_memory.saturating_sub(bytes.len() as u64);
+        let Picture {
+            texture,
+            is_cut_short,
+        } = match decoded(name, bytes, left) {
+            Ok(picture) => picture,
+            Err(why) => return self.checker(name, &why),
+        };
+        if is_cut_short {
+            self.warn(name, "the file ends early: part of the picture is missing");
+        }
+        self.max_memory = self.max_memory.saturating_sub(texture.bytes() as u64);
+        self.push(texture)
+    }
+
+    /// The checkerboard that stands in for a texture that can't be read.
+    fn checker(&mut self, name: &str, why: &str) -> u32 {
+        self.warn(name, &format!("{why}; shown as a checker"));
+        let checker = self.checker;
+        let checker = checker.unwrap_or_else(|| self.push(Texture::checker()));
+        self.checker = Some(checker);
+        checker
+    }
+
+    fn warn(&mut self, name: &str, what: &str) {
+        let name = shortened(name);
+        let message = format!("texture “{name}”: {what}");
+        self.odd.add(Warning::of_file(message));
     }
 
     fn push(&mut self, texture: Texture) -> u32 {
         self.list.push(texture);
         self.list.len() as u32 - 1
     }
-}
-
-/// A PNG or JPEG of at most so many bytes unpacked.
-fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Texture, String> {
-    let decode = || -> Result<image::RgbImage, image::ImageError> {
-        let mut reader = ImageReader::new(Cursor::new(bytes)).with_guessed_format()?;
-        let mut limits = Limits::default();
-        // What the picture has besides red, green and blue of eight bits is converted, which needs both.
-        let half = max_bytes / 2;
-        limits.max_alloc = Some(limits.max_alloc.map_or(half, |most| most.min(half)));
-        reader.limits(limits);
-        Ok(reader.decode()?.into_rgb8())
-    };
-    let picture = match fenced("decoding", decode) {
-        Ok(decoded) => decoded.map_err(|error| error.to_string())?,
-        Err(Problem::Content(message)) => return Err(message),
-        Err(_) => return Err("decoding failed".to_owned()),
-    };
-    let size = UVec2::new(picture.width(), picture.height());
-    Texture::new(name, size, picture.into_raw()).ok_or_else(|| "an empty picture".to_owned())
 }

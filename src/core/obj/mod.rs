@@ -1,32 +1,37 @@
-//! What does this OBJ file hold?
+//! Loads OBJ files, with their material libraries and textures.
 //!
 //! | step | file |
 //! |---|---|
-//! | bytes become statements: compression, encodings, line ends | `lines`, `kind` |
-//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies` |
+//! | bytes become statements: compression, encodings, line ends | `lines`, `gzip`, `kind` |
+//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies`, `memory` |
 //! | tobj reads their numbers, in f64 | here |
 //! | its lists of some ten thousand faces become one | `numbers` |
-//! | vertices are recentred, polygons cut, and what no ray can hit is dropped | `assemble`, `place`, `polygon`, `outline` |
-//! | names become materials and textures | `materials`, `mtl`, `beside` |
+//! | vertices are recentred, polygons cut, and triangles that no ray can hit dropped | `assemble`, `place`, `polygon`, `delaunay`, `outline` |
+//! | names become materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
 
 mod assemble;
 mod copies;
 mod corner;
+mod delaunay;
 mod error;
 mod facts;
 mod fence;
+mod gzip;
 mod kind;
 mod lines;
 mod materials;
+mod memory;
 mod mtl;
 mod names;
 mod numbers;
 mod outline;
+mod picture;
 mod place;
 mod polygon;
 mod reader;
 mod referenced_files;
 mod statement;
+mod stored_file;
 mod words;
 
 pub use error::{LoadError, Warning, shown};
@@ -37,6 +42,8 @@ use crate::progress::{Phase, Progress};
 use error::Problem;
 use fence::fenced;
 use reader::{NormalisingReader, Outcome};
+use referenced_files::{Folder, NamedFiles, ReferencedFiles};
+use std::cell::Cell;
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -51,14 +58,14 @@ pub enum Recentre {
     Off,
 }
 
-/// What is done with a face whose indices name nothing.
+/// How faces are treated whose indices name nothing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaultPolicy {
     /// The file is refused.
     #[default]
     Strict,
-    /// The face is dropped, or what its corner lacks left out; a warning tells how many. A file that comes through
-    /// a pipe is refused all the same, as it can't be read twice.
+    /// A face without a vertex is dropped; a normal or texture coordinates that don't exist are left out. A warning
+    /// counts them. Files that come through a pipe are refused, as they can't be read twice.
     Lenient,
 }
 
@@ -67,9 +74,9 @@ pub enum FaultPolicy {
 pub struct LoadOptions {
     /// Where the mesh's origin is put.
     pub recentre: Recentre,
-    /// What is done with faces whose indices name nothing.
+    /// How faces are treated whose indices name nothing.
     pub faults: FaultPolicy,
-    /// Bytes that loading may take; a file that needs more is refused.
+    /// Bytes of memory that loading and building the tree may take; a file that needs more is refused.
     pub max_memory: u64,
 }
 
@@ -85,7 +92,7 @@ impl Default for LoadOptions {
     }
 }
 
-/// A mesh, and what was odd about its file.
+/// A mesh, and the oddities of its file.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The mesh.
@@ -94,7 +101,7 @@ pub struct Loaded {
     pub warnings: Vec<Warning>,
     /// `v` statements in the file.
     pub vertex_count: usize,
-    /// The largest distance, in a coordinate, between the file's numbers in f64 and what is traced.
+    /// No coordinate of the traced mesh lies farther from its decimal in the file than this.
     pub max_rounding: f64,
     /// The libraries and textures that were looked for, whether or not they are there.
     pub files: Vec<PathBuf>,
@@ -115,19 +122,22 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
             path: path.to_owned(),
         });
     }
+    if is_device(&before) {
+        // Some never end.
+        return Err(Problem::Content("this is a device, not an OBJ file".to_owned()).in_file(path));
+    }
     progress.set_total(before.len());
-    let folder = referenced_files::Folder::of(path);
     let options = LoadOptions {
-        // What comes through a pipe can't be read again.
         faults: if before.is_file() {
             options.faults
         } else {
+            // A pipe can't be read twice.
             FaultPolicy::Strict
         },
         ..options
     };
-    let open = || File::open(path);
-    let parsed = parse(open, path, options, &|name| folder.read(name), progress);
+    let folder = Folder::of(path);
+    let parsed = parse_with(|| File::open(path), path, options, &folder, progress);
     let is_cancelled = matches!(parsed, Err(LoadError::Cancelled { .. }));
     let after = std::fs::metadata(path).map_err(unreadable)?;
     if is_changed(&before, &after) && !is_cancelled {
@@ -137,6 +147,49 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
     let mut loaded = parsed?;
     loaded.files = folder.into_wanted();
     Ok(loaded)
+}
+
+/// Loads an OBJ from a stream, such as the standard input; `path` is what errors call it. Libraries and textures are
+/// looked for in the folder of `path`, which is the current one for a bare name. Faults are never passed over, as
+/// a stream can't be read twice.
+///
+/// # Errors
+/// See [`LoadError`].
+pub fn load_stream(
+    bytes: impl Read,
+    path: &Path,
+    options: LoadOptions,
+    progress: &Progress,
+) -> Result<Loaded, LoadError> {
+    let options = LoadOptions {
+        faults: FaultPolicy::Strict,
+        ..options
+    };
+    let folder = Folder::of(path);
+    let bytes = Cell::new(Some(bytes));
+    let open = || {
+        bytes
+            .take()
+            .ok_or_else(|| io::Error::other("a stream can't be read twice"))
+    };
+    let mut loaded = parse_with(open, path, options, &folder, progress)?;
+    loaded.files = folder.into_wanted();
+    Ok(loaded)
+}
+
+/// Whether a file is neither stored nor a pipe: a disk, a terminal, or a source of bytes without end.
+fn is_device(info: &Metadata) -> bool {
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::FileTypeExt;
+        let kind = info.file_type();
+        kind.is_char_device() || kind.is_block_device()
+    }
+    #[cfg(not(unix))]
+    {
+        _ = info;
+        false
+    }
 }
 
 const CHANGED: &str = "the file changed while it was read; load it again";
@@ -160,13 +213,23 @@ pub fn parse<R: Read>(
     read_file: ReadFile,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
+    parse_with(open, path, options, &NamedFiles(read_file), progress)
+}
+
+fn parse_with<R: Read>(
+    open: impl Fn() -> io::Result<R>,
+    path: &Path,
+    options: LoadOptions,
+    files: &dyn ReferencedFiles,
+    progress: &Progress,
+) -> Result<Loaded, LoadError> {
     let read_twice = || -> Result<Loaded, Problem> {
-        let counts = match read(&open, options, None, read_file, progress)? {
+        let counts = match read(&open, options, None, files, progress)? {
             ReadOutcome::Loaded(loaded) => return Ok(*loaded),
             ReadOutcome::Again(counts) => counts,
         };
         progress.restart();
-        match read(&open, options, Some(counts), read_file, progress)? {
+        match read(&open, options, Some(counts), files, progress)? {
             ReadOutcome::Loaded(loaded) => Ok(*loaded),
             ReadOutcome::Again(_) => Err(Problem::Content(CHANGED.to_owned())),
         }
@@ -174,7 +237,7 @@ pub fn parse<R: Read>(
     read_twice().map_err(|problem| problem.in_file(path))
 }
 
-/// What came of reading a file once.
+/// The result of reading a file once.
 enum ReadOutcome {
     Loaded(Box<Loaded>),
     /// Some indices are too high for these counts of vertices, texture coordinates and normals.
@@ -185,7 +248,7 @@ fn read<R: Read>(
     open: &impl Fn() -> io::Result<R>,
     options: LoadOptions,
     known_counts: Option<[usize; 3]>,
-    read_file: ReadFile,
+    files: &dyn ReferencedFiles,
     progress: &Progress,
 ) -> Result<ReadOutcome, Problem> {
     progress.enter(Phase::Reading);
@@ -211,13 +274,13 @@ fn read<R: Read>(
         Outcome::Read(facts) => facts,
         Outcome::Again(counts) => return Ok(ReadOutcome::Again(counts)),
     };
-    // What is left is for textures.
+    // The rest is for textures.
     let options = LoadOptions {
         max_memory: options.max_memory.saturating_sub(facts.bytes() as u64),
         ..options
     };
     let numbers = numbers::Numbers::gather(models, &mut facts, progress)?;
-    assemble::assemble(numbers, &facts, &options, read_file, progress)
+    assemble::assemble(numbers, &facts, &options, files, progress)
         .map(|loaded| ReadOutcome::Loaded(Box::new(loaded)))
 }
 

@@ -1,4 +1,4 @@
-//! What does a material library say of its materials?
+//! Reads material libraries.
 //!
 //! Read here and not by tobj, which panics on the legal `Kd 0.5` and drops a whole library for a
 //! statement that it doesn't know. One bad line costs that line.
@@ -33,16 +33,73 @@ pub(super) struct MapFile {
     pub offset: Vec2,
 }
 
-/// Statements that programs write for each material and that shading has no use for: told of, they would hide
-/// what is odd.
+/// Statements that programs write for each material and that shading doesn't use. Warnings about them would hide
+/// the others.
 const SILENT: [&str; 3] = ["Ka", "Ni", "sharpness"];
 
-/// Statements between two looks at whether the load is still wanted.
+/// Statements between two checks whether the load was cancelled.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
 /// A library of more bytes, unpacked, isn't read to its end: four times the largest file that is read at all.
 const LARGEST: usize = 1 << 30;
 
-/// The materials of a library that are wanted, each by its first definition, and what was odd about it.
+/// Keywords of the format and of its usual extensions, in lower case. Only these are named in warnings: any file
+/// can be called a library, and warnings must not quote it.
+const KEYWORDS: [&str; 45] = [
+    "ka",
+    "kd",
+    "ks",
+    "ke",
+    "km",
+    "tf",
+    "tr",
+    "d",
+    "ns",
+    "ni",
+    "illum",
+    "sharpness",
+    "map_ka",
+    "map_kd",
+    "map_ks",
+    "map_ke",
+    "map_ns",
+    "map_ni",
+    "map_d",
+    "map_tr",
+    "map_bump",
+    "map_disp",
+    "map_refl",
+    "map_norm",
+    "map_aat",
+    "bump",
+    "disp",
+    "decal",
+    "refl",
+    "norm",
+    "pr",
+    "pm",
+    "ps",
+    "pc",
+    "pcr",
+    "aniso",
+    "anisor",
+    "map_pr",
+    "map_pm",
+    "map_ps",
+    "map_pc",
+    "map_pcr",
+    "map_ao",
+    "newmtl",
+    "map_opacity",
+];
+
+/// A library's materials, and what was odd about it.
+pub(super) struct MaterialLibrary {
+    /// The wanted ones, each by its first definition.
+    pub definitions: Vec<Definition>,
+    pub warnings: Vec<Warning>,
+}
+
+/// Reads the wanted materials of a library; `None` if the file isn't one.
 ///
 /// # Errors
 /// Cancelled by `progress`.
@@ -51,14 +108,59 @@ pub(super) fn parse(
     library: &str,
     is_wanted: impl Fn(&str) -> bool,
     progress: &Progress,
-) -> Result<(Vec<Definition>, Vec<Warning>), Problem> {
+) -> Result<Option<MaterialLibrary>, Problem> {
     let mut parser = Parser::default();
-    let mut failure = None;
-    // Bytes of libraries don't count as progress.
-    let own = Progress::default();
-    let (mut count, mut length) = (0, 0);
-    let mut read = || -> Result<(), Problem> {
+    let failure = match parser.read_all(bytes, is_wanted, progress) {
+        Ok(()) => None,
+        Err(Problem::Cancelled) => return Err(Problem::Cancelled),
+        Err(problem) => Some(problem.in_file(library.as_ref()).to_string()),
+    };
+    // A library without materials holds comments at most.
+    if parser.material_count == 0 && (parser.statement_count > 0 || failure.is_some()) {
+        return Ok(None);
+    }
+    let about = format!("material library “{}”", shortened(library));
+    let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
+        let Tally { count, first_line } = tally;
+        format!("{about}: {count} “{keyword}” statement(s) skipped, line {first_line} first")
+    });
+    let unknown = (parser.unknown.count > 0).then(|| {
+        let Tally { count, first_line } = parser.unknown;
+        format!("{about}: {count} unknown statement(s) skipped, line {first_line} first")
+    });
+    let warnings = skipped.chain(unknown).chain(failure);
+    Ok(Some(MaterialLibrary {
+        definitions: parser.found,
+        warnings: warnings.map(Warning::of_file).collect(),
+    }))
+}
+
+/// The materials so far.
+#[derive(Default)]
+struct Parser {
+    found: Vec<Definition>,
+    names: HashSet<String>,
+    current: Option<Definition>,
+    /// Statements besides comments.
+    statement_count: usize,
+    material_count: usize,
+    /// Skipped statements by keyword.
+    skipped: BTreeMap<String, Tally>,
+    /// Skipped statements whose keyword isn't one of the format.
+    unknown: Tally,
+}
+
+impl Parser {
+    fn read_all(
+        &mut self,
+        bytes: &[u8],
+        is_wanted: impl Fn(&str) -> bool,
+        progress: &Progress,
+    ) -> Result<(), Problem> {
+        // Bytes of libraries don't count as progress.
+        let own = Progress::default();
         let mut lines = Lines::new(bytes, &own)?;
+        let (mut count, mut length) = (0, 0);
         while let Some(statement) = lines.next()? {
             if count % STATEMENTS_PER_CHECK == 0 {
                 progress.check()?;
@@ -68,45 +170,25 @@ pub(super) fn parse(
             if length > LARGEST {
                 return Err(statement.problem(format!("more than {} MB", LARGEST >> 20)));
             }
-            parser.take(statement, &is_wanted);
+            self.take(statement, &is_wanted);
         }
+        self.end_material(is_wanted);
         Ok(())
-    };
-    match read() {
-        Ok(()) => {}
-        Err(Problem::Cancelled) => return Err(Problem::Cancelled),
-        Err(problem) => failure = Some(problem.in_file(library.as_ref()).to_string()),
     }
-    let definitions = parser.finish(&is_wanted);
-    let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
-        let Tally { count, first_line } = tally;
-        format!(
-            "material library “{}”: {count} “{keyword}” statement(s) skipped, line {first_line} first",
-            shortened(library)
-        )
-    });
-    let warnings = skipped.chain(failure).map(Warning::of_file).collect();
-    Ok((definitions, warnings))
-}
 
-/// The materials so far.
-#[derive(Default)]
-struct Parser {
-    found: Vec<Definition>,
-    names: HashSet<String>,
-    current: Option<Definition>,
-    skipped: BTreeMap<String, Tally>,
-}
-
-impl Parser {
     fn take(&mut self, statement: Statement<'_>, is_wanted: impl Fn(&str) -> bool) {
         let text = name(statement.bytes);
         let (keyword, rest) = text.split_once([' ', '\t']).unwrap_or((&text, ""));
-        if keyword.is_empty() || keyword.starts_with('#') || SILENT.contains(&keyword) {
+        if keyword.is_empty() || keyword.starts_with('#') {
+            return;
+        }
+        self.statement_count += 1;
+        if SILENT.contains(&keyword) {
             return;
         }
         if keyword == "newmtl" {
             self.end_material(is_wanted);
+            self.material_count += 1;
             self.current = Some(Definition {
                 material: Material::named(rest.trim()),
                 line: statement.line,
@@ -117,7 +199,11 @@ impl Parser {
         let rest = name(without_comment(rest.as_bytes()));
         let current = self.current.as_mut();
         let Some(skipped) = current.and_then(|material| material.read(keyword, &rest)) else {
-            count_by_keyword(&mut self.skipped, &shortened(keyword), statement.line);
+            if KEYWORDS.contains(&keyword.to_ascii_lowercase().as_str()) {
+                count_by_keyword(&mut self.skipped, keyword, statement.line);
+            } else {
+                self.unknown.add(statement.line);
+            }
             return;
         };
         for option in skipped {
@@ -140,15 +226,10 @@ impl Parser {
             count_by_keyword(&mut self.skipped, "newmtl", ended.line);
         }
     }
-
-    fn finish(&mut self, is_wanted: impl Fn(&str) -> bool) -> Vec<Definition> {
-        self.end_material(is_wanted);
-        std::mem::take(&mut self.found)
-    }
 }
 
 impl Definition {
-    /// Reads a statement, and gives the options that were skipped; `None` if it can't be read or isn't known.
+    /// Reads a statement and returns the skipped options; `None` if it can't be read or isn't known.
     fn read(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
         let material = &mut self.material;
         match keyword {
@@ -263,80 +344,4 @@ fn word(text: &str) -> (&str, &str) {
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
-        let parsed = parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
-        let (materials, warnings) = parsed.expect("nobody cancels");
-        let warnings = warnings.iter().map(ToString::to_string);
-        (materials, warnings.collect())
-    }
-
-    #[test]
-    fn odd_statements_do_not_cost_the_other_materials() {
-        let (materials, warnings) = messages(
-            "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\nPr 1\n",
-        );
-        let named: Vec<&str> = materials.iter().map(|m| m.material.name.as_str()).collect();
-        assert_eq!(named, ["a #1", "c", "d"]);
-        let diffuse: Vec<_> = materials.iter().map(|m| m.material.diffuse).collect();
-        assert_eq!(diffuse, [Some(Vec3::splat(0.5)), Some(Vec3::X), None]);
-        let skipped = |n: u32, keyword: &str, line: u32| {
-            format!(
-                "material library “m.mtl”: {n} “{keyword}” statement(s) skipped, line {line} first"
-            )
-        };
-        assert_eq!(
-            warnings,
-            [
-                skipped(3, "Kd", 3),
-                skipped(1, "Pr", 11),
-                skipped(1, "illum", 4),
-                skipped(1, "map_Kd", 5)
-            ]
-        );
-    }
-
-    #[test]
-    fn everything_that_shading_uses_is_read() {
-        let (materials, warnings) = messages(
-            "newmtl glass\nKs .1 .2 .3\nKe 2 0 0\nNs 50\nillum 1\nTr 0.75\nnewmtl b\nd -halo 0.5\nTr 1\nKa 1 1 1\nNi 1.5\n",
-        );
-        assert_eq!(warnings, [""; 0]);
-        let expected = Material {
-            specular: Vec3::new(0.1, 0.2, 0.3),
-            emission: Vec3::new(2.0, 0.0, 0.0),
-            shininess: 50.0,
-            illumination: Illumination::Diffuse,
-            opacity: 0.25,
-            ..Material::named("glass")
-        };
-        assert_eq!(materials[0].material, expected);
-        assert_eq!(materials[1].material.opacity, 0.5);
-    }
-
-    #[test]
-    fn a_map_has_options_before_its_name() {
-        let map = |name: &str, scale, offset| Some((name.to_owned(), scale, offset));
-        let (one, zero) = (Vec2::ONE, Vec2::ZERO);
-        for (text, expected) in [
-            ("wood.png", map("wood.png", one, zero)),
-            ("maps\\old wood.png", map("maps/old wood.png", one, zero)),
-            (
-                "-s 2 3 1 a b.png",
-                map("a b.png", Vec2::new(2.0, 3.0), zero),
-            ),
-            ("-s 2 a.png", map("a.png", Vec2::splat(2.0), zero)),
-            (
-                "-o 0.5 -bm 1 -clamp on -mm 0 1 a.png",
-                map("a.png", one, Vec2::new(0.5, 0.0)),
-            ),
-            ("-odd-name.png", map("-odd-name.png", one, zero)),
-            ("-s 2 3", None),
-        ] {
-            let found = map_file(text).map(|(map, _)| (map.name, map.scale, map.offset));
-            assert_eq!(found, expected, "{text}");
-        }
-    }
-}
+mod tests;

@@ -1,5 +1,6 @@
-//! Where are the files that an OBJ names?
+//! The files that an OBJ and its material libraries name.
 
+use super::stored_file;
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
 use std::ffi::OsString;
@@ -9,14 +10,36 @@ use std::path::{Path, PathBuf};
 /// Reads a file that an OBJ or its material library names, by a name with `/` between folders.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
+/// Finds and reads files by names with `/` between folders.
+pub(super) trait ReferencedFiles {
+    /// The path of the file that a name leads to: one path for all spellings of it.
+    fn find(&self, name: &str) -> PathBuf;
+
+    /// The bytes of a file that was found, if there are at most so many.
+    fn read(&self, path: &Path, most_bytes: u64) -> io::Result<Vec<u8>>;
+}
+
+/// Files that a function reads by their names.
+pub(super) struct NamedFiles<'a>(pub ReadFile<'a>);
+
+impl ReferencedFiles for NamedFiles<'_> {
+    fn find(&self, name: &str) -> PathBuf {
+        PathBuf::from(name)
+    }
+
+    fn read(&self, path: &Path, _: u64) -> io::Result<Vec<u8>> {
+        (self.0)(&path.to_string_lossy())
+    }
+}
+
 /// The files in and around an OBJ's folder, and those that it names by a whole path.
 pub(super) struct Folder {
     path: PathBuf,
     /// Where the OBJ really is, if its name is a link.
     behind_link: Option<PathBuf>,
-    /// What was looked for, whether or not it was there.
+    /// The paths that were looked for, whether or not there was a file.
     wanted: RefCell<BTreeSet<PathBuf>>,
-    /// What is in the folders that were looked at.
+    /// The contents of the folders that were searched.
     listings: RefCell<HashMap<PathBuf, Listing>>,
 }
 
@@ -36,51 +59,20 @@ impl Folder {
         }
     }
 
-    /// Reads a file; only a regular one of sensible size, so that loading ends.
-    pub(super) fn read(&self, name: &str) -> io::Result<Vec<u8>> {
-        /// A thousand times the largest library seen, and more than the largest texture.
-        const LARGEST: u64 = 256 << 20;
-        let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
-        // No file makes us ask another machine.
-        let name = if name.starts_with("//") {
-            file_name
-        } else {
-            Path::new(name)
-        };
-        let found = self.find(name, file_name);
-        let mut wanted = self.wanted.borrow_mut();
-        match &found {
-            Some(path) => _ = wanted.insert(path.clone()),
-            // It may come to any of them.
-            None => wanted.extend(self.folders().map(|folder| folder.join(name))),
-        }
-        drop(wanted);
-        let path = found.unwrap_or_else(|| self.path.join(name));
-        let info = std::fs::metadata(&path)?;
-        if !info.is_file() {
-            return Err(io::Error::other("not a file"));
-        }
-        if info.len() > LARGEST {
-            let message = format!("larger than {} MB", LARGEST >> 20);
-            return Err(io::Error::other(message));
-        }
-        std::fs::read(path)
-    }
-
     pub(super) fn into_wanted(self) -> Vec<PathBuf> {
         self.wanted.into_inner().into_iter().collect()
     }
 
-    /// Where a file may be.
+    /// The folders that a file may lie in.
     fn folders(&self) -> impl Iterator<Item = &PathBuf> {
         [Some(&self.path), self.behind_link.as_ref()]
             .into_iter()
             .flatten()
     }
 
-    /// The file of a name; one that differs in letter case, or lies in the folder itself, where there is
-    /// none of just that name.
-    fn find(&self, name: &Path, file_name: &Path) -> Option<PathBuf> {
+    /// The file of a name; one that differs in letter case, or lies in the folder itself, where no file has just
+    /// that name.
+    fn file_of(&self, name: &Path, file_name: &Path) -> Option<PathBuf> {
         let mut folders = self.folders();
         folders.find_map(|folder| {
             self.any_case(folder, name)
@@ -109,7 +101,34 @@ impl Folder {
     }
 }
 
-/// What is in a folder; nothing if it can't be read. Of names that differ in letter case alone the last one by
+impl ReferencedFiles for Folder {
+    fn find(&self, name: &str) -> PathBuf {
+        let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
+        // A network path would make this computer ask another one.
+        let name = if name.starts_with("//") {
+            file_name
+        } else {
+            Path::new(name)
+        };
+        let mut wanted = self.wanted.borrow_mut();
+        let Some(found) = self.file_of(name, file_name) else {
+            // It may be written to any of them later.
+            wanted.extend(self.folders().map(|folder| folder.join(name)));
+            return self.path.join(name);
+        };
+        let canonical = found.canonicalize();
+        wanted.insert(found.clone());
+        canonical.unwrap_or(found)
+    }
+
+    fn read(&self, path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
+        /// A thousand times the largest library seen, and more than the largest texture.
+        const LARGEST: u64 = 256 << 20;
+        stored_file::read(path, most_bytes.min(LARGEST))
+    }
+}
+
+/// The names in a folder; none if it can't be read. Of names that differ in letter case alone the last one by
 /// bytes counts.
 fn listing(folder: &Path) -> Listing {
     let is_here = folder.as_os_str().is_empty();
@@ -143,10 +162,17 @@ mod tests {
             ("missing.mtl", None),
             ("//server/share/a b.mtl", Some("m")),
         ] {
-            let found = folder_files.read(name).ok();
+            let found = folder_files.read(&folder_files.find(name), 1 << 20).ok();
             assert_eq!(found.as_deref(), expected.map(str::as_bytes), "{name}");
         }
-        assert!(folder_files.read("Maps").is_err());
+        let spellings = ["Maps/Wood.PNG", "maps/wood.png", "./maps/../Maps/wood.png"];
+        let paths = spellings.map(|name| folder_files.find(name));
+        assert!(paths.iter().all(|path| *path == paths[0]), "{paths:?}");
+        assert!(
+            folder_files
+                .read(&folder_files.find("Maps"), 1 << 20)
+                .is_err()
+        );
         let wanted = folder_files.into_wanted();
         assert!(wanted.contains(&folder.path().join("missing.mtl")));
     }

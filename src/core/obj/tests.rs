@@ -1,3 +1,5 @@
+//! Texts that are loaded, or refused with a message.
+
 use super::*;
 use crate::mesh::NO_INDEX;
 use glam::{DVec3, Vec3};

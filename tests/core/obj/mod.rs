@@ -6,6 +6,15 @@ mod odd_files;
 // Material libraries and textures, and how files name them.
 mod materials;
 
+// The files that an OBJ names.
+mod referenced_files;
+
+// Files that come as a stream, packed, or from a device.
+mod sources;
+
+// How far the mesh lies from the numbers in the file.
+mod rounding;
+
 // What is refused, and what is said of it.
 mod refused;
 

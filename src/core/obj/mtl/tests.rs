@@ -1,0 +1,95 @@
+//! What is read of material libraries, and what is said of the rest.
+
+use super::*;
+
+fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
+    let parsed = parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
+    let library = parsed.expect("nobody cancels").expect("a library");
+    let warnings = library.warnings.iter().map(ToString::to_string);
+    (library.definitions, warnings.collect())
+}
+
+#[test]
+fn odd_statements_do_not_cost_the_other_materials() {
+    let (materials, warnings) = messages(
+        "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\nPr 1\n",
+    );
+    let named: Vec<&str> = materials.iter().map(|m| m.material.name.as_str()).collect();
+    assert_eq!(named, ["a #1", "c", "d"]);
+    let diffuse: Vec<_> = materials.iter().map(|m| m.material.diffuse).collect();
+    assert_eq!(diffuse, [Some(Vec3::splat(0.5)), Some(Vec3::X), None]);
+    let skipped = |n: u32, keyword: &str, line: u32| {
+        format!("material library “m.mtl”: {n} “{keyword}” statement(s) skipped, line {line} first")
+    };
+    assert_eq!(
+        warnings,
+        [
+            skipped(3, "Kd", 3),
+            skipped(1, "Pr", 11),
+            skipped(1, "illum", 4),
+            skipped(1, "map_Kd", 5)
+        ]
+    );
+}
+
+#[test]
+fn a_file_that_is_no_library_is_not_quoted() {
+    let parse = |text: &str| parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
+    for text in ["root:x:0:0\nKd 1 1 1\n", "\0\0\0", "secret 1\n"] {
+        assert!(parse(text).expect("nobody cancels").is_none(), "{text}");
+    }
+    for text in ["", "# Material Count: 0\n\n"] {
+        let library = parse(text)
+            .expect("nobody cancels")
+            .expect("an empty library");
+        assert_eq!(library.warnings, [], "{text}");
+    }
+    let (_, warnings) = messages("newmtl a\nsecret 1\nroot:x\nPR 1\n");
+    let expected = [
+        "material library “m.mtl”: 1 “PR” statement(s) skipped, line 4 first",
+        "material library “m.mtl”: 2 unknown statement(s) skipped, line 2 first",
+    ];
+    assert_eq!(warnings, expected);
+}
+
+#[test]
+fn everything_that_shading_uses_is_read() {
+    let (materials, warnings) = messages(
+        "newmtl glass\nKs .1 .2 .3\nKe 2 0 0\nNs 50\nillum 1\nTr 0.75\nnewmtl b\nd -halo 0.5\nTr 1\nKa 1 1 1\nNi 1.5\n",
+    );
+    assert_eq!(warnings, [""; 0]);
+    let expected = Material {
+        specular: Vec3::new(0.1, 0.2, 0.3),
+        emission: Vec3::new(2.0, 0.0, 0.0),
+        shininess: 50.0,
+        illumination: Illumination::Diffuse,
+        opacity: 0.25,
+        ..Material::named("glass")
+    };
+    assert_eq!(materials[0].material, expected);
+    assert_eq!(materials[1].material.opacity, 0.5);
+}
+
+#[test]
+fn a_map_has_options_before_its_name() {
+    let map = |name: &str, scale, offset| Some((name.to_owned(), scale, offset));
+    let (one, zero) = (Vec2::ONE, Vec2::ZERO);
+    for (text, expected) in [
+        ("wood.png", map("wood.png", one, zero)),
+        ("maps\\old wood.png", map("maps/old wood.png", one, zero)),
+        (
+            "-s 2 3 1 a b.png",
+            map("a b.png", Vec2::new(2.0, 3.0), zero),
+        ),
+        ("-s 2 a.png", map("a.png", Vec2::splat(2.0), zero)),
+        (
+            "-o 0.5 -bm 1 -clamp on -mm 0 1 a.png",
+            map("a.png", one, Vec2::new(0.5, 0.0)),
+        ),
+        ("-odd-name.png", map("-odd-name.png", one, zero)),
+        ("-s 2 3", None),
+    ] {
+        let found = map_file(text).map(|(map, _)| (map.name, map.scale, map.offset));
+        assert_eq!(found, expected, "{text}");
+    }
+}

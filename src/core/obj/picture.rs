@@ -1,0 +1,105 @@
+//! Decodes the pictures of textures: PNG and JPEG.
+
+use super::error::{Problem, printable};
+use super::fence::fenced;
+use crate::mesh::Texture;
+use glam::UVec2;
+use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
+use std::io::Cursor;
+
+/// A texture, and whether its file ends before the picture does.
+pub(super) struct Picture {
+    pub texture: Texture,
+    pub is_cut_short: bool,
+}
+
+/// Decodes a picture, unless that takes more than `max_bytes` besides the file's own.
+///
+/// # Errors
+/// Why there is no picture, in words that quote nothing of a file that isn't one.
+pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
+    let decode = || decode(bytes, max_bytes);
+    let picture = match fenced("decoding", decode) {
+        Ok(decoded) => decoded?,
+        Err(Problem::Content(message)) => return Err(message),
+        Err(_) => return Err("decoding failed".to_owned()),
+    };
+    let size = UVec2::new(picture.width(), picture.height());
+    let texture = Texture::new(name, size, picture.into_raw());
+    Ok(Picture {
+        texture: texture.ok_or("an empty picture")?,
+        is_cut_short: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
+    })
+}
+
+fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
+    // Some end with a line end.
+    let words = |error: image::ImageError| printable(error.to_string().trim());
+    let mut reader = ImageReader::new(Cursor::new(bytes))
+        .with_guessed_format()
+        .map_err(|error| words(error.into()))?;
+    let Some(format @ (ImageFormat::Png | ImageFormat::Jpeg)) = reader.format() else {
+        return Err("not a PNG or JPEG picture".to_owned());
+    };
+    let mut limits = Limits::default();
+    limits.max_alloc = Some(max_bytes);
+    reader.limits(limits);
+    let decoder = reader.into_decoder().map_err(words)?;
+    let needed = needed_bytes(&decoder, format, bytes.len() as u64);
+    if needed > max_bytes {
+        return Err(format!(
+            "decoding takes {} MB of memory, {} MB are left (--max-memory)",
+            needed.div_ceil(1 << 20),
+            max_bytes >> 20
+        ));
+    }
+    let decoded = DynamicImage::from_decoder(decoder).map_err(words)?;
+    Ok(decoded.into_rgb8())
+}
+
+/// The most memory that a decoder and the conversion to red, green and blue of eight bits take at a time.
+fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u64) -> u64 {
+    /// For each pixel of a JPEG: coefficients of 16 bits for up to four components, which a progressive one keeps
+    /// for the whole picture.
+    const JPEG_COEFFICIENTS: u64 = 8;
+    let (width, height) = decoder.dimensions();
+    let pixels = u64::from(width) * u64::from(height);
+    let decoded = decoder.total_bytes();
+    let converted = match decoder.color_type() {
+        ColorType::Rgb8 => 0,
+        _ => 3 * pixels,
+    };
+    let working = match format {
+        // The decoder copies the file.
+        ImageFormat::Jpeg => JPEG_COEFFICIENTS * pixels + file_bytes,
+        _ => 0,
+    };
+    // Coefficients are gone before the conversion begins.
+    decoded.saturating_add(working.max(converted))
+}
+
+const JPEG_START: &[u8] = b"\xFF\xD8";
+
+/// Whether a JPEG has its end marker, without which its decoder makes up the missing rows in grey.
+///
+/// Source: ITU-T T.81 (1992), B.1.1: markers and their segments.
+fn has_jpeg_end(bytes: &[u8]) -> bool {
+    let mut at = JPEG_START.len();
+    while let Some(found) = memchr::memchr(0xFF, bytes.get(at..).unwrap_or_default()) {
+        at += found + 1;
+        match bytes.get(at) {
+            Some(0xD9) => return true,
+            // A fill byte; the marker follows.
+            Some(0xFF) | None => {}
+            // A data byte 0xFF, a restart, a marker without a segment, or a second start.
+            Some(0x00 | 0x01 | 0xD0..=0xD8) => at += 1,
+            Some(_) => {
+                let length = bytes
+                    .get(at + 1..at + 3)
+                    .map(|b| u16::from_be_bytes([b[0], b[1]]));
+                at += 1 + usize::from(length.unwrap_or(0));
+            }
+        }
+    }
+    false
+}

@@ -1,0 +1,142 @@
+//! Reads stored files: regular files, neither devices, pipes nor what `/proc` and `/sys` show.
+//!
+//! A mesh names its material libraries and textures, and users open meshes that others sent. So what a name leads
+//! to is checked, by what is opened, and no more is read than is allowed, whatever size the file claims to have.
+
+use std::fs::{File, Metadata, OpenOptions};
+use std::io::{self, Read};
+use std::path::Path;
+
+/// The bytes of a stored file of at most so many.
+///
+/// # Errors
+/// It can't be read, is larger, or isn't a stored file.
+pub(super) fn read(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
+    // Opening a device may change its state.
+    require_regular(&std::fs::metadata(path)?)?;
+    let file = open(path)?;
+    // The path may lead to another file by now.
+    let info = file.metadata()?;
+    require_regular(&info)?;
+    if is_in_system_folder(path)? || is_of_kernel(&file) {
+        return Err(io::Error::other("a file of the system, not a stored one"));
+    }
+    let size = info.len().min(most_bytes);
+    let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
+    file.take(most_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > most_bytes {
+        let message = format!("larger than the {} MB that may be read", most_bytes >> 20);
+        return Err(io::Error::other(message));
+    }
+    Ok(bytes)
+}
+
+fn require_regular(info: &Metadata) -> io::Result<()> {
+    if info.is_file() {
+        Ok(())
+    } else {
+        Err(io::Error::other("not a regular file"))
+    }
+}
+
+/// Opens a file; a pipe without waiting for its writer.
+fn open(path: &Path) -> io::Result<File> {
+    let mut options = OpenOptions::new();
+    options.read(true);
+    #[cfg(unix)]
+    {
+        use rustix::fs::OFlags;
+        use std::os::unix::fs::OpenOptionsExt;
+        let flags = OFlags::NONBLOCK | OFlags::NOCTTY;
+        options.custom_flags(flags.bits().cast_signed());
+    }
+    options.open(path)
+}
+
+/// Whether a path, links followed, leads into `/proc` or `/sys`.
+fn is_in_system_folder(path: &Path) -> io::Result<bool> {
+    let path = path.canonicalize()?;
+    Ok(["/proc", "/sys"]
+        .iter()
+        .any(|folder| path.starts_with(folder)))
+}
+
+/// Whether a file lies in a file system that the kernel makes up, wherever that is mounted.
+#[cfg(any(target_os = "linux", target_os = "android"))]
+fn is_of_kernel(file: &File) -> bool {
+    /// `f_type` of proc, sysfs, debugfs, tracefs, cgroup, cgroup2, securityfs, bpf, configfs and pstore, from
+    /// Linux' `include/uapi/linux/magic.h`.
+    const KERNEL_FILE_SYSTEMS: [u32; 10] = [
+        0x9fa0,
+        0x6265_6572,
+        0x6462_6720,
+        0x7472_6163,
+        0x0027_e0eb,
+        0x6367_7270,
+        0x7363_6673,
+        0xcafe_4a11,
+        0x6265_6570,
+        0x6165_676c,
+    ];
+    rustix::fs::fstatfs(file)
+        .is_ok_and(|system| KERNEL_FILE_SYSTEMS.contains(&(system.f_type as u32)))
+}
+
+#[cfg(not(any(target_os = "linux", target_os = "android")))]
+fn is_of_kernel(_: &File) -> bool {
+    false
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_more_is_read_than_is_allowed() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("five");
+        std::fs::write(&path, "12345").expect("written");
+        assert_eq!(read(&path, 5).expect("small enough"), b"12345");
+        let error = read(&path, 4).expect_err("too large").to_string();
+        assert_eq!(error, "larger than the 0 MB that may be read");
+    }
+
+    #[cfg(target_os = "linux")]
+    #[test]
+    fn files_of_the_kernel_devices_and_pipes_are_not_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let link = |to: &str, name: &str| std::os::unix::fs::symlink(to, at(name)).expect("linked");
+        link("/proc/self/maps", "maps");
+        link("/proc/self", "self");
+        link("/dev/zero", "zero");
+        let mode = rustix::fs::Mode::from_raw_mode(0o600);
+        let pipe = at("pipe");
+        rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, mode, 0)
+            .expect("a pipe");
+        for (path, why) in [
+            (at("maps"), "a file of the system, not a stored one"),
+            (
+                at("self").join("maps"),
+                "a file of the system, not a stored one",
+            ),
+            (
+                "/proc/self/pagemap".into(),
+                "a file of the system, not a stored one",
+            ),
+            (
+                "/sys/kernel/notes".into(),
+                "a file of the system, not a stored one",
+            ),
+            (at("zero"), "not a regular file"),
+            (at("pipe"), "not a regular file"),
+            (folder.path().to_owned(), "not a regular file"),
+        ] {
+            if path.exists() {
+                let error = read(&path, 1 << 20).expect_err("refused").to_string();
+                assert_eq!(error, why, "{}", path.display());
+            }
+        }
+    }
+}
