@@ -1,22 +1,24 @@
-//! Where does a statement begin and end?
+//! Splits an OBJ or MTL file into statements.
 //!
 //! Lines end in LF, CR or CRLF; a backslash at the end joins the next one. A byte order mark is taken
 //! away, UTF-16 read as UTF-8, gzip unpacked.
 
 use super::error::Problem;
+use super::gzip::{GzipMembers, MAGIC};
 use super::kind::not_an_obj;
 use crate::progress::{Phase, Progress};
 use encoding_rs_io::DecodeReaderBytesBuilder;
-use flate2::bufread::MultiGzDecoder;
 use memchr::{memchr_iter, memchr2};
+use std::cell::Cell;
 use std::io::{self, BufRead, BufReader, Read};
+use std::rc::Rc;
 
-/// Read in pieces of this size, between which a cancel is noticed.
+/// Bytes that are read between two checks whether the load was cancelled.
 const PIECE: usize = 1 << 18;
 /// A longer line isn't read to its end: a polygon of ten million corners would fit.
 const LONGEST_LINE: usize = 128 << 20;
 
-/// Bytes by which a file is told that is no OBJ.
+/// Bytes that show that a file is no OBJ.
 const ENOUGH_TO_TELL: usize = 1 << 10;
 
 /// The statements of a text, one after the other.
@@ -28,8 +30,10 @@ pub(super) struct Lines<'p> {
     start: usize,
     is_at_end: bool,
     line: usize,
+    longest_line: usize,
     /// A statement of several lines.
     joined: Vec<u8>,
+    has_garbage: Rc<Cell<bool>>,
 }
 
 /// A statement as it stands in the file, and the line on which it begins, counted from 1.
@@ -37,7 +41,7 @@ pub(super) struct Lines<'p> {
 pub(super) struct Statement<'l> {
     pub line: usize,
     pub bytes: &'l [u8],
-    /// Whether it goes on on the lines after that.
+    /// Whether it is joined of several lines.
     pub is_joined: bool,
 }
 
@@ -46,13 +50,13 @@ impl Statement<'_> {
         Problem::line(self.line, message)
     }
 
-    /// What is wrong with the word that begins at an offset.
+    /// An error about the word that begins at an offset.
     pub(super) fn problem_at(&self, offset: usize, message: String) -> Problem {
         let is_start = |b: &&u8| **b & 0xC0 != 0x80;
         let characters = self.bytes[..offset].iter().filter(is_start).count();
         Problem::Line {
             line: self.line,
-            // Of joined lines nobody knows any more where they were.
+            // The columns of joined lines aren't known.
             column: (!self.is_joined).then_some(characters + 1),
             message,
         }
@@ -61,16 +65,18 @@ impl Statement<'_> {
 
 impl<'p> Lines<'p> {
     /// # Errors
-    /// What the source says to its first bytes.
+    /// The source can't be read.
     pub(super) fn new(bytes: impl Read + 'p, progress: &'p Progress) -> Result<Self, Problem> {
         let counted = CountingReader { bytes, progress };
         let mut source = BufReader::with_capacity(PIECE, counted);
+        progress.check()?;
         let is_gzip = source
             .fill_buf()
             .map_err(Problem::Read)?
-            .starts_with(&[0x1F, 0x8B]);
+            .starts_with(&MAGIC);
+        let has_garbage = Rc::default();
         let source: Box<dyn Read> = if is_gzip {
-            Box::new(MultiGzDecoder::new(source))
+            Box::new(GzipMembers::new(source, Rc::clone(&has_garbage)))
         } else {
             Box::new(source)
         };
@@ -86,14 +92,22 @@ impl<'p> Lines<'p> {
             start: 0,
             is_at_end: false,
             line: 0,
+            longest_line: LONGEST_LINE,
             joined: Vec::new(),
+            has_garbage,
         })
     }
 
-    /// Looks at the first bytes, before the first statement is asked for.
+    /// Gives up lines that take more than a quarter of the memory that may be used: the buffer doubles as it grows.
+    pub(super) fn limit_lines(&mut self, max_memory: u64) {
+        let most = usize::try_from(max_memory / 4).unwrap_or(LONGEST_LINE);
+        self.longest_line = most.clamp(PIECE, LONGEST_LINE);
+    }
+
+    /// Checks the first bytes, before the first statement is read.
     ///
     /// # Errors
-    /// What the file is, if it is no OBJ.
+    /// Says what the file is, if it is no OBJ.
     pub(super) fn require_obj(&mut self) -> Result<(), Problem> {
         // They may come a few at a time.
         while self.buffer.len() < ENOUGH_TO_TELL && !self.is_at_end {
@@ -125,8 +139,8 @@ impl<'p> Lines<'p> {
                 break;
             };
             self.joined.extend(continued);
-            if self.joined.len() > LONGEST_LINE {
-                return Err(too_long(line));
+            if self.joined.len() > self.longest_line {
+                return Err(too_long(line, self.longest_line));
             }
         }
         Ok(Some(Statement {
@@ -139,6 +153,11 @@ impl<'p> Lines<'p> {
     /// Whether the whole text was read.
     pub(super) fn is_at_end(&self) -> bool {
         self.is_at_end
+    }
+
+    /// Whether bytes follow the packed ones that are neither packed nor zero.
+    pub(super) fn has_garbage(&self) -> bool {
+        self.has_garbage.get()
     }
 
     /// Where the next line stands in the buffer, without its end.
@@ -169,14 +188,18 @@ impl<'p> Lines<'p> {
         self.buffer.drain(..self.start);
         self.start = 0;
         let before = self.buffer.len();
-        if before > LONGEST_LINE {
-            return Err(too_long(self.line + 1));
+        if before > self.longest_line {
+            return Err(too_long(self.line + 1, self.longest_line));
         }
         self.buffer.resize(before + PIECE, 0);
         let count = loop {
             match self.source.read(&mut self.buffer[before..]) {
                 Err(error) if error.kind() == io::ErrorKind::Interrupted => {}
-                other => break other.map_err(Problem::Read)?,
+                Err(error) => {
+                    self.progress.check()?;
+                    return Err(Problem::Read(error));
+                }
+                Ok(count) => break count,
             }
         };
         self.buffer.truncate(before + count);
@@ -188,8 +211,7 @@ impl<'p> Lines<'p> {
     }
 }
 
-/// A line that goes on on the next one, without the backslash that says so and blanks after it. A comment ends
-/// with its line.
+/// A line that continues on the next one, without the final backslash. Comments don't continue.
 fn before_backslash(line: &[u8]) -> Option<&[u8]> {
     let continued = line.trim_ascii_end().strip_suffix(b"\\")?;
     // A name may have a # inside.
@@ -198,14 +220,11 @@ fn before_backslash(line: &[u8]) -> Option<&[u8]> {
     (!has_comment).then_some(continued)
 }
 
-fn too_long(line: usize) -> Problem {
-    Problem::line(
-        line,
-        format!("a line of more than {} MB", LONGEST_LINE >> 20),
-    )
+fn too_long(line: usize, longest: usize) -> Problem {
+    Problem::line(line, format!("a line of more than {} MB", longest >> 20))
 }
 
-/// Says how many bytes were read, and stops when they are wanted no more.
+/// Counts the bytes that are read, and ends with an error when the load is cancelled.
 struct CountingReader<'p, R> {
     bytes: R,
     progress: &'p Progress,
@@ -213,6 +232,8 @@ struct CountingReader<'p, R> {
 
 impl<R: Read> Read for CountingReader<'_, R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
+        // Packed bytes may unpack to nothing for long.
+        self.progress.check().map_err(io::Error::other)?;
         let count = self.bytes.read(out)?;
         self.progress.add_read(count as u64);
         Ok(count)

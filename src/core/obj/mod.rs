@@ -43,7 +43,6 @@ use error::Problem;
 use fence::fenced;
 use reader::{NormalisingReader, Outcome};
 use referenced_files::{Folder, NamedFiles, ReferencedFiles};
-use std::cell::Cell;
 use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
@@ -145,34 +144,6 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         return Err(Problem::Content(CHANGED.to_owned()).in_file(path));
     }
     let mut loaded = parsed?;
-    loaded.files = folder.into_wanted();
-    Ok(loaded)
-}
-
-/// Loads an OBJ from a stream, such as the standard input; `path` is what errors call it. Libraries and textures are
-/// looked for in the folder of `path`, which is the current one for a bare name. Faults are never passed over, as
-/// a stream can't be read twice.
-///
-/// # Errors
-/// See [`LoadError`].
-pub fn load_stream(
-    bytes: impl Read,
-    path: &Path,
-    options: LoadOptions,
-    progress: &Progress,
-) -> Result<Loaded, LoadError> {
-    let options = LoadOptions {
-        faults: FaultPolicy::Strict,
-        ..options
-    };
-    let folder = Folder::of(path);
-    let bytes = Cell::new(Some(bytes));
-    let open = || {
-        bytes
-            .take()
-            .ok_or_else(|| io::Error::other("a stream can't be read twice"))
-    };
-    let mut loaded = parse_with(open, path, options, &folder, progress)?;
     loaded.files = folder.into_wanted();
     Ok(loaded)
 }

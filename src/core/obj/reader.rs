@@ -1,4 +1,4 @@
-//! Which lines does tobj get to see?
+//! Passes on to tobj the lines that it may see.
 
 use super::corner::List;
 use super::error::Problem;
@@ -17,7 +17,7 @@ const MOST_ENTRIES: usize = u32::MAX as usize - 1;
 /// Faces after which tobj's list of them is ended. It takes 104 bytes for each; a shorter list would
 /// copy more vertices twice.
 const FACES_PER_CUT: usize = 1 << 14;
-/// Statements, of which tobj sees none perhaps, between two looks at the memory that they take.
+/// Statements between two checks of the memory that they take, whether or not tobj sees them.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
 
 /// See the [module](self). Give it to tobj as a `BufRead`, then ask [`finish`](Self::finish).
@@ -29,7 +29,7 @@ pub(super) struct NormalisingReader<'p> {
     problem: Option<Problem>,
 }
 
-/// What the reader says at the end.
+/// How a reading ended.
 pub(super) enum Outcome {
     /// All was read, and every index is in range.
     Read(Box<Facts>),
@@ -40,7 +40,7 @@ pub(super) enum Outcome {
 
 impl<'p> NormalisingReader<'p> {
     /// # Errors
-    /// What the source says to its first bytes.
+    /// The source can't be read, or is no OBJ.
     pub(super) fn new(
         bytes: impl Read + 'p,
         options: &LoadOptions,
@@ -48,6 +48,7 @@ impl<'p> NormalisingReader<'p> {
         progress: &'p Progress,
     ) -> Result<Self, Problem> {
         let mut lines = Lines::new(bytes, progress)?;
+        lines.limit_lines(options.max_memory);
         lines.require_obj()?;
         Ok(Self {
             lines,
@@ -58,13 +59,14 @@ impl<'p> NormalisingReader<'p> {
         })
     }
 
-    /// What was learnt, or what was wrong with the file; `parsed` is what tobj says of it.
+    /// The facts, or the error in the file. `parsed` is tobj's error, if it had one.
     pub(super) fn finish(mut self, parsed: Option<&tobj::LoadError>) -> Result<Outcome, Problem> {
         if let Some(problem) = self.problem {
             return Err(problem);
         }
         if self.lines.is_at_end() {
             self.router.facts.forget_idle_textures();
+            self.router.facts.has_garbage = self.lines.has_garbage();
         }
         let facts = &self.router.facts;
         // Only a whole file tells how many there are.
@@ -87,7 +89,7 @@ impl<'p> NormalisingReader<'p> {
         }
     }
 
-    /// Sorts lines until there are enough to be passed on; none are left at the end.
+    /// Prepares the next lines for tobj; none at the end of the file.
     fn next_piece(&mut self) -> Result<(), Problem> {
         self.router.out.clear();
         self.router.out_lines.clear();

@@ -81,6 +81,12 @@ fn a_line_of_a_gigabyte_is_given_up_early() {
     let open = || Ok(Repeated::new(b"v 1 2 3 ", 1 << 30));
     let error = message(parse_with(open, 1 << 30));
     assert_eq!(error, "x.obj:1: a line of more than 128 MB");
+    // Less, where less memory may be used; also for a line that goes on on others.
+    for bytes in [&b"v 1 2 3 "[..], b"v 1 2 3 \\\n"] {
+        let open = || Ok(Repeated::new(bytes, 1 << 30));
+        let error = message(parse_with(open, 64 << 20));
+        assert_eq!(error, "x.obj:1: a line of more than 16 MB");
+    }
 }
 
 #[test]

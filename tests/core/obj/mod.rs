@@ -9,7 +9,7 @@ mod materials;
 // The files that an OBJ names.
 mod referenced_files;
 
-// Files that come as a stream, packed, or from a device.
+// Files that are packed, or come from a pipe or a device.
 mod sources;
 
 // How far the mesh lies from the numbers in the file.
