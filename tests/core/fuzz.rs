@@ -112,6 +112,9 @@ fn main() {
     let inputs: u64 = arguments.next().unwrap_or(INPUTS);
     let seed: u64 = arguments.next().unwrap_or(1);
     let mut totals = Totals::default();
+    for (name, case) in hard_polygons() {
+        totals.try_one(&case, name);
+    }
     for input in 0..inputs {
         // Each has its own seed, to be tried again alone.
         let mut fuzzer = Fuzzer(Random::new(seed.wrapping_mul(1 << 32) + input));
@@ -124,6 +127,50 @@ fn main() {
     eprintln!("{inputs} inputs, seed {seed}: {totals:?}");
     let is_good = totals.failures == 0;
     std::process::exit(i32::from(!is_good));
+}
+
+/// Polygons that took an ear clipper the cube of their corners.
+fn hard_polygons() -> [(&'static str, Case); 3] {
+    const COUNT: usize = 10_000;
+    let mut random = Random::new(9);
+    let star = (0..COUNT).map(|i| {
+        let step = 4.000_000_2 * std::f64::consts::PI * (COUNT as f64 / 2.0 - 1.0) / COUNT as f64;
+        let (sin, cos) = (step * i as f64).sin_cos();
+        [cos, sin]
+    });
+    let noise = (0..COUNT).map(|_| [(); 2].map(|()| random.index(1 << 20) as f64));
+    // A comb whose teeth are sheared by half its width.
+    let comb = (0..COUNT).map(|i| {
+        let (tooth, is_tip) = ((i / 2) as f64, matches!(i % 4, 1 | 2));
+        [
+            tooth + if is_tip { COUNT as f64 / 4.0 } else { 0.0 },
+            f64::from(u8::from(is_tip)),
+        ]
+    });
+    let comb = comb.chain([[COUNT as f64, -9.0], [0.0, -9.0]]);
+    [
+        ("star", polygon(star)),
+        ("noise", polygon(noise)),
+        ("comb", polygon(comb)),
+    ]
+}
+
+/// A file of one polygon.
+fn polygon(corners: impl Iterator<Item = [f64; 2]>) -> Case {
+    let (mut mesh, mut face) = (String::new(), String::from("f"));
+    for (k, [x, y]) in corners.enumerate() {
+        mesh += &format!("v {x} {y} 0\n");
+        face += &format!(" {}", k + 1);
+    }
+    Case {
+        mesh: (mesh + &face + "\n").into_bytes(),
+        library: Vec::new(),
+        texture: TEXTURE.to_vec(),
+        options: LoadOptions {
+            max_memory: 64 << 20,
+            ..LoadOptions::default()
+        },
+    }
 }
 
 /// A mesh's file, and those beside it.

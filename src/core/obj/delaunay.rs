@@ -1,0 +1,279 @@
+//! Cuts a polygon of many corners by a constrained Delaunay triangulation, in n log n steps.
+//!
+//! Source: L. P. Chew, "Constrained Delaunay Triangulations", Algorithmica 4, 1989; the crate `spade` for the
+//! triangulation, whose predicates are exact.
+//!
+//! The polygon lies in the coordinate plane that it is least steep over, so that no coordinate is rounded: corners
+//! that touch an edge, and bridges to holes, stay where they are. Its edges are forced into the triangulation of its
+//! corners one by one; the first one that crosses another ends the work. Triangles around which the polygon goes once
+//! are inside.
+
+use super::polygon::vector_area;
+use crate::progress::{Cancelled, Progress};
+use glam::DVec3;
+use spade::handles::{FixedDirectedEdgeHandle, FixedFaceHandle, FixedVertexHandle, InnerTag};
+use spade::{
+    ConstrainedDelaunayTriangulation, Intersection, LineIntersectionIterator, Point2, Triangulation,
+};
+use std::collections::HashMap;
+
+/// Steps after which forcing in edges is given up, about a second. Ordinary polygons need a few steps an edge;
+/// sheared combs of ten thousand teeth may need more.
+const MOST_STEPS: usize = 1 << 28;
+/// Steps for an edge of the triangulation that gives way to one of the polygon.
+const STEPS_PER_FLIP: usize = 16;
+/// Edges between two looks at whether the load is still wanted.
+const EDGES_PER_CHECK: usize = 1 << 8;
+/// Marks a directed edge that isn't one of the polygon.
+const NO_CORNER: u32 = u32::MAX;
+
+type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>>;
+
+/// Appends the triangles of a polygon, three corners each, that keep its winding. `false` if it crosses itself, has no
+/// plane, or takes too many steps.
+///
+/// # Errors
+/// Cancelled by `progress`.
+pub(super) fn triangulate(
+    corners: &[DVec3],
+    progress: &Progress,
+    triangles: &mut Vec<u32>,
+) -> Result<bool, Cancelled> {
+    let Some(points) = projected(corners) else {
+        return Ok(false);
+    };
+    progress.check()?;
+    let Some(mut polygon) = Polygon::new(&points) else {
+        return Ok(false);
+    };
+    progress.check()?;
+    if !polygon.force_edges(progress)? {
+        return Ok(false);
+    }
+    let Some(inside) = polygon.inside() else {
+        return Ok(false);
+    };
+    progress.check()?;
+    polygon.spread_corners();
+    for face in inside {
+        let edges = polygon.mesh.face(face).adjacent_edges();
+        triangles.extend(edges.map(|edge| polygon.corner_left_of(edge.fix())));
+    }
+    Ok(true)
+}
+
+/// The corners in the coordinate plane over which the polygon is least steep, counterclockwise, scaled by a power of
+/// two to sizes of about 1.
+fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
+    let area = vector_area(corners);
+    if !area.is_finite() || area == DVec3::ZERO {
+        return None;
+    }
+    let across = area.abs().max_position();
+    let (mut x, mut y) = ((across + 1) % 3, (across + 2) % 3);
+    if area[across] < 0.0 {
+        (x, y) = (y, x);
+    }
+    let largest = corners
+        .iter()
+        .fold(0.0, |most: f64, p| most.max(p.abs().max_element()));
+    // f64's exponents are those of its logarithm, so the scale is a power of two, but for subnormal sizes.
+    let scale = 2f64.powi(-(largest.log2().floor() as i32).clamp(-1000, 1000));
+    let scaled = |x: f64| {
+        let x = x * scale;
+        // Smaller numbers the crate refuses; beside 1 they are nothing. Also, −0 becomes 0.
+        if x.abs() < spade::MIN_ALLOWED_VALUE {
+            0.0
+        } else {
+            x
+        }
+    };
+    let point = |p: &DVec3| Point2::new(scaled(p[x]), scaled(p[y]));
+    Some(corners.iter().map(point).collect())
+}
+
+/// A polygon in the triangulation of its corners. Several corners may share a vertex.
+struct Polygon {
+    mesh: Mesh,
+    vertex_of: Vec<FixedVertexHandle>,
+    /// The first corner at each vertex, and how many are there.
+    corners_at: Vec<(u32, u32)>,
+    /// Of each directed edge: the polygon's corner that the edge leaves, so that the inside on its left is this
+    /// corner's; [`NO_CORNER`] where the polygon has no such edge.
+    corner_of: Vec<u32>,
+    /// Of each undirected edge: how often the polygon goes along it as its first directed edge does, less how often
+    /// the other way.
+    passes: Vec<i32>,
+}
+
+impl Polygon {
+    /// The triangulation of the corners; none if there are no three corners off one line.
+    fn new(points: &[Point2<f64>]) -> Option<Self> {
+        let mut vertices = Vec::new();
+        let mut corners_at: Vec<(u32, u32)> = Vec::new();
+        let mut known: HashMap<[u64; 2], usize> = HashMap::with_capacity(points.len());
+        let mut vertex_of = Vec::with_capacity(points.len());
+        for (corner, point) in points.iter().enumerate() {
+            let key = [point.x.to_bits(), point.y.to_bits()];
+            let vertex = *known.entry(key).or_insert_with(|| {
+                vertices.push(*point);
+                corners_at.push((corner as u32, 0));
+                vertices.len() - 1
+            });
+            corners_at[vertex].1 += 1;
+            vertex_of.push(FixedVertexHandle::from_index(vertex));
+        }
+        drop(known);
+        let count = vertices.len();
+        let mesh = Mesh::bulk_load_cdt(vertices, Vec::new()).ok()?;
+        if mesh.num_vertices() != count || mesh.num_inner_faces() == 0 {
+            return None;
+        }
+        Some(Self {
+            corner_of: vec![NO_CORNER; mesh.num_directed_edges()],
+            passes: vec![0; mesh.num_undirected_edges()],
+            mesh,
+            vertex_of,
+            corners_at,
+        })
+    }
+
+    /// Makes every edge of the polygon one of the triangulation; `false` if two cross, or it takes too long.
+    fn force_edges(&mut self, progress: &Progress) -> Result<bool, Cancelled> {
+        let count = self.vertex_of.len();
+        let mut steps = 0;
+        for corner in 0..count {
+            if corner % EDGES_PER_CHECK == 0 {
+                progress.check()?;
+            }
+            let (from, to) = (self.vertex_of[corner], self.vertex_of[(corner + 1) % count]);
+            if from == to {
+                continue;
+            }
+            // An edge is sought among those of its first vertex.
+            steps += self.corners_at[from.index()].1 as usize;
+            for crossed in LineIntersectionIterator::new_from_handles(&self.mesh, from, to) {
+                if let Intersection::EdgeIntersection(edge) = crossed {
+                    if edge.is_constraint_edge() {
+                        return Ok(false);
+                    }
+                    steps += STEPS_PER_FLIP;
+                    if steps > MOST_STEPS {
+                        return Ok(false);
+                    }
+                }
+            }
+            let parts = self.mesh.try_add_constraint(from, to);
+            if parts.is_empty() || steps > MOST_STEPS {
+                return Ok(false);
+            }
+            for part in parts {
+                self.note_edge(corner as u32, from, part);
+            }
+        }
+        Ok(true)
+    }
+
+    /// Notes an edge, or a part of one that goes through other vertices.
+    fn note_edge(&mut self, corner: u32, from: FixedVertexHandle, part: FixedDirectedEdgeHandle) {
+        let start = self.mesh.directed_edge(part).from().fix();
+        let corner = if start == from {
+            corner
+        } else {
+            self.corners_at[start.index()].0
+        };
+        self.corner_of[part.index()] = corner;
+        self.passes[part.as_undirected().index()] += if is_first(part) { 1 } else { -1 };
+    }
+
+    /// How often the polygon goes along a directed edge, less how often the other way.
+    fn passes_along(&self, edge: FixedDirectedEdgeHandle) -> i32 {
+        let passes = self.passes[edge.as_undirected().index()];
+        if is_first(edge) { passes } else { -passes }
+    }
+
+    /// The triangles around which the polygon goes once; none if it goes around some in another way, which makes it
+    /// no simple polygon.
+    fn inside(&self) -> Option<Vec<FixedFaceHandle<InnerTag>>> {
+        const UNSEEN: i32 = i32::MAX;
+        let mut winding = vec![UNSEEN; self.mesh.num_all_faces()];
+        let (mut inside, mut open) = (Vec::new(), vec![self.mesh.outer_face().fix()]);
+        winding[0] = 0;
+        // The edges of the outer face are those of the hull.
+        let hull = self.mesh.convex_hull().map(|edge| edge.fix());
+        let mut across: Vec<FixedDirectedEdgeHandle> = hull.collect();
+        while let Some(face) = open.pop() {
+            let of_face = winding[face.index()];
+            if let Some(inner) = self.mesh.face(face).as_inner() {
+                match of_face {
+                    0 => {}
+                    1 => inside.push(inner.fix()),
+                    _ => return None,
+                }
+                across.extend(inner.adjacent_edges().map(|edge| edge.fix()));
+            }
+            // The polygon has its inside on its left, once more than on its right.
+            for edge in across.drain(..) {
+                let edge = self.mesh.directed_edge(edge);
+                let edge = if edge.face().fix() == face {
+                    edge
+                } else {
+                    edge.rev()
+                };
+                let next = edge.rev().face().fix();
+                if winding[next.index()] == UNSEEN {
+                    winding[next.index()] = of_face - self.passes_along(edge.fix());
+                    open.push(next);
+                }
+            }
+        }
+        inside.sort_unstable_by_key(|face| face.index());
+        Some(inside)
+    }
+
+    /// Gives the corner of each edge of the polygon to the edges that follow it counterclockwise around the same
+    /// vertex, where several corners share that.
+    ///
+    /// ```text
+    ///   in of corner 1 ╲   ╱ out of corner 2
+    ///                   ╲ ╱
+    ///       inside of 1  •  inside of 2        each inside begins at its corner's edge out
+    ///                   ╱ ╲
+    ///  out of corner 1 ╱   ╲ in of corner 2
+    /// ```
+    fn spread_corners(&mut self) {
+        let mut around = Vec::new();
+        for (vertex, &(first, count)) in self.corners_at.iter().enumerate() {
+            if count == 1 {
+                continue;
+            }
+            let vertex = self.mesh.vertex(FixedVertexHandle::from_index(vertex));
+            around.clear();
+            around.extend(vertex.out_edges().map(|edge| edge.fix().index()));
+            let last = around
+                .iter()
+                .rev()
+                .find(|&&e| self.corner_of[e] != NO_CORNER);
+            let mut corner = last.map_or(first, |&e| self.corner_of[e]);
+            for &edge in &around {
+                match self.corner_of[edge] {
+                    NO_CORNER => self.corner_of[edge] = corner,
+                    own => corner = own,
+                }
+            }
+        }
+    }
+
+    /// The corner at an edge's beginning that the triangle on its left has.
+    fn corner_left_of(&self, edge: FixedDirectedEdgeHandle) -> u32 {
+        let vertex = self.mesh.directed_edge(edge).from().fix();
+        match self.corners_at[vertex.index()] {
+            (only, 1) => only,
+            _ => self.corner_of[edge.index()],
+        }
+    }
+}
+
+fn is_first(edge: FixedDirectedEdgeHandle) -> bool {
+    edge.as_undirected().as_directed() == edge
+}
