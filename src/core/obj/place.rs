@@ -1,8 +1,8 @@
-//! Where is a mesh put, so that f32 holds its detail, and what does that cost?
+//! Chooses a mesh's origin, so that f32 holds its detail, and bounds what rounding moves.
 
 use super::Recentre;
 use crate::mesh::TriangleMesh;
-use glam::{DVec3, Vec3};
+use glam::DVec3;
 
 /// A point near the mesh whose coordinates have few bits, so that subtracting it in f64 is exact for
 /// coordinates of up to some 29 bits below the mesh's size; zero if the mesh isn't far away.
@@ -32,13 +32,93 @@ pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
     }
 }
 
-/// What recentring and rounding to f32 moved a coordinate by, at most.
-pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3]) -> f64 {
-    let moved = |(p, q): (&Vec3, &DVec3)| (p.as_dvec3() + mesh.origin - *q).abs().max_element();
-    let finite = mesh
-        .positions
-        .iter()
-        .zip(exact)
-        .filter(|(p, _)| p.is_finite());
-    finite.map(moved).fold(0.0, f64::max)
+/// A bound on how far, in a coordinate, what is traced lies from the numbers in the file.
+///
+/// It adds what three roundings cost: of the decimal to f64, of the difference from the origin, and of that to f32.
+/// The last two are known exactly. The first is at most half a unit in the last place of the f64, and nothing
+/// where the decimal is the f64's own value. `has_long_numbers` says whether a coordinate may have more
+/// than 15 digits. Decimals of at most 15 digits differ as f64s, so that an f64 whose own value has no more digits
+/// was written as just that.
+pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3], has_long_numbers: bool) -> f64 {
+    let vertices = mesh.positions.iter().zip(exact);
+    let mut most = 0.0;
+    for (own, in_file) in vertices.filter(|(own, _)| own.is_finite()) {
+        for axis in 0..3 {
+            let (x, origin) = (in_file[axis], mesh.origin[axis]);
+            let (from_origin, lost) = difference(x, origin);
+            // Exact: the two differ by less than half of the last place of an f32.
+            let moved = (from_origin - f64::from(own[axis])).abs() + lost.abs();
+            let read = half_last_place(x);
+            if moved + read > most {
+                let is_exact = !has_long_numbers && has_15_digits(x);
+                most = most.max(if is_exact { moved } else { moved + read });
+            }
+        }
+    }
+    // The two sums above round thrice at most.
+    most * (1.0 + 4.0 * f64::EPSILON)
+}
+
+/// a − b rounded, and what rounding lost.
+///
+/// Source: Knuth, The Art of Computer Programming, volume 2, section 4.2.2, theorem B.
+fn difference(a: f64, b: f64) -> (f64, f64) {
+    let rounded = a - b;
+    let of_b = rounded - a;
+    (rounded, (a - (rounded - of_b)) - (b + of_b))
+}
+
+/// Half of the last place of an f64: what reading a decimal as this one loses at most.
+fn half_last_place(x: f64) -> f64 {
+    0.5 * (x.abs().next_up() - x.abs())
+}
+
+/// Whether an f64's own value, written out, has at most 15 digits. Says no of some whole numbers beyond 2⁵³.
+fn has_15_digits(x: f64) -> bool {
+    const TOO_LARGE: u64 = 1_000_000_000_000_000;
+    // 5²² is larger.
+    const LEAST_POWER: i32 = -21;
+    if x == 0.0 {
+        return true;
+    }
+    let bits = x.abs().to_bits();
+    let (exponent, fraction) = ((bits >> 52) as i32, bits & ((1 << 52) - 1));
+    let whole = fraction | 1 << 52;
+    // x = odd·2^power. Subnormal numbers have too many bits behind the point anyhow.
+    let power = exponent - 1075 + whole.trailing_zeros().cast_signed();
+    let odd = whole >> whole.trailing_zeros();
+    match power {
+        // odd·2⁻ᵏ = odd·5ᵏ·10⁻ᵏ.
+        LEAST_POWER..0 => {
+            let digits = odd.checked_mul(5u64.pow(power.unsigned_abs()));
+            digits.is_some_and(|digits| digits < TOO_LARGE)
+        }
+        0..53 => x.abs() < TOO_LARGE as f64,
+        _ => false,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_digits_of_an_f64s_own_value_are_counted() {
+        for (x, expected) in [
+            (0.0, true),
+            (-3.0, true),
+            (0.5, true),
+            (4_649_776.25, true),
+            (999_999_999_999_999.0, true),
+            (1e15, false),
+            (0.1, false),
+            (1e22, false),
+            (1e-310, false),
+            // 15 and 16 digits.
+            (1.0 + 2f64.powi(-14), true),
+            (1.0 + 2f64.powi(-15), false),
+        ] {
+            assert_eq!(has_15_digits(x), expected, "{x:e}");
+        }
+    }
 }

@@ -1,4 +1,4 @@
-//! What does a statement say, and what is tobj to see of it?
+//! Notes each statement, and passes plain ones on to tobj.
 //!
 //! tobj is given plain `v`, `vt`, `vn` and `f` lines only, whose indices were checked: so it never meets
 //! the input that makes it panic or change geometry without a word. All else is noted in [`Facts`].
@@ -8,7 +8,9 @@ use super::corner::{Corner, Corners, List, is_blank};
 use super::error::Problem;
 use super::facts::{Element, Facts, LineRuns, shortened};
 use super::lines::Statement;
-use super::words::{Words, count_words, name, number, text, without_comment};
+use super::words::{
+    WordCount, Words, count_words, is_long_number, name, number, text, without_comment,
+};
 use crate::mesh::NO_INDEX;
 use std::io::Write as _;
 
@@ -23,7 +25,7 @@ pub(super) struct StatementRouter {
     known_counts: Option<[usize; 3]>,
 }
 
-/// What became of a corner, or of all corners of an element.
+/// How a corner, or all corners of an element, were resolved.
 enum Resolved {
     AsWritten,
     /// tobj must not see it as it is written.
@@ -43,7 +45,7 @@ impl StatementRouter {
         }
     }
 
-    /// Notes a statement, and adds what tobj is to see of it.
+    /// Notes a statement, and adds the line that tobj reads for it, if any.
     pub(super) fn take(&mut self, statement: Statement<'_>) -> Result<(), Problem> {
         let bytes = statement.bytes;
         let start = bytes.iter().position(|&b| !is_blank(b));
@@ -66,7 +68,7 @@ impl StatementRouter {
         Ok(())
     }
 
-    /// Statements that tobj needn't see.
+    /// Notes a statement that tobj doesn't read.
     fn note(&mut self, keyword: &[u8], line: usize, rest: &[u8]) {
         let facts = &mut self.facts;
         match keyword {
@@ -87,8 +89,14 @@ impl StatementRouter {
         statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
+        /// A word of so many bytes has at most 15 digits.
+        const SHORT: usize = 15;
         let words = Words::of(statement.bytes, after);
-        let (count, is_plain) = count_words(statement.bytes, after);
+        let WordCount {
+            words: count,
+            longest,
+            is_plain,
+        } = count_words(statement.bytes, after);
         let (least, used, keyword) = match list {
             List::Vertex => (3, 3, "v"),
             List::Texture => (1, 2, "vt"),
@@ -113,6 +121,10 @@ impl StatementRouter {
             if count < used {
                 self.out.extend(b" 0");
             }
+        }
+        if list == List::Vertex && longest > SHORT {
+            let mut used = words.clone().take(3);
+            self.facts.has_long_numbers |= used.any(|(_, word)| is_long_number(word));
         }
         self.end_line(statement.line);
         self.facts.counts[list as usize] += 1;
@@ -147,6 +159,8 @@ impl StatementRouter {
             Resolved::Impossible => return Ok(()),
         }
         self.end_line(statement.line);
+        let corner_count = self.facts.corners[0].len() - first;
+        self.facts.largest_face = self.facts.largest_face.max(corner_count);
         self.facts.add_element(element, statement.line);
         Ok(())
     }
@@ -312,7 +326,7 @@ impl StatementRouter {
         self.out_lines.push(line);
     }
 
-    /// What is wrong with a number in the line that tobj read last, the end of which is at `consumed`.
+    /// The error in a number of the line that tobj read last, which ends at `consumed`.
     pub(super) fn unexplained(&self, consumed: usize, error: &tobj::LoadError) -> Problem {
         let read = self.out[..consumed].strip_suffix(b"\n").unwrap_or_default();
         let start = read
@@ -333,7 +347,7 @@ impl StatementRouter {
     }
 }
 
-/// `off` and 0 are no group; a number that is none, neither.
+/// The number of a smoothing group; 0, no group, for `off` and for words that are no number.
 fn smoothing_group(word: &str) -> u32 {
     match word {
         "on" => 1,

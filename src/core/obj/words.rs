@@ -1,4 +1,4 @@
-//! What are the words of a line, and which numbers are they?
+//! The words of a line, and the numbers among them.
 
 use super::corner::is_blank;
 use super::error::Problem;
@@ -35,8 +35,18 @@ impl<'l> Iterator for Words<'l> {
     }
 }
 
-/// How many words there are from an offset on, and whether all bytes of them can be parts of decimal numbers.
-pub(super) fn count_words(line: &[u8], at: usize) -> (usize, bool) {
+/// The words of a line, counted.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) struct WordCount {
+    pub words: usize,
+    /// The most bytes that a word has.
+    pub longest: usize,
+    /// Whether all their bytes can be parts of decimal numbers.
+    pub is_plain: bool,
+}
+
+/// Counts the words from an offset on.
+pub(super) fn count_words(line: &[u8], at: usize) -> WordCount {
     /// 1 for blanks, 2 for what is neither blank nor of a number.
     const CLASSES: [u8; 256] = {
         let mut classes = [2; 256];
@@ -51,17 +61,22 @@ pub(super) fn count_words(line: &[u8], at: usize) -> (usize, bool) {
         }
         classes
     };
-    let (mut count, mut classes, mut before) = (0, 0, 1);
+    let (mut words, mut longest, mut classes, mut length) = (0, 0, 0, 0);
     for &byte in &line[at..] {
         let class = CLASSES[usize::from(byte)];
-        count += usize::from(before == 1 && class != 1);
+        words += usize::from(length == 0 && class != 1);
+        length = if class == 1 { 0 } else { length + 1 };
+        longest = longest.max(length);
         classes |= class;
-        before = class;
     }
-    (count, classes & 2 == 0)
+    WordCount {
+        words,
+        longest,
+        is_plain: classes & 2 == 0,
+    }
 }
 
-/// The number that one of a statement's words is.
+/// Parses one of a statement's words as a number.
 pub(super) fn number<T: FromStr>(
     statement: &Statement<'_>,
     (offset, word): (usize, &[u8]),
@@ -73,14 +88,25 @@ pub(super) fn number<T: FromStr>(
     })
 }
 
-/// A line up to its comment. A # behind a point is part of a number that is none: Microsoft's NaN is `-1.#IND`.
+/// Whether a word has more than 15 digits, zeros before the first other one and the exponent's not counted.
+pub(super) fn is_long_number(word: &[u8]) -> bool {
+    const MOST_DIGITS: usize = 15;
+    let mantissa = word.split(|&b| matches!(b, b'e' | b'E')).next();
+    let digits = mantissa
+        .unwrap_or_default()
+        .iter()
+        .filter(|b| b.is_ascii_digit());
+    digits.skip_while(|&&b| b == b'0').count() > MOST_DIGITS
+}
+
+/// A line up to its comment. A # after a point begins no comment: Microsoft writes NaN as `-1.#IND`.
 pub(super) fn without_comment(bytes: &[u8]) -> &[u8] {
     let is_comment = |&at: &usize| at == 0 || bytes[at - 1] != b'.';
     let comment = memchr_iter(b'#', bytes).find(is_comment);
     comment.map_or(bytes, |at| &bytes[..at])
 }
 
-/// A name up to what may be a comment, if there is something that may be one: a # behind a blank.
+/// A name up to a # after a blank, which may begin a comment; `None` if there is no such #.
 pub(super) fn before_comment(name: &str) -> Option<&str> {
     let at = name.find(" #").or_else(|| name.find("\t#"))?;
     Some(name[..at].trim_end())
@@ -91,7 +117,7 @@ pub(super) fn name(bytes: &[u8]) -> String {
     text(bytes).trim().to_owned()
 }
 
-/// Bytes that aren't UTF-8 are read as Latin-1.
+/// Bytes as text: as Latin-1 if they aren't UTF-8.
 pub(super) fn text(bytes: &[u8]) -> String {
     match str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -105,9 +131,14 @@ mod tests {
 
     #[test]
     fn words_stand_between_blanks() {
-        assert_eq!(count_words(b"v  1\t2.5 ", 1), (2, true));
-        assert_eq!(count_words(b"v nan 1 2", 1), (3, false));
-        assert_eq!(count_words(b"v", 1), (0, true));
+        let count = |words, longest, is_plain| WordCount {
+            words,
+            longest,
+            is_plain,
+        };
+        assert_eq!(count_words(b"v  1\t2.5 ", 1), count(2, 3, true));
+        assert_eq!(count_words(b"v nan 1 20000", 1), count(3, 5, false));
+        assert_eq!(count_words(b"v", 1), count(0, 0, true));
         let bytes = b"v  1\t2.5 ";
         let words: Vec<_> = Words::of(bytes, 1).collect();
         assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
@@ -118,6 +149,20 @@ mod tests {
         };
         assert_eq!(number::<f64>(&statement, words[1]).expect("a number"), 2.5);
         assert!(number::<f64>(&statement, (0, b"v")).is_err());
+    }
+
+    #[test]
+    fn digits_of_long_numbers_are_counted() {
+        for (word, is_long) in [
+            ("1000000000000000.3", true),
+            ("-123456.123456789", false),
+            ("-1234567.123456789", true),
+            ("0.000000000000000000125", false),
+            ("0.1000000000000000", true),
+            ("1.25e-000000000000000007", false),
+        ] {
+            assert_eq!(is_long_number(word.as_bytes()), is_long, "{word}");
+        }
     }
 
     #[test]

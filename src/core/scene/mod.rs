@@ -162,7 +162,7 @@ pub struct LoadedScene {
     pub warnings: Vec<Warning>,
     /// Number of `v` statements in the file.
     pub vertex_count: usize,
-    /// The largest distance, in a coordinate, between the file's decimals and what is traced.
+    /// No coordinate of the traced mesh lies farther from its decimal in the file than this.
     pub max_rounding: f64,
     /// Material libraries and textures that the file names, whether or not they exist.
     pub files: Vec<PathBuf>,
