@@ -1,4 +1,4 @@
-//! How much does tobj copy?
+//! The vertices that tobj copies.
 
 use crate::mesh::NO_INDEX;
 
@@ -65,9 +65,10 @@ impl Copies {
         };
     }
 
-    /// How many entries of all lists there are copies of, at most, if all corners were looked at.
-    pub(super) fn count(&self, corners: &[Vec<u32>; 3]) -> usize {
-        self.entries.iter().chain(&self.since(corners)).sum()
+    /// How many entries of each list there are copies of, at most, if all corners were looked at.
+    pub(super) fn counts(&self, corners: &[Vec<u32>; 3]) -> [usize; 3] {
+        let since = self.since(corners);
+        std::array::from_fn(|list| self.entries[list] + since[list])
     }
 }
 
@@ -81,15 +82,15 @@ mod tests {
         let mut add = |corners: [u32; 3]| {
             lists[0].extend(corners);
             copies.look_at(&lists);
-            copies.count(&lists)
+            copies.counts(&lists)[0]
         };
         assert_eq!(add([0, 1, 2]), 3);
         assert_eq!(add([0, 2, 3]), 4);
         assert_eq!(add([0, 2, 900]), 9);
         copies.cut(&lists, 3);
-        assert_eq!(copies.count(&lists), 9);
+        assert_eq!(copies.counts(&lists)[0], 9);
         lists[0].extend([5, 6, 7]);
         copies.look_at(&lists);
-        assert_eq!(copies.count(&lists), 12);
+        assert_eq!(copies.counts(&lists)[0], 12);
     }
 }

@@ -1,4 +1,4 @@
-//! What does the reader learn of a file besides the numbers that it passes on?
+//! The facts that the reader learns about a file besides the numbers that it passes on.
 
 use super::copies::Copies;
 use super::corner::List;
@@ -7,7 +7,7 @@ use super::names::{Libraries, NamedRuns};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// What has corners.
+/// The kinds of statements that have corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Element {
     Face,
@@ -18,7 +18,7 @@ pub(super) enum Element {
 }
 
 impl Element {
-    /// How many it needs, and that in words.
+    /// How many corners it needs, and a sentence that says so.
     pub(super) fn least_corners(self) -> (usize, &'static str) {
         match self {
             Self::Face => (3, "a face needs three corners"),
@@ -43,16 +43,16 @@ impl Tally {
         self.count += 1;
     }
 
-    /// What it says of itself, if it happened at all.
+    /// A warning, if it happened at all.
     pub(super) fn warning(self, message: impl FnOnce(usize) -> String) -> Option<Warning> {
         (self.count > 0).then(|| Warning::at(self.first_line, message(self.count)))
     }
 }
 
-/// What the reader learnt on the way. Lists by three go by [`List`].
+/// The facts that the reader learned. Arrays of three are indexed by [`List`].
 #[derive(Debug, Default)]
 pub(super) struct Facts {
-    /// How many there are in each list.
+    /// The entries of each list.
     pub counts: [usize; 3],
     /// For each corner of each element its index, from 0, in each list, or [`NO_INDEX`](crate::mesh::NO_INDEX). The second and the third
     /// are empty while no corner names one.
@@ -68,7 +68,7 @@ pub(super) struct Facts {
     /// Runs of faces, and their smoothing group; 0 is none. Empty if the file has no `s`.
     pub smoothing: Vec<(usize, u32)>,
     pub libraries: Libraries,
-    /// Of each vertex, as far as there are any.
+    /// The colours of vertices, up to the last one that has a colour.
     pub colours: Vec<[f32; 3]>,
     coloured: usize,
     has_byte_colours: bool,
@@ -85,8 +85,14 @@ pub(super) struct Facts {
     pub bare: Tally,
     /// Where texture coordinates are named, if there are none at all.
     idle_textures_line: Option<usize>,
-    /// What tobj holds of the elements that it has lists of.
-    copies: Copies,
+    /// Whether a vertex may have a coordinate of more than 15 digits.
+    pub has_long_numbers: bool,
+    /// Whether other bytes than zeros follow the gzip data.
+    pub has_garbage: bool,
+    /// The vertices that tobj copied.
+    pub copies: Copies,
+    /// The most corners that a face has.
+    pub largest_face: usize,
 }
 
 impl Facts {
@@ -107,7 +113,7 @@ impl Facts {
         }
     }
 
-    /// The colour of the last vertex. Those that have none get what is white on any scale.
+    /// Notes the colour of the last vertex. Vertices without a colour get one that is white on any scale.
     pub(super) fn add_colour(&mut self, colour: [f32; 3]) {
         self.colours.resize(self.counts[0] - 1, [f32::INFINITY; 3]);
         self.colours.push(colour);
@@ -167,24 +173,24 @@ impl Facts {
         self.element_count - self.copies.elements
     }
 
-    /// tobj's list of faces was ended.
+    /// Notes that tobj's list of faces was ended.
     pub(super) fn cut(&mut self) {
         self.copies.cut(&self.corners, self.element_count);
     }
 
-    /// Whether each index so far names something that was read, as far as anything asks.
+    /// Whether each index so far names an entry that was read. Idle lists don't count.
     pub(super) fn is_complete(&self) -> bool {
         List::ALL.into_iter().all(|list| {
             self.is_idle(list) || self.highest[list as usize].0 <= self.counts[list as usize]
         })
     }
 
-    /// Some exporters number texture coordinates that they don't write. No list is no reason to refuse a file.
+    /// Whether a list has no entries and needs none: some exporters number texture coordinates that they don't write.
     pub(super) fn is_idle(&self, list: List) -> bool {
         list == List::Texture && self.counts[list as usize] == 0
     }
 
-    /// At the end of the file: indices into a list that never came.
+    /// Removes the indices of texture coordinates at the end of a file that has none.
     pub(super) fn forget_idle_textures(&mut self) {
         let (highest, line) = self.highest[List::Texture as usize];
         if self.is_idle(List::Texture) && highest > 0 {
@@ -194,7 +200,7 @@ impl Facts {
         }
     }
 
-    /// What was left out, in the order in which it began.
+    /// Warnings about all that was left out, in the order of their first lines.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let ignored = self.ignored.iter().filter_map(|(keyword, tally)| {
             tally.warning(|count| format!("{count} “{keyword}” statement(s) ignored"))
@@ -222,6 +228,9 @@ impl Facts {
                 )
             }))
             .chain(uncoloured)
+            .chain(self.has_garbage.then(|| {
+                Warning::of_file("bytes after the end of the gzip data ignored".to_owned())
+            }))
             .chain(self.has_byte_colours.then(|| {
                 Warning::of_file("colours of vertices go beyond 1: taken as bytes".to_owned())
             }))
@@ -239,43 +248,9 @@ impl Facts {
     pub(super) fn triangle_count(&self) -> usize {
         self.corners[0].len().saturating_sub(2 * self.face_count)
     }
-
-    /// What loading takes in memory at most, with what was read so far. Lists that grow count twice.
-    pub(super) fn bytes(&mut self) -> usize {
-        /// tobj's list in f64, ours, and what remains in f32 with a colour.
-        const OF_ENTRY: usize = 2 * 24 + 24 + 24;
-        /// tobj's copy for a list of faces.
-        const OF_COPY: usize = 2 * 24;
-        /// In our list and in tobj's.
-        const OF_CORNER: usize = 2 * 4 + 2 * 4;
-        /// Indices, face and outline, and each corner's normal and texture coordinates.
-        const OF_TRIANGLE: usize = 2 * (12 + 4 + 1 + 12 + 12);
-        /// tobj's `Face`, and a corner of it if there are more than four.
-        const OF_PENDING_FACE: usize = 2 * 104;
-        const OF_PENDING_CORNER: usize = 2 * 24;
-        self.copies.look_at(&self.corners);
-        let entries: usize = self.counts.iter().sum();
-        let copies = self.copies.count(&self.corners);
-        let corners: usize = self.corners.iter().map(Vec::len).sum();
-        let pending_corners = self.corners[0].len().saturating_sub(self.copies.corners[0]);
-        entries * OF_ENTRY
-            + copies * OF_COPY
-            + corners * OF_CORNER
-            + self.triangle_count() * OF_TRIANGLE
-            + self.elements_since_cut() * OF_PENDING_FACE
-            + pending_corners * OF_PENDING_CORNER
-            + self.names_bytes()
-    }
-
-    fn names_bytes(&self) -> usize {
-        let runs = 16 * (self.smoothing.capacity() + self.no_faces.capacity());
-        let colours = 2 * size_of_val(&self.colours[..]);
-        let names = self.materials.bytes() + self.groups.bytes() + self.libraries.bytes();
-        names + runs + colours + self.face_lines.bytes()
-    }
 }
 
-/// Counts a statement by its keyword; in a file of any bytes there are too many to be told apart.
+/// Counts a statement by its keyword. Files of random bytes have many: all after the first ones count as one.
 pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, line: usize) {
     const MOST_KEYWORDS: usize = 40;
     let is_known = tallies.contains_key(keyword);
@@ -317,12 +292,12 @@ impl LineRuns {
         (self.count, self.next_line) = (0, 0);
     }
 
-    fn bytes(&self) -> usize {
+    pub(super) fn bytes(&self) -> usize {
         16 * self.runs.capacity()
     }
 }
 
-/// A word fit for a message: not long, and without what would move a terminal's cursor.
+/// A word as messages show it: shortened, and without control characters.
 pub(super) fn shortened(word: &str) -> String {
     const LENGTH: usize = 60;
     let rest = word.chars().nth(LENGTH).map(|_| '…');

@@ -10,7 +10,7 @@ use crate::progress::Progress;
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::Range;
 
-/// The file's numbers that something refers to, and what refers to them.
+/// The file's numbers that elements refer to, and the elements' indices.
 #[derive(Default)]
 pub(super) struct Numbers {
     pub positions: Vec<DVec3>,
@@ -26,7 +26,7 @@ pub(super) struct Numbers {
 }
 
 impl Numbers {
-    /// Puts each number where the file has it, then leaves out what nothing refers to.
+    /// Puts each number at its index in the file, then removes numbers that nothing refers to.
     pub(super) fn gather(
         models: Vec<tobj::Model>,
         facts: &mut Facts,
@@ -110,7 +110,7 @@ impl Numbers {
         Ok(numbers)
     }
 
-    /// A normal that is zero or not finite is none.
+    /// Removes normals that are zero or not finite.
     fn forget_useless_normals(&mut self, facts: &mut Facts) {
         let is_useless = |n: &Vec3| !n.is_finite() || *n == Vec3::ZERO;
         let useless: Vec<bool> = self.normals.iter().map(is_useless).collect();

@@ -1,0 +1,156 @@
+//! The limit on memory holds, and doesn't refuse what fits: loads in processes of their own, whose peaks Linux tells.
+//!
+//! `cargo test -p hitscope-core --test memory`. A program of its own, as it starts itself for each load.
+
+use hitscope_core::obj::LoadOptions;
+use hitscope_core::progress::Progress;
+use hitscope_core::scene::{LoadedScene, SceneOptions};
+use std::fmt::Write as _;
+use std::path::Path;
+use std::process::{Command, ExitCode};
+
+const MB: u64 = 1 << 20;
+/// A load within its peak and a third more is accepted. The bound counts each list at its full length, and the
+/// largest twice.
+const ACCEPTED_FROM: f64 = 1.34;
+/// A load that takes so much more than its limit is refused. The allocator keeps some freed memory.
+const REFUSED_BELOW: f64 = 0.9;
+
+fn main() -> ExitCode {
+    let arguments: Vec<String> = std::env::args().skip(1).collect();
+    if let [word, file, limit] = &arguments[..]
+        && word == "load"
+    {
+        load(Path::new(file), limit.parse().expect("a number"));
+        return ExitCode::SUCCESS;
+    }
+    if peak().is_none() {
+        eprintln!("skipped: only Linux tells a process's peak");
+        return ExitCode::SUCCESS;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("x.obj");
+    let mut is_good = true;
+    std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+    let base = loaded(&path, u64::MAX).expect("no limit");
+    for (name, text) in meshes() {
+        std::fs::write(&path, text).expect("written");
+        let peak = loaded(&path, u64::MAX).expect("no limit") - base;
+        let limit = |factor: f64| (peak as f64 * factor) as u64;
+        let accepted = loaded(&path, limit(ACCEPTED_FROM)).is_some();
+        let refused = loaded(&path, limit(REFUSED_BELOW)).is_none();
+        eprintln!(
+            "{name}: {} MB; accepted within {ACCEPTED_FROM} of that: {accepted}; refused within {REFUSED_BELOW}: {refused}",
+            peak / MB
+        );
+        is_good &= accepted && refused;
+    }
+    ExitCode::from(u8::from(!is_good))
+}
+
+/// Loads a file and prints the process's peak; nothing if the file is refused for its memory.
+fn load(path: &Path, max_memory: u64) {
+    let options = LoadOptions {
+        max_memory,
+        ..LoadOptions::default()
+    };
+    let progress = Progress::default();
+    match LoadedScene::load(path, options, SceneOptions::default(), &progress) {
+        Ok(_) => out(&peak().expect("Linux").to_string()),
+        Err(error) => assert!(error.to_string().contains("--max-memory"), "{error}"),
+    }
+}
+
+/// The peak of a process that loads a file; `None` if it refuses to.
+fn loaded(path: &Path, max_memory: u64) -> Option<u64> {
+    let program = std::env::current_exe().expect("this program");
+    let output = Command::new(program)
+        .arg("load")
+        .arg(path)
+        .arg(max_memory.to_string())
+        // Allocators keep memory for each thread.
+        .env("RAYON_NUM_THREADS", "2")
+        .output()
+        .expect("started");
+    assert!(output.status.success(), "{output:?}");
+    String::from_utf8(output.stdout)
+        .expect("text")
+        .trim()
+        .parse()
+        .ok()
+}
+
+/// Bytes that this process had in use at most.
+fn peak() -> Option<u64> {
+    let status = std::fs::read_to_string("/proc/self/status").ok()?;
+    let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
+    let kilobytes: u64 = line.split_whitespace().nth(1)?.parse().ok()?;
+    Some(kilobytes * 1024)
+}
+
+/// Meshes of some hundred thousand triangles, each with other lists.
+fn meshes() -> Vec<(&'static str, String)> {
+    vec![
+        (
+            "triangles",
+            grid(450, |[a, b, c, d]| {
+                format!("f {a} {b} {d}\nf {a} {d} {c}\n")
+            }),
+        ),
+        (
+            "quads",
+            grid(450, |[a, b, c, d]| format!("f {a} {b} {d} {c}\n")),
+        ),
+        (
+            "normals",
+            grid(350, |corners| {
+                let [a, b, c, d] = corners.map(|k| format!("{k}//{k}"));
+                format!("f {a} {b} {d} {c}\n")
+            }),
+        ),
+        ("soup", soup(150_000)),
+        ("polygon", star(100_000)),
+    ]
+}
+
+fn grid(side: usize, face: impl Fn([usize; 4]) -> String) -> String {
+    let mut text = String::new();
+    for k in 0..(side + 1) * (side + 1) {
+        let (x, y) = (k % (side + 1), k / (side + 1));
+        let height = (k * 7919 % 1000) as f64 / 1000.0;
+        writeln!(text, "v {x}.000000 {y}.000000 {height:.6}\nvn 0 0 1").expect("memory");
+    }
+    for k in 0..side * side {
+        let a = k % side + k / side * (side + 1) + 1;
+        text += &face([a, a + 1, a + side + 1, a + side + 2]);
+    }
+    text
+}
+
+fn soup(triangles: usize) -> String {
+    let mut text = String::new();
+    for k in 0..triangles {
+        writeln!(text, "v {k} 0 0\nv {k} 1 0\nv {k} 0 1\nf -3 -2 -1").expect("memory");
+    }
+    text
+}
+
+fn star(corners: usize) -> String {
+    let (mut text, mut face) = (String::new(), String::from("f"));
+    for k in 0..corners {
+        let angle = k as f64 / corners as f64 * std::f64::consts::TAU;
+        let radius = if k % 2 == 0 { 1.0 } else { 0.7 };
+        let (x, y) = (radius * angle.cos(), radius * angle.sin());
+        writeln!(text, "v {x:.9} {y:.9} 0").expect("memory");
+        write!(face, " {}", k + 1).expect("memory");
+    }
+    text + &face + "\n"
+}
+
+#[expect(
+    clippy::print_stdout,
+    reason = "how this program answers the one that started it"
+)]
+fn out(line: &str) {
+    println!("{line}");
+}
