@@ -1,7 +1,9 @@
 //! What happens to this ray? The hit, the exact answer, and every kernel beside it.
 
+use crate::frames;
+use crate::json;
 use crate::oracle::{self, ExactHit, Fraction};
-use glam::{UVec2, Vec2, Vec3};
+use glam::{UVec2, Vec3};
 use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Cost;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
@@ -37,6 +39,9 @@ pub struct RayReport {
     pub origin: [f64; 3],
     /// Where it goes; t counts its lengths.
     pub direction: [f32; 3],
+    /// The largest distance, in one coordinate and in the file's units, between this ray and the one in f64 that the
+    /// camera asks for, where they may meet the mesh. Large for a camera that is far away.
+    pub ray_rounding: f64,
 }
 
 /// A hit, with what the mesh says of its place. Positions are in the file's coordinates.
@@ -136,7 +141,8 @@ impl Inspection {
         camera: &Camera,
         pixel: UVec2,
     ) -> Self {
-        let ray = camera.ray(pixel, Vec2::splat(0.5));
+        let at = pixel.as_dvec2() + 0.5;
+        let ray = camera.ray_through(at);
         let (hit, cost) = intersector.closest_hit_with_cost(&ray);
         let mesh = scene.mesh();
         // Sorted, so that the first of equals is the lowest.
@@ -148,6 +154,7 @@ impl Inspection {
             ray: RayReport {
                 origin: in_file(mesh, ray.origin),
                 direction: ray.dir.to_array(),
+                ray_rounding: frames::rounding(scene, &ray, camera.ray_before_rounding(at)),
             },
             kernel: intersector.kernel().name,
             hit: hit.map(|hit| HitReport::new(scene, hit, shading)),
@@ -161,6 +168,13 @@ impl Inspection {
     }
 }
 
+impl Inspection {
+    /// As indented JSON.
+    pub fn to_json(&self) -> String {
+        json::to_pretty(self)
+    }
+}
+
 impl HitReport {
     /// Looks up all that is known of a hit.
     pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
@@ -170,7 +184,7 @@ impl HitReport {
         let group = mesh.groups.get(mesh.group.of(hit.primitive) as usize);
         Self {
             t: hit.t,
-            barycentric: hit.barycentric(),
+            barycentric: weights(&hit),
             triangle: hit.primitive,
             face: mesh.face_of(hit.primitive),
             position: position_in_file(mesh, &hit),
@@ -214,7 +228,7 @@ impl KernelRow {
             hit: nearest.is_some(),
             triangle: nearest.map(|hit| candidates[hit.primitive as usize]),
             t: nearest.map(|hit| hit.t),
-            barycentric: nearest.map(|hit| hit.barycentric()),
+            barycentric: nearest.map(|hit| weights(&hit)),
             t_error_ulps: errors.map(|(t, _)| t),
             barycentric_error: errors.map(|(_, barycentric)| barycentric),
         }
@@ -227,6 +241,13 @@ fn errors(hit: &Hit, exact: &ExactHit) -> (f64, f64) {
     let error = t.minus(&exact.t).to_f64().abs();
     let weights = exact.barycentric.each_ref().map(Fraction::to_f64);
     (error / ulp_at(exact.t.to_f64()), hit.weight_error(weights))
+}
+
+/// The weights of the corners at a hit. None is below 0: the hit counts as inside, and 1 − u − v, or what the kernel
+/// computed, may fall short of 0 by rounding only.
+pub fn weights(hit: &Hit) -> [f32; 3] {
+    hit.barycentric()
+        .map(|weight| if weight < 0.0 { 0.0 } else { weight })
 }
 
 /// A point of the mesh in the file's coordinates.

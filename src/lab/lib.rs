@@ -5,13 +5,17 @@
 //! |---|---|
 //! | [`oracle`] | the exact answer for a ray and a triangle |
 //! | [`inspection`] | one ray: every kernel and the exact answer |
+//! | [`frames`] | rays of f64 in the file's coordinates, as the f32 rays that kernels trace |
+//! | [`json`] | JSON whose numbers read back as doubles |
 //! | [`measure`] | measurements of speed and accuracy |
 //! | [`requirement`] | the kernel tier that a scene requires |
 //! | [`report`] | measurements as JSON, HTML and text |
 //! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `lab` and `bench` |
 
 pub mod commands;
+pub mod frames;
 pub mod inspection;
+pub mod json;
 pub mod measure;
 pub mod oracle;
 pub mod report;

@@ -25,7 +25,8 @@ fn trace_answers_each_ray_in_order() {
         .filter_map(Value::as_f64)
         .sum();
     assert_eq!(weights, 1.0);
-    assert_eq!(answers[1], serde_json::json!({ "hit": false }));
+    let miss = serde_json::json!({ "hit": false, "line": 4, "ray_rounding": 0.0 });
+    assert_eq!(answers[1], miss);
     assert_eq!(answers[2]["error"], "the direction is zero in f32");
     assert_eq!(answers[3]["error"], "a ray has 6 or 8 numbers, here are 3");
     assert_eq!(answers[4]["error"], "“x” is not a number");
@@ -101,6 +102,8 @@ fn inspect_prints_what_the_contract_names() {
         found["hit"]["geometric_normal"],
         serde_json::json!([0.0, 0.0, 1.0])
     );
+    // The eye's 0.4 is no f32 number; the direction is along −z.
+    assert_eq!(found["ray"]["ray_rounding"], f64::from(0.4f32) - 0.4);
     assert_eq!(found["exact"]["t_fraction"], "4");
     let kernels = found["kernels"].as_array().expect("a list");
     assert!(kernels.len() >= 2);
@@ -117,6 +120,39 @@ fn inspect_prints_what_the_contract_names() {
         (&missed["hit"], &missed["exact"]),
         (&Value::Null, &Value::Null)
     );
+}
+
+#[test]
+fn inspect_tells_how_far_the_ray_is_from_the_cameras() {
+    let folder = Folder::new();
+    // 0.1 is no f32, and at 10⁹ an ulp is 64.
+    for (eye, least, most) in [("0.1,0.5,5", 1e-9, 1e-6), ("1000000010,0.5,5", 9.0, 64.0)] {
+        let line =
+            format!("@cube.obj --pixel 0,0 --size 1x1 --eye {eye} --target 0.5,0.5,0.5 --json");
+        let found = folder.json(|f, out| f.args::<InspectArgs>(&line).run(out));
+        let rounding = found["ray"]["ray_rounding"].as_f64().expect("a number");
+        assert!((least..most).contains(&rounding), "{eye}: {rounding}");
+        let line = line.replace(" --json", "");
+        let text = folder.text(|f, out| f.args::<InspectArgs>(&line).run(out));
+        assert!(text.contains("rounded by"), "{text}");
+    }
+}
+
+#[test]
+fn inspect_counts_triangles_and_faces_from_0_and_says_so() {
+    let folder = Folder::new();
+    let line = "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0";
+    let text = folder.text(|f, out| f.args::<InspectArgs>(line).run(out));
+    let json = folder.json(|f, out| f.args::<InspectArgs>(&format!("{line} --json")).run(out));
+    let hit = &json["hit"];
+    // The last of the file's six faces.
+    assert_eq!(hit["face"], 5);
+    let expected = format!(
+        "triangle {} of face {}, counted from 0",
+        hit["triangle"], hit["face"]
+    );
+    assert!(text.contains(&expected), "{text}");
+    assert!(!text.contains("-0.0") && !text.contains("-0,"), "{text}");
 }
 
 #[test]

@@ -4,6 +4,8 @@
 mod commands;
 // A folder with a mesh, for tests of commands.
 mod folder;
+// Lines, numbers and rounding of `trace`.
+mod trace;
 // How the commands load a mesh, and what `info` tells of it.
 mod loading;
 // Inspection of single rays against the exact answer.

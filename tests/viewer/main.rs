@@ -20,6 +20,8 @@ mod pointer;
 mod program;
 // Every shader parses and validates, without a GPU.
 mod shaders;
+// The built program's answers to rays that come through a pipe.
+mod trace;
 // What the rasterizer draws is what the rays hit, pixel by pixel.
 mod triangle_ids;
 // Faults of the command line.

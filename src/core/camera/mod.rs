@@ -53,6 +53,8 @@ pub enum CameraError {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Camera {
     eye: Vec3,
+    /// Before it was rounded.
+    exact_eye: DVec3,
     /// Columns: right, up, back.
     world_from_camera: DMat3,
     projection: Projection,
@@ -117,12 +119,14 @@ impl Camera {
         let aspect = f64::from(resolution.x) / f64::from(resolution.y);
         let half_extent = DVec2::new(half_height * aspect, half_height);
         // Orthographic rays start up to the half extent away from the eye.
+        let exact_eye = eye;
         let eye = eye.as_vec3();
         if !(eye.abs().max_element() + half_extent.as_vec2().max_element()).is_finite() {
             return Err(CameraError::NotFinite);
         }
         Ok(Self {
             eye,
+            exact_eye,
             world_from_camera,
             projection,
             resolution,
@@ -139,25 +143,35 @@ impl Camera {
 
     /// The ray through a position in the picture, in pixels from the top left corner.
     pub fn ray_through(&self, at: DVec2) -> Ray {
-        let on_plane = self.plane_from_pixel(at);
-        let (origin, dir) = match self.projection {
-            Projection::Perspective { .. } => {
-                let dir = self.world_from_camera * on_plane.extend(-1.0).normalize();
-                (self.eye, dir.as_vec3())
-            }
-            Projection::Orthographic { .. } => {
-                let offset = self.world_from_camera * on_plane.extend(0.0);
-                let origin = (self.eye.as_dvec3() + offset).as_vec3();
-                (origin, -self.back().as_vec3())
-            }
-        };
+        let (offset, dir) = self.offset_and_dir(at);
         Ray {
-            origin,
-            dir,
+            origin: (self.eye.as_dvec3() + offset).as_vec3(),
+            dir: dir.as_vec3(),
             t_min: 0.0,
             t_max: f32::INFINITY,
             scale: 0,
             exclude: None,
+        }
+    }
+
+    /// Origin and direction of the same ray in f64, with the eye as it was given to [`look_at`](Self::look_at).
+    pub fn ray_before_rounding(&self, at: DVec2) -> [DVec3; 2] {
+        let (offset, dir) = self.offset_and_dir(at);
+        [self.exact_eye + offset, dir]
+    }
+
+    /// Origin relative to the eye, and direction, of the ray through a position in the picture.
+    fn offset_and_dir(&self, at: DVec2) -> (DVec3, DVec3) {
+        let on_plane = self.plane_from_pixel(at);
+        match self.projection {
+            Projection::Perspective { .. } => {
+                let dir = self.world_from_camera * on_plane.extend(-1.0).normalize();
+                (DVec3::ZERO, dir)
+            }
+            Projection::Orthographic { .. } => {
+                let offset = self.world_from_camera * on_plane.extend(0.0);
+                (offset, -self.back())
+            }
         }
     }
 

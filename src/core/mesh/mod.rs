@@ -177,6 +177,19 @@ impl TriangleMesh {
         p + self.origin
     }
 
+    /// Whether all positions are f32 numbers in the file's coordinates, too: with the origin at (0, 0, 0) they
+    /// would be the same points.
+    pub fn are_f32_in_file(&self) -> bool {
+        let is_f32 = |own: f32, origin: f64| {
+            let (own, in_file) = (f64::from(own), f64::from(own) + origin);
+            // Both differences give back the terms only if the sum isn't rounded.
+            let is_exact = in_file - origin == own && in_file - own == origin;
+            is_exact && f64::from(in_file as f32) == in_file
+        };
+        let is_good = |p: &Vec3| (0..3).all(|axis| is_f32(p[axis], self.origin[axis]));
+        self.positions.par_iter().all(is_good)
+    }
+
     /// A vertex as the file spells it: of all coordinates that would have been loaded as these, those with
     /// the fewest digits.
     pub fn vertex_in_file(&self, p: Vec3) -> DVec3 {
@@ -267,6 +280,21 @@ mod tests {
             let own = Vec3::splat((written - origin) as f32);
             assert_eq!(mesh.vertex_in_file(own), DVec3::splat(written));
         }
+    }
+
+    #[test]
+    fn positions_are_f32_in_the_file_if_their_sums_with_the_origin_are() {
+        let are_f32 = |origin: f64, own: f32| {
+            let mesh = TriangleMesh {
+                origin: DVec3::splat(origin),
+                positions: vec![Vec3::splat(own)],
+                ..TriangleMesh::default()
+            };
+            mesh.are_f32_in_file()
+        };
+        assert!(are_f32(0.0, 0.1) && are_f32(1000.0, 0.25) && are_f32(-3.0, 4.0));
+        // 1000.1 isn't, nor is a sum that only rounding makes one.
+        assert!(!are_f32(1000.0, 0.1) && !are_f32(1000.0, 1e-20));
     }
 
     #[test]

@@ -12,6 +12,7 @@ use crate::mesh::{Crease, SAFE_SIZE, TriangleMesh, VertexNormals};
 use crate::obj::{self, LoadError, LoadOptions, Loaded, Warning};
 use crate::progress::{BackgroundError, Cancelled, Phase, Progress};
 use crate::simd::SimdLevel;
+use glam::Vec3;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
@@ -96,6 +97,25 @@ impl Scene {
             ..TriangleMesh::default()
         };
         Self::new(mesh, &Progress::default()).expect("nobody cancels")
+    }
+
+    /// The same triangles with the origin at (0, 0, 0), without normals, materials and faces; `None` if that would
+    /// round a position.
+    pub fn in_file_frame(&self) -> Option<Self> {
+        if !self.mesh.are_f32_in_file() {
+            return None;
+        }
+        let in_file = |p: &Vec3| self.mesh.in_file(p.as_dvec3()).as_vec3();
+        let mesh = TriangleMesh {
+            positions: self.mesh.positions.iter().map(in_file).collect(),
+            triangles: self.mesh.triangles.clone(),
+            ..TriangleMesh::default()
+        };
+        let options = SceneOptions {
+            packing: self.tree.packing(),
+            ..SceneOptions::default()
+        };
+        Some(Self::with_options(mesh, options, &Progress::default()).expect("nobody cancels"))
     }
 
     /// The mesh.

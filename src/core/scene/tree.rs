@@ -90,6 +90,10 @@ impl Tree {
         self.current().time
     }
 
+    pub fn packing(&self) -> Packing {
+        self.packing
+    }
+
     pub fn is_best(&self) -> bool {
         self.current().is_best
     }

@@ -2,6 +2,7 @@
 
 use super::args::{CameraArgs, MeshArgs, kernel_names};
 use super::{CommandError, ThreadsArg};
+use crate::json;
 use crate::measure::speed::{RAYS_AT_ONCE, median};
 use crate::measure::workloads::{WORKLOADS, workloads};
 use clap::Args;
@@ -144,7 +145,7 @@ impl BenchArgs {
             workloads: self.rows(&intersectors, &workloads(scene, &camera, MOST_RAYS, 1)),
         };
         if self.json {
-            let text = serde_json::to_string(&report).expect("a report is plain data");
+            let text = json::to_line(&report);
             writeln!(out, "{text}")?;
         } else {
             report.print(out)?;

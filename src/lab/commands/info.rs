@@ -2,6 +2,7 @@
 
 use super::CommandError;
 use super::args::MeshArgs;
+use crate::json;
 use crate::requirement::{Requirement, required_tier};
 use clap::Args;
 use hitscope_core::kernel::default_triangle_kernel;
@@ -82,8 +83,7 @@ impl InfoArgs {
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let info = Info::of(&loaded);
         if self.json {
-            let json = serde_json::to_string_pretty(&info);
-            writeln!(out, "{}", json.expect("an info is plain data"))?;
+            writeln!(out, "{}", json::to_pretty(&info))?;
         } else {
             info.print(out)?;
         }

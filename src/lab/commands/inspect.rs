@@ -7,25 +7,53 @@ use crate::inspection::{HitReport, Inspection};
 use clap::Args;
 use glam::UVec2;
 use hitscope_core::obj::Recentre;
+use std::fmt::Debug;
 use std::io::Write;
 use std::path::PathBuf;
 
-/// Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
-#[derive(Args, Clone, Debug)]
-#[command(after_help = "\
+const ABOUT: &str = "\
+Show one pixel's ray: what it hits, the exact answer, and what every kernel says
+
+The ray is the one that `render` with the same camera traces through the centre of the pixel. The exact answer is \
+computed with integers. The table compares all kernels with it.
+
+In the output, also as JSON:
+
+  t                  in lengths of the ray's direction, which is about one unit of the file long
+  barycentric        the weights of the triangle's corners A, B and C
+  triangle, face     indices, counted from 0, in the order of the file
+  position, normal   in the file's coordinates
+  t_error_ulps       error of t, in units in the last place of f32
+  barycentric_error  the largest error of a weight
+  ray_rounding       the largest distance, in one coordinate and in units of the file, between this ray and the \
+camera's in f64, where they may meet the mesh; large for a camera that is far away
+
+Numbers in JSON read back to the same value as a double.";
+
+const EXAMPLES: &str = "\
 Examples:
   hitscope inspect bunny.obj --pixel 640,360
-  hitscope inspect bunny.obj --pixel 12,80 --size 100x100 --eye 3,2,4 --target 0,1,0 --json")]
+  hitscope inspect bunny.obj --pixel 12,7 --size 100x100 --eye 0,0.1,1 --json
+  hitscope inspect bunny.obj --pixel 640,360 --kernel exact --shading smooth
+
+Exit status:
+  0  done, also if the ray hits nothing
+  1  the mesh can't be read: one line on stderr says why
+  2  the command line is at fault, as with a pixel outside of the picture";
+
+/// Show one pixel's ray: what it hits, the exact answer, and what every kernel says
+#[derive(Args, Clone, Debug)]
+#[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct InspectArgs {
     /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
-    /// The pixel, counted from 0,0 at the top left
+    /// The pixel; 0,0 is at the top left
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pub pixel: UVec2,
     /// Camera
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// How the shading normal varies over a triangle
+    /// Shading for which the normal is given
     #[arg(long, default_value = "flat")]
     pub shading: ShadingArg,
     /// Kernel
@@ -66,8 +94,7 @@ impl InspectArgs {
         let inspection =
             Inspection::of_pixel(&scene, &*intersector, self.shading.into(), &camera, pixel);
         if self.json {
-            let json = serde_json::to_string_pretty(&inspection);
-            writeln!(out, "{}", json.expect("an inspection is plain data"))?;
+            writeln!(out, "{}", inspection.to_json())?;
         } else {
             print(&inspection, out)?;
         }
@@ -88,8 +115,14 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "pixel      {x},{y}")?;
     writeln!(
         out,
-        "ray        from {:?} along {:?}",
-        ray.origin, ray.direction
+        "ray        from {} along {}",
+        list(ray.origin),
+        list(ray.direction)
+    )?;
+    writeln!(
+        out,
+        "           rounded by {:e} at most, in the file's units",
+        ray.ray_rounding
     )?;
     writeln!(
         out,
@@ -100,50 +133,59 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     match exact {
         None => writeln!(out, "exactly: no hit")?,
         Some(exact) => {
-            writeln!(out, "exactly: triangle {}", exact.triangle)?;
+            writeln!(out, "exactly: triangle {}, counted from 0", exact.triangle)?;
             writeln!(out, "  t            {} = {}", exact.t, exact.t_fraction)?;
-            writeln!(out, "  barycentric  {:?}", exact.barycentric)?;
+            writeln!(out, "  barycentric  {}", list(exact.barycentric))?;
         }
     }
     writeln!(
         out,
-        "{:<18} {:>14} {:>12} {:>12}",
-        "kernel", "t", "ulps off", "weights off"
+        "{:<18} {:>14} {:>14} {:>14}",
+        "kernel", "t", "error in ulps", "weight error"
     )?;
     let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
     for row in kernels {
         let t = row.t.map_or("miss".to_owned(), |t| t.to_string());
         let (ulps, weights) = (number(row.t_error_ulps), number(row.barycentric_error));
-        writeln!(out, "{:<18} {t:>14} {ulps:>12} {weights:>12}", row.name)?;
+        writeln!(out, "{:<18} {t:>14} {ulps:>14} {weights:>14}", row.name)?;
     }
     Ok(())
 }
 
 fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std::io::Result<()> {
-    match hit {
-        None => writeln!(out, "{kernel}: no hit")?,
-        Some(hit) => {
-            writeln!(
-                out,
-                "{kernel}: triangle {} of face {}",
-                hit.triangle, hit.face
-            )?;
-            writeln!(out, "  t            {}", hit.t)?;
-            writeln!(out, "  barycentric  {:?}", hit.barycentric)?;
-            writeln!(out, "  position     {:?}", hit.position)?;
-            writeln!(out, "  normal       {:?} geometric", hit.geometric_normal)?;
-            writeln!(out, "               {:?} shading", hit.shading_normal)?;
-            writeln!(out, "  vertices     {:?}", hit.vertices[0])?;
-            writeln!(out, "               {:?}", hit.vertices[1])?;
-            writeln!(out, "               {:?}", hit.vertices[2])?;
-            writeln!(
-                out,
-                "  material     {:?}, group {:?}",
-                hit.material, hit.group
-            )?;
-        }
+    let Some(hit) = hit else {
+        return writeln!(out, "{kernel}: no hit");
+    };
+    let (triangle, face) = (hit.triangle, hit.face);
+    writeln!(
+        out,
+        "{kernel}: triangle {triangle} of face {face}, counted from 0"
+    )?;
+    let [a, b, c] = hit.vertices.map(list);
+    let rows = [
+        ("t", hit.t.to_string()),
+        ("barycentric", list(hit.barycentric)),
+        ("position", list(hit.position)),
+        ("normal", list(hit.geometric_normal) + " geometric"),
+        ("", list(hit.shading_normal) + " shading"),
+        ("vertices", a),
+        ("", b),
+        ("", c),
+        (
+            "material",
+            format!("{:?}, group {:?}", hit.material, hit.group),
+        ),
+    ];
+    for (name, value) in rows {
+        writeln!(out, "  {name:<12} {value}")?;
     }
     Ok(())
+}
+
+/// Three numbers, without minus zero.
+fn list<T: Copy + Debug + Default + PartialEq>(numbers: [T; 3]) -> String {
+    let plain = |x: T| if x == T::default() { T::default() } else { x };
+    format!("{:?}", numbers.map(plain))
 }
 
 /// `640,360`.

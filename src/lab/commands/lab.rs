@@ -3,6 +3,7 @@
 use super::args::{CameraArgs, MeshArgs};
 use super::stderr::ProgressLine;
 use super::{CommandError, Output, default_thread_count, file_error};
+use crate::json;
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short};
 use crate::measure::{self, Measurements, RunProgress, Sizes};
@@ -127,7 +128,7 @@ impl LabArgs {
         // The tables come first: they are worth as much if a file can't be written any more.
         let json = report::to_json(&about, &all);
         if self.json {
-            writeln!(out, "{json:#}")?;
+            writeln!(out, "{}", json::to_pretty(&json))?;
         } else {
             print_cases(&about, &all, out)?;
         }
@@ -193,7 +194,7 @@ impl LabArgs {
                 "triangles": scene.mesh().triangles.len(),
                 "kernels": rows,
             });
-            writeln!(out, "{json:#}")?;
+            writeln!(out, "{}", json::to_pretty(&json))?;
         } else {
             print_scene(&rows, out)?;
         }
@@ -220,7 +221,8 @@ impl ReportFiles {
     }
 
     fn write(&self, json: &serde_json::Value, all: &Measurements) -> Result<(), CommandError> {
-        self.json.write(|out| writeln!(out, "{json:#}"))?;
+        self.json
+            .write(|out| writeln!(out, "{}", json::to_pretty(json)))?;
         self.page
             .write(|out| out.write_all(report::to_page(json).as_bytes()))?;
         self.table

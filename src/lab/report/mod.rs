@@ -4,6 +4,7 @@ mod text;
 
 pub use text::{accuracy_table, is_in_accuracy_table, print};
 
+use crate::json;
 use crate::measure::contestants::{Contestant, contestants};
 use crate::measure::statistics::{bound_per_million, per_million};
 use crate::measure::triangles::TriangleCell;
@@ -78,7 +79,7 @@ pub fn to_page(json: &Value) -> String {
     // The first `</` would end the script element.
     PAGE.replace(STYLE.0, STYLE.1)
         .replace(SCRIPT.0, SCRIPT.1)
-        .replace(JSON, &json.to_string().replace("</", "<\\/"))
+        .replace(JSON, &json::to_line(json).replace("</", "<\\/"))
 }
 
 fn has_case(all: &Measurements, name: &str) -> bool {

@@ -14,9 +14,7 @@ pub fn inspect_ui(ui: &mut egui::Ui, inspection: Option<&Inspection>) {
         let [x, y] = inspection.pixel;
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong());
         if ui.button("Copy as JSON").clicked() {
-            let json = serde_json::to_string_pretty(inspection);
-            ui.ctx()
-                .copy_text(json.expect("an inspection is plain data"));
+            ui.ctx().copy_text(inspection.to_json());
         }
     });
     match &inspection.hit {

@@ -1,0 +1,182 @@
+//! From lines of text to rays, and from hits to lines of JSON.
+
+use super::lines::{LONGEST_LINE, Line};
+use crate::frames::{Frames, GivenRay, PlacedRay};
+use crate::inspection::{position_in_file, weights};
+use crate::json;
+use glam::DVec3;
+use hitscope_core::Hit;
+use hitscope_core::mesh::TriangleMesh;
+use serde::Serialize;
+
+/// Characters of a bad word that its error message shows.
+const SHOWN: usize = 40;
+
+/// What is asked of each ray.
+#[derive(Clone, Copy)]
+pub(super) enum RayQuery {
+    Closest,
+    Any,
+    All,
+}
+
+/// A line that isn't blank: a ray, or what is wrong with it.
+pub(super) struct Request {
+    pub line: u64,
+    pub ray: Result<PlacedRay, String>,
+}
+
+#[derive(Serialize)]
+struct ClosestAnswer {
+    hit: bool,
+    #[serde(flatten)]
+    found: Option<HitEntry>,
+    line: u64,
+    ray_rounding: f64,
+}
+
+#[derive(Serialize)]
+struct AllAnswer {
+    hits: Vec<HitEntry>,
+    line: u64,
+    ray_rounding: f64,
+}
+
+#[derive(Serialize)]
+struct ErrorAnswer<'e> {
+    error: &'e str,
+    line: u64,
+}
+
+#[derive(Serialize)]
+struct HitEntry {
+    t: f64,
+    barycentric: [f32; 3],
+    triangle: u32,
+    face: u32,
+    position: [f64; 3],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    also: Option<Vec<u32>>,
+}
+
+impl Request {
+    /// `None` for a line that is blank or a comment.
+    pub(super) fn of(line: Line<'_>, frames: &Frames<'_>) -> Option<Self> {
+        let comment = line.bytes.iter().position(|&b| b == b'#');
+        let statement = &line.bytes[..comment.unwrap_or(line.bytes.len())];
+        let statement = String::from_utf8_lossy(statement);
+        let statement = statement.trim_start_matches('\u{feff}').trim();
+        let ray = if line.is_cut && comment.is_none() {
+            Err(format!("the line is longer than {LONGEST_LINE} bytes"))
+        } else if statement.is_empty() {
+            return None;
+        } else {
+            ray(statement).and_then(|given| frames.place(&given).map_err(|e| e.to_string()))
+        };
+        Some(Self {
+            line: line.number,
+            ray,
+        })
+    }
+}
+
+/// The ray that a line gives.
+fn ray(statement: &str) -> Result<GivenRay, String> {
+    let mut numbers = [0.0; 8];
+    let mut count = 0;
+    for word in statement.split_whitespace() {
+        let number: f64 = word.parse().map_err(|_| not_a_number(word))?;
+        if let Some(place) = numbers.get_mut(count) {
+            *place = number;
+        }
+        count += 1;
+    }
+    let [t_min, t_max] = match count {
+        6 => [0.0, f64::INFINITY],
+        8 => [numbers[6], numbers[7]],
+        _ => return Err(format!("a ray has 6 or 8 numbers, here are {count}")),
+    };
+    Ok(GivenRay {
+        origin: DVec3::from_slice(&numbers),
+        dir: DVec3::from_slice(&numbers[3..]),
+        t_min,
+        t_max,
+    })
+}
+
+fn not_a_number(word: &str) -> String {
+    let mut rest = word.chars();
+    let beginning: String = rest.by_ref().take(SHOWN).collect();
+    let more = if rest.next().is_some() { "…" } else { "" };
+    format!("“{beginning}{more}” is not a number")
+}
+
+/// Answers rays about one scene.
+pub(super) struct RayAnswerer<'a> {
+    pub mesh: &'a TriangleMesh,
+    pub frames: &'a Frames<'a>,
+    pub query: RayQuery,
+}
+
+impl RayAnswerer<'_> {
+    /// Whether the ray hits anything: the work of an answer, without its printing.
+    pub(super) fn is_hit(&self, placed: &PlacedRay) -> bool {
+        let (intersector, ray) = (self.frames.intersector(placed), &placed.ray);
+        match self.query {
+            RayQuery::Closest => intersector.closest_hit(ray).is_some(),
+            RayQuery::Any => intersector.any_hit(ray),
+            RayQuery::All => !intersector.all_hits(ray).is_empty(),
+        }
+    }
+
+    /// A line of JSON, and whether the ray hits anything.
+    pub(super) fn answer(&self, request: &Request) -> (String, bool) {
+        let placed = match &request.ray {
+            Ok(placed) => placed,
+            Err(error) => {
+                let line = request.line;
+                return (json::to_line(&ErrorAnswer { error, line }), false);
+            }
+        };
+        let (intersector, ray) = (self.frames.intersector(placed), &placed.ray);
+        let closest = |hit: bool, found: Option<HitEntry>| {
+            let answer = ClosestAnswer {
+                hit,
+                found,
+                line: request.line,
+                ray_rounding: placed.rounding,
+            };
+            (json::to_line(&answer), hit)
+        };
+        match self.query {
+            RayQuery::Any => closest(intersector.any_hit(ray), None),
+            RayQuery::Closest => {
+                let hit = intersector.closest_hit(ray);
+                closest(hit.is_some(), hit.map(|hit| self.entry(placed, &hit, None)))
+            }
+            RayQuery::All => {
+                let crossings = intersector.all_hits(ray).into_iter();
+                let entry = |c: hitscope_core::intersector::Crossing| {
+                    self.entry(placed, &c.hit, Some(c.also))
+                };
+                let answer = AllAnswer {
+                    hits: crossings.map(entry).collect(),
+                    line: request.line,
+                    ray_rounding: placed.rounding,
+                };
+                (json::to_line(&answer), !answer.hits.is_empty())
+            }
+        }
+    }
+
+    fn entry(&self, placed: &PlacedRay, hit: &Hit, also: Option<Vec<u32>>) -> HitEntry {
+        HitEntry {
+            t: placed.t_as_given(hit.t),
+            barycentric: weights(hit),
+            triangle: hit.primitive,
+            face: self.mesh.face_of(hit.primitive),
+            position: position_in_file(self.mesh, hit),
+            also,
+        }
+    }
+}

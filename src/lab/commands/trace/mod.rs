@@ -1,0 +1,317 @@
+//! `hitscope trace`: rays in, hits out.
+
+mod answers;
+mod lines;
+
+use super::args::{KernelArg, MeshArgs};
+use super::{CommandError, ThreadsArg, file_error, is_stdin};
+use crate::frames::Frames;
+use crate::json;
+use answers::{RayAnswerer, RayQuery, Request};
+use clap::{Args, ValueEnum};
+use hitscope_core::obj::Recentre;
+use lines::{LineSplitter, Lines, Next, Pieces};
+use serde::Serialize;
+use std::fs::File;
+use std::io::{self, Read, Write};
+use std::ops::Range;
+use std::path::{Path, PathBuf};
+use std::thread::{Builder, ScopedJoinHandle};
+use std::time::{Duration, Instant};
+
+/// Lines that are parsed, traced and printed together, at most by some.
+const BATCH: usize = 1 << 16;
+/// A thread isn't started for fewer lines: it would cost as much as it saves.
+const LEAST_PER_THREAD: usize = 256;
+
+const ABOUT: &str = "\
+Trace rays through a mesh and print one JSON object per ray
+
+Input: one ray per line, as six or eight numbers in the file's coordinates:
+
+  ox oy oz dx dy dz [tmin tmax]
+
+The ray is the points o + t*d with tmin < t < tmax; without the last two numbers, 0 < t < infinity. d needn't have \
+unit length. # starts a comment. Lines end in LF, CR or CRLF and may be 65536 bytes long. With --rays -, each line is \
+answered as soon as no more input is waiting.
+
+Output, in the order of the input; blank lines and comments have none:
+
+  {\"hit\":true,\"t\":2.5,\"barycentric\":[0.25,0.5,0.25],\"triangle\":10,\"face\":5,\"position\":[0.25,0.5,1.0],
+   \"line\":1,\"ray_rounding\":0.0}
+  {\"hit\":false,\"line\":2,\"ray_rounding\":0.0}
+  {\"error\":\"a ray has 6 or 8 numbers, here are 5\",\"line\":3}
+
+  t             in lengths of d, counted from o
+  barycentric   the weights of the triangle's corners A, B and C; position is their weighted sum
+  triangle      index of the triangle, from 0, in the order in which faces are split into triangles
+  face          index of the face in the file, from 0
+  position      in the file's coordinates
+  line          line number in the input, from 1
+  ray_rounding  in units of the file, see below
+
+Numbers read back to the same value as a double. Indices count from 0.
+
+Rounding: kernels trace f32 rays through a mesh of f32 coordinates about an origin near it (--recentre). A ray given \
+with more digits, or from far away, is rounded. To lose as little as possible, the traced ray starts where the given \
+one comes near the mesh, or is traced in the file's own coordinates, where that is better. ray_rounding is what \
+remains: the largest distance, in one coordinate, between the traced ray and the given one at the same t, for all t \
+at which they may meet the mesh. 0 means that the ray is traced exactly as given. tmin and tmax are rounded outwards \
+to f32. The rounding of the mesh itself is shown by `hitscope info`.";
+
+const EXAMPLES: &str = "\
+Examples:
+  hitscope trace bunny.obj --rays rays.txt
+  echo 0 0.1 1 0 0 -1 | hitscope trace bunny.obj --rays -
+  hitscope trace bunny.obj --rays rays.txt --all --kernel exact
+  hitscope trace bunny.obj --rays rays.txt --summary
+
+Exit status:
+  0  done, also if some lines are not rays: their answers say why
+  1  the mesh or the file of rays can't be read: one line on stderr says why
+  2  the command line is at fault";
+
+/// Trace rays through a mesh and print one JSON object per ray
+#[derive(Args, Clone, Debug)]
+#[command(long_about = ABOUT, after_help = EXAMPLES)]
+pub struct TraceArgs {
+    /// OBJ file, plain or gzipped; - for standard input
+    pub file: PathBuf,
+    /// File of rays, one per line: ox oy oz dx dy dz [tmin tmax]; - for standard input
+    #[arg(long, value_name = "RAYS")]
+    pub rays: PathBuf,
+    /// Kernel.
+    #[command(flatten)]
+    pub kernel: KernelArg,
+    /// How the mesh is loaded.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
+    /// Store positions relative to an origin near the mesh, which keeps their digits when they are rounded to f32
+    #[arg(long, default_value = "on")]
+    pub recentre: RecentreArg,
+    /// Print only whether anything is hit
+    #[arg(long, conflicts_with = "all")]
+    pub any: bool,
+    /// Print all hits, sorted by t, as {"hits":[...]}; "also" lists other triangles at the same t
+    #[arg(long)]
+    pub all: bool,
+    /// Print only counts, the time that tracing took, and the largest ray_rounding
+    #[arg(long)]
+    pub summary: bool,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadsArg,
+}
+
+/// Whether to recentre.
+#[derive(Clone, Copy, Debug, ValueEnum)]
+pub enum RecentreArg {
+    /// About an origin near the mesh, if it is far from (0, 0, 0) for its size
+    On,
+    /// About (0, 0, 0)
+    Off,
+}
+
+#[derive(Default)]
+struct Totals {
+    rays: u64,
+    hits: u64,
+    bad_lines: u64,
+    tracing: Duration,
+    max_ray_rounding: f64,
+}
+
+#[derive(Serialize)]
+struct Summary {
+    rays: u64,
+    hits: u64,
+    bad_lines: u64,
+    seconds: f64,
+    mrays_per_s: f64,
+    max_ray_rounding: f64,
+}
+
+impl TraceArgs {
+    /// Traces the rays and prints the answers in their order.
+    ///
+    /// # Errors
+    /// See [`CommandError`]. A ray that can't be traced is no error: its answer says why.
+    pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        if is_stdin(&self.file) && is_stdin(&self.rays) {
+            let message = "the mesh and the rays can't both come from standard input";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
+        let recentre = match self.recentre {
+            RecentreArg::On => Recentre::Auto,
+            RecentreArg::Off => Recentre::Off,
+        };
+        // Before the mesh is loaded: a file of rays that isn't there is told at once.
+        let input = open(&self.rays)?;
+        let scene = self.mesh.load(&self.file, recentre)?.scene;
+        let frames = Frames::new(&scene, self.kernel.kernel(), self.mesh.memory.bytes());
+        let tracer = Tracing {
+            answerer: RayAnswerer {
+                mesh: scene.mesh(),
+                frames: &frames,
+                query: match (self.any, self.all) {
+                    (true, _) => RayQuery::Any,
+                    (_, true) => RayQuery::All,
+                    _ => RayQuery::Closest,
+                },
+            },
+            is_summary: self.summary,
+            threads: self.threads.count(),
+        };
+        let totals = tracer.run(Pieces::of(input), &self.rays, out)?;
+        if self.summary {
+            writeln!(out, "{}", json::to_line(&Summary::of(&totals)))?;
+        }
+        Ok(out.flush()?)
+    }
+}
+
+impl Summary {
+    fn of(totals: &Totals) -> Self {
+        let seconds = totals.tracing.as_secs_f64();
+        Self {
+            rays: totals.rays,
+            hits: totals.hits,
+            bad_lines: totals.bad_lines,
+            seconds,
+            mrays_per_s: totals.rays as f64 / seconds.max(f64::MIN_POSITIVE) / 1e6,
+            max_ray_rounding: totals.max_ray_rounding,
+        }
+    }
+}
+
+fn open(path: &Path) -> Result<Box<dyn Read + Send>, CommandError> {
+    if is_stdin(path) {
+        return Ok(Box::new(io::stdin()));
+    }
+    let file = File::open(path).map_err(|source| file_error(path, source))?;
+    Ok(Box::new(file))
+}
+
+struct Tracing<'a> {
+    answerer: RayAnswerer<'a>,
+    is_summary: bool,
+    threads: usize,
+}
+
+impl Tracing<'_> {
+    /// Answers all lines. Whenever reading might block, those that are there are answered first.
+    fn run(
+        &self,
+        mut pieces: Pieces,
+        path: &Path,
+        out: &mut dyn Write,
+    ) -> Result<Totals, CommandError> {
+        let unreadable = |source| file_error(path, source);
+        let (mut totals, mut splitter) = (Totals::default(), LineSplitter::default());
+        loop {
+            let mut next = pieces.next_without_waiting().map_err(unreadable)?;
+            if matches!(next, Next::Unknown) {
+                self.batch(&splitter.take(), &mut totals, out)?;
+                out.flush()?;
+                next = pieces.wait().map_err(unreadable)?;
+            }
+            match next {
+                Next::Piece(piece) => splitter.push(&piece),
+                Next::End => break,
+                Next::Unknown => {}
+            }
+            if splitter.len() >= BATCH {
+                self.batch(&splitter.take(), &mut totals, out)?;
+            }
+        }
+        splitter.finish();
+        self.batch(&splitter.take(), &mut totals, out)?;
+        Ok(totals)
+    }
+
+    fn batch(
+        &self,
+        lines: &Lines,
+        totals: &mut Totals,
+        out: &mut dyn Write,
+    ) -> Result<(), CommandError> {
+        if lines.is_empty() {
+            return Ok(());
+        }
+        let parts = self.in_parallel(lines.len(), |part| {
+            let of = |index| Request::of(lines.get(index), self.answerer.frames);
+            part.filter_map(of).collect::<Vec<_>>()
+        });
+        let requests: Vec<Request> = parts.into_iter().flatten().collect();
+        let start = Instant::now();
+        let parts = self.in_parallel(requests.len(), |part| self.answer_all(&requests[part]));
+        totals.tracing += start.elapsed();
+        for request in &requests {
+            match &request.ray {
+                Ok(placed) => {
+                    totals.rays += 1;
+                    totals.max_ray_rounding = totals.max_ray_rounding.max(placed.rounding);
+                }
+                Err(_) => totals.bad_lines += 1,
+            }
+        }
+        for (text, hits) in parts {
+            totals.hits += hits;
+            out.write_all(text.as_bytes())?;
+        }
+        Ok(())
+    }
+
+    /// The answers as lines, none for a summary, and how many rays hit.
+    fn answer_all(&self, requests: &[Request]) -> (String, u64) {
+        let (mut text, mut hits) = (String::new(), 0);
+        for request in requests {
+            let is_hit = if self.is_summary {
+                let placed = request.ray.as_ref();
+                placed.is_ok_and(|placed| self.answerer.is_hit(placed))
+            } else {
+                let (answer, is_hit) = self.answerer.answer(request);
+                text += &answer;
+                text.push('\n');
+                is_hit
+            };
+            hits += u64::from(is_hit);
+        }
+        (text, hits)
+    }
+
+    /// Cuts 0 to `count` into parts, works on each in a thread of its own, and returns the results in order.
+    fn in_parallel<T: Send>(
+        &self,
+        count: usize,
+        work: impl Fn(Range<usize>) -> T + Sync,
+    ) -> Vec<T> {
+        let work = &work;
+        let size = count.div_ceil(self.threads).max(LEAST_PER_THREAD);
+        let part = |start: usize| start..count.min(start + size);
+        let mut parts = (0..count).step_by(size).map(part);
+        // The first part is this thread's.
+        let Some(first) = parts.next() else {
+            return Vec::new();
+        };
+        std::thread::scope(|scope| {
+            let start = |part: Range<usize>| {
+                let (own, more) = (part.clone(), part);
+                let thread = Builder::new().spawn_scoped(scope, move || work(own));
+                (more, thread.ok())
+            };
+            let others: Vec<_> = parts.map(start).collect();
+            let finish = |(part, thread): (Range<usize>, Option<ScopedJoinHandle<'_, T>>)| {
+                match thread {
+                    Some(thread) => thread.join().expect("tracing doesn't panic"),
+                    // Where the system grants no more threads, this one does the work.
+                    None => work(part),
+                }
+            };
+            let first = work(first);
+            std::iter::once(first)
+                .chain(others.into_iter().map(finish))
+                .collect()
+        })
+    }
+}

@@ -1,0 +1,359 @@
+//! Rays given in the file's coordinates, as f64, turned into the f32 rays that kernels trace.
+//!
+//! A kernel takes f32 numbers relative to the mesh's origin. Rounding a ray that starts far from the mesh can move
+//! it by more than the mesh is large. There are up to four ways to trace a ray, and the one that rounds least is
+//! taken:
+//!
+//! - The traced ray starts where the given one does, or where the given one comes near the mesh. Near the mesh, both
+//!   origin and direction are rounded about as finely as the mesh's own positions.
+//! - The origin of the frame is the mesh's, or (0, 0, 0) of the file, where a ray of f32 numbers isn't rounded at all.
+//!   The latter needs a mesh whose positions are f32 numbers there, too, and a second tree. That is built for the
+//!   first ray that needs it.
+//!
+//! What is left is told as [`PlacedRay::rounding`].
+
+use glam::{DVec3, Vec3};
+use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::ray::RayError;
+use hitscope_core::{Intersector, Ray, Scene};
+use std::sync::OnceLock;
+
+/// Another start or frame is taken where it rounds this many times less. With less to gain, the f32 ray that the
+/// reader expects stays the one that is traced: it loses two bits at most.
+const WORTHWHILE: f64 = 4.0;
+
+/// A ray in the file's coordinates: `origin + t·dir` for `t_min < t < t_max`.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct GivenRay {
+    /// The origin.
+    pub origin: DVec3,
+    /// The direction; t counts its lengths.
+    pub dir: DVec3,
+    /// Lower end of the interval.
+    pub t_min: f64,
+    /// Upper end of the interval.
+    pub t_max: f64,
+}
+
+/// The f32 ray that is traced for a [`GivenRay`].
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PlacedRay {
+    /// The ray, in the coordinates of its frame.
+    pub ray: Ray,
+    frame: FrameKind,
+    /// The given ray's t at which the traced ray starts.
+    start: f64,
+    /// The largest distance, in one coordinate and in the file's units, between the traced and the given ray at the
+    /// same t, for all t at which the ray may meet the mesh. 0: the ray is traced exactly as given.
+    pub rounding: f64,
+}
+
+impl PlacedRay {
+    /// The given ray's t for a t of the traced ray.
+    pub fn t_as_given(&self, t: f32) -> f64 {
+        self.start + self.ray.t_as_given(t)
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum FrameKind {
+    /// About the mesh's origin.
+    Mesh,
+    /// About (0, 0, 0) of the file.
+    File,
+}
+
+/// A scene in the frames in which its rays may be traced.
+pub struct Frames<'a> {
+    scene: &'a Scene,
+    kernel: &'static TriangleKernel,
+    max_memory: u64,
+    mesh: Box<dyn Intersector>,
+    has_file_frame: OnceLock<bool>,
+    file: OnceLock<Option<Box<dyn Intersector>>>,
+}
+
+impl<'a> Frames<'a> {
+    /// `max_memory`: bytes that both trees with their triangles may take; else there is no second one.
+    pub fn new(scene: &'a Scene, kernel: &'static TriangleKernel, max_memory: u64) -> Self {
+        Self {
+            scene,
+            kernel,
+            max_memory,
+            mesh: scene.intersector(kernel),
+            has_file_frame: OnceLock::new(),
+            file: OnceLock::new(),
+        }
+    }
+
+    /// The intersector for a placed ray.
+    pub fn intersector(&self, placed: &PlacedRay) -> &dyn Intersector {
+        match placed.frame {
+            FrameKind::Mesh => &*self.mesh,
+            FrameKind::File => self.file().expect("rays are placed in frames that exist"),
+        }
+    }
+
+    /// The f32 ray that is traced for a given one.
+    ///
+    /// The ends of the interval are rounded outwards: for a t of f32 the comparison with them is exact.
+    ///
+    /// # Errors
+    /// See [`RayError`].
+    pub fn place(&self, given: &GivenRay) -> Result<PlacedRay, RayError> {
+        if !matches!(
+            given.t_min.partial_cmp(&given.t_max),
+            Some(std::cmp::Ordering::Less)
+        ) {
+            return Err(RayError::IntervalEmpty);
+        }
+        let frame = Frame::of_mesh(self.scene);
+        let placed = frame.place_at_origin(given);
+        if placed.is_ok_and(|placed| placed.rounding == 0.0) {
+            return placed;
+        }
+        let placed = better(placed, frame.place_near_mesh(given));
+        if placed.is_ok_and(|placed| placed.rounding == 0.0) || !self.has_file_frame() {
+            return placed;
+        }
+        let frame = Frame::of_file(self.scene);
+        let in_file = better(frame.place_at_origin(given), frame.place_near_mesh(given));
+        let in_file = better(placed, Some(in_file));
+        match in_file {
+            // Where there is no memory for the second tree, the mesh's frame has to do.
+            Ok(chosen) if chosen.frame == FrameKind::File && self.file().is_none() => placed,
+            _ => in_file,
+        }
+    }
+
+    /// Whether the mesh's positions are f32 numbers in the file's frame, and that is another frame.
+    fn has_file_frame(&self) -> bool {
+        let has = || {
+            let mesh = self.scene.mesh();
+            mesh.origin != DVec3::ZERO && mesh.are_f32_in_file() && self.fits_twice()
+        };
+        *self.has_file_frame.get_or_init(has)
+    }
+
+    fn fits_twice(&self) -> bool {
+        let mesh = self.scene.mesh();
+        let lists = size_of_val(&mesh.positions[..]) + size_of_val(&mesh.triangles[..]);
+        let one = lists + self.scene.bvh().bytes() + self.mesh.bytes();
+        2 * one as u64 <= self.max_memory
+    }
+
+    fn file(&self) -> Option<&dyn Intersector> {
+        let build = || Some(self.scene.in_file_frame()?.intersector(self.kernel));
+        self.file.get_or_init(build).as_deref()
+    }
+}
+
+/// The candidate if it is worth the change, else the ray that there is.
+fn better(
+    placed: Result<PlacedRay, RayError>,
+    candidate: Option<Result<PlacedRay, RayError>>,
+) -> Result<PlacedRay, RayError> {
+    match (placed, candidate) {
+        (Err(_), Some(Ok(candidate))) => Ok(candidate),
+        (Ok(placed), Some(Ok(candidate))) if candidate.rounding * WORTHWHILE < placed.rounding => {
+            Ok(candidate)
+        }
+        (placed, _) => placed,
+    }
+}
+
+/// An origin, and where the mesh lies about it.
+struct Frame {
+    kind: FrameKind,
+    origin: DVec3,
+    ball: Ball,
+}
+
+impl Frame {
+    fn of_mesh(scene: &Scene) -> Self {
+        Self {
+            kind: FrameKind::Mesh,
+            origin: scene.mesh().origin,
+            ball: Ball::around(scene),
+        }
+    }
+
+    fn of_file(scene: &Scene) -> Self {
+        let ball = Ball::around(scene);
+        Self {
+            kind: FrameKind::File,
+            origin: DVec3::ZERO,
+            ball: Ball {
+                centre: ball.centre + scene.mesh().origin,
+                ..ball
+            },
+        }
+    }
+
+    /// Starts where the given ray does.
+    fn place_at_origin(&self, given: &GivenRay) -> Result<PlacedRay, RayError> {
+        let interval = [f32_below(given.t_min), f32_above(given.t_max)];
+        self.place(given, 0.0, interval)
+    }
+
+    /// Starts where the given ray comes near the mesh, or at the beginning of its interval if that is later.
+    /// `None` where that is no other place, or behind the interval's end.
+    fn place_near_mesh(&self, given: &GivenRay) -> Option<Result<PlacedRay, RayError>> {
+        let [entry, exit] = self.reach(given);
+        // In steps of a sixteenth of the way through the ball: a number of few digits keeps t = start + t′ exact
+        // for many rays.
+        let step = 2f64.powi((exit - entry).log2().floor() as i32 - 4);
+        let start = ((entry / step).floor() * step).max(given.t_min);
+        if !start.is_finite() || start == 0.0 || start >= given.t_max {
+            return None;
+        }
+        let end = if exit < given.t_max {
+            f32::INFINITY
+        } else {
+            f32_above(given.t_max - start)
+        };
+        // No hit lies before the start, unless it lies before the interval.
+        Some(self.place(given, start, [0.0, end]))
+    }
+
+    fn place(
+        &self,
+        given: &GivenRay,
+        start: f64,
+        [t_min, t_max]: [f32; 2],
+    ) -> Result<PlacedRay, RayError> {
+        let exact = [0, 1, 2].map(|axis| {
+            let (origin, dir) = (given.origin[axis], given.dir[axis]);
+            Precise::sum_with_product(origin, -self.origin[axis], start, dir)
+        });
+        let origin = Vec3::from_array(exact.map(|x| x.high as f32));
+        let dir = given.dir.as_vec3();
+        let ray = Ray::with_interval(origin, dir, t_min, t_max)?;
+        let origin_error =
+            DVec3::from_array([0, 1, 2].map(|axis| exact[axis].error_of(origin[axis])));
+        // Exact: rounding errors are f64 numbers.
+        let dir_error = dir.as_dvec3() - given.dir;
+        let rounding = if origin_error == DVec3::ZERO && dir_error == DVec3::ZERO {
+            0.0
+        } else {
+            let reach = self.reach(given).map(|t| t.clamp(given.t_min, given.t_max));
+            largest_distance(origin_error, dir_error, reach.map(|t| t - start))
+        };
+        Ok(PlacedRay {
+            ray,
+            frame: self.kind,
+            start,
+            rounding,
+        })
+    }
+
+    fn reach(&self, given: &GivenRay) -> [f64; 2] {
+        self.ball.reach(given.origin - self.origin, given.dir)
+    }
+}
+
+/// The distance that [`PlacedRay::rounding`] is, between a ray and its origin and direction in f64, all in the
+/// coordinates of the scene's mesh.
+pub fn rounding(scene: &Scene, ray: &Ray, [origin, dir]: [DVec3; 2]) -> f64 {
+    let (origin_error, dir_error) = (ray.origin.as_dvec3() - origin, ray.dir.as_dvec3() - dir);
+    let reach = Ball::around(scene).reach(origin, dir);
+    largest_distance(origin_error, dir_error, reach.map(|t| t.max(0.0)))
+}
+
+/// The larger of the distances, in one coordinate, at two t.
+fn largest_distance(origin_error: DVec3, dir_error: DVec3, t: [f64; 2]) -> f64 {
+    let at = |t: f64| (origin_error + t * dir_error).abs().max_element();
+    t.map(at).into_iter().fold(0.0, f64::max)
+}
+
+/// A ball that holds the mesh.
+#[derive(Clone, Copy, Debug)]
+struct Ball {
+    centre: DVec3,
+    radius: f64,
+}
+
+impl Ball {
+    /// In the coordinates of the scene's mesh.
+    fn around(scene: &Scene) -> Self {
+        let bounds = scene.bounds();
+        if bounds.is_empty() {
+            return Self {
+                centre: DVec3::ZERO,
+                radius: 0.0,
+            };
+        }
+        Self {
+            centre: bounds.centre().as_dvec3(),
+            radius: bounds.radius(),
+        }
+    }
+
+    /// The values of t between which a ray may be inside, were it to aim at the centre.
+    ///
+    /// The radius is enlarged for the rounding of the centre, of f32, and of the radius. The middle of the interval
+    /// is a quotient of dot products, each of which errs by less than 4·2⁻⁵³ of the distance to the centre; 2⁻⁴⁸ of
+    /// it is more than all of that.
+    fn reach(&self, origin: DVec3, dir: DVec3) -> [f64; 2] {
+        let to_centre = self.centre - origin;
+        let length = dir.length();
+        let middle = to_centre.dot(dir) / length / length;
+        let slack = to_centre.length() * 2f64.powi(-48);
+        let half = (self.radius * (1.0 + 2f64.powi(-20)) + slack) / length;
+        [middle - half, middle + half]
+    }
+}
+
+/// A number of two f64, exact to some 100 bits: the sum of both, the first of which is the sum rounded.
+#[derive(Clone, Copy, Debug)]
+struct Precise {
+    high: f64,
+    low: f64,
+}
+
+impl Precise {
+    /// a + b, exactly. Source: Knuth, The Art of Computer Programming 2, 4.2.2, theorem B.
+    fn sum(a: f64, b: f64) -> Self {
+        let high = a + b;
+        let part = high - a;
+        Self {
+            high,
+            low: (a - (high - part)) + (b - part),
+        }
+    }
+
+    /// a + b + c·d, to some 100 bits.
+    fn sum_with_product(a: f64, b: f64, c: f64, d: f64) -> Self {
+        if c == 0.0 {
+            return Self::sum(a, b);
+        }
+        let product = c * d;
+        // A fused multiplication rounds once, so that this is the exact error of the product.
+        let product_error = c.mul_add(d, -product);
+        let (sum, total) = (Self::sum(a, b), Self::sum(a + b, product));
+        Self::sum(total.high, total.low + (sum.low + product_error))
+    }
+
+    /// How much a rounded number is larger.
+    fn error_of(self, rounded: f32) -> f64 {
+        (f64::from(rounded) - self.high) - self.low
+    }
+}
+
+/// The largest f32 that isn't above a number.
+fn f32_below(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x {
+        nearest.next_down()
+    } else {
+        nearest
+    }
+}
+
+/// The smallest f32 that isn't below a number.
+fn f32_above(x: f64) -> f32 {
+    -f32_below(-x)
+}
+
+#[cfg(test)]
+mod tests;
