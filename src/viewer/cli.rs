@@ -6,6 +6,9 @@ use crate::gpu::GpuError;
 use crate::offscreen;
 use crate::overlay::wireframe::WireframeEdges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
+use crate::settings::Settings;
+use crate::storage::{APP_ID, stored_settings};
+use crate::window;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -18,6 +21,7 @@ use hitscope_lab::commands::{
 };
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write, stdout};
+use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
@@ -95,7 +99,7 @@ pub fn run() -> ExitCode {
     }
     let result = start_thread_pool().and_then(|()| match &cli.command {
         Some(command) => command.run(),
-        None => window(&cli),
+        None => open_window(&cli),
     });
     match result {
         Ok(()) => ExitCode::SUCCESS,
@@ -194,7 +198,7 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
 }
 
 /// Opens the window, or renders a picture where there is no display.
-fn window(cli: &Cli) -> Result<(), CommandError> {
+fn open_window(cli: &Cli) -> Result<(), CommandError> {
     // Before the window opens: a picture that can't be written isn't worth waiting for.
     let output = cli.screenshot.as_deref().map(Output::create).transpose()?;
     let outcome = Outcome::default();
@@ -204,6 +208,11 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
     };
     let start = StartOptions {
         file: cli.file.clone(),
+        // A picture of the window shows the defaults, whatever was used last.
+        settings: match cli.screenshot {
+            Some(_) => Settings::default(),
+            None => stored_settings(),
+        },
         load_options,
         screenshot: output.map(|output| ScreenshotOptions {
             output,
@@ -212,11 +221,8 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
         }),
     };
     let options = eframe::NativeOptions {
-        viewport: egui::ViewportBuilder::default()
-            .with_app_id("hitscope")
-            .with_title("hitscope")
-            .with_inner_size([1280.0, 800.0])
-            .with_min_inner_size([560.0, 320.0]),
+        viewport: window::viewport(),
+        window_builder: Some(Box::new(window::checked)),
         wgpu_options: WgpuConfiguration {
             wgpu_setup: WgpuSetup::CreateNew(wgpu_setup()),
             ..WgpuConfiguration::default()
@@ -226,8 +232,10 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
         persist_window: cli.screenshot.is_none(),
         ..eframe::NativeOptions::default()
     };
+    let ctx = egui_context(start.settings.zoom);
     let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, start)?)));
-    let ran = eframe::run_native("hitscope", options, create);
+    let run = || eframe::run_native_ext(APP_ID, options, Some(ctx), create);
+    let ran = window::run_until_destroyed(run).unwrap_or(Ok(()));
     match (ran, &cli.screenshot) {
         (Ok(()), None) => Ok(()),
         (Ok(()), Some(_)) => {
@@ -244,6 +252,18 @@ fn window(cli: &Cli) -> Result<(), CommandError> {
             render_instead(cli.file.as_deref(), load_options)
         }
     }
+}
+
+/// As eframe makes it, but without what egui stored of its widgets: a bad number in there, as a zoom of 0, would end
+/// the program at each start.
+fn egui_context(zoom: f32) -> egui::Context {
+    let ctx = egui::Context::default();
+    ctx.set_embed_viewports(false);
+    ctx.options_mut(|options| {
+        options.max_passes = NonZeroUsize::MIN.saturating_add(1);
+        options.zoom_factor = zoom;
+    });
+    ctx
 }
 
 /// Why there is no window, without the source code locations in winit's error.

@@ -2,7 +2,7 @@
 
 use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::TriangleKernel;
-use hitscope_core::mesh::{Crease, Health, bytes_as};
+use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::{LoadedScene, SceneOptions};
@@ -11,7 +11,7 @@ use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Instant, SystemTime};
+use std::time::{Duration, Instant, SystemTime};
 
 const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
@@ -29,8 +29,10 @@ pub struct MeshReport {
 
 /// A scene that can be traced. Made by a loading thread.
 pub struct Document {
-    /// Where it comes from; `None` for the embedded scene.
+    /// The file; `None` for the embedded scene and where nothing is open.
     pub path: Option<PathBuf>,
+    /// Whether nothing is open: the scene is empty.
+    pub is_blank: bool,
     /// The scene, and what is known of its file.
     pub loaded: LoadedScene,
     /// When loading it began: what changed since then isn't in it.
@@ -90,9 +92,27 @@ impl Document {
         Self::new(None, embedded_scene(), kernel)
     }
 
+    /// An empty scene, for the time until the first file is there.
+    pub fn blank(kernel: &'static TriangleKernel) -> Self {
+        let mesh = TriangleMesh::default();
+        let scene = Scene::new(mesh, &Progress::default()).expect("nobody cancels");
+        let loaded = LoadedScene {
+            scene: Arc::new(scene),
+            warnings: Vec::new(),
+            vertex_count: 0,
+            max_rounding: 0.0,
+            files: Vec::new(),
+            load_time: Duration::ZERO,
+        };
+        let mut document = Self::new(None, loaded, kernel);
+        document.is_blank = true;
+        document
+    }
+
     fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: &'static TriangleKernel) -> Self {
         Self {
             path,
+            is_blank: false,
             intersector: Arc::from(loaded.scene.intersector(kernel)),
             loaded,
             began: SystemTime::now(),
@@ -145,10 +165,11 @@ impl Document {
 
     /// For titles.
     pub fn name(&self) -> String {
-        let file = self.path.as_deref().and_then(Path::file_name);
-        file.map_or("Default scene".to_owned(), |name| {
-            name.to_string_lossy().into_owned()
-        })
+        match self.path.as_deref().and_then(Path::file_name) {
+            Some(name) => name.to_string_lossy().into_owned(),
+            None if self.is_blank => "No file".to_owned(),
+            None => "Default scene".to_owned(),
+        }
     }
 
     /// Moves the edges of smooth shading.

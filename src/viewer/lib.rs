@@ -12,6 +12,7 @@
 //! | [`task`] | what runs in the background? |
 //! | [`overlay`], [`gpu`] | how does the picture get on the screen, and what is drawn over it? |
 //! | [`panels`], [`settings`] | what can be read and chosen at the side? |
+//! | [`storage`], [`window`] | what is kept between runs, and how large is the window? |
 //! | [`offscreen`], [`screenshot`] | how do pictures get into files? |
 
 pub mod app;
@@ -25,8 +26,10 @@ pub mod overlay;
 pub mod panels;
 pub mod screenshot;
 pub mod settings;
+pub mod storage;
 pub mod task;
 mod times;
 pub mod tracer;
 pub mod trade;
 pub mod watch;
+pub mod window;

@@ -1,34 +1,58 @@
-//! Opening files: the system's dialog, a typed path, and the thread that loads.
+//! Opening files: the system's dialog, the field for a typed path, and the thread that loads.
 
 use crate::document::Document;
 use crate::settings::Settings;
 use crate::task::{Task, TaskPanicked};
 use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
+use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// A dialog that ends without a file in less time than this was never shown.
 const TOO_QUICK: Duration = Duration::from_millis(200);
 
-/// The way from Ctrl+O to a path.
+/// The dialog that Ctrl+O shows, or the field for a typed path.
 #[derive(Default)]
 pub struct OpenDialog {
-    native: Option<(Instant, Task<Option<PathBuf>>)>,
-    /// The field that stands in for the system's dialog.
+    native: Option<Task<Choice>>,
+    /// Stands in for the system's dialog.
     field: Option<PathField>,
+}
+
+/// How the system's dialog ended.
+struct Choice {
+    path: Option<PathBuf>,
+    /// Whether the dialog can have been on the screen: rfd returns the same for a dialog that the user cancelled
+    /// and for one that doesn't exist.
+    was_shown: bool,
 }
 
 struct PathField {
     path: String,
-    why: String,
+    reason: &'static str,
     is_new: bool,
 }
 
+impl PathField {
+    fn because(reason: &'static str) -> Self {
+        Self {
+            path: String::new(),
+            reason,
+            is_new: true,
+        }
+    }
+}
+
 impl OpenDialog {
-    /// Shows the system's dialog, unless it is there already.
+    /// Shows the system's dialog; if it is open already and perhaps lost, the field for a typed path.
     pub fn open(&mut self, ctx: &egui::Context, frame: &eframe::Frame, folder: Option<&Path>) {
         if self.native.is_some() {
+            self.field.get_or_insert_with(|| {
+                PathField::because(
+                    "The system's file dialog is open. You can also type a path here.",
+                )
+            });
             return;
         }
         let mut dialog = rfd::AsyncFileDialog::new()
@@ -41,35 +65,39 @@ impl OpenDialog {
         }
         // The future is made here, as macOS demands, and waited for elsewhere.
         let choice = dialog.pick_file();
-        let wait = move || pollster::block_on(choice).map(|file| file.path().to_owned());
-        self.native = Some((Instant::now(), Task::spawn("dialog", ctx, wait)));
+        let wait = move || {
+            let start = Instant::now();
+            let path = pollster::block_on(choice).map(|file| file.path().to_owned());
+            Choice {
+                path,
+                was_shown: start.elapsed() >= TOO_QUICK && has_dialog(),
+            }
+        };
+        self.native = Some(Task::spawn("dialog", ctx, wait));
     }
 
-    /// The path that was chosen or typed, once it is.
+    /// The path that was chosen in the system's dialog, once.
     pub fn poll(&mut self) -> Option<PathBuf> {
-        let (since, task) = self.native.as_ref()?;
-        let choice = match task.poll() {
+        let choice = match self.native.as_ref()?.poll() {
             Ok(None) => return None,
             Ok(Some(choice)) => choice,
-            Err(TaskPanicked) => None,
+            Err(TaskPanicked) => Choice {
+                path: None,
+                was_shown: false,
+            },
         };
-        let was_quick = since.elapsed() < TOO_QUICK;
         self.native = None;
-        if choice.is_none() && was_quick {
-            self.field = Some(PathField {
-                path: String::new(),
-                why: if cfg!(target_os = "linux") {
-                    "This system has no file dialog: install xdg-desktop-portal or zenity to get one. \
-                     Until then type a path, or drop a file on the window."
-                        .to_owned()
-                } else {
-                    "The system's file dialog couldn't be shown. Type a path, or drop a file on the window."
-                        .to_owned()
-                },
-                is_new: true,
-            });
+        if choice.path.is_some() {
+            self.field = None;
+        } else if !choice.was_shown {
+            self.field = Some(PathField::because(if cfg!(target_os = "linux") {
+                "This system shows no file dialog: xdg-desktop-portal or zenity would provide one. \
+                 Type a path, or drop a file on the window."
+            } else {
+                "The system's file dialog couldn't be shown. Type a path, or drop a file on the window."
+            }));
         }
-        choice
+        choice.path
     }
 
     /// Closes the field for a typed path; whether it was there.
@@ -89,7 +117,7 @@ impl OpenDialog {
             .default_width(360.0)
             .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
             .show(ctx, |ui| {
-                ui.label(&field.why);
+                ui.label(field.reason);
                 ui.add_space(6.0);
                 ui.horizontal(|ui| {
                     let label = ui.label("Path");
@@ -114,6 +142,29 @@ impl OpenDialog {
         }
         None
     }
+}
+
+/// Whether the system has a file dialog that rfd can show. Only Linux may lack one.
+fn has_dialog() -> bool {
+    !cfg!(target_os = "linux") || has_linux_dialog(&|name| std::env::var_os(name))
+}
+
+/// A portal that the session bus can start, or zenity.
+fn has_linux_dialog(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> bool {
+    const PORTAL: &str = "dbus-1/services/org.freedesktop.portal.Desktop.service";
+    let any_holds = |folders: &OsStr, file: &str| {
+        std::env::split_paths(folders).any(|folder| folder.join(file).is_file())
+    };
+    let holds = |name: &str, default: &str, file: &str| {
+        let folders = variable(name).filter(|folders| !folders.is_empty());
+        any_holds(&folders.unwrap_or(default.into()), file)
+    };
+    // A sandbox reaches the portal of the system around it.
+    let is_sandboxed = variable("SNAP").is_some() || Path::new("/.flatpak-info").exists();
+    is_sandboxed
+        || holds("PATH", "", "zenity")
+        || holds("XDG_DATA_DIRS", "/usr/local/share:/usr/share", PORTAL)
+        || holds("XDG_DATA_HOME", "", PORTAL)
 }
 
 /// A file on its way to the screen.
@@ -156,7 +207,7 @@ impl Loading {
         self.progress.cancel();
     }
 
-    /// Phase, bytes, and a button that cancels; whether it was pressed.
+    /// The phase, the bytes read, and a button that cancels; whether it was pressed.
     #[must_use]
     pub fn progress_ui(&self, ui: &mut egui::Ui) -> bool {
         const MB: f64 = 1e6;
@@ -175,5 +226,51 @@ impl Loading {
             ui.button("Cancel").clicked()
         });
         row.inner
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use std::ffi::OsString;
+
+    #[test]
+    fn zenity_or_a_portal_is_a_dialog_and_an_empty_system_has_none() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let has = |name: &'static str, value: &Path| {
+            let value: OsString = value.into();
+            // Nothing of this machine is looked at.
+            let empty =
+                |name: &str| matches!(name, "PATH" | "XDG_DATA_DIRS").then(|| "none".into());
+            has_linux_dialog(&move |asked: &str| {
+                if asked == name {
+                    Some(value.clone())
+                } else {
+                    empty(asked)
+                }
+            })
+        };
+        let (bin, share) = (folder.path().join("bin"), folder.path().join("share"));
+        for (name, path) in [
+            ("PATH", &bin),
+            ("XDG_DATA_DIRS", &share),
+            ("XDG_DATA_HOME", &share),
+        ] {
+            assert!(!has(name, path), "{name}");
+        }
+        let services = share.join("dbus-1/services");
+        std::fs::create_dir_all(&services).expect("made");
+        std::fs::create_dir(&bin).expect("made");
+        std::fs::write(bin.join("zenity"), "").expect("written");
+        let portal = services.join("org.freedesktop.portal.Desktop.service");
+        std::fs::write(portal, "").expect("written");
+        for (name, path) in [
+            ("PATH", &bin),
+            ("XDG_DATA_DIRS", &share),
+            ("XDG_DATA_HOME", &share),
+        ] {
+            assert!(has(name, path), "{name}");
+        }
+        assert!(has("SNAP", &bin));
     }
 }

@@ -10,6 +10,7 @@ use hitscope_core::kernel::{
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
 
 /// A tab of the side panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -23,6 +24,9 @@ pub enum Tab {
     /// What speed costs in accuracy here.
     Trade,
 }
+
+/// How wide the side panel may be, in points.
+pub const PANEL_WIDTHS: RangeInclusive<f32> = 240.0..=460.0;
 
 /// See the [module](self). Names that a later version doesn't know fall back to the default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -63,6 +67,10 @@ pub struct Settings {
     pub shows_panel: bool,
     /// Its tab.
     pub tab: Tab,
+    /// Its width in points.
+    pub panel_width: f32,
+    /// Scale of everything but the picture.
+    pub zoom: f32,
     /// Dark, light, or as the system has it.
     pub theme: ThemePreference,
 }
@@ -88,6 +96,8 @@ impl Default for Settings {
             is_compact: false,
             shows_panel: true,
             tab: Tab::View,
+            panel_width: 385.0,
+            zoom: 1.0,
             theme: ThemePreference::Dark,
         }
     }

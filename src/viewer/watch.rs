@@ -1,163 +1,166 @@
-//! Has the open file changed, or one that it names?
+//! Notices that the open file, or one that it names, has changed.
+//!
+//! A thread compares the files' metadata a few times a second. The system's events (inotify and its like) are
+//! quicker, but they end when the watched folder is deleted (`rm -rf out && make`), miss renamed parents and
+//! redirected links, and don't report what other machines write to a network drive.
 
-use notify::{RecommendedWatcher, RecursiveMode, Watcher as _};
-use std::collections::BTreeSet;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Programs write a file in several steps: only when it has been quiet for so long is it whole.
+/// Programs write a file in several steps. It counts as whole once it has not changed for this long.
 const QUIET: Duration = Duration::from_millis(300);
+/// Time between two comparisons.
+const INTERVAL: Duration = Duration::from_millis(150);
+/// Comparing takes at most one part in this many of the thread's time, however slow the drive is.
+const IDLE_FACTOR: u32 = 20;
 
-/// Sees changes of some files. Their folders are watched, as many programs write a new file and rename it.
+/// Watches some files until it is dropped.
 pub struct Watch {
-    has_event: Arc<AtomicBool>,
-    changed_at: Option<Instant>,
-    /// Stops when it is dropped.
-    _watcher: RecommendedWatcher,
+    has_changed: Arc<AtomicBool>,
+    /// Never used to send: the thread ends when this is dropped.
+    _stop: Sender<()>,
 }
 
 impl Watch {
-    /// Watches a file and those that it names, whether or not they are there yet. What changed since a time is a
-    /// change, too.
+    /// Watches a file and those that it names, whether or not they exist yet. A file that was written after
+    /// `since` counts as changed.
+    ///
+    /// A file that is deleted is reported when it is back.
     ///
     /// # Errors
-    /// What the system says.
+    /// The system grants no thread.
     pub fn of(
         file: &Path,
         named: &[PathBuf],
         since: SystemTime,
         ctx: &egui::Context,
-    ) -> Result<Self, notify::Error> {
-        let all = || named.iter().map(PathBuf::as_path).chain([file]);
-        let now = SystemTime::now();
-        let is_newer = |path: &Path| {
-            let modified = path.metadata().and_then(|info| info.modified());
-            // A time yet to come, from another machine's clock, would be newer for ever.
-            modified.is_ok_and(|modified| modified > since && modified <= now)
-        };
-        let has_event = Arc::new(AtomicBool::new(all().any(is_newer)));
-        let files: BTreeSet<PathBuf> = all().flat_map(places).collect();
-        let folders: BTreeSet<PathBuf> = files
-            .iter()
-            .filter_map(|path| path.parent())
-            // A texture's folder may be missing; the mesh's isn't.
-            .filter(|folder| folder.is_dir())
+    ) -> io::Result<Self> {
+        let named = named.iter().map(PathBuf::as_path);
+        let files: Vec<PathBuf> = [file]
+            .into_iter()
+            .chain(named)
             .map(Path::to_owned)
             .collect();
-        let (shared, ctx) = (Arc::clone(&has_event), ctx.clone());
-        let mut watcher =
-            notify::recommended_watcher(move |event: notify::Result<notify::Event>| {
-                // Opening and reading, which loading does, are no changes.
-                let is_change = |event: &notify::Event| {
-                    !event.kind.is_access() && event.paths.iter().any(|path| files.contains(path))
-                };
-                if event.as_ref().is_ok_and(is_change) {
+        let has_changed = Arc::new(AtomicBool::new(false));
+        let (stop, stopped) = channel();
+        let (shared, ctx) = (Arc::clone(&has_changed), ctx.clone());
+        let watch = move || {
+            let mut changes = Changes::since(since, state_of(&files), Instant::now());
+            loop {
+                let start = Instant::now();
+                if changes.is_news(state_of(&files), start) {
                     shared.store(true, Relaxed);
                     ctx.request_repaint();
                 }
-            })?;
-        for folder in folders {
-            watcher.watch(&folder, RecursiveMode::NonRecursive)?;
-        }
+                let pause = INTERVAL.max(start.elapsed() * IDLE_FACTOR);
+                if stopped.recv_timeout(pause) != Err(RecvTimeoutError::Timeout) {
+                    return;
+                }
+            }
+        };
+        let thread = std::thread::Builder::new().name("watch".to_owned());
+        thread.spawn(watch)?;
         Ok(Self {
-            has_event,
-            changed_at: None,
-            _watcher: watcher,
+            has_changed,
+            _stop: stop,
         })
     }
 
-    /// Whether something changed and is quiet again; said once. A repaint comes when it will be.
-    pub fn poll(&mut self, ctx: &egui::Context) -> bool {
-        if self.has_event.swap(false, Relaxed) {
-            self.changed_at = Some(Instant::now());
-        }
-        let Some(since) = self.changed_at else {
-            return false;
-        };
-        let rest = QUIET.saturating_sub(since.elapsed());
-        if rest.is_zero() {
-            self.changed_at = None;
-            return true;
-        }
-        ctx.request_repaint_after(rest);
-        false
+    /// Whether files have changed since the last call, and are complete. A repaint is requested when they are.
+    pub fn poll(&self) -> bool {
+        self.has_changed.swap(false, Relaxed)
     }
 }
 
-/// How the system calls a file: in its folder's true place, and, if it is a link, where that leads to.
-fn places(file: &Path) -> Vec<PathBuf> {
-    let folder = match file.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
+/// The metadata of all files, the mesh first; `None` for a file that doesn't exist.
+type Files = Vec<Option<FileState>>;
+
+/// What differs between two versions of a file.
+#[derive(Clone, Debug, PartialEq, Eq)]
+struct FileState {
+    bytes: u64,
+    modified: Option<SystemTime>,
+    /// When the file got its name or its contents, which no program can set to an older time.
+    changed: Option<SystemTime>,
+    /// Device and inode.
+    identity: (u64, u64),
+}
+
+fn state_of(files: &[PathBuf]) -> Files {
+    let state = |path: &PathBuf| {
+        let metadata = path.metadata().ok()?;
+        let (identity, changed) = identity_of(&metadata);
+        Some(FileState {
+            bytes: metadata.len(),
+            modified: metadata.modified().ok(),
+            changed,
+            identity,
+        })
     };
-    let here = folder.canonicalize().ok().zip(file.file_name());
-    let here = here.map(|(folder, name)| folder.join(name));
-    here.into_iter().chain(file.canonicalize().ok()).collect()
+    files.iter().map(state).collect()
+}
+
+#[cfg(unix)]
+fn identity_of(metadata: &std::fs::Metadata) -> ((u64, u64), Option<SystemTime>) {
+    use std::os::unix::fs::MetadataExt as _;
+    let secs = u64::try_from(metadata.ctime()).ok();
+    let nanos = u64::try_from(metadata.ctime_nsec()).unwrap_or(0);
+    let changed = secs.and_then(|secs| {
+        SystemTime::UNIX_EPOCH.checked_add(Duration::from_secs(secs) + Duration::from_nanos(nanos))
+    });
+    ((metadata.dev(), metadata.ino()), changed)
+}
+
+#[cfg(not(unix))]
+fn identity_of(metadata: &std::fs::Metadata) -> ((u64, u64), Option<SystemTime>) {
+    ((0, 0), metadata.created().ok())
+}
+
+/// Decides when a change is to be reported.
+struct Changes {
+    /// What was reported last, or loaded at first; `None` if what was loaded is out of date.
+    reported: Option<Files>,
+    /// What the last comparison saw, and since when it has been so.
+    last: Files,
+    quiet_since: Instant,
+}
+
+impl Changes {
+    /// Files that were loaded at a time and are now in this state.
+    fn since(since: SystemTime, files: Files, now: Instant) -> Self {
+        let latest = SystemTime::now();
+        // A time yet to come, from another machine's clock, would be newer at each load.
+        let is_newer = |time: SystemTime| time > since && time <= latest;
+        let is_out_of_date = files.iter().flatten().any(|file| {
+            let times = [file.modified, file.changed];
+            times.into_iter().flatten().any(is_newer)
+        });
+        Self {
+            reported: (!is_out_of_date).then(|| files.clone()),
+            last: files,
+            quiet_since: now,
+        }
+    }
+
+    /// Takes the files' state; whether the mesh exists, something differs from what was reported, and nothing
+    /// has changed for a while.
+    fn is_news(&mut self, files: Files, now: Instant) -> bool {
+        if files != self.last {
+            (self.last, self.quiet_since) = (files, now);
+        }
+        let is_there = self.last.first().is_some_and(Option::is_some);
+        let is_quiet = now.saturating_duration_since(self.quiet_since) >= QUIET;
+        let is_news = is_there && is_quiet && self.reported.as_ref() != Some(&self.last);
+        if is_news {
+            self.reported = Some(self.last.clone());
+        }
+        is_news
+    }
 }
 
 #[cfg(test)]
-mod tests {
-    use super::*;
-
-    /// Waits for a change, ten seconds at most.
-    fn is_seen(watch: &mut Watch, ctx: &egui::Context) -> bool {
-        (0..200).any(|_| {
-            std::thread::sleep(Duration::from_millis(50));
-            watch.poll(ctx)
-        })
-    }
-
-    #[test]
-    fn a_change_of_the_file_or_of_one_that_it_names_is_seen_once() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let (mesh, library) = (folder.path().join("a.obj"), folder.path().join("a.mtl"));
-        std::fs::write(&mesh, "v 0 0 0").expect("written");
-        let ctx = egui::Context::default();
-        let named = [library.clone()];
-        let now = SystemTime::now() + QUIET;
-        let mut watch = Watch::of(&mesh, &named, now, &ctx).expect("the system watches");
-        std::fs::write(folder.path().join("other"), "").expect("written");
-        _ = std::fs::read(&mesh);
-        std::thread::sleep(2 * QUIET);
-        assert!(!watch.poll(&ctx), "nothing of ours changed");
-        std::fs::write(&library, "newmtl a").expect("written");
-        assert!(is_seen(&mut watch, &ctx), "a library that came");
-        let other = folder.path().join("new");
-        std::fs::write(&other, "v 1 0 0").expect("written");
-        std::fs::rename(&other, &mesh).expect("renamed");
-        assert!(is_seen(&mut watch, &ctx), "a file that was replaced");
-        std::thread::sleep(2 * QUIET);
-        assert!(!watch.poll(&ctx), "said once");
-    }
-
-    #[test]
-    fn what_changed_before_it_was_watched_is_seen() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let mesh = folder.path().join("a.obj");
-        let before = SystemTime::now() - QUIET;
-        std::fs::write(&mesh, "v 0 0 0").expect("written");
-        let ctx = egui::Context::default();
-        let mut watch = Watch::of(&mesh, &[], before, &ctx).expect("the system watches");
-        assert!(is_seen(&mut watch, &ctx));
-    }
-
-    #[cfg(unix)]
-    #[test]
-    fn what_a_link_leads_to_is_watched() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let (real, link) = (folder.path().join("real"), folder.path().join("link"));
-        std::fs::create_dir(&real).expect("made");
-        std::fs::create_dir(&link).expect("made");
-        let target = real.join("a.obj");
-        std::fs::write(&target, "v 0 0 0").expect("written");
-        let mesh = link.join("b.obj");
-        std::os::unix::fs::symlink(&target, &mesh).expect("linked");
-        let ctx = egui::Context::default();
-        let now = SystemTime::now() + QUIET;
-        let mut watch = Watch::of(&mesh, &[], now, &ctx).expect("the system watches");
-        std::fs::write(&target, "v 1 0 0").expect("written");
-        assert!(is_seen(&mut watch, &ctx));
-    }
-}
+mod tests;

@@ -80,7 +80,8 @@ impl egui::DroppedFile for Dropped {
     }
 }
 
-fn drop_file(window: &mut Window, path: PathBuf) {
+/// As if the user had dropped a file on the window.
+pub fn drop_file(window: &mut Window, path: PathBuf) {
     window
         .input_mut()
         .dropped_files

@@ -4,6 +4,8 @@
 mod app;
 // The built program's exit statuses, and what it does without a display.
 mod cli;
+// The built program beside others on a display.
+mod desktop;
 // The app in a harness, and the gate for tests that need a GPU.
 mod harness;
 // Standard input, warnings, and a machine that lacks memory or threads.
@@ -11,6 +13,8 @@ mod harness;
 mod machine;
 // What is made of the file: flaws, changes, creases.
 mod mesh;
+// Before, while and after a file is opened.
+mod opening;
 // Files that the program writes.
 #[cfg(unix)]
 mod outputs;

@@ -17,6 +17,8 @@ impl App {
                     self.load(path, ctx);
                 }
             }
+            // From its direction the mesh can't be seen: a flat one edge-on.
+            Action::Frame if self.shows_nothing() => self.use_default_view(),
             Action::Frame => {
                 let bounds = self.document.loaded.scene.bounds();
                 self.turntable.frame(bounds, self.resolution);

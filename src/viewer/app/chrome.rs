@@ -3,7 +3,7 @@
 use super::App;
 use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
 use crate::panels;
-use crate::settings::Tab;
+use crate::settings::{PANEL_WIDTHS, Tab};
 use crate::trade::Trade;
 use egui::{Align, Layout, RichText};
 use glam::UVec2;
@@ -117,9 +117,9 @@ impl App {
 
     pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let mut is_expanded = self.settings.shows_panel;
-        egui::Panel::right("panel")
-            .default_size(385.0)
-            .size_range(240.0..=460.0)
+        let shown = egui::Panel::right("panel")
+            .default_size(self.settings.panel_width)
+            .size_range(PANEL_WIDTHS)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 ui.add_space(4.0);
                 ui.horizontal(|ui| {
@@ -136,6 +136,9 @@ impl App {
                 egui::ScrollArea::vertical()
                     .auto_shrink(false)
                     .show(ui, |ui| match self.settings.tab {
+                        Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
+                            ui.label("No file is open.");
+                        }
                         Tab::Inspect => {
                             if self.picking.is_some() {
                                 ui.spinner();
@@ -159,6 +162,14 @@ impl App {
                     });
             });
         self.settings.shows_panel = is_expanded;
+        if let Some(shown) = shown {
+            // While the panel slides in or out, its width is another in each frame.
+            let width = shown.response.rect.width();
+            let last = std::mem::replace(&mut self.panel_width, width);
+            if last == width && PANEL_WIDTHS.contains(&width) {
+                self.settings.panel_width = width;
+            }
+        }
     }
 
     /// Measures the scene when the tab is first shown, and when the user asks for it again.
@@ -215,6 +226,9 @@ impl App {
         if self.tracer.non_finite() > 0 {
             parts.push(format!("{} samples not finite", self.tracer.non_finite()));
         }
+        if self.document.is_blank {
+            parts = vec!["no file is open".to_owned()];
+        }
         let frame =
             egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
         egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
@@ -250,7 +264,9 @@ impl App {
 
     /// What is being loaded, and what the user must know.
     fn notices_ui(&mut self, ctx: &egui::Context) {
-        if self.loading.is_none() && self.notice.is_none() {
+        // Where nothing is open, progress stands in the middle of the picture.
+        let loading = self.loading.as_ref().filter(|_| !self.document.is_blank);
+        if loading.is_none() && self.notice.is_none() {
             return;
         }
         let (mut is_closed, mut is_cancelled) = (false, false);
@@ -259,7 +275,7 @@ impl App {
             .show(ctx, |ui| {
                 // Beside the panel, not over it.
                 ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(120.0, 560.0));
-                if let Some(loading) = &self.loading {
+                if let Some(loading) = loading {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         ui.label(format!("Loading {}", loading.path.display()));
                         is_cancelled = loading.progress_ui(ui);
@@ -286,9 +302,8 @@ impl App {
         if is_closed {
             self.notice = None;
         }
-        if is_cancelled && let Some(loading) = self.loading.take() {
-            // Its thread ends by itself; the window has already gone on.
-            loading.cancel();
+        if is_cancelled {
+            self.cancel_loading();
         }
     }
 

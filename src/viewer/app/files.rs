@@ -1,19 +1,25 @@
-//! What is loaded, and when is it loaded again?
+//! Loading files, taking over the result, and reloading what has changed.
 
 use super::{App, Notice};
 use crate::document::Document;
 use crate::opening::Loading;
 use crate::watch::Watch;
+use hitscope_core::camera::Turntable;
 use hitscope_core::obj::LoadError;
 use std::path::PathBuf;
 
 impl App {
     pub(super) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
-        if let Some(loading) = &self.loading {
-            loading.cancel();
-        }
+        self.cancel_loading();
         self.notice = None;
         self.loading = Some(Loading::start(path, self.load_options, &self.settings, ctx));
+    }
+
+    /// Its thread ends by itself; the window goes on at once.
+    pub(super) fn cancel_loading(&mut self) {
+        if let Some(loading) = self.loading.take() {
+            loading.cancel();
+        }
     }
 
     /// Takes over a document that is ready; one that can't be loaded leaves the old one in place.
@@ -64,8 +70,10 @@ impl App {
                 self.inspect_again(&pick, ctx);
             }
         } else {
-            self.is_unframed = true;
+            self.use_default_view();
         }
+        // The picture of the scene before goes at once, not when the first rays of this one are back.
+        ctx.request_repaint();
         let title = format!("{} – hitscope", self.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
         let warnings = &self.document.loaded.warnings;
@@ -79,6 +87,18 @@ impl App {
                 is_error: false,
             });
         }
+    }
+
+    /// Looks at the scene from the default direction. What is no matter of the mesh stays: the up axis, the
+    /// projection and its angle.
+    pub(super) fn use_default_view(&mut self) {
+        let bounds = self.document.loaded.scene.bounds();
+        let mut turntable = Turntable::framing(bounds, self.resolution);
+        turntable.fov_y_radians = self.turntable.fov_y_radians;
+        turntable.is_orthographic = self.turntable.is_orthographic;
+        turntable.up_axis = self.turntable.up_axis;
+        self.turntable = turntable;
+        self.is_unframed = true;
     }
 
     /// Loads the file again when it has changed, if the user wants that.
@@ -98,7 +118,7 @@ impl App {
                 }
             }
         }
-        if self.watch.as_mut().is_some_and(|watch| watch.poll(ctx)) {
+        if self.watch.as_ref().is_some_and(Watch::poll) {
             self.load(path, ctx);
         }
     }

@@ -6,12 +6,14 @@
 //! | `actions` | what keys and buttons do |
 //! | `canvas` | the picture, and the pointer on it |
 //! | `files` | what is loaded, and when again |
+//! | `hints` | progress in the middle of an empty picture, and why a picture is empty |
 //! | `chrome` | tool bar, status line, messages, help |
 
 mod actions;
 mod canvas;
 mod chrome;
 mod files;
+mod hints;
 
 pub use chrome::grouped;
 
@@ -21,18 +23,20 @@ use crate::opening::{Loading, OpenDialog};
 use crate::overlay::OverlayLayer;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
+use crate::storage;
 use crate::task::Task;
 use crate::times::Times;
 use crate::tracer::{Request, Tracer};
 use crate::trade::Trade;
 use crate::watch::Watch;
+use crate::window::FitToScreen;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
 use glam::{DVec3, UVec2};
-use hitscope_core::Film;
 use hitscope_core::camera::Turntable;
 use hitscope_core::mesh::Flaw;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
+use hitscope_core::{Film, Scene};
 use hitscope_lab::commands::default_thread_count;
 use hitscope_lab::inspection::Inspection;
 use std::path::PathBuf;
@@ -44,6 +48,8 @@ use std::time::Duration;
 pub struct StartOptions {
     /// A file to load; the embedded scene without one.
     pub file: Option<PathBuf>,
+    /// How things are shown at first.
+    pub settings: Settings,
     /// How files are loaded.
     pub load_options: LoadOptions,
     /// Save a picture of the window, and close it.
@@ -54,6 +60,7 @@ impl Default for StartOptions {
     fn default() -> Self {
         Self {
             file: None,
+            settings: Settings::default(),
             // Who looks at a mesh wants to see what can be seen of it.
             load_options: LoadOptions {
                 faults: FaultPolicy::Lenient,
@@ -113,6 +120,11 @@ pub struct App {
     resolution: UVec2,
     /// Whether the camera still has to be set up for the scene: only the layout knows the size.
     is_unframed: bool,
+    /// Whether the last complete picture is nothing but background.
+    shows_nothing: bool,
+    fit_to_screen: FitToScreen,
+    /// The side panel's, in the last frame.
+    panel_width: f32,
     /// Uncaught errors of the GPU, from whatever thread they come.
     gpu_errors: Arc<Mutex<Vec<String>>>,
     /// What the window's thread spent on each of its last frames.
@@ -121,22 +133,18 @@ pub struct App {
 }
 
 impl App {
-    /// Starts the threads and shows the embedded scene, or loads a file.
+    /// Starts the threads and shows the embedded scene, or loads a file and shows nothing until it is there.
     ///
     /// # Errors
     /// [`NoWgpu`].
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Result<Self, NoWgpu> {
         let render_state = cc.wgpu_render_state.clone().ok_or(NoWgpu)?;
-        // A picture of the window shows the defaults, whatever was used last.
-        let stored = match start.screenshot {
-            Some(_) => None,
-            None => cc
-                .storage
-                .and_then(|storage| eframe::get_value(storage, SETTINGS_KEY)),
-        };
-        let settings: Settings = stored.unwrap_or_default();
+        let settings = start.settings;
         cc.egui_ctx.set_theme(settings.theme);
-        let document = Document::embedded(settings.kernel());
+        let document = match start.file {
+            Some(_) => Document::blank(settings.kernel()),
+            None => Document::embedded(settings.kernel()),
+        };
         let loading = start
             .file
             .map(|file| Loading::start(file, start.load_options, &settings, &cc.egui_ctx));
@@ -161,6 +169,9 @@ impl App {
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
             is_unframed: true,
+            shows_nothing: false,
+            fit_to_screen: FitToScreen::default(),
+            panel_width: 0.0,
             ui_times: Times::default(),
             screenshot: start.screenshot.map(Screenshot::new),
             settings,
@@ -187,6 +198,12 @@ impl App {
     /// Whether the view is of what rays cost with the tree that stays.
     fn shows_last_tree(&self) -> bool {
         self.settings.integrator().depends_on_tree() && self.document.has_last_tree()
+    }
+
+    /// The scene that the picture is of.
+    pub fn traced_scene(&self) -> Option<&Scene> {
+        let posted = self.tracer.posted()?;
+        Some(&posted.context.scene)
     }
 
     /// Whether refinement stands still by the user's wish.
@@ -260,8 +277,6 @@ impl App {
     }
 }
 
-const SETTINGS_KEY: &str = "settings";
-
 impl eframe::App for App {
     /// Runs also while the window is hidden, so that nothing piles up.
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
@@ -294,7 +309,12 @@ impl eframe::App for App {
         if let Some(panic) = self.tracer.collect(ctx).first() {
             self.error(panic);
         }
+        self.check_view();
+        self.settings.zoom = ctx.zoom_factor();
         let is_settled = self.is_settled();
+        if self.screenshot.is_none() {
+            self.fit_to_screen.step(ctx);
+        }
         if let Some(screenshot) = &mut self.screenshot {
             screenshot.step(ctx, is_settled);
         }
@@ -308,13 +328,23 @@ impl eframe::App for App {
         self.panel_ui(ui, &mut actions);
         self.canvas_ui(ui);
         self.windows_ui(&ctx, &mut actions);
+        self.hints_ui(&ctx, &mut actions);
         for action in actions {
             self.perform(action, &ctx, frame);
         }
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        eframe::set_value(storage, SETTINGS_KEY, &self.settings);
+        // A picture of the window is taken with the defaults, which aren't the user's settings.
+        if self.screenshot.is_none() {
+            storage::store(&self.settings, storage);
+        }
+    }
+
+    /// What egui remembers of its widgets could make it panic at the next start; the settings hold what is worth
+    /// keeping.
+    fn persist_egui_memory(&self) -> bool {
+        false
     }
 }
 

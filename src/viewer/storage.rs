@@ -1,0 +1,225 @@
+//! Settings kept between runs. Whatever the file holds, the settings read from it can be used.
+//!
+//! eframe writes the file `app.ron`, a table of texts by name, at the end and twice a minute. The settings are one of
+//! the texts, as JSON: each of them is read by itself, so that one bad value costs no other.
+
+use crate::settings::{PANEL_WIDTHS, Settings};
+use hitscope_core::integrator::integrator;
+use hitscope_core::kernel::triangle_kernel;
+use serde::Deserialize as _;
+use serde_json::Value;
+use std::collections::HashMap;
+use std::fs::File;
+use std::io::Read as _;
+use std::ops::RangeInclusive;
+use std::path::Path;
+
+/// Names the folder of the file, and the program to the desktop.
+pub const APP_ID: &str = "hitscope";
+
+/// The settings' name in eframe's table.
+const KEY: &str = "settings";
+/// The name of what egui remembers of its widgets, which earlier versions had it store.
+const EGUI_KEY: &str = "egui";
+/// The file has some thousand bytes; a larger one isn't read.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// As far as Ctrl+Plus and Ctrl+Minus go.
+const ZOOMS: RangeInclusive<f32> = 0.2..=5.0;
+/// As far as their controls go.
+const NORMAL_LENGTHS: RangeInclusive<f32> = 0.002..=0.5;
+const CREASES: RangeInclusive<f32> = 0.0..=180.0;
+const MAX_SAMPLES: u32 = 4096;
+
+/// What was stored last, or the defaults.
+pub fn stored_settings() -> Settings {
+    let folder = eframe::storage_dir(APP_ID);
+    folder
+        .and_then(|folder| read(&folder.join("app.ron")))
+        .unwrap_or_default()
+}
+
+fn read(path: &Path) -> Option<Settings> {
+    let mut text = String::new();
+    let file = File::open(path).ok()?;
+    file.take(MAX_BYTES).read_to_string(&mut text).ok()?;
+    let texts: HashMap<String, String> = ron::from_str(&text).ok()?;
+    Some(from_json(texts.get(KEY)?))
+}
+
+/// Hands the settings to eframe, which writes the file.
+pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
+    if let Ok(text) = serde_json::to_string(settings) {
+        storage.set_string(KEY, text);
+    }
+    if storage.get_string(EGUI_KEY).is_some() {
+        storage.remove_string(EGUI_KEY);
+    }
+}
+
+/// The settings that can be read and used; the default for any other.
+fn from_json(text: &str) -> Settings {
+    let default = Settings::default();
+    let (Ok(Value::Object(stored)), Ok(Value::Object(mut kept))) =
+        (serde_json::from_str(text), serde_json::to_value(&default))
+    else {
+        return default;
+    };
+    for (name, value) in stored {
+        let Some(old) = kept.insert(name.clone(), value) else {
+            // A setting of another version.
+            kept.remove(&name);
+            continue;
+        };
+        if Settings::deserialize(Value::Object(kept.clone())).is_err() {
+            kept.insert(name, old);
+        }
+    }
+    Settings::deserialize(Value::Object(kept)).map_or(default, usable)
+}
+
+/// Replaces values that nothing in the window could have set.
+fn usable(settings: Settings) -> Settings {
+    let default = Settings::default();
+    let number = |value: f32, range: RangeInclusive<f32>, default: f32| {
+        if range.contains(&value) {
+            value
+        } else {
+            default
+        }
+    };
+    let kernel = |name: String, default: String| {
+        if triangle_kernel(&name).is_some() {
+            name
+        } else {
+            default
+        }
+    };
+    Settings {
+        zoom: number(settings.zoom, ZOOMS, default.zoom),
+        panel_width: number(settings.panel_width, PANEL_WIDTHS, default.panel_width),
+        normal_length: number(
+            settings.normal_length,
+            NORMAL_LENGTHS,
+            default.normal_length,
+        ),
+        crease_degrees: number(settings.crease_degrees, CREASES, default.crease_degrees),
+        samples: if settings.samples.is_power_of_two() && settings.samples <= MAX_SAMPLES {
+            settings.samples
+        } else {
+            default.samples
+        },
+        kernel: kernel(settings.kernel, default.kernel),
+        against: kernel(settings.against, default.against),
+        view: if integrator(&settings.view).is_some() {
+            settings.view
+        } else {
+            default.view
+        },
+        ..settings
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::settings::Tab;
+
+    /// Settings that differ from the defaults.
+    fn chosen() -> Settings {
+        Settings {
+            zoom: 1.5,
+            samples: 16,
+            tab: Tab::Mesh,
+            is_smooth: true,
+            ..Settings::default()
+        }
+    }
+
+    /// The chosen settings with other JSON in the place of a value.
+    fn with(name: &str, value: &str) -> Settings {
+        let text = serde_json::to_string(&chosen()).expect("JSON");
+        let mut fields: HashMap<String, Value> = serde_json::from_str(&text).expect("an object");
+        assert!(fields.contains_key(name), "{name}");
+        let value = serde_json::from_str(value).unwrap_or(Value::from("NaN"));
+        fields.insert(name.to_owned(), value);
+        from_json(&serde_json::to_string(&fields).expect("JSON"))
+    }
+
+    #[test]
+    fn settings_are_read_as_they_were_stored() {
+        let text = serde_json::to_string(&chosen()).expect("JSON");
+        assert_eq!(from_json(&text), chosen());
+    }
+
+    #[test]
+    fn a_bad_value_becomes_the_default_and_costs_no_other() {
+        let default = Settings::default();
+        for zoom in ["0", "-1", "NaN", "1000", "1e39", "null", "\"large\"", "[1]"] {
+            let expected = Settings {
+                zoom: default.zoom,
+                ..chosen()
+            };
+            assert_eq!(with("zoom", zoom), expected, "{zoom}");
+        }
+        for width in ["0", "-5", "1e30", "null"] {
+            let panel_width = with("panel_width", width).panel_width;
+            assert_eq!(panel_width, default.panel_width, "{width}");
+        }
+        for samples in ["0", "3", "8192", "-1", "1.5"] {
+            assert_eq!(
+                with("samples", samples).samples,
+                default.samples,
+                "{samples}"
+            );
+        }
+        for name in ["kernel", "against", "view", "tab", "theme"] {
+            let read = with(name, "\"of another version\"");
+            let kept =
+                |settings: &Settings| serde_json::to_value(settings).expect("JSON")[name].clone();
+            assert_eq!(kept(&read), kept(&default), "{name}");
+            assert!(read.is_smooth, "{name} costs no other");
+        }
+        for name in ["normal_length", "crease_degrees"] {
+            let read = with(name, "-1");
+            assert_eq!(
+                read,
+                Settings {
+                    zoom: 1.5,
+                    ..chosen()
+                },
+                "{name}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_file_that_holds_no_settings_gives_the_defaults() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("app.ron");
+        assert_eq!(read(&path), None, "no file");
+        for bytes in [
+            &b""[..],
+            b"\xff\xfe\0",
+            b"{",
+            b"{\"settings\": 3}",
+            b"{\"egui\": \"(options:(zoom_factor:0.0))\"}",
+            &[b'['; 100_000],
+        ] {
+            std::fs::write(&path, bytes).expect("written");
+            assert_eq!(
+                read(&path),
+                None,
+                "{}",
+                String::from_utf8_lossy(&bytes[..bytes.len().min(40)])
+            );
+        }
+        for text in ["", "{", "[]", "3", "(view:\"facing\")", "{\"settings\":1}"] {
+            assert_eq!(from_json(text), Settings::default(), "{text}");
+        }
+        let text = serde_json::to_string(&chosen()).expect("JSON");
+        let texts = HashMap::from([(KEY, text)]);
+        std::fs::write(&path, ron::to_string(&texts).expect("RON")).expect("written");
+        assert_eq!(read(&path), Some(chosen()));
+    }
+}

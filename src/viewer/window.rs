@@ -1,0 +1,131 @@
+//! The window: its size, which fits the screen, and its end, which may come from outside.
+
+use crate::storage::APP_ID;
+use egui::{Vec2, ViewportBuilder, ViewportCommand, vec2};
+use std::panic::{
+    AssertUnwindSafe, PanicHookInfo, catch_unwind, resume_unwind, set_hook, take_hook,
+};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
+
+/// In points. With a title bar and a panel of the desktop it fits a screen of 1280 × 800.
+const SIZE: Vec2 = vec2(1200.0, 700.0);
+const MIN_SIZE: Vec2 = vec2(560.0, 320.0);
+/// What frames, title bars (up to 37 points) and panels (up to 48) of common desktops take of a screen.
+const DESKTOP: Vec2 = vec2(4.0, 60.0);
+
+/// The window of the first start.
+pub fn viewport() -> ViewportBuilder {
+    ViewportBuilder::default()
+        .with_app_id(APP_ID)
+        .with_title("hitscope")
+        .with_inner_size(SIZE)
+        .with_min_inner_size(MIN_SIZE)
+}
+
+/// The window that eframe restores, without values that could keep it off the screen.
+///
+/// eframe checks a stored position only on Windows and macOS; elsewhere the window manager chooses a better one.
+pub fn checked(viewport: ViewportBuilder) -> ViewportBuilder {
+    let is_checked = cfg!(any(target_os = "windows", target_os = "macos"));
+    let size = viewport.inner_size.filter(|size| size.is_finite());
+    ViewportBuilder {
+        inner_size: Some(size.unwrap_or(SIZE).max(MIN_SIZE)),
+        position: viewport
+            .position
+            .filter(|position| is_checked && position.is_finite()),
+        ..viewport
+    }
+}
+
+/// Maximizes a window, once, that leaves no room for its title bar and the desktop's panel: how much they take only
+/// the window manager knows.
+#[derive(Default)]
+pub struct FitToScreen {
+    is_done: bool,
+}
+
+impl FitToScreen {
+    /// Called in each frame. Window managers ignore what is asked of a window that isn't shown yet.
+    pub fn step(&mut self, ctx: &egui::Context) {
+        if self.is_done || ctx.cumulative_frame_nr() < 3 {
+            return;
+        }
+        let (screen, is_large) = ctx.input(|input| {
+            let viewport = input.viewport();
+            let is_large = viewport.maximized == Some(true) || viewport.fullscreen == Some(true);
+            (viewport.monitor_size, is_large)
+        });
+        let Some(screen) = screen else { return };
+        self.is_done = true;
+        if !is_large && !fits(ctx.content_rect().size(), screen) {
+            ctx.send_viewport_cmd(ViewportCommand::Maximized(true));
+        }
+    }
+}
+
+/// Whether a window's contents leave room for the desktop.
+fn fits(size: Vec2, screen: Vec2) -> bool {
+    (size + DESKTOP).x <= screen.x && (size + DESKTOP).y <= screen.y
+}
+
+/// Runs the window; `None` if another program destroyed it (`xdotool windowclose`, `xkill` by its window).
+///
+/// X11 then refuses whatever the window is asked for, and winit 0.30 panics: here that is an end like any other.
+pub fn run_until_destroyed<T>(run: impl FnOnce() -> T) -> Option<T> {
+    let is_destroyed = Arc::new(AtomicBool::new(false));
+    let (shared, report) = (Arc::clone(&is_destroyed), take_hook());
+    set_hook(Box::new(move |panic| {
+        if is_of_destroyed_window(panic) {
+            shared.store(true, Relaxed);
+        } else {
+            report(panic);
+        }
+    }));
+    match catch_unwind(AssertUnwindSafe(run)) {
+        Ok(result) => Some(result),
+        Err(_) if is_destroyed.load(Relaxed) => None,
+        Err(panic) => resume_unwind(panic),
+    }
+}
+
+/// Whether winit panics because X11 doesn't know the window any more: BadWindow or BadDrawable.
+fn is_of_destroyed_window(panic: &PanicHookInfo<'_>) -> bool {
+    let message = panic.payload_as_str().unwrap_or_default();
+    let kinds = ["error_kind: Window,", "error_kind: Drawable,"];
+    message.contains("X11Error") && kinds.iter().any(|kind| message.contains(kind))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_window_fits_a_small_laptop_and_not_less() {
+        assert!(fits(SIZE, vec2(1280.0, 800.0)));
+        assert!(fits(SIZE, vec2(1366.0, 768.0)));
+        assert!(!fits(SIZE, vec2(1280.0, 720.0)));
+        // As eframe limits it.
+        assert!(!fits(vec2(800.0, 600.0), vec2(800.0, 600.0)));
+    }
+
+    #[test]
+    fn a_restored_window_has_a_size_and_a_place_that_can_be_seen() {
+        for (stored, expected) in [
+            (vec2(900.0, 640.0), vec2(900.0, 640.0)),
+            (vec2(0.0, 64.0), MIN_SIZE),
+            (vec2(f32::NAN, 500.0), SIZE),
+            (Vec2::splat(f32::INFINITY), SIZE),
+        ] {
+            let viewport = viewport()
+                .with_inner_size(stored)
+                .with_position([1e9, -1e9]);
+            let checked = checked(viewport);
+            assert_eq!(checked.inner_size, Some(expected));
+            #[cfg(target_os = "linux")]
+            assert_eq!(checked.position, None);
+        }
+        let nowhere = viewport().with_position([f32::NAN, 0.0]);
+        assert_eq!(checked(nowhere).position, None);
+    }
+}

@@ -1,0 +1,156 @@
+//! What the window shows before, while and after a file is opened.
+
+use crate::harness::{Window, bare, press, wait};
+use egui::{Key, Modifiers};
+use egui_kittest::kittest::Queryable as _;
+use hitscope::app::{App, StartOptions};
+use hitscope_core::camera::UpAxis;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// A triangle in the plane x = 0.
+const FLAT: &str = "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
+
+fn write(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
+fn open(window: &mut Window, path: PathBuf, name: &str) {
+    crate::app::drop_file(window, path);
+    wait(window, name, |app| {
+        app.document().name() == name && app.is_settled()
+    });
+    window.run_steps(2);
+}
+
+#[test]
+fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
+    if crate::harness::gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    for (file, is_good) in [("flat.obj", true), ("none.obj", false)] {
+        if is_good {
+            write(&folder, file, FLAT);
+        }
+        let start = StartOptions {
+            file: Some(folder.path().join(file)),
+            ..StartOptions::default()
+        };
+        let mut window: Window = egui_kittest::Harness::builder()
+            .with_size(egui::vec2(800.0, 600.0))
+            .wgpu()
+            .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
+        for _ in 0..10_000 {
+            let app = window.state();
+            assert_ne!(app.document().name(), "Default scene");
+            if app.notice().is_some() || app.document().name() == file {
+                break;
+            }
+            std::thread::sleep(Duration::from_millis(2));
+            window.step();
+        }
+        assert_eq!(window.state().document().is_blank, !is_good, "{file}");
+        if !is_good {
+            window.run_steps(2);
+            window.get_by_label("No file is open. Drop one here, or press Ctrl+O.");
+        }
+    }
+}
+
+#[test]
+fn the_picture_before_goes_as_soon_as_another_file_is_open() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(mut window) = bare() else { return };
+    wait(&mut window, "the built-in scene", App::is_settled);
+    // Nothing moves any more, so that only the new file can ask for a frame.
+    window.run_steps(60);
+    crate::app::drop_file(&mut window, write(&folder, "flat.obj", FLAT));
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "flat.obj"
+    });
+    assert!(window.ctx.has_requested_repaint());
+    window.step();
+    let traced = window.state().traced_scene().expect("a scene is traced");
+    assert_eq!(traced.mesh().triangles.len(), 1);
+}
+
+#[test]
+fn another_file_is_seen_from_the_default_direction_and_a_reloaded_one_from_where_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(mut window) = bare() else { return };
+    let default = *window.state().turntable();
+    press(&mut window, Key::Num5);
+    press(&mut window, Key::Num3);
+    let path = write(&folder, "flat.obj", FLAT);
+    open(&mut window, path.clone(), "flat.obj");
+    let direction = |window: &Window| {
+        let turntable = window.state().turntable();
+        (turntable.yaw_radians, turntable.pitch_radians)
+    };
+    assert_eq!(
+        direction(&window),
+        (default.yaw_radians, default.pitch_radians)
+    );
+    assert!(
+        window.state().turntable().is_orthographic,
+        "no matter of the file"
+    );
+    assert_eq!(window.state().turntable().up_axis, UpAxis::Y);
+
+    press(&mut window, Key::Num7);
+    let from_above = direction(&window);
+    assert_ne!(from_above, (default.yaw_radians, default.pitch_radians));
+    std::fs::write(&path, FLAT.replace("v 0 1 0", "v 0 2 0")).expect("written");
+    let old = window.state().document().began;
+    press(&mut window, Key::F5);
+    wait(&mut window, "the reloaded file", |app| {
+        app.document().began > old
+    });
+    window.run_steps(2);
+    assert_eq!(direction(&window), from_above);
+}
+
+#[test]
+fn a_picture_without_the_mesh_says_so_and_home_brings_the_mesh_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let Some(mut window) = bare() else { return };
+    open(&mut window, write(&folder, "flat.obj", FLAT), "flat.obj");
+    assert!(!window.state().shows_nothing());
+    // Edge-on: parallel rays in the triangle's plane.
+    press(&mut window, Key::Num5);
+    press(&mut window, Key::Num1);
+    wait(&mut window, "an empty picture", App::shows_nothing);
+    window.run_steps(2);
+    window.get_by_label("Nothing of the mesh is in view.");
+    press(&mut window, Key::Home);
+    wait(&mut window, "the mesh", |app| !app.shows_nothing());
+    window.run_steps(2);
+    assert!(
+        window
+            .query_by_label("Nothing of the mesh is in view.")
+            .is_none()
+    );
+}
+
+#[test]
+fn the_field_for_a_path_comes_also_in_a_window_that_is_slow() {
+    let Some(mut window) = bare() else { return };
+    window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    window.run_steps(2);
+    // The window's thread does something else for longer than it takes to see that there is no dialog.
+    std::thread::sleep(Duration::from_millis(600));
+    for _ in 0..1000 {
+        if window.query_by_label("Path").is_some() {
+            return;
+        }
+        std::thread::sleep(Duration::from_millis(5));
+        window.step();
+    }
+    // A dialog that is on the screen stays there, and the second press shows the field.
+    window.key_press_modifiers(Modifiers::COMMAND, Key::O);
+    window.run_steps(2);
+    window.get_by_label("Path");
+}
