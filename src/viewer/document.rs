@@ -1,4 +1,4 @@
-//! What is open: a scene, its file, and the intersector that traces it.
+//! The open document: a scene, its file, and the intersectors that trace it.
 
 use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::TriangleKernel;
@@ -16,35 +16,35 @@ use std::time::{Duration, Instant, SystemTime};
 const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
 
-/// What a look at every triangle and edge finds.
+/// Results of checking every triangle and edge.
 #[derive(Clone, Debug)]
 pub struct MeshReport {
     /// The mesh's health.
     pub health: Arc<Health>,
     /// The tier that the scene requires.
     pub requirement: Requirement,
-    /// Bytes by the ways of writing the surface.
+    /// Bytes that the surface takes in each representation.
     pub bytes_as: [(&'static str, usize); 3],
 }
 
-/// A scene that can be traced. Made by a loading thread.
+/// A scene that can be traced. A loading thread makes it.
 pub struct Document {
     /// The file; `None` for the embedded scene and where nothing is open.
     pub path: Option<PathBuf>,
     /// Whether nothing is open: the scene is empty.
     pub is_blank: bool,
-    /// The scene, and what is known of its file.
+    /// The scene, and facts about its file.
     pub loaded: LoadedScene,
-    /// When loading it began: what changed since then isn't in it.
+    /// When loading began: later changes of the file aren't in it.
     pub began: SystemTime,
     intersector: Arc<dyn Intersector>,
-    /// For another kernel, while it is being made.
+    /// The intersector for another kernel, while it is being made.
     packing: PackingTask,
-    /// What the kernel is held against by views that compare, and the next such, while it is being made.
+    /// The intersector that comparing views compare with, and the next one while it is being made.
     second: Option<Arc<dyn Intersector>>,
     packing_second: PackingTask,
     health: HealthState,
-    /// Set when the document is dropped: a better tree is then wanted no more.
+    /// Cancelled when the document is dropped, which ends the work on a better tree.
     progress: Progress,
     improvement: Improvement,
 }
@@ -125,11 +125,10 @@ impl Document {
         }
     }
 
-    /// Has the scene's better tree built, if there is one to come; it then takes the first one's place by
-    /// itself.
+    /// Starts building the scene's best tree, unless the scene has it. The scene takes it over by itself.
     ///
     /// # Errors
-    /// [`TaskPanicked`] if building it failed, said once; the first tree stays.
+    /// [`TaskPanicked`], once, if building it failed; the first tree stays.
     pub fn improve(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
         match &self.improvement {
             Improvement::Unasked if self.loaded.scene.has_best_tree() => {
@@ -153,17 +152,17 @@ impl Document {
         Ok(())
     }
 
-    /// The scene keeps the tree that it has.
+    /// Ends the work on a better tree; the scene keeps the one that it has.
     pub fn stop_improving(&self) {
         self.progress.cancel();
     }
 
-    /// Whether the scene's tree stays as it is, and is in use everywhere.
+    /// Whether the scene's tree is final.
     pub fn has_last_tree(&self) -> bool {
         matches!(self.improvement, Improvement::Over)
     }
 
-    /// For titles.
+    /// The name for titles.
     pub fn name(&self) -> String {
         match self.path.as_deref().and_then(Path::file_name) {
             Some(name) => name.to_string_lossy().into_owned(),
@@ -172,7 +171,7 @@ impl Document {
         }
     }
 
-    /// Moves the edges of smooth shading.
+    /// Sets where smooth shading has edges.
     pub fn use_crease(&mut self, crease: Crease) {
         let scene = &mut self.loaded.scene;
         if scene.crease() != crease {
@@ -180,15 +179,15 @@ impl Document {
         }
     }
 
-    /// Answers this scene's rays, with the kernel that was last ready.
+    /// The intersector of the kernel that was last ready.
     pub fn intersector(&self) -> &Arc<dyn Intersector> {
         &self.intersector
     }
 
-    /// Changes to a kernel, as soon as the scene is packed for it.
+    /// Switches to a kernel as soon as the scene is packed for it.
     ///
     /// # Errors
-    /// [`TaskPanicked`] if packing failed; the kernel before stays.
+    /// [`TaskPanicked`] if packing failed; the previous kernel stays.
     pub fn use_kernel(
         &mut self,
         kernel: &'static TriangleKernel,
@@ -204,12 +203,12 @@ impl Document {
         Ok(())
     }
 
-    /// What the kernel is held against; itself while there is nothing else.
+    /// The intersector to compare with; the first one while there is no other.
     pub fn second(&self) -> &Arc<dyn Intersector> {
         self.second.as_ref().unwrap_or(&self.intersector)
     }
 
-    /// Packs the scene for a second kernel, or drops it where no view needs one.
+    /// Packs the scene for a second kernel; without one, drops what was packed.
     ///
     /// # Errors
     /// [`TaskPanicked`] if packing failed.
@@ -233,7 +232,7 @@ impl Document {
         Ok(())
     }
 
-    /// The mesh's health and what it requires, found out when first asked for; `None` until it is known.
+    /// The mesh's health and the tier that it requires. The first call starts the check; `None` until it is done.
     pub fn findings(&mut self, ctx: &egui::Context) -> Option<Arc<MeshReport>> {
         match &self.health {
             HealthState::Unasked => {
@@ -259,7 +258,7 @@ impl Document {
         self.known_findings()
     }
 
-    /// The same, but only if somebody asked before.
+    /// The same, without starting the check.
     pub fn known_findings(&self) -> Option<Arc<MeshReport>> {
         match &self.health {
             HealthState::Known(findings) => Some(Arc::clone(findings)),
@@ -271,7 +270,7 @@ impl Document {
 /// A scene that is being packed for the kernel of a name.
 type PackingTask = KeyedTask<&'static str, Box<dyn Intersector>>;
 
-/// The scene packed for a kernel, once it is; begins unless that is under way.
+/// The scene packed for a kernel, once it is done; the first call for a kernel starts it.
 fn packed(
     packing: &mut PackingTask,
     scene: &Arc<Scene>,

@@ -1,19 +1,19 @@
-//! hitscope's window: a progressive ray tracer's picture, the mesh's lines over it, and what a click
-//! on a pixel tells.
+//! hitscope's viewer: a progressively ray-traced picture, the mesh's lines over it, and the inspection of
+//! clicked pixels.
 //!
-//! | module | answers |
+//! | module | contents |
 //! |---|---|
-//! | [`cli`] | what was asked for on the command line? |
-//! | [`app`] | what is in the window, and what does a frame do? |
-//! | [`bindings`] | which key does what? |
-//! | [`document`], [`opening`], [`watch`] | what is open, how does a file get there, and when again? |
-//! | [`tracer`] | what is being traced? |
-//! | [`trade`] | what does speed cost in accuracy in this scene? |
-//! | [`task`] | what runs in the background? |
-//! | [`overlay`], [`gpu`] | how does the picture get on the screen, and what is drawn over it? |
-//! | [`panels`], [`settings`] | what can be read and chosen at the side? |
-//! | [`storage`], [`window`] | what is kept between runs, and how large is the window? |
-//! | [`offscreen`], [`screenshot`] | how do pictures get into files? |
+//! | [`cli`] | the command line |
+//! | [`app`] | the app: its state and the order of a frame |
+//! | [`bindings`] | keys and pointer |
+//! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
+//! | [`tracer`] | the picture in progress |
+//! | [`trade`] | speed and accuracy of each kernel in this scene |
+//! | [`task`] | background work |
+//! | [`overlay`], [`gpu`] | drawing the picture, and lines over it |
+//! | [`panels`], [`settings`] | the side panel and the settings |
+//! | [`storage`], [`window`] | settings kept between runs, and the window itself |
+//! | [`offscreen`], [`screenshot`] | pictures in files |
 
 pub mod app;
 pub mod bindings;

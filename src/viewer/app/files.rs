@@ -22,7 +22,7 @@ impl App {
         }
     }
 
-    /// Takes over a document that is ready; one that can't be loaded leaves the old one in place.
+    /// Takes over a document that is ready. If the file can't be loaded, the old document stays.
     pub(super) fn poll_loading(&mut self, ctx: &egui::Context) {
         if let Some(path) = self.open_dialog.poll() {
             self.load(path, ctx);
@@ -30,7 +30,7 @@ impl App {
         let Some(loading) = &self.loading else { return };
         let result = match loading.poll() {
             Ok(None) => return,
-            // What the user wanted is no error.
+            // The user cancelled it.
             Ok(Some(Err(LoadError::Cancelled { .. }))) => {
                 self.loading = None;
                 return;
@@ -72,7 +72,7 @@ impl App {
         } else {
             self.use_default_view();
         }
-        // The picture of the scene before goes at once, not when the first rays of this one are back.
+        // The next frame drops the old scene's picture, without waiting for this scene's first rays.
         ctx.request_repaint();
         let title = format!("{} – hitscope", self.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));

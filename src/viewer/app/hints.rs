@@ -1,5 +1,5 @@
-//! What is said in the middle of a picture that shows nothing: progress, how to open a file, or how to get the mesh
-//! back into view.
+//! The message in the middle of an empty picture: progress, how to open a file, or how to get the mesh back into
+//! view.
 
 use super::App;
 use crate::bindings::Action;

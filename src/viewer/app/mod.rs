@@ -1,12 +1,12 @@
-//! The window: what is in it, and what its parts do to each other.
+//! The app: its state, and the order of a frame.
 //!
 //! | file | part |
 //! |---|---|
 //! | this one | state, and the order of a frame |
-//! | `actions` | what keys and buttons do |
+//! | `actions` | effects of keys and buttons |
 //! | `canvas` | the picture, and the pointer on it |
-//! | `files` | what is loaded, and when again |
-//! | `hints` | progress in the middle of an empty picture, and why a picture is empty |
+//! | `files` | loading and reloading |
+//! | `hints` | messages in the middle of an empty picture |
 //! | `chrome` | tool bar, status line, messages, help |
 
 mod actions;
@@ -48,7 +48,7 @@ use std::time::Duration;
 pub struct StartOptions {
     /// A file to load; the embedded scene without one.
     pub file: Option<PathBuf>,
-    /// How things are shown at first.
+    /// The settings at the start.
     pub settings: Settings,
     /// How files are loaded.
     pub load_options: LoadOptions,
@@ -76,17 +76,17 @@ impl Default for StartOptions {
 #[error("the window needs wgpu, but eframe runs without it")]
 pub struct NoWgpu;
 
-/// A pixel that was clicked.
+/// A clicked pixel.
 struct Pick {
     inspection: Inspection,
-    /// From where it was clicked, and the picture's size.
+    /// The camera of the click, and the picture's size.
     turntable: Turntable,
     resolution: UVec2,
     /// Where the ray hit, in the scene's coordinates.
     point: Option<DVec3>,
 }
 
-/// Something that the user must know, until it is closed.
+/// A message that stays until the user closes it.
 struct Notice {
     text: String,
     is_error: bool,
@@ -105,29 +105,29 @@ pub struct App {
     picture: Picture,
     overlay: OverlayLayer,
     pick: Option<Pick>,
-    /// The next one, while it is looked into.
+    /// The next one, while it is being inspected.
     picking: Option<Task<Pick>>,
-    /// Which flaws are marked.
+    /// The kind of flaw that is marked.
     flaw: Option<Flaw>,
     /// Made when its tab is first shown.
     trade: Option<Trade>,
     notice: Option<Notice>,
     shows_help: bool,
-    /// Whether the camera goes round the mesh by itself.
+    /// Whether the camera rotates around the mesh.
     is_turning: bool,
-    /// The picture as it was last laid out: where, in points, and its size in physical pixels.
+    /// The picture as it was last laid out: its place in points, and its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
-    /// Whether the camera still has to be set up for the scene: only the layout knows the size.
+    /// Whether the camera must still be framed: the picture's size is known after the layout.
     is_unframed: bool,
     /// Whether the last complete picture is nothing but background.
     shows_nothing: bool,
     fit_to_screen: FitToScreen,
     /// The side panel's, in the last frame.
     panel_width: f32,
-    /// Uncaught errors of the GPU, from whatever thread they come.
+    /// Uncaught errors of the GPU, from any thread.
     gpu_errors: Arc<Mutex<Vec<String>>>,
-    /// What the window's thread spent on each of its last frames.
+    /// Time of the UI thread per frame.
     ui_times: Times,
     screenshot: Option<Screenshot>,
 }
@@ -178,7 +178,7 @@ impl App {
         })
     }
 
-    /// The picture as far as it is.
+    /// The picture in its present state.
     pub fn film(&self) -> &Film {
         self.tracer.film()
     }
@@ -195,7 +195,7 @@ impl App {
             && self.tracer.film().is_complete()
     }
 
-    /// Whether the view is of what rays cost with the tree that stays.
+    /// Whether the view shows the cost of rays in the final tree.
     fn shows_last_tree(&self) -> bool {
         self.settings.integrator().depends_on_tree() && self.document.has_last_tree()
     }
@@ -206,42 +206,42 @@ impl App {
         Some(&posted.context.scene)
     }
 
-    /// Whether refinement stands still by the user's wish.
+    /// Whether the user paused refinement.
     pub fn is_paused(&self) -> bool {
         self.tracer.is_paused()
     }
 
-    /// How things are shown.
+    /// The settings.
     pub fn settings(&self) -> &Settings {
         &self.settings
     }
 
-    /// What is open.
+    /// The open document.
     pub fn document(&self) -> &Document {
         &self.document
     }
 
-    /// The camera as the user moved it.
+    /// The camera.
     pub fn turntable(&self) -> &Turntable {
         &self.turntable
     }
 
-    /// What is known of the pixel that was clicked.
+    /// The inspection of the clicked pixel.
     pub fn inspection(&self) -> Option<&Inspection> {
         self.pick.as_ref().map(|pick| &pick.inspection)
     }
 
-    /// Which flaws are marked.
+    /// The kind of flaw that is marked.
     pub fn flaw(&self) -> Option<Flaw> {
         self.flaw
     }
 
-    /// What speed costs in accuracy here, once its tab was shown.
+    /// The measurements of the Trade tab, once it was shown.
     pub fn trade(&self) -> Option<&Trade> {
         self.trade.as_ref()
     }
 
-    /// What the user is told, until it is closed.
+    /// The text of the message that is shown.
     pub fn notice(&self) -> Option<&str> {
         self.notice.as_ref().map(|notice| notice.text.as_str())
     }
@@ -253,7 +253,7 @@ impl App {
         });
     }
 
-    /// Leaves the processor to what closing the window takes.
+    /// Ends all work in the background: closing the window needs the processor.
     fn stop_work(&mut self) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
@@ -278,7 +278,7 @@ impl App {
 }
 
 impl eframe::App for App {
-    /// Runs also while the window is hidden, so that nothing piles up.
+    /// Runs also while the window is hidden, so that results are collected.
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         if let Some(secs) = frame.info().cpu_usage {
             self.ui_times.push(Duration::from_secs_f32(secs));
@@ -294,7 +294,7 @@ impl eframe::App for App {
             self.error(broken);
             self.settings.kernel = self.document.intersector().kernel().name.to_owned();
         }
-        // A slider that is being dragged would have normals computed for each step.
+        // Not while a slider is dragged: each step would compute all normals.
         if !ctx.egui_is_using_pointer() {
             self.document.use_crease(self.settings.crease());
         }
