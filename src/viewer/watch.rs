@@ -17,6 +17,9 @@ const QUIET: Duration = Duration::from_millis(300);
 const INTERVAL: Duration = Duration::from_millis(150);
 /// Comparing takes at most one part in this many of the thread's time, however slow the drive is.
 const IDLE_FACTOR: u32 = 20;
+/// A file's time may be this much earlier than the clock when it was written: systems read the time from their last
+/// timer tick, of which there are at least 100 a second.
+const TICK: Duration = Duration::from_millis(10);
 
 /// Watches some files until it is dropped.
 pub struct Watch {
@@ -134,7 +137,7 @@ impl Changes {
     fn since(since: SystemTime, files: Files, now: Instant) -> Self {
         let latest = SystemTime::now();
         // A time yet to come, from another machine's clock, would be newer at each load.
-        let is_newer = |time: SystemTime| time > since && time <= latest;
+        let is_newer = |time: SystemTime| time + TICK > since && time <= latest;
         let is_out_of_date = files.iter().flatten().any(|file| {
             let times = [file.modified, file.changed];
             times.into_iter().flatten().any(is_newer)
