@@ -230,6 +230,8 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
         // The bytes of the picture must reach the screen unchanged.
         dithering: false,
         persist_window: cli.screenshot.is_none(),
+        // A picture of the window doesn't depend on what was stored: nothing is read from nowhere.
+        persistence_path: cli.screenshot.as_ref().map(|_| PathBuf::new()),
         ..eframe::NativeOptions::default()
     };
     let ctx = egui_context(start.settings.zoom);
