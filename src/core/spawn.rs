@@ -1,41 +1,41 @@
-//! Where does a ray begin that leaves a surface? Not so low that it meets the surface again, and not so
-//! high that it misses what touches it.
+//! Spawn policies: where a ray that leaves a surface starts, so that it neither hits the surface again nor misses
+//! what touches it.
 //!
-//! A hit's place is rounded: about half of all places lie below their triangle, and a ray that leaves
-//! from there meets it again. The policies differ in what they do about it; the table is
-//! [`SPAWN_POLICIES`]. `hitscope lab` measures for each how often it fails and how high it begins.
+//! Hit points are rounded, and about half of them lie below their triangle: a ray that starts there hits the
+//! triangle again. The table of policies is [`SPAWN_POLICIES`]. `hitscope lab` measures how often each of them
+//! fails, and the height at which its rays start.
 
 use crate::mesh::unit_normal;
 use crate::ray::{Hit, Ray, RayError};
 use glam::Vec3;
 
-/// A surface that a ray has met and another one leaves.
+/// A hit on a triangle, and the direction in which a new ray leaves it.
 #[derive(Clone, Copy, Debug)]
 pub struct Departure<'a> {
     /// The ray that arrived.
     pub arrived_by: &'a Ray,
-    /// Where it hit.
+    /// Its hit.
     pub hit: &'a Hit,
-    /// The corners of the triangle that it hit.
+    /// The corners of the triangle.
     pub corners: [Vec3; 3],
-    /// Where the new ray goes.
+    /// The direction of the new ray.
     pub dir: Vec3,
 }
 
-/// One way to begin.
+/// A rule for the origin of a spawned ray.
 pub struct SpawnPolicy {
-    /// As the laboratory's tables call it.
+    /// The name in the lab's tables.
     pub name: &'static str,
-    /// For menus.
+    /// The title in menus.
     pub title: &'static str,
     /// Author, title, year.
     pub source: &'static str,
-    /// What it is good and bad at, in a sentence.
+    /// Strengths and weaknesses in a sentence.
     pub summary: &'static str,
     begin: fn(&Departure<'_>) -> RayStart,
 }
 
-/// Where a ray begins, and what it can't hit.
+/// The origin of a spawned ray, and what it ignores.
 struct RayStart {
     origin: Vec3,
     t_min: f32,
@@ -43,7 +43,7 @@ struct RayStart {
 }
 
 impl SpawnPolicy {
-    /// The ray that leaves.
+    /// The spawned ray.
     ///
     /// # Errors
     /// See [`RayError`].
@@ -58,13 +58,13 @@ impl SpawnPolicy {
     }
 }
 
-/// Every policy; the last one is the default.
+/// All policies; the last one is the default.
 pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
     SpawnPolicy {
         name: "fixed-epsilon",
         title: "Fixed ε",
         source: "Lensch, Basic Geometry, lecture, 2022",
-        summary: "Hits with t < 1e-6 don't count, whatever the scene's size: fails in most scenes.",
+        summary: "Hits with t < 1e-6 don't count, at any scale: fails in most scenes.",
         begin: |departure| RayStart {
             origin: departure.point_along_ray(),
             t_min: LECTURES_EPSILON,
@@ -112,7 +112,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "exclusion",
         title: "Exclusion",
         source: "Folklore",
-        summary: "Not lifted, but the triangle that it leaves can't be hit; its neighbours can.",
+        summary: "Not lifted; the triangle that the ray leaves is ignored, its neighbours aren't.",
         begin: |departure| RayStart {
             exclude: Some(departure.hit.primitive),
             ..RayStart::at(departure.point_by_weights())
@@ -122,7 +122,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "combined",
         title: "Error-bounded and exclusion",
         source: "Both of the above",
-        summary: "The bound keeps clear of neighbours, the exclusion of the triangle itself.",
+        summary: "The bound avoids hits on neighbours, the exclusion hits on the triangle itself.",
         begin: |departure| RayStart {
             exclude: Some(departure.hit.primitive),
             ..RayStart::at(error_bounded(departure))
@@ -130,12 +130,12 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
     },
 ];
 
-/// What is used where nobody chose.
+/// The policy that is used unless another one is chosen.
 pub fn default_spawn_policy() -> &'static SpawnPolicy {
     SPAWN_POLICIES.last().expect("the table isn't empty")
 }
 
-/// The lecture's, in lengths of the direction.
+/// The lecture's epsilon, in lengths of the direction.
 const LECTURES_EPSILON: f32 = 1e-6;
 /// Mitsuba's `RayEpsilon`, 1500 half ulps of 1.
 const MITSUBAS_EPSILON: f32 = 1500.0 * U;
@@ -153,12 +153,12 @@ impl RayStart {
 }
 
 impl Departure<'_> {
-    /// o + t·d. Errs by ulps of t·d as well as of the point.
+    /// o + t·d. Its error is some ulps of t·d and of the point.
     fn point_along_ray(&self) -> Vec3 {
         self.arrived_by.origin + self.hit.t * self.arrived_by.dir
     }
 
-    /// l1·A + l2·B + l3·C. Errs by ulps of the corners.
+    /// l1·A + l2·B + l3·C. Its error is some ulps of the corners.
     fn point_by_weights(&self) -> Vec3 {
         self.weighted_corners().into_iter().sum()
     }
@@ -169,7 +169,7 @@ impl Departure<'_> {
         [l1 * a, l2 * b, l3 * c]
     }
 
-    /// The triangle's unit normal on the side to which the new ray goes.
+    /// The triangle's unit normal on the side of the new ray.
     fn facing_normal(&self) -> Vec3 {
         let normal = unit_normal(self.corners);
         let side = normal.dot(self.dir.as_dvec3());
@@ -177,7 +177,7 @@ impl Departure<'_> {
     }
 }
 
-/// Each coordinate moved by up to 256 ulps, or by the normal over 65536 near 0, where ulps are too small.
+/// Moves each coordinate by up to 256 ulps, or by the normal over 65536 near 0, where ulps are too small.
 fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
     const ORIGIN: f32 = 1.0 / 32.0;
     const FLOAT_SCALE: f32 = 1.0 / 65536.0;
@@ -196,8 +196,8 @@ fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
     Vec3::from_array(std::array::from_fn(coordinate))
 }
 
-/// The source's terms in object space, u for the corner and 3u for the edges; those of its transform to
-/// the world and back are left out, as there is none.
+/// The source's terms in object space: u for the corner and 3u for the edges. Its terms for the transform to the
+/// world and back are left out, as there is no transform.
 fn nvidia(departure: &Departure<'_>) -> Vec3 {
     let [a, b, c] = departure.corners;
     let (e1, e2) = (b - a, c - a);

@@ -1,8 +1,8 @@
-//! Which boxes does a ray meet, nearest first?
+//! Bounding volume hierarchy: a tree over boxes with eight children per node, which knows nothing of what lies in
+//! the boxes.
 //!
-//! A tree over boxes, eight to a node; it knows nothing of what lies in them. [`Bvh::build`] makes it;
-//! `walk` hands the blocks of primitives that a ray meets to a visitor, `packet` those that any of
-//! sixteen rays meets.
+//! [`Bvh::build`] builds it. `walk` passes the blocks of primitives that a ray meets to a visitor, nearest first;
+//! `packet` those that any of sixteen rays meets.
 
 mod build;
 mod packet;
@@ -16,7 +16,7 @@ pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
 pub(crate) use slab::SlabRay;
 pub(crate) use walk::{Stack, Visitor, rank, rank_floor, with_stack};
 
-/// Primitives side by side in a block, which a SIMD test takes at once.
+/// Primitives per block, which a SIMD test takes at once.
 pub const BLOCK_SIZE: usize = 8;
 
 /// Memory that building a tree takes at most for each primitive, the finished tree included (measured 2026-11).
@@ -25,11 +25,11 @@ pub(crate) const BYTES_WHILE_BUILDING: usize = 110;
 /// Children of a node.
 const WIDTH: usize = 8;
 
-/// No leaf lies deeper, so that a walk's stack can't overflow: on each level a node leaves at most seven
-/// of its children on it.
+/// Largest depth of a leaf, so that a walk's stack can't overflow: on each level a node leaves at most seven of
+/// its children on it.
 const MAX_DEPTH: usize = 34;
 
-/// Blocks of the largest leaf.
+/// Most blocks of a leaf.
 const LEAF_BLOCKS: usize = 2;
 
 /// Marks a lane of a block without a primitive.
@@ -37,13 +37,13 @@ pub(crate) const NO_PRIMITIVE: u32 = u32::MAX;
 
 /// A node's child: a node, a leaf, or nothing.
 ///
-/// A leaf is a run of blocks: the highest bit set, three bits for their number less one, the rest for the
-/// first one's index.
+/// A leaf is a run of blocks: the highest bit is set, three bits hold their number less one, the rest holds the
+/// index of the first one.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Child(u32);
 
 impl Child {
-    /// Its box is empty, so that no ray gets there.
+    /// No child. Its box is empty, so that no ray meets it.
     const NONE: Self = Self(u32::MAX);
     const LEAF: u32 = 1 << 31;
     const INDEX: u32 = (1 << 28) - 1;
@@ -76,7 +76,7 @@ impl Child {
         (self.0 >> 28 & 7) as usize + 1
     }
 
-    /// What it is once so many nodes and blocks stand before its own.
+    /// The same child after this many nodes and blocks were put before its own.
     fn moved(self, nodes: usize, blocks: usize) -> Self {
         if self == Self::NONE {
             self
@@ -88,7 +88,7 @@ impl Child {
     }
 }
 
-/// Eight children and the boxes around all that lies below them: four cache lines.
+/// Eight children and their boxes: four cache lines.
 #[derive(Clone, Debug)]
 #[repr(C, align(64))]
 struct Node {
@@ -97,7 +97,7 @@ struct Node {
 }
 
 impl Node {
-    /// Without children.
+    /// A node without children.
     const EMPTY: Self = {
         let (lower, upper) = ([f32::INFINITY; WIDTH], [f32::NEG_INFINITY; WIDTH]);
         Self {
@@ -107,14 +107,14 @@ impl Node {
     };
 }
 
-/// A bounding volume hierarchy: the tree over boxes.
+/// A bounding volume hierarchy.
 ///
 /// Sources: S. M. Rubin, T. Whitted, "A 3-Dimensional Representation for Fast Rendering of Complex
 /// Scenes", SIGGRAPH 1980; H. Dammertz, J. Hanika, A. Keller, "Shallow Bounding Volume Hierarchies for
 /// Fast SIMD Ray Tracing of Incoherent Rays", EGSR 2008.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// The first one is the root; none for a tree over nothing.
+    /// The first one is the root; empty for a tree over nothing.
     nodes: Vec<Node>,
     /// The primitives of each block, from the first lane on.
     blocks: Vec<[u32; BLOCK_SIZE]>,
@@ -127,7 +127,7 @@ impl Bvh {
         self.bounds
     }
 
-    /// How many blocks there are.
+    /// The number of blocks.
     pub fn block_count(&self) -> usize {
         self.blocks.len()
     }
@@ -145,13 +145,13 @@ impl Bvh {
         &self.blocks[block]
     }
 
-    /// Asks the cache for [`lanes`](Self::lanes).
+    /// Prefetches [`lanes`](Self::lanes).
     #[inline(always)]
     pub(crate) fn announce_lanes<S: Simd>(&self, token: S, block: usize) {
         prefetch(token, &self.blocks, block, size_of::<[u32; BLOCK_SIZE]>());
     }
 
-    /// Bytes that the tree takes.
+    /// Size of the tree in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.nodes[..]) + size_of_val(&self.blocks[..])
     }

@@ -1,10 +1,9 @@
-//! Building the tree: top-down, straight to eight children, splitting where the surface-area heuristic
-//! says.
+//! The tree's builder: top-down, directly to eight children, with splits chosen by the surface-area heuristic.
 //!
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
 //! centroids' box). Differs from it: a node's largest child is split until there are eight; costs
-//! count blocks, as a SIMD test costs the same whether its lanes are full or not; near the root several
-//! threads bin and partition a range together, below it each builds subtrees of its own.
+//! count blocks, as a SIMD test costs the same with full and with empty lanes; near the root several threads bin
+//! and partition a range together, below it each thread builds subtrees of its own.
 
 mod quick;
 mod split;
@@ -18,11 +17,11 @@ use glam::{Vec3A, Vec4};
 use rayon::prelude::*;
 use split::{Scale, Splitter};
 
-/// Subtrees of fewer primitives are one thread's work.
+/// Smaller subtrees are built by one thread.
 const LEAST_JOB: usize = 4096;
-/// Subtrees for the threads to share, at least so many.
+/// Least number of subtrees that the threads share.
 const JOBS: usize = 64;
-/// Ranges of fewer primitives are built without asking whether to go on.
+/// Smaller ranges are built without a check for cancellation.
 const ASK_FROM: usize = 1024;
 
 /// A primitive while the tree is built: its box and its index.
@@ -57,7 +56,7 @@ impl Item {
     }
 }
 
-/// The primitives that rays can meet: without those whose boxes are empty or hold a NaN or an infinity.
+/// The primitives that rays can hit: those whose boxes are neither empty nor hold a NaN or an infinity.
 fn items_of(count: usize, bounds_of: impl Fn(u32) -> Aabb + Sync) -> Vec<Item> {
     let item = |index| {
         let bounds = bounds_of(index);
@@ -96,21 +95,21 @@ impl From<Bounds> for Aabb {
     }
 }
 
-/// Primitives that lie together, the box around them, and that around their centres.
+/// A run of primitives, the box around them, and the box around their centres.
 struct Range<'a> {
     items: &'a mut [Item],
     bounds: Bounds,
     centres: Bounds,
 }
 
-/// A part of the tree whose nodes and blocks are numbered from 0.
+/// A part of the tree; its nodes and blocks are numbered from 0.
 #[derive(Default)]
 struct Subtree {
     nodes: Vec<Node>,
     blocks: Vec<[u32; BLOCK_SIZE]>,
 }
 
-/// A subtree that is still to be built: which child of which node it becomes.
+/// A subtree that is still to be built, and the node and slot of which it becomes the child.
 struct Job<'a> {
     range: Range<'a>,
     depth: usize,
@@ -121,13 +120,13 @@ struct Job<'a> {
 type KeepGoing<'a> = &'a (dyn Fn() -> Result<(), Cancelled> + Sync);
 
 impl Bvh {
-    /// Builds a tree over so many primitives; `bounds_of` gives the box of each.
+    /// Builds a tree over `count` primitives; `bounds_of` gives the box of each.
     ///
-    /// Boxes that are empty or hold a NaN or an infinity are left out: no ray can meet what is in
-    /// them. `keep_going` is asked now and then. The result doesn't depend on the number of threads.
+    /// Primitives whose boxes are empty or hold a NaN or an infinity are left out: no ray can hit them.
+    /// `keep_going` is called now and then. The result doesn't depend on the number of threads.
     ///
     /// # Errors
-    /// [`Cancelled`] if `keep_going` said so.
+    /// [`Cancelled`] if `keep_going` returned it.
     pub fn build(
         count: usize,
         bounds_of: impl Fn(u32) -> Aabb + Sync,
@@ -178,7 +177,7 @@ impl Bvh {
         Ok(bvh)
     }
 
-    /// Puts subtrees behind one another, and each under its node.
+    /// Appends subtrees, and links each to its node.
     fn append(&mut self, places: Vec<(usize, usize)>, subtrees: Vec<(Child, Subtree)>) {
         let count = |of: fn(&Subtree) -> usize| subtrees.iter().map(|(_, tree)| of(tree)).sum();
         self.nodes.reserve_exact(count(|tree| tree.nodes.len()));
@@ -195,18 +194,18 @@ impl Bvh {
     }
 }
 
-/// Builds a subtree, and puts parts of it off as jobs.
+/// Builds a subtree, and leaves parts of it as jobs.
 struct Builder<'a, 'k> {
     splitter: Splitter,
     keep_going: KeepGoing<'k>,
-    /// Ranges of at most so many primitives become jobs.
+    /// Ranges of at most this many primitives become jobs.
     job_size: usize,
     tree: Subtree,
     jobs: Vec<Job<'a>>,
 }
 
 impl<'a> Builder<'a, '_> {
-    /// The root is a node even of a tree of one leaf: its box is tested.
+    /// The root is a node even in a tree of one leaf, so that its box is tested.
     fn root(&mut self, range: Range<'a>) -> Result<(), Cancelled> {
         match self.split(range, 0) {
             Ok(halves) => self.node(halves, 0)?,
@@ -221,7 +220,7 @@ impl<'a> Builder<'a, '_> {
         Ok(())
     }
 
-    /// A range as a node or a leaf.
+    /// Builds a range as a node or a leaf.
     fn child(&mut self, range: Range<'a>, depth: usize) -> Result<Child, Cancelled> {
         match self.split(range, depth) {
             Ok(halves) => self.node(halves, depth),
@@ -229,7 +228,7 @@ impl<'a> Builder<'a, '_> {
         }
     }
 
-    /// Halves a range, or hands it back where a leaf is better.
+    /// Splits a range in two, or returns it where a leaf is better.
     fn split(&mut self, range: Range<'a>, depth: usize) -> Result<[Range<'a>; 2], Range<'a>> {
         let count = range.items.len();
         if count <= BLOCK_SIZE {
@@ -311,8 +310,8 @@ impl<'a> Builder<'a, '_> {
     }
 }
 
-/// The range of the largest weight, and where it was; what it weighed becomes 0. Of equal weights, as
-/// identical boxes have them, the one with more in it.
+/// Takes the range with the largest weight out of its slot, and sets that weight to 0. Of equal weights, which
+/// identical boxes have, the range with more primitives is taken.
 fn take_largest<'a>(
     ranges: &mut [Option<Range<'a>>; WIDTH],
     weight: &mut [f32; WIDTH],

@@ -1,9 +1,9 @@
-//! A tree that is there soon: primitives in the order of a space-filling curve, eight to a block, eight blocks
-//! or nodes to a node. Slower to trace than one that the surface-area heuristic made.
+//! A builder that is fast: primitives in the order of a space-filling curve, eight per block, eight blocks or
+//! nodes per node. Its trees are slower to trace than those of the surface-area heuristic.
 //!
 //! Source: C. Lauterbach, M. Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH Construction on GPUs",
-//! Computer Graphics Forum 28(2), 2009 (primitives by Morton code). Differs from it: ranges are cut by
-//! number, not where codes differ, so that every block and node but the last ones is full.
+//! Computer Graphics Forum 28(2), 2009 (primitives by Morton code). Differs from it: ranges are split by
+//! count, not where codes differ, so that every block and node but the last ones is full.
 
 use super::split::around;
 use super::{Bounds, KeepGoing, items_of};
@@ -17,10 +17,10 @@ use rayon::prelude::*;
 const BITS: u32 = 10;
 
 impl Bvh {
-    /// The same as [`build`](Self::build), in a fraction of the time; rays take longer.
+    /// Builds a tree like [`build`](Self::build), in a fraction of the time; rays take longer.
     ///
     /// # Errors
-    /// [`Cancelled`] if `keep_going` said so.
+    /// [`Cancelled`] if `keep_going` returned it.
     pub fn build_quickly(
         count: usize,
         bounds_of: impl Fn(u32) -> Aabb + Sync,
@@ -30,7 +30,7 @@ impl Bvh {
         let items = items_of(count, bounds_of);
         let bounds = around(&items);
         let grid = Grid::over(bounds);
-        // The code above the index: one number to sort by.
+        // The code in the upper half, the index in the lower one: one number to sort by.
         let key = |at: usize| u64::from(grid.code(items[at].bounds())) << 32 | at as u64;
         let mut order: Vec<u64> = (0..items.len()).into_par_iter().map(key).collect();
         keep_going()?;
@@ -56,12 +56,12 @@ impl Bvh {
     }
 }
 
-/// The nodes above blocks with these boxes, the root first, level by level.
+/// The nodes over blocks with these boxes: level by level, the root first.
 fn nodes(boxes: Vec<Bounds>) -> Vec<Node> {
     if boxes.is_empty() {
         return Vec::new();
     }
-    // From the blocks up: each level's boxes are the next one's children.
+    // Bottom-up: the boxes of each level are the children of the next one.
     let mut levels: Vec<Vec<Bounds>> = vec![boxes];
     while levels.len() == 1 || levels[levels.len() - 1].len() > 1 {
         let below = &levels[levels.len() - 1];
@@ -74,7 +74,7 @@ fn nodes(boxes: Vec<Bounds>) -> Vec<Node> {
     }
     let mut nodes: Vec<Node> = Vec::new();
     for (height, children) in levels[..levels.len() - 1].iter().enumerate().rev() {
-        // Those of the level below follow this level's nodes.
+        // The nodes of the level below follow those of this level.
         let next = nodes.len() + children.len().div_ceil(WIDTH);
         let node = |(k, part): (usize, &[Bounds])| {
             let mut node = Node::EMPTY;
@@ -94,7 +94,7 @@ fn nodes(boxes: Vec<Bounds>) -> Vec<Node> {
     nodes
 }
 
-/// Cells that are numbered along the curve.
+/// A grid whose cells are numbered along the curve.
 struct Grid {
     lower: Vec3A,
     per_length: Vec3A,
@@ -112,7 +112,7 @@ impl Grid {
         }
     }
 
-    /// The place of a box's centre on the curve.
+    /// The position of a box's centre on the curve.
     fn code(&self, bounds: Bounds) -> u32 {
         let from_lower =
             (0.5 * bounds.lower - 0.5 * self.lower) + (0.5 * bounds.upper - 0.5 * self.lower);
@@ -124,7 +124,7 @@ impl Grid {
     }
 }
 
-/// Two zeros between each two of a number's ten bits.
+/// Inserts two zeros between the bits of a ten-bit number.
 fn spread(x: u32) -> u32 {
     let x = (x | x << 16) & 0x0300_00ff;
     let x = (x | x << 8) & 0x0300_f00f;

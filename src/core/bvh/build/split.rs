@@ -1,4 +1,4 @@
-//! Where to cut a range of primitives in two.
+//! Splits a range of primitives in two: by bins along each axis and the surface-area heuristic.
 
 use super::super::{BLOCK_SIZE, LEAF_BLOCKS};
 use super::{Bounds, Item, Range};
@@ -7,9 +7,9 @@ use rayon::prelude::*;
 
 /// Most bins of an axis; a power of two.
 const BINS: usize = 32;
-/// Ranges of more primitives are binned and partitioned by several threads together.
+/// Larger ranges are binned and partitioned by several threads together.
 const TOGETHER_FROM: usize = 1 << 16;
-/// What one thread bins of these.
+/// Primitives per thread and chunk of these.
 const CHUNK: usize = 1 << 14;
 
 /// The power of two by which lengths are multiplied, so that areas neither over- nor underflow.
@@ -21,7 +21,7 @@ pub(super) struct Scale {
 }
 
 impl Scale {
-    /// Makes the extent of the box some 1.
+    /// The scale that makes the extent of the box about 1.
     pub fn of(bounds: Bounds) -> Self {
         let (lower, upper) = (bounds.lower.as_dvec3(), bounds.upper.as_dvec3());
         let extent = (upper - lower)
@@ -36,7 +36,7 @@ impl Scale {
         }
     }
 
-    /// Half a box's surface, what the surface-area heuristic weighs by.
+    /// Half a box's surface: its weight in the surface-area heuristic.
     #[inline(always)]
     pub fn half_area(self, bounds: Bounds) -> f32 {
         let e = bounds.upper * self.lengths - bounds.lower * self.lengths;
@@ -98,7 +98,7 @@ struct Grid {
     scale: Scale,
     bins: usize,
     start: Vec3A,
-    /// 0 along an axis in which the centres can't be told apart.
+    /// 0 along an axis in which all centres are the same.
     per_length: Vec3A,
 }
 
@@ -118,7 +118,7 @@ impl Grid {
     /// The bin along each axis.
     #[inline(always)]
     fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
-        // Above 2²³ a float's last bit is 1: the sum rounds to whole numbers, and its low bits are it.
+        // From 2²³ on floats are integers: the sum rounds to one, and its low bits are the bin.
         const WHOLE: Vec3A = Vec3A::splat((1 << 23) as f32);
         let place = (self.scale.centre(bounds) - self.start) * self.per_length;
         let whole = (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + WHOLE;
@@ -128,7 +128,7 @@ impl Grid {
     }
 }
 
-/// What lies in each bin of each axis.
+/// The primitives in each bin of each axis: their box and their number.
 struct FilledBins {
     bounds: [[Bounds; BINS]; 3],
     counts: [[u32; BINS]; 3],
@@ -178,7 +178,7 @@ struct Cut {
     bin: usize,
 }
 
-/// Cuts ranges in two. It keeps its bins from range to range.
+/// Splits ranges in two, with bins that are reused from range to range.
 pub(super) struct Splitter {
     pub scale: Scale,
     filled: Box<FilledBins>,
@@ -192,7 +192,7 @@ impl Splitter {
         }
     }
 
-    /// Cuts where it costs least, or hands the range back where a leaf costs no more.
+    /// Splits a range where it costs least, or returns it where a leaf costs no more.
     pub fn split<'a>(&mut self, range: Range<'a>) -> Result<[Range<'a>; 2], Range<'a>> {
         let count = range.items.len();
         let grid = Grid::new(self.scale, range.centres, count);
@@ -211,7 +211,7 @@ impl Splitter {
         Ok(halves(range.items, middle, sides))
     }
 
-    /// Cuts a range in the middle, in the order in which it lies.
+    /// Splits a range by count, in its present order.
     pub fn halve<'a>(&self, range: Range<'a>) -> [Range<'a>; 2] {
         let middle = range.items.len() / 2;
         let (low, high) = range.items.split_at(middle);
@@ -244,8 +244,8 @@ impl Splitter {
         }
     }
 
-    /// The cheapest of the planes between bins in all axes, in blocks times area; `None` if no plane
-    /// separates the centres.
+    /// The cheapest plane between bins along any axis, with costs in blocks times area; `None` if no plane separates
+    /// the centres.
     fn best_cut(&self, grid: &Grid) -> Option<Cut> {
         let mut best: Option<Cut> = None;
         let cost = |bounds: Bounds, count: u32| self.scale.half_area(bounds) * blocks(count);
@@ -319,9 +319,9 @@ fn halves(items: &mut [Item], middle: usize, [low, high]: [SideBoxes; 2]) -> [Ra
     [range(first, low), range(second, high)]
 }
 
-/// Moves the items for which `is_below` holds to the front, in place; returns their number and the boxes
-/// around either side. Large ranges in halves at the same time, whose middles then change places: how is
-/// a matter of the count alone, so that the order doesn't depend on the threads.
+/// Moves the items for which `is_below` holds to the front, in place; returns their number and the boxes of both
+/// sides. Large ranges are partitioned in halves at the same time, whose middle parts then swap places. The
+/// count alone decides how, so that the order doesn't depend on the threads.
 fn partition(
     items: &mut [Item],
     scale: Scale,
@@ -336,7 +336,7 @@ fn partition(
         || partition(first, scale, is_below),
         || partition(second, scale, is_below),
     );
-    // Low, high, low, high: as many as can of the second run change places with the third.
+    // Low, high, low, high: swap the second run with the third, as far as both go.
     let moved = (half - low).min(low_too);
     let (front, back) = items.split_at_mut(half);
     front[low..low + moved].swap_with_slice(&mut back[low_too - moved..low_too]);

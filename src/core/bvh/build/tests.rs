@@ -1,4 +1,4 @@
-//! Both ways to build a tree.
+//! Tests of both builders.
 
 use super::*;
 use glam::Vec3;
