@@ -11,6 +11,12 @@ mod intersector;
 // Every SIMD level, rays one by one and together: the same bits.
 mod simd;
 
+// Kernels that round t past a triangle's box, at the start of an interval.
+mod rounded_t;
+
+// Rays together: the same bits.
+mod packets;
+
 // Every tree: the same bits.
 mod trees;
 

@@ -1,0 +1,63 @@
+//! Rays that are traced together get the bits that they get alone.
+
+use crate::simd::bits;
+use glam::{DVec3, Vec3};
+use hitscope_core::Ray;
+use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::mesh::shapes::{Placement, cube, scene};
+use hitscope_core::random::Random;
+
+/// Rays of a packet.
+const TOGETHER: usize = 16;
+
+/// Sixteen rays inside a cube from 0 to `cells`, some of which run along planes between its cells, so that 1/d
+/// is infinite and the distance to a plane 0; the others go the same way, at slopes down to 1e-42.
+fn along_planes(cells: usize, random: &mut Random) -> [Ray; TOGETHER] {
+    let mut lattice = || (2 * random.index(cells) + 1) as f32 * 0.5;
+    let middle = Vec3::new(lattice(), lattice(), lattice());
+    let (down, together) = (
+        [random.index(2) == 1, random.index(2) == 1],
+        random.index(2),
+    );
+    [(); TOGETHER].map(|()| {
+        let mut origin = middle;
+        let mut dir = Vec3::Z;
+        for axis in 0..2 {
+            if random.index(2) <= together {
+                origin[axis] = random.index(cells + 1) as f32;
+            }
+            let slope = [0.0, 0.0, 1e-42, 1e-39, 0.25][random.index(5)];
+            dir[axis] = if down[axis] { -slope } else { slope };
+        }
+        Ray::new(origin, dir).expect("a ray")
+    })
+}
+
+#[test]
+fn rays_along_planes_of_boxes_get_together_what_they_get_alone() {
+    const CELLS: usize = 6;
+    let place = Placement {
+        scale: 1.0,
+        offset: DVec3::ZERO,
+    };
+    let scene = scene(cube(CELLS as u32, place));
+    for kernel in TRIANGLE_KERNELS {
+        let intersector = scene.intersector(kernel);
+        if intersector.rays_together() != TOGETHER {
+            continue;
+        }
+        let mut random = Random::new(5);
+        let mut hits = 0;
+        for _ in 0..4000 {
+            let rays = along_planes(CELLS, &mut random);
+            let (mut alone, mut together) = ([None; TOGETHER], [None; TOGETHER]);
+            intersector.closest_hits(&rays, &mut alone);
+            intersector.coherent_hits(&rays, &mut together);
+            for (ray, (alone, together)) in rays.iter().zip(alone.iter().zip(&together)) {
+                assert_eq!(bits(alone), bits(together), "{} {ray:?}", kernel.info.name);
+                hits += usize::from(alone.is_some());
+            }
+        }
+        assert!(hits > 50_000, "{hits}");
+    }
+}
