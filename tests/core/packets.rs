@@ -11,22 +11,23 @@ use hitscope_core::random::Random;
 const TOGETHER: usize = 16;
 
 /// Sixteen rays inside a cube from 0 to `cells`, some of which run along planes between its cells, so that 1/d
-/// is infinite and the distance to a plane 0; the others go the same way, at slopes down to 1e-42.
+/// is infinite and the distance to a plane 0; the others go the same way, at slopes down to 1e-42. They start
+/// together or apart.
 fn along_planes(cells: usize, random: &mut Random) -> [Ray; TOGETHER] {
-    let mut lattice = || (2 * random.index(cells) + 1) as f32 * 0.5;
-    let middle = Vec3::new(lattice(), lattice(), lattice());
-    let (down, together) = (
-        [random.index(2) == 1, random.index(2) == 1],
-        random.index(2),
-    );
+    let mut lattice = || 0.5 * (1 + random.index(2 * cells - 1)) as f32;
+    let start = Vec3::new(lattice(), lattice(), lattice());
+    let on_border = random.index(4);
+    let down = [random.index(2) == 1, random.index(2) == 1];
+    let is_apart = random.index(2) == 1;
     [(); TOGETHER].map(|()| {
-        let mut origin = middle;
-        let mut dir = Vec3::Z;
+        let (mut origin, mut dir) = (start, Vec3::Z);
         for axis in 0..2 {
-            if random.index(2) <= together {
+            if axis == on_border {
+                origin[axis] = if down[axis] { 0.0 } else { cells as f32 };
+            } else if is_apart && random.index(2) == 1 {
                 origin[axis] = random.index(cells + 1) as f32;
             }
-            let slope = [0.0, 0.0, 1e-42, 1e-39, 0.25][random.index(5)];
+            let slope = [0.0, 0.0, 1e-42, 0.03, 0.25][random.index(5)];
             dir[axis] = if down[axis] { -slope } else { slope };
         }
         Ray::new(origin, dir).expect("a ray")
@@ -48,7 +49,7 @@ fn rays_along_planes_of_boxes_get_together_what_they_get_alone() {
         }
         let mut random = Random::new(5);
         let mut hits = 0;
-        for _ in 0..4000 {
+        for _ in 0..3000 {
             let rays = along_planes(CELLS, &mut random);
             let (mut alone, mut together) = ([None; TOGETHER], [None; TOGETHER]);
             intersector.closest_hits(&rays, &mut alone);
@@ -58,6 +59,6 @@ fn rays_along_planes_of_boxes_get_together_what_they_get_alone() {
                 hits += usize::from(alone.is_some());
             }
         }
-        assert!(hits > 50_000, "{hits}");
+        assert!(hits > 20_000, "{hits}");
     }
 }
