@@ -19,6 +19,9 @@ pub enum Phase {
 }
 
 impl Phase {
+    /// All phases, in their order.
+    pub const ALL: [Self; 3] = [Self::Reading, Self::Checking, Self::Building];
+
     /// Label for the progress bar.
     pub fn label(self) -> &'static str {
         match self {
@@ -38,6 +41,9 @@ pub struct Progress(Arc<State>);
 struct State {
     bytes_read: AtomicU64,
     bytes_total: AtomicU64,
+    /// Steps of the phase after reading; no total if they aren't counted.
+    steps_done: AtomicU64,
+    steps_total: AtomicU64,
     phase: AtomicU8,
     cancelled: AtomicBool,
 }
@@ -54,6 +60,18 @@ impl Progress {
             self.0.bytes_read.load(Relaxed),
             self.0.bytes_total.load(Relaxed),
         )
+    }
+
+    /// The part of the current phase that is done, from 0 to 1; `None` if it isn't known.
+    pub fn part_of_phase(&self) -> Option<f32> {
+        let (done, total) = match self.phase() {
+            Phase::Reading => self.bytes(),
+            Phase::Checking | Phase::Building => (
+                self.0.steps_done.load(Relaxed),
+                self.0.steps_total.load(Relaxed),
+            ),
+        };
+        (total > 0).then(|| (done as f32 / total as f32).min(1.0))
     }
 
     /// The current phase.
@@ -95,7 +113,13 @@ impl Progress {
         self.0.bytes_read.store(0, Relaxed);
     }
 
+    pub(crate) fn set_steps(&self, done: usize, total: usize) {
+        self.0.steps_done.store(done as u64, Relaxed);
+        self.0.steps_total.store(total as u64, Relaxed);
+    }
+
     pub(crate) fn enter(&self, phase: Phase) {
+        self.set_steps(0, 0);
         self.0.phase.store(phase as u8, Relaxed);
     }
 
@@ -160,6 +184,22 @@ mod tests {
         progress.clone().cancel();
         let result = progress.run_in_background("endless", move || endless.recv());
         assert!(matches!(result, Err(BackgroundError::Cancelled)));
+    }
+
+    #[test]
+    fn each_phase_has_its_own_part() {
+        let progress = Progress::default();
+        assert_eq!(progress.part_of_phase(), None);
+        progress.set_total(200);
+        progress.add_read(50);
+        assert_eq!(progress.part_of_phase(), Some(0.25));
+        progress.add_read(150);
+        progress.enter(Phase::Checking);
+        assert_eq!(progress.part_of_phase(), None);
+        progress.set_steps(3, 4);
+        assert_eq!(progress.part_of_phase(), Some(0.75));
+        progress.enter(Phase::Building);
+        assert_eq!(progress.part_of_phase(), None);
     }
 
     #[test]

@@ -1,51 +1,53 @@
-//! Which key does what. The help sheet is made from these tables, so it can't be wrong.
+//! The tables of key and pointer bindings. The help sheet is made from them.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
-use hitscope_core::camera::StandardView;
+use hitscope_core::camera::{StandardView, UpAxis};
 use hitscope_core::mesh::Flaw;
 
-/// What a key, a button or a menu entry asks for.
+/// What keys, buttons and menu entries do.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Show the dialog that opens a file.
     Open,
-    /// Load the open file again.
+    /// Reload the open file.
     Reload,
     /// Show the whole mesh.
     Frame,
-    /// Mark where flaws of a kind are and show them, or mark none.
-    ShowFlaw(Option<Flaw>),
-    /// Load the file again whenever it changes, or don't.
+    /// Mark the flaws of a kind and show one of them, counted from 0; or mark none.
+    ShowFlaw(Option<(Flaw, usize)>),
+    /// Turn automatic reloading on or off.
     ToggleWatch,
     /// Look along an axis.
     LookFrom(StandardView),
-    /// Go round the mesh or stand still.
-    ToggleTurning,
-    /// Perspective or parallel rays.
+    /// Make an axis of the file point up.
+    SetUpAxis(UpAxis),
+    /// Turn auto-rotation on or off.
+    ToggleRotation,
+    /// Switch between perspective and orthographic projection.
     ToggleOrthographic,
-    /// Edges on or off.
+    /// Show or hide the wireframe.
     ToggleWireframe,
-    /// Normals on or off.
+    /// Show or hide normals.
     ToggleNormals,
-    /// Flat or smooth shading.
+    /// Switch between flat and smooth shading.
     ToggleSmooth,
-    /// Refine the picture or not.
+    /// Pause or resume refinement.
     TogglePause,
-    /// The side panel on or off.
+    /// Show or hide the side panel.
     TogglePanel,
-    /// The help sheet on or off.
+    /// Show or hide the help sheet.
     ToggleHelp,
-    /// Close what is open: help, message, pick.
+    /// Cancel loading, or close the help sheet or a message, or clear the pick.
     Dismiss,
 }
 
-/// A row of the table.
+/// Keys and their action.
 pub struct Binding {
-    /// Any of these.
+    /// Alternative keys.
     pub keys: &'static [KeyboardShortcut],
-    /// What they do.
+    /// The action of each of them.
     pub action: Action,
-    /// The same in words.
+    /// Description for the help sheet.
     pub about: &'static str,
 }
 
@@ -69,10 +71,10 @@ const fn binding(
     }
 }
 
-/// Every key. Those with Ctrl come before the same keys without it.
+/// All key bindings. Those with Ctrl come before those of the same key without it.
 pub static KEYS: &[Binding] = &[
     binding(&[ctrl(Key::O)], Action::Open, "Open a file"),
-    binding(&[key(Key::F5)], Action::Reload, "Load the file again"),
+    binding(&[key(Key::F5)], Action::Reload, "Reload the file"),
     binding(&[key(Key::Home)], Action::Frame, "Show the whole mesh"),
     binding(
         &[ctrl(Key::Num1)],
@@ -107,23 +109,37 @@ pub static KEYS: &[Binding] = &[
     binding(
         &[key(Key::Num5)],
         Action::ToggleOrthographic,
-        "Perspective or parallel rays",
+        "Switch between perspective and orthographic projection",
+    ),
+    binding(
+        &[ctrl(Key::Y)],
+        Action::SetUpAxis(UpAxis::Y),
+        "Y axis points up",
+    ),
+    binding(
+        &[ctrl(Key::Z)],
+        Action::SetUpAxis(UpAxis::Z),
+        "Z axis points up",
     ),
     binding(
         &[key(Key::T)],
-        Action::ToggleTurning,
-        "Go round and round the mesh",
+        Action::ToggleRotation,
+        "Turn auto-rotation on or off",
     ),
-    binding(&[key(Key::W)], Action::ToggleWireframe, "Wireframe"),
+    binding(
+        &[key(Key::W)],
+        Action::ToggleWireframe,
+        "Show or hide the wireframe",
+    ),
     binding(
         &[key(Key::N)],
         Action::ToggleNormals,
-        "Normals: of faces if flat, of vertices if smooth",
+        "Show or hide normals: of faces if flat, of vertices if smooth",
     ),
     binding(
         &[key(Key::S)],
         Action::ToggleSmooth,
-        "Flat or smooth shading",
+        "Switch between flat and smooth shading",
     ),
     binding(
         &[key(Key::P)],
@@ -133,39 +149,46 @@ pub static KEYS: &[Binding] = &[
     binding(
         &[ctrl(Key::R)],
         Action::ToggleWatch,
-        "Load the file again whenever it changes",
+        "Turn automatic reloading on or off",
     ),
-    binding(&[key(Key::I)], Action::TogglePanel, "Side panel"),
+    binding(
+        &[key(Key::I)],
+        Action::TogglePanel,
+        "Show or hide the side panel",
+    ),
     binding(
         &[key(Key::H), key(Key::Questionmark)],
         Action::ToggleHelp,
-        "This help",
+        "Show or hide this help",
     ),
     binding(
         &[key(Key::Escape)],
         Action::Dismiss,
-        "Cancel loading, close help or message, or clear the pick",
+        "Cancel loading, close help or a message, or clear the pick",
     ),
 ];
 
-/// What the pointer does in the picture.
+/// Pointer bindings in the picture.
 pub static POINTER: &[(&str, &str)] = &[
     ("Left drag", "Orbit"),
     ("Shift, middle or right drag", "Pan"),
-    ("Wheel, pinch", "Zoom to the cursor"),
+    ("Wheel, pinch", "Zoom towards the pointer"),
     ("Click", "Inspect the pixel"),
-    ("Double click", "Turn about that point"),
+    ("Double click", "Set the pivot"),
     ("Drop a file", "Open it"),
 ];
 
-/// What egui itself does.
+/// Keys that egui handles itself.
 pub static SYSTEM: &[(&str, &str)] = &[
-    ("Ctrl+Plus, Minus, 0", "Larger, smaller, normal text"),
+    (
+        "Ctrl+Plus, Minus, 0",
+        "Enlarge, shrink or reset the user interface",
+    ),
     ("Ctrl+Q", "Quit"),
 ];
 
 impl Binding {
-    /// The keys in words, as `Ctrl+O`.
+    /// The names of the keys, such as `Ctrl+O`.
     pub fn key_text(&self, ctx: &egui::Context) -> String {
         let texts = self.keys.iter().map(|shortcut| match shortcut.logical_key {
             Key::Questionmark => "?".to_owned(),
@@ -175,13 +198,18 @@ impl Binding {
     }
 }
 
-/// What the keys pressed since the last frame ask for; nothing while a text is typed.
+/// The actions of the keys pressed since the last frame; none while text is typed. Escape is left to an open
+/// drop-down, which egui then closes.
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     if ctx.egui_wants_keyboard_input() {
         return Vec::new();
     }
+    let is_popup_open = egui::Popup::is_any_open(ctx);
     ctx.input_mut(|input| {
         let is_pressed = |binding: &&Binding| {
+            if is_popup_open && binding.action == Action::Dismiss {
+                return false;
+            }
             let mut keys = binding.keys.iter();
             keys.any(|shortcut| input.consume_shortcut(shortcut))
         };

@@ -13,7 +13,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::{Duration, Instant, SystemTime};
 
-const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
+pub(crate) const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
 
 /// Results of checking every triangle and edge.
@@ -256,6 +256,11 @@ impl Document {
             HealthState::Known(_) | HealthState::Failed => {}
         }
         self.known_findings()
+    }
+
+    /// Whether checking the mesh failed.
+    pub fn has_failed_check(&self) -> bool {
+        matches!(self.health, HealthState::Failed)
     }
 
     /// The same, without starting the check.

@@ -11,6 +11,8 @@
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background work |
 //! | [`overlay`], [`gpu`] | drawing the picture, and lines over it |
+//! | [`face_lookup`], [`flaw_place`] | the picked face in its file, and the place of a flaw |
+//! | [`numbers`], [`theme`] | numbers as text, and colours |
 //! | [`panels`], [`settings`] | the side panel and the settings |
 //! | [`storage`], [`window`] | settings kept between runs, and the window itself |
 //! | [`offscreen`], [`screenshot`] | pictures in files |
@@ -19,7 +21,10 @@ pub mod app;
 pub mod bindings;
 pub mod cli;
 pub mod document;
+pub mod face_lookup;
+pub mod flaw_place;
 pub mod gpu;
+pub mod numbers;
 pub mod offscreen;
 pub mod opening;
 pub mod overlay;
@@ -28,6 +33,7 @@ pub mod screenshot;
 pub mod settings;
 pub mod storage;
 pub mod task;
+pub mod theme;
 mod times;
 pub mod tracer;
 pub mod trade;

@@ -54,7 +54,7 @@ pub fn draw_over(
         .map(|set| (set, LineOcclusion::HiddenByMesh))
         .collect();
     let mesh = DepthMesh::new(device, scene.mesh())?;
-    let view = ViewUniform::new(&rendered.camera, &scene.bounds());
+    let view = ViewUniform::new(&rendered.camera, &scene.bounds_with_elements());
     let texture = overlay.draw(device, queue, &view, &mesh, &sets);
     let drawn = read_back(device, queue, texture)?;
     for (under, over) in pixels.iter_mut().zip(drawn) {

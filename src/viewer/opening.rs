@@ -1,6 +1,7 @@
 //! Opening files: the system's dialog, the field for a typed path, and the thread that loads.
 
 use crate::document::Document;
+use crate::panels::progress::progress_ui;
 use crate::settings::Settings;
 use crate::task::{Task, TaskPanicked};
 use hitscope_core::obj::{LoadError, LoadOptions};
@@ -210,19 +211,8 @@ impl Loading {
     /// The phase, the bytes read, and a button that cancels; whether it was pressed.
     #[must_use]
     pub fn progress_ui(&self, ui: &mut egui::Ui) -> bool {
-        const MB: f64 = 1e6;
-        let (read, total) = self.progress.bytes();
-        let phase = self.progress.phase().label();
-        let text = format!(
-            "{phase}  {:.1} of {:.1} MB",
-            read as f64 / MB,
-            total as f64 / MB
-        );
-        // The bar moves although no event comes.
-        ui.ctx().request_repaint_after(Duration::from_millis(50));
         let row = ui.horizontal(|ui| {
-            let part = read as f32 / total.max(1) as f32;
-            ui.add(egui::ProgressBar::new(part).desired_width(260.0).text(text));
+            progress_ui(ui, &self.progress);
             ui.button("Cancel").clicked()
         });
         row.inner

@@ -1,4 +1,4 @@
-//! What the user chose about how things are shown. Kept between runs.
+//! The settings of the window, kept between runs.
 
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
@@ -17,18 +17,19 @@ use std::ops::RangeInclusive;
 pub enum Tab {
     /// The picked pixel.
     Inspect,
-    /// How the mesh is seen.
-    View,
-    /// What is in the file.
+    /// View, shading, kernel, overlay, camera.
+    #[serde(alias = "View")]
+    Display,
+    /// Contents and flaws of the file.
     Mesh,
-    /// What speed costs in accuracy here.
+    /// Speed and accuracy of the kernels in this scene.
     Trade,
 }
 
 /// How wide the side panel may be, in points.
 pub const PANEL_WIDTHS: RangeInclusive<f32> = 240.0..=460.0;
 
-/// See the [module](self). Names that a later version doesn't know fall back to the default.
+/// See the [module](self). A name that this version doesn't know stands for the default.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -36,42 +37,44 @@ pub struct Settings {
     pub view: String,
     /// Name of the kernel.
     pub kernel: String,
-    /// Name of the kernel that the chosen one is held against.
-    pub against: String,
-    /// Interpolated normals.
-    pub is_smooth: bool,
-    /// Edges over the picture.
-    pub shows_wireframe: bool,
-    /// Edges of all triangles, not only of the file's polygons.
-    pub shows_diagonals: bool,
-    /// sRGB of the edges.
-    pub wire_colour: [u8; 3],
-    /// Normals over the picture.
-    pub shows_normals: bool,
-    /// As a part of the mesh's radius.
-    pub normal_length: f32,
-    /// Samples a pixel in the end; a power of two.
-    pub samples: u32,
-    /// Whether the mesh's z axis points up. A matter of the file, so it isn't kept.
+    /// Name of a kernel to use instead until the program ends.
     #[serde(skip)]
+    pub session_kernel: Option<String>,
+    /// Name of the kernel that the chosen one is compared with.
+    pub against: String,
+    /// Whether normals are interpolated.
+    pub is_smooth: bool,
+    /// Whether the wireframe is drawn.
+    pub shows_wireframe: bool,
+    /// Whether the wireframe includes the diagonals of triangulated polygons.
+    pub shows_diagonals: bool,
+    /// sRGB of the wireframe.
+    pub wire_colour: [u8; 3],
+    /// Whether normals are drawn.
+    pub shows_normals: bool,
+    /// Length of the normals, relative to the mesh's radius.
+    pub normal_length: f32,
+    /// Samples per pixel of the finished picture; a power of two.
+    pub samples: u32,
+    /// Whether the mesh's z axis points up.
     pub is_z_up: bool,
-    /// Whether smooth shading has edges by angle, and not where the file says.
+    /// Whether a crease angle replaces the file's normals and smoothing groups.
     pub has_crease: bool,
-    /// From which angle on.
+    /// The crease angle.
     pub crease_degrees: f32,
-    /// Whether the file is loaded again when it changes.
+    /// Whether the file is reloaded when it changes.
     pub watches: bool,
-    /// Whether files are loaded for memory rather than for speed.
+    /// Whether triangles are packed for memory rather than for speed.
     pub is_compact: bool,
-    /// The side panel.
+    /// Whether the side panel is shown.
     pub shows_panel: bool,
-    /// Its tab.
+    /// The tab of the side panel.
     pub tab: Tab,
     /// Its width in points.
     pub panel_width: f32,
     /// Scale of everything but the picture.
     pub zoom: f32,
-    /// Dark, light, or as the system has it.
+    /// Dark, light, or the system's.
     pub theme: ThemePreference,
 }
 
@@ -80,6 +83,7 @@ impl Default for Settings {
         Self {
             view: INTEGRATORS[0].name.to_owned(),
             kernel: default_triangle_kernel().info.name.to_owned(),
+            session_kernel: None,
             against: exact_triangle_kernel().info.name.to_owned(),
             is_smooth: false,
             shows_wireframe: false,
@@ -90,12 +94,12 @@ impl Default for Settings {
             samples: 64,
             is_z_up: false,
             has_crease: false,
-            // What modelling programs begin with.
+            // The default of modelling programs.
             crease_degrees: 30.0,
             watches: false,
             is_compact: false,
             shows_panel: true,
-            tab: Tab::View,
+            tab: Tab::Display,
             panel_width: 385.0,
             zoom: 1.0,
             theme: ThemePreference::Dark,
@@ -105,16 +109,28 @@ impl Default for Settings {
 
 impl Settings {
     /// The view.
-    pub fn integrator(&self) -> &'static Integrator {
+    pub fn view(&self) -> &'static Integrator {
         integrator(&self.view).unwrap_or(&INTEGRATORS[0])
     }
 
     /// The kernel.
     pub fn kernel(&self) -> &'static TriangleKernel {
-        triangle_kernel(&self.kernel).unwrap_or_else(default_triangle_kernel)
+        let name = self.session_kernel.as_ref().unwrap_or(&self.kernel);
+        triangle_kernel(name).unwrap_or_else(default_triangle_kernel)
     }
 
-    /// What a scene is made with: its first picture soon, for speed or for memory.
+    /// Uses a kernel until the program ends, without replacing the one that is kept between runs.
+    pub fn use_for_session(&mut self, kernel: &str) {
+        self.session_kernel = (kernel != self.kernel).then(|| kernel.to_owned());
+    }
+
+    /// Uses a kernel, and keeps it between runs.
+    pub fn keep_kernel(&mut self, kernel: &str) {
+        self.session_kernel = None;
+        self.kernel = kernel.to_owned();
+    }
+
+    /// Options for building a scene: the first picture soon, packed for speed or for memory.
     pub fn scene_options(&self) -> SceneOptions {
         SceneOptions {
             first_tree: FirstTree::Quick,
@@ -126,10 +142,10 @@ impl Settings {
         }
     }
 
-    /// The kernel that the view holds the chosen one against, if it compares.
+    /// The kernel that the view compares the chosen one with, if it compares.
     pub fn second_kernel(&self) -> Option<&'static TriangleKernel> {
         let chosen = triangle_kernel(&self.against).unwrap_or_else(exact_triangle_kernel);
-        self.integrator().against.kernel(chosen)
+        self.view().against.kernel(chosen)
     }
 
     /// Flat or smooth.
@@ -141,7 +157,7 @@ impl Settings {
         }
     }
 
-    /// Where smooth shading has edges.
+    /// Where smooth shading has creases.
     pub fn crease(&self) -> Crease {
         if self.has_crease {
             Crease::Above(self.crease_degrees.to_radians())
@@ -150,8 +166,39 @@ impl Settings {
         }
     }
 
-    /// Which axis points up.
+    /// The axis that points up.
     pub fn up_axis(&self) -> UpAxis {
         if self.is_z_up { UpAxis::Z } else { UpAxis::Y }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_kernel_for_the_session_is_used_but_not_kept() {
+        let mut settings = Settings::default();
+        let kept = settings.kernel.clone();
+        settings.use_for_session("exact");
+        assert_eq!(settings.kernel().info.name, "exact");
+        let stored = serde_json::to_string(&settings).expect("plain data");
+        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
+        assert_eq!(later.kernel().info.name, kept);
+        settings.keep_kernel("exact");
+        let stored = serde_json::to_string(&settings).expect("plain data");
+        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
+        assert_eq!(later.kernel().info.name, "exact");
+    }
+
+    #[test]
+    fn the_up_axis_is_kept() {
+        let settings = Settings {
+            is_z_up: true,
+            ..Settings::default()
+        };
+        let stored = serde_json::to_string(&settings).expect("plain data");
+        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
+        assert_eq!(later.up_axis(), UpAxis::Z);
     }
 }

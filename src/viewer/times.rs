@@ -1,17 +1,17 @@
-//! How long did the last few of them take?
+//! The last times of a repeated operation, and their quantiles.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// The last times of something that happens again and again.
+/// The last times of a repeated operation.
 #[derive(Debug, Default)]
 pub struct Times(VecDeque<Duration>);
 
 impl Times {
-    /// So many that one in a hundred is several.
+    /// Number of times kept; one in a hundred of them is several.
     const KEPT: usize = 500;
 
-    /// Notes one; the oldest is forgotten.
+    /// Adds a time and drops the oldest.
     pub fn push(&mut self, time: Duration) {
         if self.0.len() == Self::KEPT {
             self.0.pop_front();
@@ -19,12 +19,12 @@ impl Times {
         self.0.push_back(time);
     }
 
-    /// Forgets all.
+    /// Drops all times.
     pub fn clear(&mut self) {
         self.0.clear();
     }
 
-    /// What so large parts of them, from 0 to 1, don't exceed; `None` of none.
+    /// Quantiles at the given parts, from 0 to 1; `None` without times.
     fn quantiles<const N: usize>(&self, parts: [f64; N]) -> Option<[Duration; N]> {
         let mut sorted: Vec<Duration> = self.0.iter().copied().collect();
         sorted.sort_unstable();
@@ -32,7 +32,7 @@ impl Times {
         (!sorted.is_empty()).then(|| parts.map(|part| sorted[at(part).saturating_sub(1)]))
     }
 
-    /// Half of them don't exceed the first, 99 of 100 not the second.
+    /// Median and 99th percentile.
     pub fn median_and_99th(&self) -> Option<[Duration; 2]> {
         self.quantiles([0.5, 0.99])
     }
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn one_in_a_hundred_is_left_out() {
+    fn quantiles_are_times_that_were_added() {
         let mut times = Times::default();
         assert_eq!(times.quantiles([0.5]), None);
         for ms in (1..=100).rev() {
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn the_oldest_are_forgotten() {
+    fn the_oldest_times_are_dropped() {
         let mut times = Times::default();
         times.push(Duration::from_secs(9));
         (0..Times::KEPT).for_each(|_| times.push(Duration::from_secs(1)));

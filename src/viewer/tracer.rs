@@ -1,7 +1,7 @@
-//! Keeps the threads busy with what the window shows, and collects the picture.
+//! The tracing of the window's picture: posts jobs to the threads and collects their tiles.
 //!
-//! While the camera moves, each new view waits until the first pass of the one before is there; that
-//! pass is coarse enough to be quick.
+//! While the camera moves, each new request waits for the first pass of the request before it. That pass is
+//! coarse enough to be quick.
 
 use crate::times::Times;
 use glam::{UVec2, Vec3};
@@ -14,31 +14,31 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// What a frame of a movement is to take. The window may miss one in a few, so it is less than 33 ms.
+/// Target time of a frame while the camera moves. Below 33 ms, as a late frame takes twice the interval.
 const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(30);
-/// What tracing the first pass may take of it: the window itself takes next to nothing with a GPU, and
-/// half of it without one.
+/// Time of the first pass within a frame: drawing the window takes almost no time with a GPU, and half of the
+/// frame without one.
 const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration::from_millis(20);
-/// What the window spends on collecting tiles in one go.
+/// Time limit for collecting tiles in one frame.
 const COLLECTING: Duration = Duration::from_millis(6);
-/// A picture that stands for longer ends a movement.
+/// A picture that stays for longer ends a movement.
 const LOOK: Duration = Duration::from_millis(250);
-/// Refinement begins when the view has been at rest for this long; until then the processor is left
-/// to drawing the window, which takes most of it where there is no GPU.
+/// Refinement begins when nothing has changed for this long. Until then the processor is free for drawing the
+/// window, which takes most of its time where there is no GPU.
 const REST: Duration = Duration::from_millis(80);
-/// Rays/s of a thread, until it is measured.
+/// Rays per second and thread, until they are measured.
 const ASSUMED_SPEED: f64 = 1e6;
 
-/// What is to be seen.
+/// A picture that the window wants.
 #[derive(Clone)]
 pub struct Request {
-    /// The scene, and from where.
+    /// Scene, camera and kernels.
     pub context: Context,
-    /// How it is seen.
+    /// The view.
     pub integrator: &'static Integrator,
-    /// Samples a pixel in the end.
+    /// Samples per pixel of the finished picture.
     pub samples: u32,
-    /// Whether the view is of what rays cost with the tree that stays.
+    /// Whether the view shows the cost of rays in the final tree.
     pub shows_last_tree: bool,
 }
 
@@ -54,60 +54,60 @@ impl PartialEq for Request {
     }
 }
 
-/// A request that the threads work on.
+/// The request that the threads work on.
 struct PostedRequest {
     request: Request,
     at: Instant,
-    /// From then to the newest tile.
+    /// Time from then to the newest tile.
     lasted: Duration,
 }
 
-/// What the status line tells.
+/// Figures for the status line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Samples that every pixel has; 0 while there are coarse blocks.
+    /// Samples that every pixel has; 0 while the picture consists of coarse blocks.
     pub samples: u32,
     /// Passes done.
     pub passes: usize,
     /// Passes in all.
     pub pass_count: usize,
-    /// Rays a second, all threads together, while they trace.
+    /// Rays per second of all threads together, while they trace.
     pub rays_per_s: f64,
-    /// Since the view changed, until the newest tile.
+    /// Time from the last change to the newest tile.
     pub lasted: Duration,
-    /// Time between the views of the last movement: the median, and what 99 of 100 don't exceed.
+    /// Time between the pictures of the last movement: median and 99th percentile.
     pub frame_interval: Option<[Duration; 2]>,
 }
 
-/// Traces what was requested last.
+/// Traces the newest request.
 pub struct Tracer {
     renderer: Renderer,
     film: Film,
     posted: Option<PostedRequest>,
-    /// What the shown picture is of: the newest one whose first pass is done.
+    /// Scene and camera of the newest picture whose first pass is done.
     shown: Option<(Arc<Scene>, Camera)>,
     shown_at: Option<Instant>,
-    /// Between views of a movement.
+    /// Times between the pictures of a movement.
     frame_intervals: Times,
-    /// What the first pass may take, so that frames take what they are to take.
+    /// Time of the first pass with which frames meet their target.
     first_pass: Duration,
     changed: Option<PixelRect>,
-    /// Rays traced, and seconds that threads spent on them, fading over time.
+    /// Rays traced and the seconds that threads spent on them; old ones fade.
     rays: f64,
     busy_secs: f64,
-    /// By the user.
+    /// Paused by the user.
     is_paused: bool,
-    /// Until the view has been at rest.
+    /// Refinement waits until nothing has changed for a while.
     is_held: bool,
-    /// Whether the last view was looked at before the next one was asked for.
+    /// Whether the last picture stayed for a while before the next request.
     has_rested: bool,
-    /// Whether tiles are shown before their pass is done.
+    /// Whether tiles are shown before their pass is complete.
     shows_parts: bool,
     non_finite: u64,
 }
 
 impl Tracer {
-    /// Starts so many threads.
+    /// Starts the threads.
     pub fn new(threads: usize, ctx: &egui::Context) -> Self {
         let ctx = ctx.clone();
         Self {
@@ -129,7 +129,7 @@ impl Tracer {
         }
     }
 
-    /// Collects what the threads have sent; returns the panics among it.
+    /// Collects the tiles that the threads have sent; returns panics.
     pub fn collect(&mut self, ctx: &egui::Context) -> Vec<RenderPanic> {
         let start = Instant::now();
         let mut panics = Vec::new();
@@ -159,7 +159,7 @@ impl Tracer {
         panics
     }
 
-    /// Notes how long the view took that is shown from now on.
+    /// Notes the time since the picture before.
     fn count_frame(&mut self) {
         let now = Instant::now();
         let interval = self.shown_at.map(|last| now - last);
@@ -174,7 +174,7 @@ impl Tracer {
         }
     }
 
-    /// Gives the first pass more or less time, by what a frame took with the present one.
+    /// Adjusts the time of the first pass to the time that the last frame took.
     fn adapt(&mut self, interval: Duration) {
         let factor = if interval > FRAME.end {
             0.9
@@ -187,7 +187,7 @@ impl Tracer {
         self.first_pass = wanted.clamp(*FIRST_PASS.start(), *FIRST_PASS.end());
     }
 
-    /// Lets refinement begin once the view has been at rest.
+    /// Starts refinement once nothing has changed for a while.
     fn end_hold(&mut self, ctx: &egui::Context) {
         if !self.is_held {
             return;
@@ -219,13 +219,13 @@ impl Tracer {
         }
     }
 
-    /// Sees to it that this is traced: now, or once the first pass of what is traced now is done.
+    /// Traces this request: now, or once the first pass of the request before is done.
     pub fn request(&mut self, request: Request) {
         let is_news = self
             .posted
             .as_ref()
             .is_none_or(|posted| posted.request != request);
-        // A view of another scene doesn't wait: the old picture is of no use any more.
+        // A request for another scene doesn't wait: the old picture is useless.
         let is_same_scene = self.is_shown_scene(&request.context.scene);
         let is_waiting = self.posted.is_some() && self.film.passes_done() == 0 && is_same_scene;
         if !is_news || is_waiting {
@@ -234,7 +234,7 @@ impl Tracer {
         let size = request.context.camera.resolution();
         let plan = Plan::new(size, self.first_step(size), request.samples);
         let background = request.context.background;
-        // The old picture stays until the new one's first pass is there, unless it is of another scene.
+        // The old picture of the same scene stays until the first pass of the new one is done.
         if self.film.size() == size && is_same_scene {
             self.film.restart(plan.clone(), background);
         } else {
@@ -250,7 +250,7 @@ impl Tracer {
             self.shows_parts = true;
         }
         self.non_finite = 0;
-        // Until then it took as long as it took: that is a slow frame, no rest.
+        // A slow first pass is a slow frame, no rest.
         self.has_rested = self.shown_at.is_none_or(|at| at.elapsed() > LOOK);
         self.is_held = true;
         self.apply_pause();
@@ -266,7 +266,7 @@ impl Tracer {
         });
     }
 
-    /// The smallest blocks with which the first pass is quick enough.
+    /// The smallest block size with which the first pass is quick enough.
     fn first_step(&self, size: UVec2) -> u32 {
         let affordable = self.rays_per_s() * self.first_pass.as_secs_f64();
         let pixels = f64::from(size.x) * f64::from(size.y);
@@ -284,8 +284,8 @@ impl Tracer {
         speed * self.renderer.thread_count() as f64
     }
 
-    /// The picture, and which of its pixels changed since the last call; only once its first pass is
-    /// done, unless it is the first one of its scene.
+    /// The picture and the rectangle that changed since the last call; `None` until its first pass is done, except
+    /// for the first picture of a scene.
     pub fn take_changes(&mut self) -> Option<(&Film, PixelRect)> {
         if self.film.passes_done() == 0 && !self.shows_parts {
             return None;
@@ -308,32 +308,32 @@ impl Tracer {
             .is_some_and(|(shown, _)| Arc::ptr_eq(shown, scene))
     }
 
-    /// Whether the view changed so lately that it may be moving.
+    /// Whether the picture changed so recently that the camera may be moving.
     pub fn is_moving(&self) -> bool {
         self.is_held
     }
 
-    /// What the shown picture is of, and from where it was taken; `None` before the first one.
+    /// Scene and camera of the picture that is shown; `None` before the first one.
     pub fn shown(&self) -> Option<&(Arc<Scene>, Camera)> {
         self.shown.as_ref()
     }
 
-    /// What was requested last and is traced.
+    /// The request that is being traced.
     pub fn posted(&self) -> Option<&Request> {
         self.posted.as_ref().map(|posted| &posted.request)
     }
 
-    /// The picture as far as it is.
+    /// The picture so far.
     pub fn film(&self) -> &Film {
         &self.film
     }
 
-    /// Samples of this picture whose colour wasn't finite.
+    /// Samples of this picture with a colour that isn't finite.
     pub fn non_finite(&self) -> u64 {
         self.non_finite
     }
 
-    /// What the status line tells.
+    /// Figures for the status line.
     pub fn status(&self) -> Status {
         Status {
             samples: self.film.samples(),
@@ -352,17 +352,17 @@ impl Tracer {
         }
     }
 
-    /// Ends the work on the present picture for good.
+    /// Cancels the work on the current picture.
     pub fn stop(&mut self) {
         self.renderer.cancel();
     }
 
-    /// Whether refinement stands still.
+    /// Whether the user has paused refinement.
     pub fn is_paused(&self) -> bool {
         self.is_paused
     }
 
-    /// Holds refinement, or lets it go on.
+    /// Pauses or resumes refinement.
     pub fn toggle_pause(&mut self) {
         self.is_paused = !self.is_paused;
         self.apply_pause();

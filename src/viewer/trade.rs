@@ -1,4 +1,4 @@
-//! Measures the open scene in the background.
+//! The measurement of the open scene, in the background.
 
 use crate::task::Task;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
@@ -7,18 +7,18 @@ use hitscope_core::{Camera, Scene};
 use hitscope_lab::measure::scene::{SceneRow, SceneSizes, measure};
 use std::sync::{Arc, Mutex, PoisonError};
 
-/// What the plot's vertical axis shows.
+/// The vertical axis of the plot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Axis {
-    /// Ulps that 99 of a hundred t don't exceed.
+    /// 99th percentile of the error of t, in ulps.
     #[default]
     ErrorOfT,
-    /// Wrong decisions a million.
+    /// Wrong decisions per million rays.
     Wrong,
 }
 
 impl Axis {
-    /// Of a kernel.
+    /// The value of a kernel.
     pub fn value(self, row: &SceneRow) -> f64 {
         match self {
             Self::ErrorOfT => row.t_ulps.map_or(0.0, |t| t.p99),
@@ -26,7 +26,7 @@ impl Axis {
         }
     }
 
-    /// What stands for zero, which has no logarithm: below all that can be measured.
+    /// The place of zero, which has no logarithm: below everything that can be measured.
     pub fn floor(self) -> f64 {
         match self {
             Self::ErrorOfT => 0.01,
@@ -35,30 +35,30 @@ impl Axis {
     }
 }
 
-/// Where a measurement stands.
+/// The state of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TradeState {
-    /// Kernel after kernel.
+    /// Under way.
     Measuring,
-    /// All of them.
+    /// Every kernel is measured.
     Done,
-    /// Its thread broke off.
+    /// Its thread panicked.
     Failed,
 }
 
 /// A measurement of one scene.
 pub struct Trade {
-    /// Replaced by a longer list with every kernel, so that the window only takes a pointer.
+    /// The rows so far; a longer list replaces it after each kernel, so that the window copies a pointer only.
     rows: Arc<Mutex<Arc<[SceneRow]>>>,
     progress: Progress,
     task: Task<Result<(), Cancelled>>,
     state: TradeState,
-    /// What the plot shows.
+    /// The vertical axis of the plot.
     pub axis: Axis,
 }
 
 impl Trade {
-    /// Begins to measure a scene as a camera sees it.
+    /// Starts to measure a scene with rays from a camera.
     pub fn start(scene: &Arc<Scene>, camera: Camera, axis: Axis, ctx: &egui::Context) -> Self {
         let rows: Arc<Mutex<Arc<[SceneRow]>>> = Arc::default();
         let progress = Progress::default();
@@ -83,17 +83,17 @@ impl Trade {
         }
     }
 
-    /// What is there so far, in the table's order.
+    /// The rows so far, in the order of the kernel table.
     pub fn rows(&self) -> Arc<[SceneRow]> {
         Arc::clone(&self.rows.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// How many rows there will be.
+    /// The number of rows in the end.
     pub fn kernel_count(&self) -> usize {
         TRIANGLE_KERNELS.len()
     }
 
-    /// Looks whether the thread has ended.
+    /// Updates the state.
     pub fn poll(&mut self) {
         if self.state == TradeState::Measuring {
             self.state = match self.task.poll() {
@@ -104,7 +104,7 @@ impl Trade {
         }
     }
 
-    /// Where it stands, as of the last [`poll`](Self::poll).
+    /// The state at the last [`poll`](Self::poll).
     pub fn state(&self) -> TradeState {
         self.state
     }

@@ -1,6 +1,6 @@
 //! The real app, driven by label and key.
 
-use crate::harness::{Window, app, bare, press, say, wait};
+use crate::harness::{Window, app, bare, click, in_picture, press, say, wait};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec3;
@@ -123,11 +123,12 @@ fn the_dialog_falls_back_to_a_path_that_is_typed() {
 fn every_switch_of_the_tool_bar_switches_and_so_does_its_key() {
     let Some(mut window) = bare() else { return };
     type State = fn(&App) -> bool;
-    let switches: [(&str, Key, State); 5] = [
+    let switches: [(&str, Key, State); 6] = [
         ("Smooth", Key::S, |app| app.settings().is_smooth),
         ("Wire", Key::W, |app| app.settings().shows_wireframe),
         ("Normals", Key::N, |app| app.settings().shows_normals),
         ("Ortho", Key::Num5, |app| app.turntable().is_orthographic),
+        ("Rotate", Key::T, App::is_rotating),
         ("Pause", Key::P, App::is_paused),
     ];
     for (label, key, is_on) in switches {
@@ -209,9 +210,9 @@ fn help_names_every_key() {
 fn every_tab_can_be_read() {
     let Some(mut window) = app(None) else { return };
     for (tab, sign) in [
-        ("Mesh", "Health"),
+        ("Mesh", "Flaws"),
         ("Inspect", "Click a pixel to see what its ray hits."),
-        ("View", "Theme"),
+        ("Display", "Theme"),
     ] {
         window.get_by_label(tab).click();
         window.run_steps(3);
@@ -238,7 +239,7 @@ fn another_kernel_traces_once_it_is_packed() {
         .expect("of kernels");
     combo.click();
     window.run_steps(2);
-    window.get_by_label("Möller–Trumbore – fast").click();
+    window.get_by_label("fast – Möller–Trumbore").click();
     wait(&mut window, "the other kernel", |app| {
         app.document().intersector().kernel().name == "moller-trumbore"
     });
@@ -264,7 +265,7 @@ fn the_picture_converges_and_pause_holds_it() {
 }
 
 #[test]
-fn t_goes_round_the_mesh_until_it_is_pressed_again() {
+fn t_toggles_auto_rotation() {
     let Some(mut window) = bare() else { return };
     let before = *window.state().turntable();
     press(&mut window, Key::T);
@@ -290,4 +291,60 @@ fn a_window_of_one_pixel_lives() {
     window.set_size(egui::vec2(800.0, 600.0));
     wait(&mut window, "the picture", |app| app.film().samples() > 0);
     assert!(window.state().document().loaded.scene.bounds().extent() != DVec3::ZERO);
+}
+
+#[test]
+fn escape_closes_an_open_menu_and_only_then_clears_the_pick() {
+    let Some(mut window) = app(None) else { return };
+    let corner = in_picture(&window, 0.01, 0.01);
+    click(&mut window, corner);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+    let menu = |window: &Window| window.query_by_label("Cost").is_some();
+    assert!(!menu(&window));
+    window.get_by_role(egui::accesskit::Role::ComboBox).click();
+    window.run_steps(3);
+    assert!(menu(&window));
+    press(&mut window, Key::Escape);
+    window.run_steps(3);
+    assert!(!menu(&window));
+    assert!(window.state().inspection().is_some());
+    press(&mut window, Key::Escape);
+    assert!(window.state().inspection().is_none());
+}
+
+#[test]
+fn keys_choose_the_up_axis() {
+    let Some(mut window) = bare() else { return };
+    for (key, axis) in [(Key::Z, UpAxis::Z), (Key::Y, UpAxis::Y)] {
+        window.key_press_modifiers(Modifiers::COMMAND, key);
+        window.run_steps(3);
+        assert_eq!(window.state().turntable().up_axis, axis);
+    }
+}
+
+#[test]
+fn framing_includes_lines_and_points_and_the_status_line_counts_one_triangle() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 40\nv -30 0 0\nf 1 2 3\nl 1 4\np 5\n";
+    let file = write(&folder, "lines.obj", text);
+    let Some(mut window) = app(Some(file)) else {
+        return;
+    };
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "lines.obj"
+    });
+    wait(&mut window, "the picture", App::is_settled);
+    for moment in ["as loaded", "after Home"] {
+        let app = window.state();
+        let size = app.film().size();
+        let camera = app.turntable().camera(size);
+        for end in [DVec3::new(0.0, 0.0, 40.0), DVec3::new(-30.0, 0.0, 0.0)] {
+            let pixel = camera.pixel_of(end).expect("in front of the camera");
+            let is_inside =
+                pixel.cmpge(glam::DVec2::ZERO).all() && pixel.cmple(size.as_dvec2()).all();
+            assert!(is_inside, "{end} {moment}: {pixel} of {size}");
+        }
+        press(&mut window, Key::Home);
+    }
+    window.get_by_label_contains("1 triangle  ·");
 }

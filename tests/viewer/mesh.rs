@@ -36,16 +36,37 @@ fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
     let notice = window.state().notice().expect("a warning").to_owned();
     assert!(notice.contains("line 7: 1 face(s) dropped"), "{notice}");
     window.get_by_label("Mesh").click();
+    // The tab appears in one of the next frames; the check begins in that one.
+    let is_checking = (0..3).any(|_| {
+        window.step();
+        window.query_by_label("Checking…").is_some()
+    });
+    assert!(is_checking);
     wait(&mut window, "what is known of the mesh", |app| {
         app.document().known_findings().is_some()
     });
     window.run_steps(3);
     window.get_by_label("Open edges  4").click();
     window.run_steps(3);
-    assert_eq!(window.state().flaw(), Some(Flaw::OpenEdge));
+    let shown = |window: &Window| {
+        let place = window.state().flaw().expect("a flaw");
+        assert_eq!(place.flaw, Flaw::OpenEdge);
+        place.index
+    };
+    assert_eq!(shown(&window), 0);
+    // Each edge is a side of the square, and of the face on one of two lines.
+    let point = window.state().flaw().expect("a flaw").point.truncate();
+    assert_eq!((point - 0.5).abs().max_element(), 0.5);
+    window.get_by_label("1 of 4");
+    window.get_by_label_contains("line ");
+    for (button, index) in [("Next", 1), ("Previous", 0), ("Previous", 3)] {
+        window.get_by_label(button).click();
+        window.run_steps(3);
+        assert_eq!(shown(&window), index, "{button}");
+    }
     window.get_by_label("Open edges  4").click();
     window.run_steps(3);
-    assert_eq!(window.state().flaw(), None);
+    assert!(window.state().flaw().is_none());
     // Where there is nothing to be shown, there is nothing to be pressed.
     assert!(
         window
@@ -118,7 +139,7 @@ fn the_crease_angle_changes_the_scene_and_keeps_its_tree() {
         return;
     };
     let tree = window.state().document().loaded.scene.bvh();
-    window.get_by_label("Edges above").click();
+    window.get_by_label("Crease above").click();
     wait(&mut window, "another crease", |app| {
         let scene = &app.document().loaded.scene;
         scene.crease() == Crease::Above(30f32.to_radians())

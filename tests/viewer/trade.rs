@@ -1,6 +1,7 @@
 //! Views that compare kernels, and the tab that measures them.
 
-use crate::harness::{app, wait};
+use crate::harness::{app, press, wait};
+use egui::Key;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::trade::{Trade, TradeState};
 use hitscope_core::kernel::TRIANGLE_KERNELS;
@@ -30,11 +31,45 @@ fn the_trade_tab_measures_every_kernel_and_its_rows_choose_one() {
     assert_eq!(exact.missed + exact.false_hits + exact.other_triangle, 0);
 
     window.run_steps(2);
-    window.get_by_label("edge-planes").click();
+    let kept = window.state().settings().kernel.clone();
+    window.get_by_label_contains("edge-planes ").click();
     wait(&mut window, "the kernel", |app| {
         app.settings().kernel().info.name == "edge-planes"
             && app.document().intersector().kernel().name == "edge-planes"
     });
+    // It isn't kept between runs, unless the user wants that.
+    assert_eq!(window.state().settings().kernel, kept);
+    window.get_by_label_contains("edge-planes kernel");
+    window.get_by_label("Keep").click();
+    window.run_steps(2);
+    assert_eq!(window.state().settings().kernel, "edge-planes");
+}
+
+#[test]
+fn another_file_is_measured_only_when_the_user_asks() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("one.obj");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    std::fs::write(&file, text).expect("written");
+    let Some(mut window) = app(Some(file)) else {
+        return;
+    };
+    wait(&mut window, "the file", |app| {
+        app.document().name() == "one.obj"
+    });
+    window.get_by_label("Trade").click();
+    wait(&mut window, "the first measurement", |app| {
+        app.trade().is_some()
+    });
+    let before = std::sync::Arc::clone(&window.state().document().loaded.scene);
+    press(&mut window, Key::F5);
+    wait(&mut window, "the file again", |app| {
+        !std::sync::Arc::ptr_eq(&app.document().loaded.scene, &before) && app.is_settled()
+    });
+    window.run_steps(3);
+    assert!(window.state().trade().is_none());
+    window.get_by_label("Measure").click();
+    wait(&mut window, "the measurement", |app| app.trade().is_some());
 }
 
 #[test]
@@ -49,8 +84,7 @@ fn a_view_that_compares_packs_a_second_kernel_and_others_drop_it() {
     ] {
         window.get_by_label(view).click();
         wait(&mut window, view, |app| {
-            app.settings().integrator().title == view
-                && app.document().second().kernel().name == second
+            app.settings().view().title == view && app.document().second().kernel().name == second
         });
     }
     wait(&mut window, "the picture", hitscope::app::App::is_settled);

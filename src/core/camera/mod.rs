@@ -175,6 +175,36 @@ impl Camera {
         }
     }
 
+    /// The point under a place in the picture, in the plane through `point` that faces the camera.
+    ///
+    /// In perspective, a plane behind the eye counts as if it were as far ahead of it.
+    pub fn on_plane_through(&self, point: DVec3, at: DVec2) -> DVec3 {
+        let on_plane = self.plane_from_pixel(at);
+        let depth = self.depth_of(point);
+        let in_camera = match self.projection {
+            Projection::Perspective { .. } => (on_plane * depth.abs()).extend(-depth.abs()),
+            Projection::Orthographic { .. } => on_plane.extend(-depth),
+        };
+        self.eye.as_dvec3() + self.world_from_camera * in_camera
+    }
+
+    /// Distance of a point from the plane of the eye, along the view.
+    pub fn depth_of(&self, point: DVec3) -> f64 {
+        (self.eye.as_dvec3() - point).dot(self.back())
+    }
+
+    /// The same camera, moved. Its eye stays finite.
+    #[must_use]
+    pub fn moved(&self, by: DVec3) -> Self {
+        let limit = DVec3::splat(f64::from(f32::MAX) / 2.0);
+        let exact_eye = (self.exact_eye + by).clamp(-limit, limit);
+        Self {
+            eye: exact_eye.as_vec3(),
+            exact_eye,
+            ..*self
+        }
+    }
+
     /// The position of a point in the picture, in pixels from the top left corner; `None` if the point isn't in
     /// front of the camera or isn't finite.
     pub fn pixel_of(&self, point: DVec3) -> Option<DVec2> {
@@ -332,6 +362,32 @@ mod tests {
         let camera = camera(PERSPECTIVE);
         let centre = camera.ray(UVec2::new(10, 20), Vec2::splat(0.5));
         assert_eq!(centre, camera.ray_through(DVec2::new(10.5, 20.5)));
+    }
+
+    #[test]
+    fn a_point_of_a_plane_that_faces_the_camera_lies_under_its_pixel() {
+        let on_plane = DVec3::new(0.5, 1.0, -2.0);
+        for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
+            let camera = camera(projection);
+            let at = DVec2::new(300.2, 7.9);
+            let point = camera.on_plane_through(on_plane, at);
+            // Lengths and pixels of some 10 and 300, in f64.
+            let off = camera.pixel_of(point).expect("in front") - at;
+            assert!(off.length() < 1e-11, "{off}");
+            assert!((point - on_plane).dot(camera.back()).abs() < 1e-13);
+        }
+    }
+
+    #[test]
+    fn a_moved_camera_sees_a_point_that_moved_with_it_at_the_same_pixel() {
+        for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
+            let camera = camera(projection);
+            // f32 holds the eye and its sum with this.
+            let by = DVec3::new(-8.0, 64.0, 0.5);
+            let point = DVec3::new(0.5, 1.0, -2.0);
+            let moved = camera.moved(by).pixel_of(point + by);
+            assert_eq!(moved, camera.pixel_of(point));
+        }
     }
 
     #[test]

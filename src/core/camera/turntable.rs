@@ -139,9 +139,16 @@ impl Turntable {
         }
     }
 
-    /// Moves the pivot, and with it the centre of the picture; the eye keeps its distance.
-    pub fn set_pivot(&mut self, pivot: DVec3) {
-        self.pivot = pivot;
+    /// Turns about a point from now on and shows it in the middle of the picture. The eye moves across the
+    /// view only, so that nothing changes its size in the picture. A point behind the eye is ignored.
+    pub fn centre_on(&mut self, point: DVec3) {
+        let back = self.world_from_camera().z_axis;
+        let distance = self.distance - (point - self.pivot).dot(back);
+        if self.is_orthographic {
+            self.pivot = point;
+        } else if distance > 0.0 && distance.is_finite() {
+            (self.pivot, self.distance) = (point, distance);
+        }
     }
 
     /// Looks along an axis.
@@ -154,14 +161,6 @@ impl Turntable {
             StandardView::Top => (0.0, FRAC_PI_2),
             StandardView::Bottom => (0.0, -FRAC_PI_2),
         };
-    }
-
-    /// The point under a pixel in the plane that contains the pivot and faces the camera.
-    pub fn on_pivot_plane(&self, at_px: DVec2, resolution: UVec2) -> DVec3 {
-        let axes = self.world_from_camera();
-        let from_middle = at_px - 0.5 * resolution.as_dvec2();
-        let per_pixel = self.height_at_pivot() / f64::from(resolution.y.max(1));
-        self.pivot + (axes.x_axis * from_middle.x - axes.y_axis * from_middle.y) * per_pixel
     }
 
     /// The camera for a picture of this size; a size of zero counts as one pixel.
@@ -287,11 +286,38 @@ mod tests {
                 let mut turntable = Turntable::framing(scene, SIZE);
                 turntable.is_orthographic = orthographic;
                 let cursor = DVec2::new(600.0, 150.0);
-                let anchor = turntable.on_pivot_plane(cursor, SIZE);
+                let camera = turntable.camera(SIZE);
+                let anchor = camera.on_plane_through(turntable.pivot, cursor);
                 for factor in [0.8, 0.5, 0.1, 1.5, 20.0] {
                     turntable.zoom(factor, anchor);
                     let moved = (pixel_of(&turntable, anchor) - cursor).length();
                     assert!(moved < tolerance(&turntable), "{scene:?} {factor}: {moved}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn centring_on_a_point_changes_no_size_in_the_picture() {
+        for scene in scenes() {
+            for orthographic in [false, true] {
+                let mut turntable = Turntable::framing(scene, SIZE);
+                turntable.is_orthographic = orthographic;
+                let corners = corners(scene);
+                let (point, before) = (corners[6], turntable);
+                turntable.centre_on(point);
+                let middle = 0.5 * SIZE.as_dvec2();
+                let off = (pixel_of(&turntable, point) - middle).length();
+                assert!(off < tolerance(&turntable), "{scene:?}: {off}");
+                let size_at = |turntable: &Turntable, p: DVec3| {
+                    let camera = turntable.camera(SIZE);
+                    camera.pixel_size_at(camera.depth_of(p))
+                };
+                for corner in corners {
+                    let (size, old_size) = (size_at(&turntable, corner), size_at(&before, corner));
+                    // The eye's place is rounded to f32, by a part of a pixel of each height of the picture.
+                    let tolerance = tolerance(&turntable) / f64::from(SIZE.y);
+                    assert!((size / old_size - 1.0).abs() < tolerance, "{scene:?}");
                 }
             }
         }

@@ -1,7 +1,7 @@
 //! Views that compare the chosen kernel with another one, usually the exact kernel.
 
 use super::Context;
-use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, ramp};
+use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, error_ramp};
 use crate::interaction::SurfaceInteraction;
 use crate::kernel::exact_answer;
 use crate::ray::{Hit, Ray, ulp_at};
@@ -68,5 +68,5 @@ pub(super) fn disagreement(context: &Context, ray: &Ray, hit: Option<Hit>) -> Ve
 pub(super) fn log_colour(x: f64, [least, most]: [f64; 2]) -> Vec3 {
     // 0 has no logarithm; it gets the colour of the lower end.
     let part = (x.max(least) / least).ln() / (most / least).ln();
-    ramp(part as f32)
+    error_ramp(part as f32)
 }

@@ -1,9 +1,8 @@
 //! Colour maps.
 
 use crate::sampler::mix;
-use glam::Vec3;
-
 use crate::srgb::from_display;
+use glam::Vec3;
 
 /// A colour for an id; consecutive ids get different colours.
 pub fn id_colour(id: u32) -> Vec3 {
@@ -30,12 +29,30 @@ pub fn ramp(part: f32) -> Vec3 {
         Vec3::new(1.0, 0.75, 0.20),
         Vec3::new(1.0, 1.0, 1.0),
     ];
-    let at = part.clamp(0.0, 1.0) * (STOPS.len() - 1) as f32;
-    let stop = (at as usize).min(STOPS.len() - 2);
-    from_display(STOPS[stop].lerp(STOPS[stop + 1], at - stop as f32))
+    between(&STOPS, part)
 }
 
-// Colours that differ from the ramp and from both backgrounds.
+/// The colour map for errors: blue at 0, then salmon and yellow, white at 1; clamped outside. On a dark
+/// background, every colour has a contrast of at least 4.5:1.
+pub fn error_ramp(part: f32) -> Vec3 {
+    const STOPS: [Vec3; 5] = [
+        Vec3::new(0.42, 0.56, 0.90),
+        Vec3::new(0.70, 0.55, 0.75),
+        Vec3::new(0.95, 0.55, 0.45),
+        Vec3::new(1.0, 0.78, 0.25),
+        Vec3::new(1.0, 1.0, 1.0),
+    ];
+    between(&STOPS, part)
+}
+
+/// The colour at a part of the way along stops in sRGB.
+fn between(stops: &[Vec3], part: f32) -> Vec3 {
+    let at = part.clamp(0.0, 1.0) * (stops.len() - 1) as f32;
+    let stop = (at as usize).min(stops.len() - 2);
+    from_display(stops[stop].lerp(stops[stop + 1], at - stop as f32))
+}
+
+// Colours that differ from the ramps, and from a dark background by a contrast of at least 4.5:1.
 
 /// The kernel misses, the other one hits.
 pub const MISSED: Vec3 = Vec3::new(0.0, 0.80, 0.90);

@@ -166,6 +166,12 @@ impl TriangleMesh {
         boxes.reduce(|| Aabb::EMPTY, Aabb::union)
     }
 
+    /// The box around all lines and points.
+    pub fn element_bounds(&self) -> Aabb {
+        let vertices = self.lines.as_flattened().iter().chain(&self.points);
+        Aabb::around(vertices.map(|&vertex| self.positions[vertex as usize]))
+    }
+
     /// The corners of every triangle.
     pub fn corner_list(&self) -> Vec<[Vec3; 3]> {
         let count = self.triangles.len() as u32;

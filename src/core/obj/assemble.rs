@@ -68,6 +68,7 @@ pub(super) fn assemble(
         mesh,
         warnings,
         vertex_count: facts.counts[0],
+        face_lines: facts.face_lines.clone(),
         files: Vec::new(),
     })
 }
@@ -93,6 +94,7 @@ impl Assembly<'_> {
         for element in 0..facts.element_count {
             if element % ELEMENTS_PER_CHECK == 0 {
                 progress.check()?;
+                progress.set_steps(element, facts.element_count);
             }
             let count = self.numbers.arities.get(element).map_or(3, |&n| n as usize);
             let corners = start..start + count;

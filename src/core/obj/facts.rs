@@ -263,8 +263,8 @@ pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &
 }
 
 /// Line numbers of statements, kept as runs of statements on consecutive lines.
-#[derive(Debug, Default)]
-pub(super) struct LineRuns {
+#[derive(Clone, Debug, Default)]
+pub struct LineRuns {
     runs: Vec<(usize, usize)>,
     count: usize,
     next_line: usize,
@@ -279,7 +279,8 @@ impl LineRuns {
         self.next_line = line + 1;
     }
 
-    pub(super) fn line(&self, statement: usize) -> usize {
+    /// The line of a statement, counted from 1; the statement is counted from 0. 0 if there are none.
+    pub fn line(&self, statement: usize) -> usize {
         let run = self.runs.partition_point(|(first, _)| *first <= statement);
         match run.checked_sub(1).map(|run| self.runs[run]) {
             Some((first, line)) => line + statement - first,

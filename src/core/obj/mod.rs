@@ -7,6 +7,7 @@
 //! | tobj reads their numbers, in f64 | here |
 //! | its lists of some ten thousand faces become one | `numbers` |
 //! | vertices are recentred, polygons cut, and triangles that no ray can hit dropped | `assemble`, `place`, `polygon`, `delaunay`, `outline` |
+//! | the line of a face is read again | `face_source` |
 //! | names become materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
 
 mod assemble;
@@ -14,6 +15,7 @@ mod copies;
 mod corner;
 mod delaunay;
 mod error;
+mod face_source;
 mod facts;
 mod fence;
 mod gzip;
@@ -35,6 +37,8 @@ mod stored_file;
 mod words;
 
 pub use error::{LoadError, Warning, shown};
+pub use face_source::{FaceCorner, FaceSource, face_source};
+pub use facts::LineRuns;
 pub use referenced_files::ReadFile;
 
 use crate::mesh::TriangleMesh;
@@ -102,6 +106,8 @@ pub struct Loaded {
     pub vertex_count: usize,
     /// No coordinate of the traced mesh lies farther from its decimal in the file than this.
     pub max_rounding: f64,
+    /// The line of each face, counted as [`TriangleMesh::face_of`] does.
+    pub face_lines: LineRuns,
     /// The libraries and textures that were looked for, whether or not they are there.
     pub files: Vec<PathBuf>,
 }

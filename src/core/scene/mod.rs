@@ -33,6 +33,8 @@ pub enum Shading {
 pub struct Scene {
     mesh: Arc<TriangleMesh>,
     bounds: Aabb,
+    /// The same with the lines and points of the file.
+    bounds_with_elements: Aabb,
     tree: Arc<Tree>,
     crease: Crease,
     /// Computed on first use.
@@ -58,8 +60,10 @@ impl Scene {
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
+        let bounds = mesh.bounds();
         Ok(Self {
-            bounds: mesh.bounds(),
+            bounds,
+            bounds_with_elements: bounds.union(mesh.element_bounds()),
             tree: Arc::new(Tree::build(&mesh, options, progress)?),
             mesh: Arc::new(mesh),
             crease: Crease::default(),
@@ -73,6 +77,7 @@ impl Scene {
         Self {
             mesh: Arc::clone(&self.mesh),
             bounds: self.bounds,
+            bounds_with_elements: self.bounds_with_elements,
             tree: Arc::clone(&self.tree),
             crease,
             vertex_normals: OnceLock::new(),
@@ -147,6 +152,11 @@ impl Scene {
         self.bounds
     }
 
+    /// The box around the triangles and the file's lines and points, in the mesh's coordinates.
+    pub fn bounds_with_elements(&self) -> Aabb {
+        self.bounds_with_elements
+    }
+
     /// Time it took to build the current tree.
     pub fn build_time(&self) -> Duration {
         self.tree.build_time()
@@ -184,6 +194,8 @@ pub struct LoadedScene {
     pub vertex_count: usize,
     /// No coordinate of the traced mesh lies farther from its decimal in the file than this.
     pub max_rounding: f64,
+    /// The line of each face in the file.
+    pub face_lines: obj::LineRuns,
     /// Material libraries and textures that the file names, whether or not they exist.
     pub files: Vec<PathBuf>,
     /// Time for reading, parsing and checking; the tree's time is [`Scene::build_time`].
@@ -242,6 +254,7 @@ impl LoadedScene {
             warnings,
             vertex_count: loaded.vertex_count,
             max_rounding: loaded.max_rounding,
+            face_lines: loaded.face_lines,
             files: loaded.files,
             load_time,
         })

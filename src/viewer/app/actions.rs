@@ -1,7 +1,9 @@
-//! What keys and buttons do.
+//! The actions of keys and buttons.
 
 use super::App;
 use crate::bindings::Action;
+use crate::flaw_place::FlawPlace;
+use hitscope_core::camera::UpAxis;
 use hitscope_core::mesh::Flaw;
 use std::path::Path;
 
@@ -20,16 +22,17 @@ impl App {
             // From its direction the mesh can't be seen: a flat one edge-on.
             Action::Frame if self.shows_nothing() => self.use_default_view(),
             Action::Frame => {
-                let bounds = self.document.loaded.scene.bounds();
+                let bounds = self.document.loaded.scene.bounds_with_elements();
                 self.turntable.frame(bounds, self.resolution);
             }
+            Action::SetUpAxis(axis) => self.settings.is_z_up = axis == UpAxis::Z,
             Action::ShowFlaw(flaw) => self.show_flaw(flaw),
             Action::ToggleWatch => self.settings.watches = !self.settings.watches,
             Action::LookFrom(view) => self.turntable.look_from(view),
             Action::ToggleOrthographic => {
                 self.turntable.is_orthographic = !self.turntable.is_orthographic;
             }
-            Action::ToggleTurning => self.is_turning = !self.is_turning,
+            Action::ToggleRotation => self.is_rotating = !self.is_rotating,
             Action::ToggleWireframe => {
                 self.settings.shows_wireframe = !self.settings.shows_wireframe;
             }
@@ -43,18 +46,19 @@ impl App {
         ctx.request_repaint();
     }
 
-    /// Marks flaws and shows them, with what surrounds them.
-    fn show_flaw(&mut self, flaw: Option<Flaw>) {
-        self.flaw = flaw;
-        if let (Some(flaw), Some(findings)) = (flaw, self.document.known_findings()) {
+    /// Marks the flaws of a kind and frames the triangles around one of them.
+    fn show_flaw(&mut self, shown: Option<(Flaw, usize)>) {
+        let findings = self.document.known_findings();
+        self.flaw = shown.zip(findings).and_then(|((flaw, index), findings)| {
             let scene = &self.document.loaded.scene;
-            let around = findings.health.bounds(flaw);
-            let bounds = around.unwrap_or(scene.bounds());
-            self.turntable.frame(bounds, self.resolution);
+            FlawPlace::find(scene.mesh(), &findings.health, flaw, index)
+        });
+        if let Some(place) = &self.flaw {
+            self.turntable.frame(place.bounds, self.resolution);
         }
     }
 
-    /// Ends a load, or closes the topmost thing that can be closed.
+    /// Cancels loading, or closes the topmost thing that can be closed.
     fn dismiss(&mut self) {
         if let Some(loading) = &self.loading {
             loading.cancel();
@@ -64,7 +68,8 @@ impl App {
             || self.open_dialog.dismiss()
             || self.notice.take().is_some();
         if !is_closed && self.flaw.take().is_none() {
-            (self.pick, self.picking) = (None, None);
+            (self.pick, self.picking, self.face_lookup) = (None, None, None);
+            self.clicks.pending = None;
         }
     }
 }

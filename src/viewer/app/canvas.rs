@@ -1,27 +1,23 @@
-//! The picture, what lies over it, and the pointer on it.
+//! The picture and what is drawn over it.
 
-use super::{App, Pick};
+use super::App;
 use crate::overlay::Options;
 use crate::overlay::wireframe::WireframeEdges;
-use crate::settings::Tab;
-use crate::task::Task;
+use crate::theme;
 use crate::tracer::Request;
-use egui::{Color32, PointerButton, Pos2, Rect, Response, Sense};
-use glam::{DVec2, DVec3, UVec2, Vec3};
+use egui::{Color32, Pos2, Rect, Sense};
+use glam::{DVec2, UVec2};
 use hitscope_core::Camera;
-use hitscope_core::camera::Turntable;
 use hitscope_core::integrator::Context;
 use hitscope_core::srgb::from_display;
-use hitscope_lab::commands::DARK_BACKGROUND;
-use hitscope_lab::inspection::Inspection;
 use std::sync::Arc;
 
-/// Where the picture is: whole physical pixels, so that each of its pixels is one of the screen's.
+/// Place of the picture in the window: whole physical pixels, so that each of its pixels is one of the screen's.
 #[derive(Clone, Copy)]
-struct Canvas {
+pub(super) struct Canvas {
     rect: Rect,
-    resolution: UVec2,
-    pixels_per_point: f32,
+    pub resolution: UVec2,
+    pub pixels_per_point: f32,
 }
 
 impl Canvas {
@@ -59,15 +55,18 @@ impl Canvas {
         ]
     }
 
-    /// In physical pixels from the picture's top left corner.
-    fn pixel_of(&self, pos: Pos2) -> DVec2 {
-        let offset = (pos - self.rect.min) * self.pixels_per_point;
-        DVec2::new(offset.x.into(), offset.y.into())
+    /// A position on the screen, in pixels of a camera's picture from its top left corner. That picture is
+    /// stretched over the canvas while its size differs.
+    pub fn pixel_of(&self, pos: Pos2, camera: &Camera) -> DVec2 {
+        let part = (pos - self.rect.min) / self.rect.size();
+        DVec2::new(part.x.into(), part.y.into()) * camera.resolution().as_dvec2()
     }
 
-    fn pos_of(&self, pixel: DVec2) -> Pos2 {
-        let offset = egui::vec2(pixel.x as f32, pixel.y as f32) / self.pixels_per_point;
-        self.rect.min + offset
+    /// The position on the screen of a pixel of a camera's picture.
+    pub fn pos_of(&self, pixel: DVec2, camera: &Camera) -> Pos2 {
+        let part = pixel / camera.resolution().as_dvec2();
+        self.rect
+            .lerp_inside(egui::vec2(part.x as f32, part.y as f32))
     }
 }
 
@@ -87,35 +86,32 @@ impl App {
             self.canvas_rect = canvas.rect;
             self.turntable.up_axis = self.settings.up_axis();
             if std::mem::take(&mut self.is_unframed) {
-                let bounds = self.document.loaded.scene.bounds();
+                let bounds = self.document.loaded.scene.bounds_with_elements();
                 self.turntable.frame(bounds, canvas.resolution);
             }
             self.pointer(ui, &response, canvas);
-            self.turn(ui);
+            self.rotate(ui);
             self.paint(ui, canvas, response.dragged());
             self.tracer
                 .request(self.wanted(ui.ctx(), canvas.resolution));
         });
     }
 
-    /// Moves the camera on its way round the mesh.
-    fn turn(&mut self, ui: &egui::Ui) {
-        /// Once round in twelve seconds, however long a frame takes, unless that is very long.
+    /// Rotates the camera about the mesh.
+    fn rotate(&mut self, ui: &egui::Ui) {
+        /// One turn in twelve seconds; a long frame turns no further than one of [`LONGEST_S`].
         const RADIANS_PER_S: f64 = std::f64::consts::TAU / 12.0;
         const LONGEST_S: f64 = 0.2;
-        if self.is_turning {
+        if self.is_rotating {
             let secs = f64::from(ui.input(|input| input.unstable_dt)).min(LONGEST_S);
             self.turntable.turn(secs * RADIANS_PER_S);
             ui.ctx().request_repaint();
         }
     }
 
-    /// What is to be traced for the window as it is.
+    /// The picture to be traced.
     fn wanted(&self, ctx: &egui::Context, resolution: UVec2) -> Request {
-        let background = match ctx.theme() {
-            egui::Theme::Dark => DARK_BACKGROUND,
-            egui::Theme::Light => Vec3::new(0.90, 0.91, 0.92),
-        };
+        let background = theme::background(self.settings.view(), ctx.theme());
         Request {
             context: Context {
                 scene: Arc::clone(&self.document.loaded.scene),
@@ -125,116 +121,18 @@ impl App {
                 shading: self.settings.shading(),
                 background: from_display(background),
             },
-            integrator: self.settings.integrator(),
+            integrator: self.settings.view(),
             samples: self.settings.samples,
             shows_last_tree: self.shows_last_tree(),
         }
     }
 
-    /// Drags, wheel and clicks.
-    fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
-        let drag = response.drag_delta() * canvas.pixels_per_point;
-        let drag = DVec2::new(drag.x.into(), drag.y.into());
-        let is_shift = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Primary) && !is_shift {
-            self.turntable.orbit(drag, canvas.resolution);
-        } else if response.dragged() {
-            self.turntable.pan(drag, canvas.resolution);
-        }
-
-        if let Some(pos) = response.hover_pos() {
-            /// A notch of a wheel, some 50 points, zooms by a fifth.
-            const POINTS_PER_E: f32 = 220.0;
-            let (scroll, pinch) =
-                ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-            let factor = (-(scroll.y + scroll.x) / POINTS_PER_E).exp() / pinch;
-            if factor != 1.0 {
-                let at = canvas.pixel_of(pos);
-                let anchor = self
-                    .surface_at(at)
-                    .unwrap_or_else(|| self.turntable.on_pivot_plane(at, canvas.resolution));
-                self.turntable.zoom(factor.into(), anchor);
-            }
-        }
-
-        let Some(pos) = response.interact_pointer_pos() else {
-            return;
-        };
-        if response.double_clicked() {
-            if let Some(point) = self.surface_at(canvas.pixel_of(pos)) {
-                self.turntable.set_pivot(point);
-            }
-        } else if response.clicked() {
-            self.inspect(canvas.pixel_of(pos), ui.ctx());
-        }
-    }
-
-    /// The place on the mesh under a pixel, in the scene's coordinates.
-    fn surface_at(&self, at_px: DVec2) -> Option<DVec3> {
-        let ray = self.turntable.camera(self.resolution).ray_through(at_px);
-        let hit = self.document.intersector().closest_hit(&ray)?;
-        Some(ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3())
-    }
-
-    fn inspect(&mut self, at_px: DVec2, ctx: &egui::Context) {
-        let pixel = at_px.max(DVec2::ZERO).as_uvec2().min(self.resolution - 1);
-        self.start_picking(self.turntable, self.resolution, pixel, ctx);
-        self.settings.tab = Tab::Inspect;
-    }
-
-    /// Asks what a picked pixel's ray meets now.
-    pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let pixel = UVec2::from_array(pick.inspection.pixel);
-        self.start_picking(pick.turntable, pick.resolution, pixel, ctx);
-    }
-
-    fn start_picking(
-        &mut self,
-        turntable: Turntable,
-        resolution: UVec2,
-        pixel: UVec2,
-        ctx: &egui::Context,
-    ) {
-        let scene = Arc::clone(&self.document.loaded.scene);
-        let intersector = Arc::clone(self.document.intersector());
-        let shading = self.settings.shading();
-        // Every kernel on every triangle that the ray comes near: a hostile mesh has a million of them.
-        let inspect = move || {
-            let camera = turntable.camera(resolution);
-            let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
-            let origin = scene.mesh().origin;
-            let hit = inspection.hit.as_ref();
-            let point = hit.map(|hit| DVec3::from_array(hit.position) - origin);
-            Pick {
-                inspection,
-                turntable,
-                resolution,
-                point,
-            }
-        };
-        self.picking = Some(Task::spawn("inspect", ctx, inspect));
-    }
-
-    /// Takes over what is known of the pixel that was clicked last.
-    pub(super) fn poll_picking(&mut self) {
-        let result = match self.picking.as_ref().map(Task::poll) {
-            None | Some(Ok(None)) => return,
-            Some(Ok(Some(pick))) => Ok(pick),
-            Some(Err(broken)) => Err(broken),
-        };
-        self.picking = None;
-        match result {
-            Ok(pick) => self.pick = Some(pick),
-            Err(broken) => self.error(broken),
-        }
-    }
-
-    /// Traced picture, overlay, marker.
+    /// Draws traced picture, overlay and marks.
     fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
         if let Some((film, changed)) = self.tracer.take_changes() {
             self.picture.upload(film, changed);
         }
-        // Everything over the picture is for the scene and the camera that it was taken with.
+        // Overlay and marks match the scene and the camera of the picture on the screen.
         let Some((scene, camera)) = self.tracer.shown().cloned() else {
             return;
         };
@@ -255,6 +153,7 @@ impl App {
             Ok(texture) => (texture, None),
             Err(error) => (None, Some(error)),
         };
+        self.on_screen = Some((scene, camera));
         let painter = ui.painter_at(canvas.rect);
         painter.extend(self.picture.shape(canvas.rect, overlay));
         if let Some(error) = error {
@@ -262,7 +161,15 @@ impl App {
             self.settings.shows_normals = false;
             self.error(error);
         }
-        self.marker(&painter, &camera, canvas);
+        let marks = [
+            (self.pick.as_ref().and_then(|pick| pick.point), theme::PICK),
+            (self.flaw.as_ref().map(|place| place.point), theme::FLAW),
+        ];
+        for (point, colour) in marks {
+            if let Some(pixel) = point.and_then(|point| camera.pixel_of(point)) {
+                cross_hair(&painter, canvas.pos_of(pixel, &camera), colour);
+            }
+        }
     }
 
     fn overlay_options(&self, pixels_per_point: f32) -> Options {
@@ -282,25 +189,20 @@ impl App {
             normals: settings.shows_normals.then_some(settings.shading()),
             normal_length: settings.normal_length,
             elements: self.document.loaded.scene.mesh().has_elements(),
-            flaw: self.flaw,
+            flaw: self.flaw.as_ref().map(|place| place.flaw),
             picked: hit.map(|hit| hit.triangle),
             line_width_px: pixels_per_point.max(1.0),
         }
     }
+}
 
-    /// A cross hair that stays at the picked point while the camera moves.
-    fn marker(&self, painter: &egui::Painter, camera: &Camera, canvas: Canvas) {
-        let point = self.pick.as_ref().and_then(|pick| pick.point);
-        let Some(pixel) = point.and_then(|point| camera.pixel_of(point)) else {
-            return;
-        };
-        let at = canvas.pos_of(pixel);
-        for (colour, width) in [(Color32::BLACK, 3.0), (Color32::WHITE, 1.3)] {
-            let stroke = egui::Stroke::new(width, colour);
-            painter.circle_stroke(at, 7.0, stroke);
-            for dir in [egui::Vec2::X, egui::Vec2::Y, -egui::Vec2::X, -egui::Vec2::Y] {
-                painter.line_segment([at + 4.0 * dir, at + 11.0 * dir], stroke);
-            }
+/// A mark at a point of the mesh, which follows it while the camera moves.
+fn cross_hair(painter: &egui::Painter, at: Pos2, colour: Color32) {
+    for (colour, width) in [(Color32::BLACK, 3.0), (colour, 1.3)] {
+        let stroke = egui::Stroke::new(width, colour);
+        painter.circle_stroke(at, 7.0, stroke);
+        for dir in [egui::Vec2::X, egui::Vec2::Y, -egui::Vec2::X, -egui::Vec2::Y] {
+            painter.line_segment([at + 4.0 * dir, at + 11.0 * dir], stroke);
         }
     }
 }
@@ -308,6 +210,8 @@ impl App {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hitscope_core::Aabb;
+    use hitscope_core::camera::Turntable;
 
     #[test]
     fn the_canvas_lies_on_whole_pixels_at_any_scale() {
@@ -317,8 +221,11 @@ mod tests {
             let corner = canvas.rect.max.to_vec2() * scale;
             assert!((corner - corner.round()).length() < 1e-3, "{scale}");
             assert!(available.expand(1e-3).contains_rect(canvas.rect));
+            let camera =
+                Turntable::framing(Aabb::EMPTY, canvas.resolution).camera(canvas.resolution);
             let middle = DVec2::new(10.5, 20.5);
-            assert!((canvas.pixel_of(canvas.pos_of(middle)) - middle).length() < 1e-3);
+            let pos = canvas.pos_of(middle, &camera);
+            assert!((canvas.pixel_of(pos, &camera) - middle).length() < 1e-3);
         }
     }
 

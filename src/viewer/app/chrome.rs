@@ -1,7 +1,8 @@
-//! What is around the picture: tool bar, side panel, status line, messages, help.
+//! The parts of the window around the picture: tool bar, side panel, status line, messages, help.
 
 use super::App;
 use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
+use crate::numbers::counted;
 use crate::panels;
 use crate::settings::{PANEL_WIDTHS, Tab};
 use crate::trade::Trade;
@@ -14,23 +15,15 @@ impl App {
         let frame =
             egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 4));
         egui::Panel::top("toolbar").frame(frame).show(ui, |ui| {
-            ui.horizontal(|ui| {
+            // A narrow window has several rows.
+            ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing.x = 4.0;
                 self.tools_ui(ui, actions);
-                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    let mut shows_panel = self.settings.shows_panel;
-                    let panel = ui.toggle_value(&mut shows_panel, "Panel");
-                    if panel.on_hover_text("Side panel (I)").clicked() {
-                        actions.push(Action::TogglePanel);
-                    }
-                    if ui
-                        .button("Help")
-                        .on_hover_text("Keys and pointer (H)")
-                        .clicked()
-                    {
-                        actions.push(Action::ToggleHelp);
-                    }
-                });
+                self.switches_ui(ui, actions);
+                let help = ui.button("Help").on_hover_text("Show keys (H)");
+                if help.clicked() {
+                    actions.push(Action::ToggleHelp);
+                }
             });
         });
     }
@@ -51,14 +44,14 @@ impl App {
             actions.push(Action::Frame);
         }
         self.view_menu_ui(ui);
-        self.switches_ui(ui, actions);
     }
 
     fn view_menu_ui(&mut self, ui: &mut egui::Ui) {
-        let view = self.settings.integrator();
+        let view = self.settings.view();
         egui::ComboBox::from_id_salt("view")
             .selected_text(view.title)
             .width(92.0)
+            .height(400.0)
             .show_ui(ui, |ui| {
                 for choice in INTEGRATORS {
                     let name = choice.name.to_owned();
@@ -67,49 +60,74 @@ impl App {
                 }
             })
             .response
-            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "Colours"));
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::ComboBox, true, "View"));
     }
 
     fn switches_ui(&self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let settings = &self.settings;
+        // Label, state, action, hint, whether it can be pressed.
         let switches = [
             (
                 "Smooth",
                 settings.is_smooth,
                 Action::ToggleSmooth,
-                "Flat or smooth shading (S)",
+                "Smooth shading (S)",
+                true,
             ),
             (
                 "Wire",
                 settings.shows_wireframe,
                 Action::ToggleWireframe,
                 "Wireframe (W)",
+                true,
             ),
             (
                 "Normals",
                 settings.shows_normals,
                 Action::ToggleNormals,
                 "Normals (N)",
+                true,
             ),
             (
                 "Ortho",
                 self.turntable.is_orthographic,
                 Action::ToggleOrthographic,
-                "Perspective or parallel rays (5)",
+                "Orthographic projection (5)",
+                true,
+            ),
+            (
+                "Rotate",
+                self.is_rotating,
+                Action::ToggleRotation,
+                "Auto-rotation (T)",
+                true,
+            ),
+            (
+                "Auto-reload",
+                settings.watches,
+                Action::ToggleWatch,
+                "Reload the file when it changes (Ctrl+R)",
+                self.document.path.is_some(),
             ),
             (
                 "Pause",
                 self.tracer.is_paused(),
                 Action::TogglePause,
-                "Hold refinement (P)",
+                "Pause refinement (P)",
+                true,
+            ),
+            (
+                "Panel",
+                settings.shows_panel,
+                Action::TogglePanel,
+                "Side panel (I)",
+                true,
             ),
         ];
-        for (label, mut is_on, action, hint) in switches {
-            if ui
-                .toggle_value(&mut is_on, label)
-                .on_hover_text(hint)
-                .clicked()
-            {
+        for (label, is_on, action, hint, is_enabled) in switches {
+            let button = egui::Button::selectable(is_on, label);
+            let response = ui.add_enabled(is_enabled, button);
+            if response.on_hover_text(hint).clicked() {
                 actions.push(action);
             }
         }
@@ -125,7 +143,7 @@ impl App {
                 ui.horizontal(|ui| {
                     for (tab, label) in [
                         (Tab::Inspect, "Inspect"),
-                        (Tab::View, "View"),
+                        (Tab::Display, "Display"),
                         (Tab::Mesh, "Mesh"),
                         (Tab::Trade, "Trade"),
                     ] {
@@ -140,13 +158,12 @@ impl App {
                             ui.label("No file is open.");
                         }
                         Tab::Inspect => {
-                            if self.picking.is_some() {
-                                ui.spinner();
-                            }
-                            let inspection = self.pick.as_ref().map(|pick| &pick.inspection);
-                            panels::inspect::inspect_ui(ui, inspection);
+                            let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
+                            let pick = self.pick.as_ref();
+                            let view = pick.map(|pick| pick.view(&self.document));
+                            panels::inspect::inspect_ui(ui, view, is_busy);
                         }
-                        Tab::View => {
+                        Tab::Display => {
                             panels::view::view_ui(
                                 ui,
                                 &mut self.settings,
@@ -156,7 +173,13 @@ impl App {
                         }
                         Tab::Mesh => {
                             let (document, settings) = (&mut self.document, &mut self.settings);
-                            panels::mesh::mesh_ui(ui, document, settings, self.flaw, actions);
+                            panels::mesh::mesh_ui(
+                                ui,
+                                document,
+                                settings,
+                                self.flaw.as_ref(),
+                                actions,
+                            );
                         }
                         Tab::Trade => self.trade_ui(ui),
                     });
@@ -172,31 +195,44 @@ impl App {
         }
     }
 
-    /// Measures the scene when the tab is first shown, and when the user asks for it again.
+    /// Measures the scene when the tab is first shown; after that, only when the user asks for it.
     fn trade_ui(&mut self, ui: &mut egui::Ui) {
-        let scene = &self.document.loaded.scene;
-        if let Some(trade) = &mut self.trade {
-            trade.poll();
-            if !panels::trade::trade_ui(ui, trade, &mut self.settings) {
-                return;
+        let is_wanted = match &mut self.trade {
+            Some(trade) => {
+                trade.poll();
+                panels::trade::trade_ui(ui, trade, &mut self.settings)
             }
-        }
-        // As it is seen, and by the tree that stays.
-        if self.resolution != UVec2::ZERO && !self.is_unframed && self.document.has_last_tree() {
+            None if self.has_measured => panels::trade::measure_ui(ui),
+            None => true,
+        };
+        // From the camera of the picture, and with the final tree.
+        let is_ready = self.resolution != UVec2::ZERO && !self.is_unframed;
+        if is_wanted && is_ready && self.document.has_last_tree() {
             let camera = self.turntable.camera(self.resolution);
-            let axis = self
-                .trade
-                .take()
-                .map(|trade| trade.axis)
-                .unwrap_or_default();
+            let axis = self.trade.take().map(|trade| trade.axis);
+            let scene = &self.document.loaded.scene;
+            let axis = axis.unwrap_or_default();
             self.trade = Some(Trade::start(scene, camera, axis, ui.ctx()));
+            self.has_measured = true;
         }
     }
 
     pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {
+        let parts = self.status_parts();
+        let frame =
+            egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
+        egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
+            let text = RichText::new(parts.join("  ·  ")).monospace().size(11.0);
+            ui.add(egui::Label::new(text).truncate());
+        });
+    }
+
+    /// The most important first: a narrow window cuts off the rest.
+    fn status_parts(&self) -> Vec<String> {
         let status = self.tracer.status();
         let scene = &self.document.loaded.scene;
-        let paused = if self.tracer.is_paused() {
+        let ms = |time: std::time::Duration| time.as_secs_f64() * 1e3;
+        let pause = if self.tracer.is_paused() {
             ", paused"
         } else {
             ""
@@ -206,38 +242,40 @@ impl App {
         } else {
             "quick tree"
         };
+        let kernel = self.document.intersector().kernel().short_name();
         let mut parts = vec![
-            format!("pass {} of {}{paused}", status.passes, status.pass_count),
-            format!("{} of {} samples", status.samples, self.settings.samples),
+            format!("{kernel} kernel"),
+            counted(scene.mesh().triangles.len(), "triangle"),
+            format!(
+                "{} of {}{pause}",
+                status.samples,
+                counted(self.settings.samples as usize, "sample")
+            ),
+            format!("pass {} of {}", status.passes, status.pass_count),
             format!("{:.1} Mrays/s", status.rays_per_s / 1e6),
-            format!("{} triangles", grouped(scene.mesh().triangles.len())),
-            format!("{tree} {:.0} ms", scene.build_time().as_secs_f64() * 1e3),
             format!("{:.1} s", status.lasted.as_secs_f64()),
+            format!("{tree} {:.0} ms", ms(scene.build_time())),
         ];
-        // Both as the median, and what 99 of 100 don't exceed.
+        // Medians and 99th percentiles.
         for (name, times) in [
             ("frame", status.frame_interval),
             ("UI", self.ui_times.median_and_99th()),
         ] {
-            if let Some([median, most]) = times.map(|times| times.map(|t| t.as_secs_f64() * 1e3)) {
-                parts.push(format!("{name} {median:.0}, 99 % {most:.0} ms"));
+            if let Some([median, p99]) = times.map(|times| times.map(ms)) {
+                parts.push(format!("{name} {median:.0} ms, p99 {p99:.0} ms"));
             }
         }
         if self.tracer.non_finite() > 0 {
-            parts.push(format!("{} samples not finite", self.tracer.non_finite()));
+            let count = self.tracer.non_finite() as usize;
+            parts.insert(2, format!("{} not finite", counted(count, "sample")));
         }
         if self.document.is_blank {
             parts = vec!["no file is open".to_owned()];
         }
-        let frame =
-            egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
-        egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
-            let text = RichText::new(parts.join("  ·  ")).monospace().size(11.0);
-            ui.add(egui::Label::new(text).truncate());
-        });
+        parts
     }
 
-    /// What floats over the picture.
+    /// The windows over the picture.
     pub(super) fn windows_ui(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
         if let Some(path) = self.open_dialog.field_ui(ctx) {
             self.load(path, ctx);
@@ -262,7 +300,7 @@ impl App {
             });
     }
 
-    /// What is being loaded, and what the user must know.
+    /// Loading progress and the notice.
     fn notices_ui(&mut self, ctx: &egui::Context) {
         // Where nothing is open, progress stands in the middle of the picture.
         let loading = self.loading.as_ref().filter(|_| !self.document.is_blank);
@@ -345,30 +383,5 @@ impl App {
         if response.inner || response.backdrop_response.clicked() {
             actions.push(Action::ToggleHelp);
         }
-    }
-}
-
-/// `1234567` as `1 234 567`, with narrow spaces.
-pub fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn digits_are_grouped_by_three() {
-        assert_eq!(grouped(7), "7");
-        assert_eq!(grouped(69451), "69\u{202f}451");
-        assert_eq!(grouped(1_111_216), "1\u{202f}111\u{202f}216");
     }
 }

@@ -58,15 +58,16 @@ impl App {
         self.watch = None;
         self.document.use_crease(self.settings.crease());
         let pick = self.pick.take();
-        (self.picking, self.flaw) = (None, None);
+        (self.picking, self.face_lookup, self.flaw) = (None, None, None);
+        self.clicks.pending = None;
         self.trade = None;
         if is_same_file {
             self.turntable
-                .set_scene(self.document.loaded.scene.bounds());
+                .set_scene(self.document.loaded.scene.bounds_with_elements());
             // The camera stays where it is in the file.
             self.turntable.pivot += shift;
             if let Some(mut pick) = pick {
-                pick.turntable.pivot += shift;
+                pick.camera = pick.camera.moved(shift);
                 self.inspect_again(&pick, ctx);
             }
         } else {

@@ -4,7 +4,8 @@
 //! |---|---|
 //! | this one | state, and the order of a frame |
 //! | `actions` | effects of keys and buttons |
-//! | `canvas` | the picture, and the pointer on it |
+//! | `canvas` | the picture, and what is drawn over it |
+//! | `pointer`, `pick` | drags, wheel and clicks on it; the picked pixel |
 //! | `files` | loading and reloading |
 //! | `hints` | messages in the middle of an empty picture |
 //! | `chrome` | tool bar, status line, messages, help |
@@ -14,10 +15,12 @@ mod canvas;
 mod chrome;
 mod files;
 mod hints;
-
-pub use chrome::grouped;
+mod pick;
+mod pointer;
 
 use crate::document::Document;
+use crate::face_lookup::FaceLookup;
+use crate::flaw_place::FlawPlace;
 use crate::gpu::picture::Picture;
 use crate::opening::{Loading, OpenDialog};
 use crate::overlay::OverlayLayer;
@@ -32,13 +35,14 @@ use crate::watch::Watch;
 use crate::window::FitToScreen;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
-use glam::{DVec3, UVec2};
+use glam::UVec2;
 use hitscope_core::camera::Turntable;
-use hitscope_core::mesh::Flaw;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
-use hitscope_core::{Film, Scene};
+use hitscope_core::{Camera, Film, Scene};
 use hitscope_lab::commands::default_thread_count;
 use hitscope_lab::inspection::Inspection;
+use pick::Pick;
+use pointer::Clicks;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -76,16 +80,6 @@ impl Default for StartOptions {
 #[error("the window needs wgpu, but eframe runs without it")]
 pub struct NoWgpu;
 
-/// A clicked pixel.
-struct Pick {
-    inspection: Inspection,
-    /// The camera of the click, and the picture's size.
-    turntable: Turntable,
-    resolution: UVec2,
-    /// Where the ray hit, in the scene's coordinates.
-    point: Option<DVec3>,
-}
-
 /// A message that stays until the user closes it.
 struct Notice {
     text: String,
@@ -104,17 +98,24 @@ pub struct App {
     tracer: Tracer,
     picture: Picture,
     overlay: OverlayLayer,
+    /// Scene and camera of the picture on the screen.
+    on_screen: Option<(Arc<Scene>, Camera)>,
+    clicks: Clicks,
     pick: Option<Pick>,
-    /// The next one, while it is being inspected.
+    /// The next pick, while it is inspected.
     picking: Option<Task<Pick>>,
-    /// The kind of flaw that is marked.
-    flaw: Option<Flaw>,
-    /// Made when its tab is first shown.
+    /// The face of the pick, while it is read from the file.
+    face_lookup: Option<FaceLookup>,
+    /// The flaw that is shown; all of its kind are marked.
+    flaw: Option<FlawPlace>,
+    /// The measurement of this scene, if there is one.
     trade: Option<Trade>,
+    /// Whether a scene was measured since the start.
+    has_measured: bool,
     notice: Option<Notice>,
     shows_help: bool,
     /// Whether the camera rotates around the mesh.
-    is_turning: bool,
+    is_rotating: bool,
     /// The picture as it was last laid out: its place in points, and its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
@@ -140,6 +141,7 @@ impl App {
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Result<Self, NoWgpu> {
         let render_state = cc.wgpu_render_state.clone().ok_or(NoWgpu)?;
         let settings = start.settings;
+        crate::theme::apply(&cc.egui_ctx);
         cc.egui_ctx.set_theme(settings.theme);
         let document = match start.file {
             Some(_) => Document::blank(settings.kernel()),
@@ -159,13 +161,17 @@ impl App {
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
             picture: Picture::new(&render_state),
             overlay: OverlayLayer::new(render_state),
+            on_screen: None,
+            clicks: Clicks::default(),
             pick: None,
             picking: None,
+            face_lookup: None,
             flaw: None,
             trade: None,
+            has_measured: false,
             notice: None,
             shows_help: false,
-            is_turning: false,
+            is_rotating: false,
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
             is_unframed: true,
@@ -197,7 +203,7 @@ impl App {
 
     /// Whether the view shows the cost of rays in the final tree.
     fn shows_last_tree(&self) -> bool {
-        self.settings.integrator().depends_on_tree() && self.document.has_last_tree()
+        self.settings.view().depends_on_tree() && self.document.has_last_tree()
     }
 
     /// The scene that the picture is of.
@@ -206,7 +212,12 @@ impl App {
         Some(&posted.context.scene)
     }
 
-    /// Whether the user paused refinement.
+    /// Whether the camera rotates about the mesh by itself.
+    pub fn is_rotating(&self) -> bool {
+        self.is_rotating
+    }
+
+    /// Whether the user has paused refinement.
     pub fn is_paused(&self) -> bool {
         self.tracer.is_paused()
     }
@@ -226,17 +237,17 @@ impl App {
         &self.turntable
     }
 
-    /// The inspection of the clicked pixel.
+    /// The inspection of the picked pixel.
     pub fn inspection(&self) -> Option<&Inspection> {
         self.pick.as_ref().map(|pick| &pick.inspection)
     }
 
-    /// The kind of flaw that is marked.
-    pub fn flaw(&self) -> Option<Flaw> {
-        self.flaw
+    /// The flaw that is shown; all of its kind are marked.
+    pub fn flaw(&self) -> Option<&FlawPlace> {
+        self.flaw.as_ref()
     }
 
-    /// The measurements of the Trade tab, once it was shown.
+    /// The measurement of this scene, if there is one.
     pub fn trade(&self) -> Option<&Trade> {
         self.trade.as_ref()
     }
@@ -289,10 +300,11 @@ impl eframe::App for App {
         self.poll_loading(ctx);
         self.poll_watch(ctx);
         self.poll_gpu_errors();
-        self.poll_picking();
+        self.poll_picking(ctx);
         if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
             self.error(broken);
-            self.settings.kernel = self.document.intersector().kernel().name.to_owned();
+            let packed = self.document.intersector().kernel().name;
+            self.settings.use_for_session(packed);
         }
         // Not while a slider is dragged: each step would compute all normals.
         if !ctx.egui_is_using_pointer() {
@@ -306,6 +318,7 @@ impl eframe::App for App {
         if let Err(broken) = self.document.improve(ctx) {
             self.error(broken);
         }
+        self.refresh_pick(ctx);
         if let Some(panic) = self.tracer.collect(ctx).first() {
             self.error(panic);
         }

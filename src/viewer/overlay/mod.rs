@@ -223,7 +223,7 @@ impl OverlayLayer {
         if let (Some(flaw), Some(health)) = (options.flaw, health) {
             is_new |= self.prepare_flaws(scene, health, flaw, options, ctx)?;
         }
-        let view = ViewUniform::new(camera, &scene.bounds());
+        let view = ViewUniform::new(camera, &scene.bounds_with_elements());
         if is_new || self.drawn != Some((view, *options)) {
             self.redraw(&view, options);
             self.drawn = Some((view, *options));

@@ -1,117 +1,205 @@
-//! The picked pixel: what its ray hit, and what every kernel says of it.
+//! The Inspect tab: the hit of the picked pixel's ray, and every kernel's answer.
 
-use super::{ROW_HEIGHT, lines, row_ui, section_ui};
-use egui::RichText;
+use super::table::{dash, table_ui};
+use super::{kernel_name, lines, row_ui, section_ui};
+use crate::face_lookup::FaceInFile;
+use crate::numbers::{counted, number, significant};
+use egui::{CollapsingHeader, RichText};
 use hitscope_lab::inspection::{ExactReport, HitReport, Inspection, KernelRow};
 
-/// What is known of the clicked pixel, or how to get to know something.
-pub fn inspect_ui(ui: &mut egui::Ui, inspection: Option<&Inspection>) {
-    let Some(inspection) = inspection else {
-        ui.label("Click a pixel to see what its ray hits.");
+/// What the tab shows of a pick.
+pub struct PickView<'p> {
+    /// The ray, its hit and the kernels' answers.
+    pub inspection: &'p Inspection,
+    /// Name of the kernel, as menus have it.
+    pub kernel: &'p str,
+    /// The face's line in the file, counted from 1; `None` for a miss.
+    pub line: Option<usize>,
+    /// The face in the file, once it has been read.
+    pub face: Option<&'p FaceInFile>,
+    /// Colour of the hit point, if the file has colours.
+    pub colour: Option<[f32; 3]>,
+}
+
+/// Shows a pick, or how to pick; `is_busy` while a pixel is being inspected.
+pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) {
+    let Some(pick) = pick else {
+        if is_busy {
+            ui.spinner();
+        } else {
+            ui.label("Click a pixel to see what its ray hits.");
+        }
         return;
     };
+    let inspection = pick.inspection;
     ui.horizontal(|ui| {
         let [x, y] = inspection.pixel;
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong());
-        if ui.button("Copy as JSON").clicked() {
+        let copy = ui.button("Copy as JSON");
+        if copy
+            .on_hover_text("As `hitscope inspect --json` prints it; indices are counted from 0")
+            .clicked()
+        {
             ui.ctx().copy_text(inspection.to_json());
+        }
+        if is_busy {
+            ui.spinner();
         }
     });
     match &inspection.hit {
-        Some(hit) => hit_ui(ui, inspection.kernel, hit),
-        None => _ = ui.label(format!("{}: no hit", inspection.kernel)),
+        Some(hit) => {
+            hit_ui(ui, &pick, hit);
+            element_ui(ui, &pick, hit);
+        }
+        None => _ = ui.label(format!("No hit ({})", pick.kernel)),
     }
-    kernels_ui(ui, inspection.exact.as_ref(), &inspection.kernels);
+    kernels_ui(ui, inspection);
     if let Some(hit) = &inspection.hit {
-        surface_ui(ui, hit);
+        section_ui(ui, "Normals", |ui| {
+            row_ui(ui, "geometric", lines(hit.geometric_normal));
+            row_ui(ui, "shading", lines(hit.shading_normal));
+        });
     }
-    section_ui(ui, "Cost and ray", |ui| {
+    section_ui(ui, "Ray", |ui| {
         let cost = inspection.cost;
-        row_ui(
-            ui,
-            "tested",
-            format!("{} boxes\n{} triangles", cost.boxes, cost.triangles),
-        );
+        let boxes = if cost.boxes == 1 { "box" } else { "boxes" };
+        let triangles = counted(cost.triangles as usize, "triangle");
+        row_ui(ui, "tested", format!("{} {boxes}\n{triangles}", cost.boxes));
         row_ui(ui, "origin", lines(inspection.ray.origin));
         row_ui(ui, "direction", lines(inspection.ray.direction));
     });
 }
 
-fn hit_ui(ui: &mut egui::Ui, kernel: &str, hit: &HitReport) {
-    section_ui(ui, &format!("Hit ({kernel})"), |ui| {
-        row_ui(ui, "t", hit.t);
+fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
+    section_ui(ui, &format!("Hit ({})", pick.kernel), |ui| {
+        row_ui(ui, "t", number(hit.t));
+        row_ui(ui, "position", lines(hit.position));
+        row_ui(ui, "side", side(pick.inspection, hit));
         row_ui(ui, "l1, l2, l3", lines(hit.barycentric));
-        row_ui(ui, "triangle", hit.triangle);
-        row_ui(ui, "polygon", hit.face);
+        if let Some([u, v]) = pick.face.and_then(|face| face.uv(hit.barycentric)) {
+            let text = format!("{}\n{}", significant(u, 7), significant(v, 7));
+            row_ui(ui, "uv", text);
+        }
+        if let Some(colour) = pick.colour {
+            let text = colour.map(|channel| significant(channel.into(), 3));
+            row_ui(ui, "vertex colour", text.join(", "));
+        }
         row_ui(ui, "material", or_dash(&hit.material));
         row_ui(ui, "group", or_dash(&hit.group));
-        row_ui(ui, "position", lines(hit.position));
     });
 }
 
-fn surface_ui(ui: &mut egui::Ui, hit: &HitReport) {
-    section_ui(ui, "Normals", |ui| {
-        row_ui(ui, "geometric", lines(hit.geometric_normal));
-        row_ui(ui, "shading", lines(hit.shading_normal));
-    });
+/// The side of the triangle that the ray comes from.
+fn side(inspection: &Inspection, hit: &HitReport) -> &'static str {
+    let direction = inspection.ray.direction.map(f64::from);
+    let normal = hit.geometric_normal.map(f64::from);
+    let along: f64 = direction.iter().zip(normal).map(|(d, n)| d * n).sum();
+    if along > 0.0 {
+        "back: hit from behind"
+    } else {
+        "front"
+    }
+}
+
+/// The triangle, and the face that it is part of as the file has it.
+fn element_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     section_ui(ui, "Triangle", |ui| {
-        for (name, vertex) in ["A", "B", "C"].into_iter().zip(hit.vertices) {
-            row_ui(ui, name, lines(vertex));
+        row_ui(ui, "triangle", format!("{} (counted from 0)", hit.triangle));
+        let face = u64::from(hit.face) + 1;
+        row_ui(ui, "face", format!("{face} (counted from 1)"));
+        if let Some(line) = pick.line.filter(|&line| line > 0) {
+            row_ui(ui, "line", line);
+        }
+        match pick.face {
+            Some(FaceInFile::Found { statement, .. }) => _ = row_ui(ui, "statement", statement),
+            Some(FaceInFile::Unknown(why)) => _ = row_ui(ui, "statement", why),
+            None => {}
+        }
+        for (k, (name, vertex)) in ["A", "B", "C"].into_iter().zip(hit.vertices).enumerate() {
+            let index = pick.face.and_then(|face| face.vertex(k));
+            let name = index.map_or(name.to_owned(), |index| format!("{name} = v {index}"));
+            row_ui(ui, &name, lines(vertex));
         }
     });
 }
 
-/// One row a kernel below the exact answer, so that their numbers can be compared: distances first,
-/// then weights, which would not fit beside them.
-fn kernels_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
-    ui.label(RichText::new("Kernels against exact arithmetic").strong());
-    egui::ScrollArea::horizontal()
-        .id_salt("kernels")
-        .show(ui, |ui| {
-            ui.spacing_mut().interact_size.y = ROW_HEIGHT;
-            let columns = ["", "t", "ulps off", "l off", "triangle"];
-            table_ui(
-                ui,
-                columns,
-                exact_distance(exact),
-                kernels.iter().map(kernel_distance),
-            );
-            // Nothing hit: no weights.
-            if exact.is_none() && kernels.iter().all(|kernel| !kernel.hit) {
-                return;
-            }
-            ui.add_space(4.0);
-            let columns = ["", "l1", "l2", "l3"];
-            table_ui(
-                ui,
-                columns,
-                exact_weights(exact),
-                kernels.iter().map(kernel_weights),
-            );
-        });
+/// The exact answer, and behind a summary each kernel's.
+fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
+    let (exact, kernels) = (inspection.exact.as_ref(), &inspection.kernels[..]);
+    ui.label(RichText::new("Kernels compared with exact arithmetic").strong());
+    ui.label(summary(exact, kernels));
     if let Some(exact) = exact {
         let also = exact
             .also
             .iter()
-            .map(|t| format!(", and at the same t triangle {t}"));
+            .map(|t| format!(", and triangle {t} at the same t"));
         let place = if exact.is_on_boundary {
             "on the boundary"
         } else {
             "inside"
         };
         let text = format!(
-            "The exact hit is {place} of its triangle{}.",
+            "The exact hit is {place} of triangle {}{}.",
+            exact.triangle,
             also.collect::<String>()
         );
-        ui.label(RichText::new(text).weak().size(11.5));
+        ui.label(RichText::new(text).weak());
+    }
+    CollapsingHeader::new("All kernels")
+        .id_salt("kernels")
+        .show(ui, |ui| kernel_tables_ui(ui, exact, kernels));
+    if let Some(exact) = exact {
         fractions_ui(ui, exact);
     }
     ui.add_space(4.0);
 }
 
-/// The exact numbers themselves: of up to some hundred digits.
+/// How many kernels decide as exact arithmetic does, and the largest error of t.
+fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
+    let is_right = |kernel: &&KernelRow| kernel.triangle == exact.map(|exact| exact.triangle);
+    let right = kernels.iter().filter(is_right).count();
+    let decision = if exact.is_some() { "triangle" } else { "miss" };
+    let errors = kernels.iter().filter_map(|kernel| kernel.t_error_ulps);
+    let worst = errors.reduce(f64::max).map_or_else(String::new, |ulps| {
+        format!("; t off by at most {} ulps", significant(ulps, 3))
+    });
+    let count = kernels.len();
+    if right == count {
+        format!("All {count} kernels find the exact {decision}{worst}.")
+    } else {
+        format!("{right} of {count} kernels find the exact {decision}{worst}.")
+    }
+}
+
+fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
+    egui::ScrollArea::horizontal()
+        .id_salt("kernel tables")
+        .show(ui, |ui| {
+            let columns = ["", "t", "t error, ulps", "l error", "triangle"];
+            let rows = kernels.iter().map(kernel_distance);
+            table_ui(
+                ui,
+                columns,
+                std::iter::once(exact_distance(exact)).chain(rows),
+            );
+            // Without a hit there are no weights.
+            if exact.is_none() && kernels.iter().all(|kernel| !kernel.hit) {
+                return;
+            }
+            ui.add_space(4.0);
+            let columns = ["", "l1", "l2", "l3"];
+            let rows = kernels.iter().map(kernel_weights);
+            table_ui(
+                ui,
+                columns,
+                std::iter::once(exact_weights(exact)).chain(rows),
+            );
+        });
+}
+
+/// The exact numbers as fractions of up to some hundred digits.
 fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
-    egui::CollapsingHeader::new("As fractions")
+    CollapsingHeader::new("As fractions")
         .id_salt("fractions")
         .show(ui, |ui| {
             let [l1, l2, l3] = &exact.barycentric_fractions;
@@ -124,74 +212,42 @@ fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
         });
 }
 
-fn table_ui<const N: usize>(
-    ui: &mut egui::Ui,
-    columns: [&str; N],
-    exact: [String; N],
-    kernels: impl Iterator<Item = [String; N]>,
-) {
-    egui::Grid::new(columns)
-        .spacing([8.0, 2.0])
-        .striped(true)
-        .show(ui, |ui| {
-            for column in columns {
-                ui.label(RichText::new(column).size(11.5));
-            }
-            ui.end_row();
-            for cells in std::iter::once(exact).chain(kernels) {
-                for cell in cells {
-                    let text = RichText::new(cell).monospace().size(10.5);
-                    ui.add(egui::Label::new(text).extend());
-                }
-                ui.end_row();
-            }
-        });
-}
-
 fn exact_distance(exact: Option<&ExactReport>) -> [String; 5] {
     [
-        "oracle".to_owned(),
-        exact.map_or("miss".to_owned(), |e| significant(e.t)),
+        "exact answer".to_owned(),
+        // Two digits more than f32 ever needs.
+        exact.map_or("miss".to_owned(), |exact| significant(exact.t, 11)),
         dash(),
         dash(),
-        exact.map_or_else(dash, |e| e.triangle.to_string()),
+        exact.map_or_else(dash, |exact| exact.triangle.to_string()),
     ]
 }
 
 fn kernel_distance(kernel: &KernelRow) -> [String; 5] {
+    let rounded = |error: Option<f64>| error.map_or_else(dash, |error| significant(error, 3));
     [
-        kernel.name.to_owned(),
-        kernel.t.map_or("miss".to_owned(), |t| t.to_string()),
-        kernel.t_error_ulps.map_or_else(dash, |e| format!("{e:.2}")),
-        kernel
-            .barycentric_error
-            .map_or_else(dash, |e| format!("{e:.1e}")),
+        kernel_name(kernel.name).to_owned(),
+        kernel.t.map_or("miss".to_owned(), number),
+        rounded(kernel.t_error_ulps),
+        rounded(kernel.barycentric_error),
         kernel.triangle.map_or_else(dash, |t| t.to_string()),
     ]
 }
 
 fn exact_weights(exact: Option<&ExactReport>) -> [String; 4] {
-    let weight = |k: usize| exact.map_or_else(dash, |e| format!("{:.9}", e.barycentric[k]));
-    ["oracle".to_owned(), weight(0), weight(1), weight(2)]
+    let weight = |k: usize| exact.map_or_else(dash, |exact| significant(exact.barycentric[k], 9));
+    ["exact answer".to_owned(), weight(0), weight(1), weight(2)]
 }
 
 fn kernel_weights(kernel: &KernelRow) -> [String; 4] {
-    let weight = |k: usize| {
-        kernel
-            .barycentric
-            .map_or_else(dash, |b| format!("{:.9}", b[k]))
-    };
-    [kernel.name.to_owned(), weight(0), weight(1), weight(2)]
-}
-
-fn dash() -> String {
-    "–".to_owned()
-}
-
-/// With eleven significant digits: two more than f32 ever needs.
-fn significant(x: f64) -> String {
-    let before_point = x.abs().log10().floor().clamp(-20.0, 10.0) as i32;
-    format!("{x:.*}", (10 - before_point).max(0) as usize)
+    let weights = kernel.barycentric;
+    let weight = |k: usize| weights.map_or_else(dash, |l| significant(l[k].into(), 9));
+    [
+        kernel_name(kernel.name).to_owned(),
+        weight(0),
+        weight(1),
+        weight(2),
+    ]
 }
 
 fn or_dash(name: &str) -> &str {

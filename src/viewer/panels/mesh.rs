@@ -1,35 +1,79 @@
-//! What is in the file.
+//! The Mesh tab: contents, warnings, flaws and memory of the open file.
 
+use super::flaws::flaws_ui;
 use super::{lines, row_ui, section_ui};
-use crate::app::grouped;
 use crate::bindings::Action;
 use crate::document::{Document, MeshReport};
+use crate::flaw_place::FlawPlace;
+use crate::numbers::{counted, grouped, number, significant};
 use crate::settings::Settings;
 use egui::RichText;
-use hitscope_core::mesh::{FLAWS, Flaw, Health};
 use hitscope_core::scene::LoadedScene;
 
-/// Counts, place, memory, health, warnings.
+/// Shows the tab; `flaw` is the one that is marked.
 pub fn mesh_ui(
     ui: &mut egui::Ui,
     document: &mut Document,
     settings: &mut Settings,
-    flaw: Option<Flaw>,
+    flaw: Option<&FlawPlace>,
     actions: &mut Vec<Action>,
 ) {
     let findings = document.findings(ui.ctx());
     let loaded = &document.loaded;
-    let scene = &loaded.scene;
-    let mesh = scene.mesh();
-    let path = document
-        .path
-        .as_ref()
-        .map(|path| path.display().to_string());
+    let mesh = loaded.scene.mesh();
+    let path = document.path.as_ref();
+    let path = path.map(|path| path.display().to_string());
     ui.label(RichText::new(document.name()).strong());
     if let Some(path) = path {
         ui.label(RichText::new(path).weak().size(11.0));
     }
-    section_ui(ui, "Counts", |ui| {
+    contents_ui(ui, loaded);
+    if !loaded.warnings.is_empty() {
+        ui.label(RichText::new("Warnings").strong());
+        for warning in &loaded.warnings {
+            ui.label(RichText::new(warning.to_string()).color(ui.visuals().warn_fg_color));
+        }
+        ui.add_space(4.0);
+    }
+    section_ui(ui, "Dropped", |ui| {
+        row_ui(ui, "zero area", counted(mesh.dropped.zero_area, "triangle"));
+        row_ui(
+            ui,
+            "not finite",
+            counted(mesh.dropped.non_finite, "triangle"),
+        );
+        row_ui(ui, "bad index", counted(mesh.dropped.bad_index, "face"));
+    });
+    ui.label(RichText::new("Flaws").strong());
+    match &findings {
+        Some(findings) => {
+            actions.extend(flaws_ui(ui, loaded, &findings.health, flaw));
+            ui.add_space(4.0);
+            section_ui(ui, "Required kernel", |ui| {
+                row_ui(ui, "tier", findings.requirement.tier);
+            });
+            for reason in &findings.requirement.reasons {
+                ui.label(RichText::new(format!("{reason}.")).weak().size(11.5));
+            }
+        }
+        None if document.has_failed_check() => {
+            ui.label("The check failed; the terminal has the details.");
+        }
+        None => {
+            ui.horizontal(|ui| {
+                ui.spinner();
+                ui.label("Checking…");
+            });
+        }
+    }
+    options_ui(ui, document, settings, actions);
+    place_ui(ui, &document.loaded);
+    cost_ui(ui, document, findings.as_deref());
+}
+
+fn contents_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
+    let mesh = loaded.scene.mesh();
+    section_ui(ui, "Contents", |ui| {
         row_ui(ui, "vertices", grouped(loaded.vertex_count));
         row_ui(ui, "triangles", grouped(mesh.triangles.len()));
         row_ui(ui, "polygons", grouped(mesh.face_count));
@@ -40,96 +84,44 @@ pub fn mesh_ui(
             row_ui(ui, "points", grouped(mesh.points.len()));
         }
     });
-    if !loaded.warnings.is_empty() {
-        ui.label(RichText::new("Warnings").strong());
-        for warning in &loaded.warnings {
-            ui.label(RichText::new(warning.to_string()).color(ui.visuals().warn_fg_color));
-        }
-        ui.add_space(4.0);
-    }
-    section_ui(ui, "Health", |ui| {
-        let dropped = [
-            ("zero area", mesh.dropped.zero_area),
-            ("not finite", mesh.dropped.non_finite),
-            ("bad index", mesh.dropped.bad_index),
-        ];
-        for (reason, count) in dropped {
-            row_ui(ui, reason, format!("{} dropped", grouped(count)));
-        }
-    });
-    if let Some(findings) = &findings {
-        actions.extend(flaws_ui(ui, &findings.health, flaw));
-        section_ui(ui, "Required kernel", |ui| {
-            row_ui(ui, "tier", findings.requirement.tier);
-        });
-        for reason in &findings.requirement.reasons {
-            ui.label(RichText::new(format!("{reason}.")).weak().size(11.5));
-        }
-    }
-    let watch = egui::Checkbox::new(&mut settings.watches, "Load again when the file changes");
-    ui.add_enabled(document.path.is_some(), watch)
-        .on_hover_text(
-            "Also when its materials or textures do. The camera and the picked pixel stay.",
-        );
-    if packing_ui(ui, document, settings) {
-        actions.push(Action::Reload);
-    }
-    place_ui(ui, loaded);
-    cost_ui(ui, document, findings.as_deref());
 }
 
-/// Each kind of flaw with how many there are; a click marks and shows them, or ends that.
-fn flaws_ui(ui: &mut egui::Ui, health: &Health, marked: Option<Flaw>) -> Option<Action> {
-    let mut action = None;
-    ui.horizontal_wrapped(|ui| {
-        for info in &FLAWS {
-            let is_marked = marked == Some(info.flaw);
-            let count = health.places(info.flaw).count();
-            let count_text = count.map_or("?".to_owned(), grouped);
-            let text = format!("{}  {count_text}", info.title);
-            let hint = match count {
-                None => format!("{}\nNobody looked: the border is too long.", info.about),
-                Some(0) => info.about.to_owned(),
-                Some(_) => format!("{}\nA click shows them.", info.about),
-            };
-            let is_there = count.is_some_and(|count| count > 0);
-            let button = egui::Button::new(text).selected(is_marked);
-            let response = ui.add_enabled(is_there, button);
-            if response
-                .on_hover_text(&hint)
-                .on_disabled_hover_text(hint)
-                .clicked()
-            {
-                action = Some(Action::ShowFlaw((!is_marked).then_some(info.flaw)));
-            }
-        }
-    });
-    action
+/// How the file is loaded.
+fn options_ui(
+    ui: &mut egui::Ui,
+    document: &Document,
+    settings: &mut Settings,
+    actions: &mut Vec<Action>,
+) {
+    // The built-in scene isn't loaded again.
+    let is_file = document.path.is_some();
+    let watch = egui::Checkbox::new(&mut settings.watches, "Reload when the file changes");
+    ui.add_enabled(is_file, watch).on_hover_text(
+        "Also when its materials or textures change. The camera and the picked pixel stay. (Ctrl+R)",
+    );
+    let compact = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
+    let is_changed = ui
+        .add_enabled(is_file, compact)
+        .on_hover_text(
+            "Tree and triangles take a third less memory, and rays take longer. Reloads the file.",
+        )
+        .changed();
+    if is_changed {
+        actions.push(Action::Reload);
+    }
 }
 
 fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
-    section_ui(ui, "Place", |ui| {
+    section_ui(ui, "Bounds", |ui| {
         let bounds = scene.bounds();
         let corner = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         row_ui(ui, "lowest", lines(corner(bounds.min)));
         row_ui(ui, "highest", lines(corner(bounds.max)));
         row_ui(ui, "origin", lines(mesh.origin.to_array()));
-        row_ui(
-            ui,
-            "rounded by",
-            format!("{:.1e} at most", loaded.max_rounding),
-        );
+        let rounding = significant(loaded.max_rounding, 2);
+        row_ui(ui, "rounded by", format!("at most {rounding}"));
     });
-}
-
-/// Speed or memory; whether the choice changed.
-fn packing_ui(ui: &mut egui::Ui, document: &Document, settings: &mut Settings) -> bool {
-    let hint = "Tree and triangles take a third less memory, rays more time. Loads the file again.";
-    let checkbox = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
-    // The built-in scene is made once, and small.
-    let response = ui.add_enabled(document.path.is_some(), checkbox);
-    response.on_hover_text(hint).changed()
 }
 
 fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>) {
@@ -141,7 +133,7 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
         row_ui(ui, "load", ms(loaded.load_time));
         row_ui(ui, "tree", ms(scene.build_time()));
     });
-    section_ui(ui, "In memory", |ui| {
+    section_ui(ui, "Memory", |ui| {
         let parts = mesh.bytes().into_iter();
         for (part, bytes) in parts.filter(|(_, bytes)| *bytes > 0) {
             row_ui(ui, part, kb(bytes));
@@ -150,10 +142,15 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
         row_ui(ui, "packed triangles", kb(document.intersector().bytes()));
     });
     if let Some(findings) = findings {
-        section_ui(ui, "The surface would take", |ui| {
+        section_ui(ui, "Memory of the surface alone", |ui| {
             for (way, bytes) in findings.bytes_as {
                 row_ui(ui, &format!("as {way}"), kb(bytes));
             }
         });
     }
+}
+
+/// Coordinates on one line.
+pub(super) fn on_one_line(p: glam::DVec3) -> String {
+    p.to_array().map(number).join(", ")
 }

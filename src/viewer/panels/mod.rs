@@ -1,23 +1,32 @@
 //! The tabs of the side panel.
 
+mod flaws;
 pub mod inspect;
+mod labels;
 pub mod mesh;
+pub mod progress;
+mod table;
 pub mod trade;
 pub mod view;
 
+use crate::numbers::number;
 use egui::RichText;
-use std::fmt::Display;
+use hitscope_core::kernel::triangle_kernel;
+use std::fmt::{Display, LowerExp};
 
-/// Height of a line of values, in points: lower than a button's, so that more fits.
-const ROW_HEIGHT: f32 = 14.0;
+/// Width of the names of values, in points. It is fixed, so that rows are right in the first frame.
+const NAME_WIDTH: f32 = 104.0;
 
 /// A name, and a value that can be selected and copied.
-fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) -> egui::Response {
-    ui.label(name);
-    let value = RichText::new(value.to_string()).monospace().size(11.5);
-    let response = ui.add(egui::Label::new(value).wrap());
-    ui.end_row();
-    response
+fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) {
+    ui.horizontal_top(|ui| {
+        let right = ui.cursor().min.x + NAME_WIDTH;
+        ui.add(egui::Label::new(name).extend());
+        // A longer name pushes its value to the right.
+        ui.add_space((right - ui.cursor().min.x).max(0.0));
+        let value = RichText::new(value.to_string()).monospace().size(11.5);
+        ui.add(egui::Label::new(value).wrap());
+    });
 }
 
 /// Rows of [`row_ui`] under a heading.
@@ -25,16 +34,19 @@ fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) 
     ui.add_space(2.0);
     ui.label(RichText::new(title).strong());
     ui.scope(|ui| {
-        ui.spacing_mut().interact_size.y = ROW_HEIGHT;
-        egui::Grid::new(title)
-            .num_columns(2)
-            .spacing([10.0, 2.0])
-            .show(ui, rows);
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.spacing_mut().item_spacing.y = 2.0;
+        rows(ui);
     });
     ui.add_space(4.0);
 }
 
+/// The name of a kernel in the window: what `--kernel` takes, of a tier if it serves one.
+pub fn kernel_name(name: &'static str) -> &'static str {
+    triangle_kernel(name).map_or(name, |kernel| kernel.info.short_name())
+}
+
 /// Three numbers, each on a line of its own.
-fn lines(v: [impl Display; 3]) -> String {
-    v.map(|x| x.to_string()).join("\n")
+fn lines<T: Into<f64> + Display + LowerExp + Copy>(v: [T; 3]) -> String {
+    v.map(number).join("\n")
 }

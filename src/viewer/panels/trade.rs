@@ -1,15 +1,24 @@
-//! What speed costs in accuracy in this scene: a point for each kernel.
+//! The Trade tab: speed and accuracy of every kernel in this scene.
 
+use super::labels;
+use super::table::{aligned, dash, widths};
 use crate::settings::Settings;
+use crate::theme::kernel_colour;
 use crate::trade::{Axis, Trade, TradeState};
-use egui::{Color32, RichText};
-use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points, Text};
-use hitscope_core::kernel::{KernelInfo, Tier, triangle_kernel};
+use egui::{Color32, FontId, Pos2, RichText, Theme};
+use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points};
+use hitscope_core::kernel::{KernelInfo, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
 
+/// Offers to measure the scene; whether the user wants that.
+pub fn measure_ui(ui: &mut egui::Ui) -> bool {
+    ui.label("Speed and accuracy of every kernel, measured in this scene from the current camera.");
+    ui.button("Measure").clicked()
+}
+
 /// The plot and its table; a click on a point or a row chooses the kernel. Returns whether the
-/// user wants it measured again.
+/// user wants to measure again.
 pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -> bool {
     let rows = trade.rows();
     let mut is_wanted_again = false;
@@ -17,19 +26,19 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
         TradeState::Measuring => {
             ui.spinner();
             ui.label(format!(
-                "Measuring, {} of {}",
-                rows.len(),
+                "Measuring kernel {} of {}",
+                (rows.len() + 1).min(trade.kernel_count()),
                 trade.kernel_count()
             ));
         }
         TradeState::Done => {
             is_wanted_again = ui
                 .button("Measure again")
-                .on_hover_text("From where the camera stands now")
+                .on_hover_text("From the current camera")
                 .clicked();
         }
         TradeState::Failed => {
-            ui.label("The measurement broke off; the terminal has the details.");
+            ui.label("The measurement failed; the terminal has the details.");
             is_wanted_again = ui.button("Measure again").clicked();
         }
     });
@@ -38,7 +47,8 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     };
     ui.label(
         RichText::new(format!(
-            "{} camera and bounce rays against exact arithmetic. Speed: CPU time beside that of fast, a mean of camera, bounce and random rays.",
+            "{} camera and bounce rays, compared with exact arithmetic. Speed: rays per CPU time relative to \
+             fast, mean of camera, bounce and random rays.",
             first.n
         ))
         .weak(),
@@ -49,10 +59,27 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     });
     plot_ui(ui, trade.axis, &rows, settings);
     table_ui(ui, &rows, settings);
+    if settings.session_kernel.is_some() {
+        keep_ui(ui, settings);
+    }
     is_wanted_again
 }
 
-/// As a part of `fast`'s, measured beside it: what else the machine does meets both alike.
+/// A kernel that was chosen here is used until the program ends, unless the user keeps it.
+fn keep_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    let info = settings.kernel().info;
+    ui.horizontal(|ui| {
+        ui.label(format!(
+            "{} is used until hitscope ends.",
+            info.short_name()
+        ));
+        if ui.button("Keep").clicked() {
+            settings.keep_kernel(info.name);
+        }
+    });
+}
+
+/// Speed relative to `fast`, which was measured in turns with this kernel: other load slows down both.
 fn speed(row: &SceneRow) -> f64 {
     1.0 / row.speed.time_relative_to_fast.max(1e-3)
 }
@@ -66,8 +93,8 @@ fn mrays_per_s(row: &SceneRow) -> f64 {
 fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Settings) {
     let height = |row: &SceneRow| axis.value(row).max(axis.floor()).log10();
     let label = match axis {
-        Axis::ErrorOfT => "ulps off, p99",
-        Axis::Wrong => "wrong per million",
+        Axis::ErrorOfT => "error of t in ulps, p99",
+        Axis::Wrong => "wrong per million rays",
     };
     let floor = axis.floor().log10();
     let fastest = rows.iter().map(speed).fold(0.0, f64::max);
@@ -77,7 +104,7 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         .height(240.0)
         .custom_x_axes(vec![
             AxisHints::new_x()
-                .label("speed, fast = 1")
+                .label("speed relative to fast")
                 .label_spacing(egui::Rangef::new(18.0, 36.0)),
         ])
         .y_axis_label(label)
@@ -93,11 +120,17 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         .allow_boxed_zoom(false)
         .show_x(false)
         .show_y(false);
+    let theme = ui.theme();
+    let mut labelled: Vec<(&KernelInfo, Pos2)> = Vec::new();
     let response = plot.show(ui, |plot| {
         plot.hline(HLine::new("zero", floor).color(Color32::GRAY.gamma_multiply(0.5)));
         for row in rows {
             let is_current = settings.kernel().info.name == row.kernel;
-            draw_point(plot, row, [speed(row), height(row)], is_current);
+            draw_point(plot, row, [speed(row), height(row)], is_current, theme);
+            if info(row).tier.is_some() || is_current {
+                let at = PlotPoint::new(speed(row), height(row));
+                labelled.push((info(row), plot.screen_from_plot(at)));
+            }
         }
         let pointer = plot.response().hover_pos()?;
         let distance = |row: &SceneRow| {
@@ -107,88 +140,114 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         let nearest = rows
             .iter()
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        // As near as a finger is wide.
+        // The width of a finger.
         (distance(nearest) < 20.0).then_some(nearest)
     });
+    draw_labels(&ui.painter_at(response.response.rect), &labelled, theme);
     if let Some(row) = response.inner {
         if response.response.clicked() {
-            settings.kernel = row.kernel.to_owned();
+            settings.use_for_session(row.kernel);
         }
-        let text = format!("{}\n{}", info(row).title, figures(row));
+        let text = format!(
+            "{}: {}\n{}",
+            info(row).short_name(),
+            info(row).title,
+            figures(row)
+        );
         response.response.on_hover_text_at_pointer(text);
     }
 }
 
-/// A kernel's point; the tiers' and the current one have a name beside it.
-fn draw_point(plot: &mut PlotUi<'_>, row: &SceneRow, at: [f64; 2], is_current: bool) {
+fn draw_point(plot: &mut PlotUi<'_>, row: &SceneRow, at: [f64; 2], is_current: bool, theme: Theme) {
     let info = info(row);
-    let points = Points::new(info.title, PlotPoints::from(vec![at]))
+    let points = Points::new(info.short_name(), PlotPoints::from(vec![at]))
         .radius(if is_current { 7.0 } else { 4.5 })
-        .color(colour(info));
+        .color(kernel_colour(info.tier, theme));
     plot.points(points);
-    if info.tier.is_some() || is_current {
-        let name = format!(" {} ", info.short_name());
-        let name = RichText::new(name).size(11.0).strong().color(colour(info));
-        let at = PlotPoint::new(at[0], at[1]);
-        plot.text(Text::new(info.title, at, name).anchor(anchor(info)));
+}
+
+/// Names beside the points of the tiers and of the current kernel.
+fn draw_labels(painter: &egui::Painter, labelled: &[(&KernelInfo, Pos2)], theme: Theme) {
+    let font = FontId::proportional(11.5);
+    let galleys: Vec<_> = labelled
+        .iter()
+        .map(|(info, _)| {
+            let colour = kernel_colour(info.tier, theme);
+            painter.layout_no_wrap(info.short_name().to_owned(), font.clone(), colour)
+        })
+        .collect();
+    let points: Vec<Pos2> = labelled.iter().map(|(_, at)| *at).collect();
+    let sizes: Vec<egui::Vec2> = galleys.iter().map(|galley| galley.size()).collect();
+    let places = labels::place(&points, &sizes, painter.clip_rect());
+    for (galley, place) in galleys.into_iter().zip(places) {
+        painter.galley(place.min, galley, Color32::PLACEHOLDER);
     }
 }
 
+/// A row for each kernel; a click chooses it.
 fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
+    const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps p99"];
+    let cells: Vec<[String; 5]> = std::iter::once(COLUMNS.map(str::to_owned))
+        .chain(rows.iter().map(cells))
+        .collect();
+    let widths = widths(&cells);
+    let text = |cells: &[String; 5]| {
+        RichText::new(aligned(cells, &widths))
+            .monospace()
+            .size(10.5)
+    };
+    let theme = ui.theme();
     egui::ScrollArea::horizontal()
         .id_salt("trade table")
         .show(ui, |ui| {
-            egui::Grid::new("trade rows")
-                .striped(true)
-                .spacing([8.0, 2.0])
-                .show(ui, |ui| {
-                    for title in ["", "speed", "Mrays/s", "wrong/M", "t p99"] {
-                        ui.label(RichText::new(title).size(11.5));
-                    }
-                    ui.end_row();
-                    for row in rows {
-                        let info = info(row);
-                        let is_current = settings.kernel().info.name == row.kernel;
-                        let mut name = RichText::new(info.name).size(11.5);
-                        // A tier's colour is hard to read on that of the selection.
-                        if !is_current {
-                            name = name.color(colour(info));
-                        }
-                        if ui
-                            .selectable_label(is_current, name)
-                            .on_hover_text(info.summary)
-                            .clicked()
-                        {
-                            settings.kernel = row.kernel.to_owned();
-                        }
-                        let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
-                        let wrong = row.missed + row.false_hits + row.other_triangle;
-                        for cell in [
-                            format!("{:.2}", speed(row)),
-                            short(mrays_per_s(row)),
-                            rate_text(wrong, row.n),
-                            ulps(row.t_ulps.map(|t| t.p99)),
-                        ] {
-                            ui.label(RichText::new(cell).monospace().size(11.0));
-                        }
-                        ui.end_row();
-                    }
-                });
+            ui.spacing_mut().button_padding.x = 2.0;
+            ui.spacing_mut().item_spacing.y = 1.0;
+            ui.spacing_mut().interact_size.y = 0.0;
+            // A row that can't be pressed, so that it is aligned with the others.
+            let header = egui::Button::new(text(&cells[0]).strong()).frame(false);
+            ui.add(header.sense(egui::Sense::hover()));
+            for (row, cells) in rows.iter().zip(&cells[1..]) {
+                let info = info(row);
+                let is_current = settings.kernel().info.name == row.kernel;
+                let mut text = text(cells);
+                // The selection has its own text colour.
+                if !is_current {
+                    text = text.color(kernel_colour(info.tier, theme));
+                }
+                let response = ui.selectable_label(is_current, text);
+                if response
+                    .on_hover_text(format!("{}. {}", info.title, info.summary))
+                    .clicked()
+                {
+                    settings.use_for_session(row.kernel);
+                }
+            }
         });
+}
+
+fn cells(row: &SceneRow) -> [String; 5] {
+    let wrong = row.missed + row.false_hits + row.other_triangle;
+    [
+        info(row).short_name().to_owned(),
+        format!("{:.2}", speed(row)),
+        short(mrays_per_s(row)),
+        rate_text(wrong, row.n),
+        row.t_ulps.map_or_else(dash, |t| short(t.p99)),
+    ]
 }
 
 fn figures(row: &SceneRow) -> String {
     let rates = row.speed.mrays_per_s;
     format!(
-        "primary {}, bounce {}, random {} Mrays/s\nt off by {} ulps at most\nmissed {}, false {}, other triangle {} of {}",
+        "Mrays/s: camera {}, bounce {}, random {}\nlargest error of t: {} ulps\nof {} rays: {} missed, {} false hits, {} other triangles",
         short(rates.primary),
         short(rates.bounce),
         short(rates.random),
-        row.t_ulps.map_or("–".to_owned(), |t| short(t.max)),
+        row.t_ulps.map_or_else(dash, |t| short(t.max)),
+        row.n,
         row.missed,
         row.false_hits,
         row.other_triangle,
-        row.n,
     )
 }
 
@@ -197,28 +256,7 @@ fn info(row: &SceneRow) -> &'static KernelInfo {
     kernel.expect("rows are of kernels in the table").info
 }
 
-/// The tiers' colours; grey for what is there to be compared.
-fn colour(info: &KernelInfo) -> Color32 {
-    match info.tier {
-        Some(Tier::Fast) => Color32::from_rgb(230, 120, 60),
-        Some(Tier::Watertight) => Color32::from_rgb(70, 150, 235),
-        Some(Tier::Precise) => Color32::from_rgb(60, 170, 110),
-        Some(Tier::Exact) => Color32::from_rgb(185, 105, 220),
-        None => Color32::from_gray(140),
-    }
-}
-
-/// The side of its point on which a name stands: each tier's its own, as they often lie close together.
-fn anchor(info: &KernelInfo) -> egui::Align2 {
-    match info.tier {
-        Some(Tier::Fast) => egui::Align2::CENTER_BOTTOM,
-        Some(Tier::Watertight) => egui::Align2::RIGHT_BOTTOM,
-        Some(Tier::Precise) | None => egui::Align2::LEFT_TOP,
-        Some(Tier::Exact) => egui::Align2::RIGHT_TOP,
-    }
-}
-
-/// `0`, `0.1`, `10`, `1e5` for a place on the logarithmic axis; nothing between powers of ten.
+/// The label of a place on the logarithmic axis: `0`, `0.1`, `10`, `1e5`; empty between powers of ten.
 fn power_text(exponent: f64, floor: f64) -> String {
     if (exponent - floor).abs() < 1e-6 {
         "0".to_owned()

@@ -1,23 +1,21 @@
-//! How the mesh is seen.
+//! The Display tab: view, shading, kernel, overlay, camera, theme.
 
 use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::camera::{StandardView, Turntable};
 use hitscope_core::integrator::{Comparison, INTEGRATORS, Legend};
-use hitscope_core::kernel::{
-    KernelInfo, TRIANGLE_KERNELS, default_triangle_kernel, triangle_kernel,
-};
+use hitscope_core::kernel::{KernelInfo, TRIANGLE_KERNELS, exact_triangle_kernel, triangle_kernel};
 use hitscope_core::srgb::to_display;
 
-/// View, shading, kernel, overlay, camera, theme.
+/// Shows the tab.
 pub fn view_ui(
     ui: &mut egui::Ui,
     settings: &mut Settings,
     turntable: &mut Turntable,
     actions: &mut Vec<Action>,
 ) {
-    picture_ui(ui, settings);
+    chosen_view_ui(ui, settings);
     ui.separator();
     kernel_ui(ui, settings);
     ui.separator();
@@ -41,19 +39,24 @@ pub fn view_ui(
     }
 }
 
-fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
-    ui.label(RichText::new("Picture").strong());
+fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    ui.label(RichText::new("View").strong());
     ui.horizontal_wrapped(|ui| {
         for choice in INTEGRATORS {
             ui.selectable_value(&mut settings.view, choice.name.to_owned(), choice.title);
         }
     });
-    ui.label(RichText::new(settings.integrator().about).weak());
-    legend_ui(ui, &(settings.integrator().legend)());
-    if settings.integrator().against == Comparison::Second {
+    ui.label(RichText::new(settings.view().about).weak());
+    legend_ui(ui, &(settings.view().legend)());
+    if settings.view().against == Comparison::Second {
         ui.horizontal(|ui| {
-            let label = ui.label("against");
-            kernel_combo_ui(ui, "against", &mut settings.against).labelled_by(label.id);
+            let label = ui.label("compared with");
+            let against = triangle_kernel(&settings.against).unwrap_or_else(exact_triangle_kernel);
+            let (response, chosen) = kernel_combo_ui(ui, "against", against.info);
+            response.labelled_by(label.id);
+            if let Some(kernel) = chosen {
+                settings.against = kernel.to_owned();
+            }
         });
     }
     ui.horizontal(|ui| {
@@ -62,10 +65,10 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         ui.label("shading");
     });
     ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.has_crease, "Edges above")
+        ui.checkbox(&mut settings.has_crease, "Crease above")
             .on_hover_text(
-                "Smooth shading has an edge where triangles meet at a larger angle. \
-             Without this, the file's normals and smoothing groups decide.",
+                "Smooth shading has a crease where triangles meet at a larger angle. \
+             Otherwise the file's normals and smoothing groups decide.",
             );
         let degrees = egui::DragValue::new(&mut settings.crease_degrees)
             .range(0.0..=180.0)
@@ -73,7 +76,7 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         ui.add_enabled(settings.has_crease, degrees);
     });
     ui.horizontal(|ui| {
-        let label = ui.label("Samples");
+        let label = ui.label("Samples per pixel");
         let mut power = settings.samples.max(1).ilog2();
         let slider = egui::Slider::new(&mut power, 0..=12)
             .custom_formatter(|power, _| format!("{}", 1u32 << power as u32))
@@ -83,7 +86,7 @@ fn picture_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
 }
 
-/// The view's colours, line by line.
+/// The legend of the view, line by line.
 fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
     for line in legend {
         ui.horizontal(|ui| {
@@ -108,30 +111,44 @@ fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
 
 fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     let heading = ui.label(RichText::new("Kernel").strong());
-    kernel_combo_ui(ui, "kernel", &mut settings.kernel).labelled_by(heading.id);
-    let info = &settings.kernel().info;
+    let info = settings.kernel().info;
+    let (response, chosen) = kernel_combo_ui(ui, "kernel", info);
+    response.labelled_by(heading.id);
+    if let Some(kernel) = chosen {
+        settings.keep_kernel(kernel);
+    }
+    if settings.session_kernel.is_some() {
+        ui.label("Chosen in Trade, until hitscope ends.");
+    }
     ui.label(RichText::new(info.summary).weak())
         .on_hover_text(info.source);
 }
 
-/// Every kernel, the tiers marked by their names.
-fn kernel_combo_ui(ui: &mut egui::Ui, id: &str, name: &mut String) -> egui::Response {
-    let title = |info: &KernelInfo| match info.tier {
-        Some(tier) => format!("{} – {}", info.title, tier.name()),
-        None => info.title.to_owned(),
-    };
-    let current = triangle_kernel(name).unwrap_or_else(default_triangle_kernel);
-    egui::ComboBox::from_id_salt(id)
-        .selected_text(title(current.info))
+/// A menu of all kernels by their names, with their algorithms; the one that was chosen now.
+fn kernel_combo_ui(
+    ui: &mut egui::Ui,
+    id: &str,
+    current: &KernelInfo,
+) -> (egui::Response, Option<&'static str>) {
+    let title = |info: &KernelInfo| format!("{} – {}", info.short_name(), info.title);
+    let mut chosen = None;
+    let response = egui::ComboBox::from_id_salt(id)
+        .selected_text(title(current))
         .width(220.0)
         .height(320.0)
         .show_ui(ui, |ui| {
             for kernel in TRIANGLE_KERNELS {
-                let value = kernel.info.name.to_owned();
-                ui.selectable_value(name, value, title(kernel.info));
+                let is_current = kernel.info.name == current.name;
+                if ui
+                    .selectable_label(is_current, title(kernel.info))
+                    .clicked()
+                {
+                    chosen = Some(kernel.info.name);
+                }
             }
         })
-        .response
+        .response;
+    (response, chosen)
 }
 
 fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
@@ -139,11 +156,11 @@ fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.shows_wireframe, "Wireframe");
         ui.color_edit_button_srgb(&mut settings.wire_colour);
-        ui.checkbox(&mut settings.shows_diagonals, "with diagonals");
+        ui.checkbox(&mut settings.shows_diagonals, "Diagonals");
     });
     ui.checkbox(&mut settings.shows_normals, "Normals");
     ui.horizontal(|ui| {
-        let label = ui.label("Length");
+        let label = ui.label("Length of normals");
         let slider = egui::Slider::new(&mut settings.normal_length, 0.002..=0.5)
             .logarithmic(true)
             .custom_formatter(|part, _| format!("{:.1} %", 100.0 * part))

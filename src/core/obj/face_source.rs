@@ -1,0 +1,238 @@
+//! A face's statement, read from the file again.
+
+use super::corner::{Corner, Corners, List, is_blank};
+use super::error::{LoadError, Problem, printable};
+use super::lines::{Lines, Statement};
+use super::words::{Words, number, text, without_comment};
+use crate::progress::Progress;
+use glam::{DVec2, DVec3};
+use std::collections::BTreeMap;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// What a file says about a face.
+#[derive(Clone, Debug, PartialEq)]
+pub struct FaceSource {
+    /// The statement, shortened if it is long.
+    pub statement: String,
+    /// Its corners, in the file's order.
+    pub corners: Vec<FaceCorner>,
+}
+
+/// A corner of a face in the file. Indices are counted from 1.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct FaceCorner {
+    /// Index of the `v` statement.
+    pub vertex: usize,
+    /// Index of the `vt` statement.
+    pub texture: Option<usize>,
+    /// Index of the `vn` statement.
+    pub normal: Option<usize>,
+    /// Coordinates of the vertex.
+    pub position: DVec3,
+    /// Texture coordinates; `None` if the file doesn't have those that the corner names.
+    pub uv: Option<DVec2>,
+}
+
+/// Reads the `f` statement that begins on a line (counted from 1), and what its corners name.
+///
+/// `open` gives the file's bytes from their beginning; it is called twice. `path` is for errors. `None` if no face
+/// begins on that line, or it names a vertex that isn't there: the file has changed since it was loaded.
+///
+/// # Errors
+/// See [`LoadError`].
+pub fn face_source<R: Read>(
+    open: impl Fn() -> io::Result<R>,
+    path: &Path,
+    line: usize,
+    progress: &Progress,
+) -> Result<Option<FaceSource>, LoadError> {
+    let read = || {
+        let Some(mut source) = statement_on(open().map_err(Problem::Read)?, line, progress)? else {
+            return Ok(None);
+        };
+        let bytes = open().map_err(Problem::Read)?;
+        let is_complete = look_up(bytes, &mut source.corners, progress)?;
+        Ok(is_complete.then_some(source))
+    };
+    read().map_err(|problem: Problem| problem.in_file(path))
+}
+
+/// The statement on a line with the indices of its corners.
+fn statement_on(
+    bytes: impl Read,
+    line: usize,
+    progress: &Progress,
+) -> Result<Option<FaceSource>, Problem> {
+    /// A polygon of some ten corners fits.
+    const LONGEST_TEXT: usize = 160;
+    let mut counts = [0; 3];
+    let mut lines = Lines::new(bytes, progress)?;
+    while let Some(statement) = lines.next()? {
+        let keyword = keyword(&statement);
+        if statement.line == line && keyword == b"f" {
+            let plain = without_comment(statement.bytes);
+            let after = start_of(&statement) + 1;
+            let mut corners = Vec::new();
+            for corner in Corners::of(plain, after) {
+                let Ok(corner) = corner else { return Ok(None) };
+                let Some(corner) = from_one(corner, counts) else {
+                    return Ok(None);
+                };
+                corners.push(corner);
+            }
+            let statement = printable(text(plain).trim());
+            let is_long = statement.chars().count() > LONGEST_TEXT;
+            let mut shortened: String = statement.chars().take(LONGEST_TEXT).collect();
+            shortened.extend(is_long.then_some('…'));
+            return Ok(Some(FaceSource {
+                statement: shortened,
+                corners,
+            }));
+        }
+        if statement.line > line {
+            break;
+        }
+        if let Some(list) = list_of(keyword) {
+            counts[list as usize] += 1;
+        }
+    }
+    Ok(None)
+}
+
+/// A corner with its indices counted from 1. Negative ones count from the end of what has been read.
+fn from_one(corner: Corner, counts: [usize; 3]) -> Option<FaceCorner> {
+    let index = |list: List| {
+        let written = corner.indices[list as usize]?;
+        let from_start = if written < 0 {
+            counts[list as usize] as i64 + 1 + written
+        } else {
+            written
+        };
+        usize::try_from(from_start).ok().filter(|&index| index > 0)
+    };
+    Some(FaceCorner {
+        vertex: index(List::Vertex)?,
+        texture: index(List::Texture),
+        normal: index(List::Normal),
+        ..FaceCorner::default()
+    })
+}
+
+/// Reads the coordinates that corners name; whether each vertex was found.
+fn look_up(
+    bytes: impl Read,
+    corners: &mut [FaceCorner],
+    progress: &Progress,
+) -> Result<bool, Problem> {
+    let mut vertices: BTreeMap<usize, Option<DVec3>> =
+        corners.iter().map(|corner| (corner.vertex, None)).collect();
+    let textures = corners.iter().filter_map(|corner| corner.texture);
+    let mut uvs: BTreeMap<usize, Option<DVec2>> = textures.map(|index| (index, None)).collect();
+    let mut missing = vertices.len() + uvs.len();
+    let mut counts = [0; 3];
+    let mut lines = Lines::new(bytes, progress)?;
+    while missing > 0
+        && let Some(statement) = lines.next()?
+    {
+        let Some(list) = list_of(keyword(&statement)) else {
+            continue;
+        };
+        counts[list as usize] += 1;
+        let count = counts[list as usize];
+        match list {
+            List::Vertex => {
+                if let Some(position) = vertices.get_mut(&count) {
+                    *position = Some(DVec3::from_array(numbers(&statement)?));
+                    missing -= 1;
+                }
+            }
+            List::Texture => {
+                if let Some(uv) = uvs.get_mut(&count) {
+                    *uv = Some(DVec2::from_array(numbers(&statement)?));
+                    missing -= 1;
+                }
+            }
+            List::Normal => {}
+        }
+    }
+    for corner in corners {
+        let Some(position) = vertices[&corner.vertex] else {
+            return Ok(false);
+        };
+        corner.position = position;
+        corner.uv = corner.texture.and_then(|index| uvs[&index]);
+    }
+    Ok(true)
+}
+
+/// The first numbers of a statement; zeros where it has fewer.
+fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Problem> {
+    let plain = Statement {
+        bytes: without_comment(statement.bytes),
+        ..*statement
+    };
+    let after = start_of(statement) + keyword(statement).len();
+    let mut numbers = [0.0; N];
+    for (slot, word) in numbers.iter_mut().zip(Words::of(plain.bytes, after)) {
+        *slot = number(&plain, word)?;
+    }
+    Ok(numbers)
+}
+
+fn list_of(keyword: &[u8]) -> Option<List> {
+    match keyword {
+        b"v" => Some(List::Vertex),
+        b"vt" => Some(List::Texture),
+        b"vn" => Some(List::Normal),
+        _ => None,
+    }
+}
+
+fn start_of(statement: &Statement<'_>) -> usize {
+    let blanks = statement.bytes.iter().take_while(|&&b| is_blank(b));
+    blanks.count()
+}
+
+fn keyword<'l>(statement: &Statement<'l>) -> &'l [u8] {
+    let rest = &statement.bytes[start_of(statement)..];
+    rest.split(|&b| is_blank(b)).next().unwrap_or_default()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    const FILE: &str = "# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0 # here\nvt 0.5 0.25\n\
+        f 1/1 2 \\\n3\nv 0 1 0\n  f -4 -2/-1 -1//9 5\nv 7 8 9\n";
+
+    fn source(line: usize) -> Option<FaceSource> {
+        let progress = Progress::default();
+        face_source(|| Ok(FILE.as_bytes()), Path::new("a.obj"), line, &progress).expect("it parses")
+    }
+
+    #[test]
+    fn a_face_is_read_with_what_its_corners_name() {
+        let joined = source(6).expect("a face");
+        assert_eq!(joined.statement, "f 1/1 2   3");
+        assert_eq!(joined.corners[0].uv, Some(DVec2::new(0.5, 0.25)));
+        assert_eq!(joined.corners[1].uv, None);
+        let quad = source(9).expect("a face");
+        let vertices: Vec<usize> = quad.corners.iter().map(|corner| corner.vertex).collect();
+        // Negative indices count from what was read before; positive ones may come later.
+        assert_eq!(vertices, [1, 3, 4, 5]);
+        assert_eq!(quad.corners[1].position, DVec3::new(1.0, 1.0, 0.0));
+        assert_eq!(quad.corners[3].position, DVec3::new(7.0, 8.0, 9.0));
+        assert_eq!(
+            (quad.corners[1].texture, quad.corners[2].normal),
+            (Some(1), Some(9))
+        );
+    }
+
+    #[test]
+    fn a_line_without_a_face_has_none() {
+        for line in [0, 1, 7, 10, 99] {
+            assert_eq!(source(line), None, "{line}");
+        }
+    }
+}

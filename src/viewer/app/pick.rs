@@ -1,0 +1,165 @@
+//! The picked pixel: inspected in the background, and again when what it depends on changes.
+
+use super::App;
+use crate::document::Document;
+use crate::face_lookup::{FaceInFile, FaceLookup};
+use crate::panels::{self, inspect::PickView};
+use crate::settings::Tab;
+use crate::task::Task;
+use glam::{DVec3, UVec2, Vec3};
+use hitscope_core::mesh::Crease;
+use hitscope_core::scene::Shading;
+use hitscope_core::{Camera, TriangleMesh};
+use hitscope_lab::inspection::{HitReport, Inspection};
+use std::sync::Arc;
+
+/// A pixel that was clicked.
+pub(super) struct Pick {
+    pub inspection: Inspection,
+    /// The camera of the picture in which it was clicked.
+    pub camera: Camera,
+    /// The hit point, in the scene's coordinates.
+    pub point: Option<DVec3>,
+    /// The face that was hit, once it has been read from the file again.
+    face: Option<FaceInFile>,
+    basis: InspectionBasis,
+}
+
+/// What an inspection depends on besides mesh and ray.
+#[derive(Clone, Copy, PartialEq)]
+struct InspectionBasis {
+    kernel: &'static str,
+    shading: Shading,
+    crease: Crease,
+    /// The number of tests depends on the tree.
+    has_last_tree: bool,
+}
+
+impl Pick {
+    /// What the Inspect tab shows of it.
+    pub fn view(&self, document: &Document) -> PickView<'_> {
+        let hit = self.inspection.hit.as_ref();
+        PickView {
+            inspection: &self.inspection,
+            kernel: panels::kernel_name(self.basis.kernel),
+            line: hit.map(|hit| document.loaded.face_lines.line(hit.face as usize)),
+            face: self.face.as_ref(),
+            colour: hit.and_then(|hit| colour_at(document.loaded.scene.mesh(), hit)),
+        }
+    }
+}
+
+/// The file's vertex colours, interpolated at a hit.
+fn colour_at(mesh: &TriangleMesh, hit: &HitReport) -> Option<[f32; 3]> {
+    let corners = mesh.triangles.get(hit.triangle as usize)?;
+    let mut sum = Vec3::ZERO;
+    for (&vertex, weight) in corners.iter().zip(hit.barycentric) {
+        sum += *mesh.colours.get(vertex as usize)? * weight;
+    }
+    Some(sum.to_array())
+}
+
+impl App {
+    /// Inspects a pixel and shows what is found.
+    pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
+        self.start_picking(camera, pixel, ctx);
+        self.settings.tab = Tab::Inspect;
+    }
+
+    /// Inspects a picked pixel again.
+    pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
+        let pixel = UVec2::from_array(pick.inspection.pixel);
+        self.start_picking(pick.camera, pixel, ctx);
+    }
+
+    /// Inspects the picked pixel again if the kernel, the shading or the tree has changed since.
+    pub(super) fn refresh_pick(&mut self, ctx: &egui::Context) {
+        if self.picking.is_some() {
+            return;
+        }
+        let Some(pick) = &self.pick else { return };
+        if pick.basis != self.inspection_basis() {
+            let pixel = UVec2::from_array(pick.inspection.pixel);
+            self.start_picking(pick.camera, pixel, ctx);
+        }
+    }
+
+    fn inspection_basis(&self) -> InspectionBasis {
+        InspectionBasis {
+            kernel: self.document.intersector().kernel().name,
+            shading: self.settings.shading(),
+            crease: self.document.loaded.scene.crease(),
+            has_last_tree: self.document.has_last_tree(),
+        }
+    }
+
+    fn start_picking(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
+        let basis = self.inspection_basis();
+        let scene = Arc::clone(&self.document.loaded.scene);
+        let intersector = Arc::clone(self.document.intersector());
+        // Each kernel tests every triangle near the ray; in a hostile mesh, these are a million.
+        let inspect = move || {
+            let shading = basis.shading;
+            let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+            let origin = scene.mesh().origin;
+            let hit = inspection.hit.as_ref();
+            let point = hit.map(|hit| DVec3::from_array(hit.position) - origin);
+            Pick {
+                inspection,
+                camera,
+                point,
+                face: None,
+                basis,
+            }
+        };
+        self.picking = Some(Task::spawn("inspect", ctx, inspect));
+    }
+
+    fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
+        self.face_lookup = pick.inspection.hit.as_ref().map(|hit| {
+            let document = &self.document;
+            let line = document.loaded.face_lines.line(hit.face as usize);
+            let scene = &document.loaded.scene;
+            FaceLookup::start(document.path.clone(), scene, hit.triangle, line, ctx)
+        });
+    }
+
+    fn poll_face_lookup(&mut self) {
+        let face = match self.face_lookup.as_ref().map(FaceLookup::poll) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(face))) => face,
+            Some(Err(panicked)) => FaceInFile::Unknown(panicked.to_string()),
+        };
+        self.face_lookup = None;
+        if let Some(pick) = &mut self.pick {
+            pick.face = Some(face);
+        }
+    }
+
+    /// Takes over the result of the last inspection.
+    pub(super) fn poll_picking(&mut self, ctx: &egui::Context) {
+        self.poll_face_lookup();
+        let result = match self.picking.as_ref().map(Task::poll) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(pick))) => Ok(pick),
+            Some(Err(panicked)) => Err(panicked),
+        };
+        self.picking = None;
+        match result {
+            Ok(mut pick) => {
+                let triangle = |pick: &Pick| pick.inspection.hit.as_ref().map(|hit| hit.triangle);
+                let is_same = |old: &Pick| triangle(old) == triangle(&pick) && old.face.is_some();
+                match self.pick.take().filter(is_same) {
+                    Some(old) => pick.face = old.face,
+                    None => self.start_face_lookup(&pick, ctx),
+                }
+                self.pick = Some(pick);
+            }
+            Err(panicked) => {
+                // The old result is of another question.
+                self.pick = None;
+                self.error(panicked);
+            }
+        }
+    }
+}

@@ -1,0 +1,130 @@
+//! The pointer on the picture: drags, wheel and clicks.
+//!
+//! What is under the pointer is decided by the camera of the picture that is on the screen. While the camera
+//! moves, that isn't the newest one.
+
+use super::App;
+use super::canvas::Canvas;
+use egui::{PointerButton, Pos2, Response};
+use glam::{DVec2, DVec3, UVec2};
+use hitscope_core::Camera;
+
+/// Single and double clicks. egui counts the clicks of a longer time than a double click takes.
+#[derive(Default)]
+pub(super) struct Clicks {
+    /// A click that may still become a double click.
+    pub pending: Option<PendingClick>,
+    /// When the last double click was, by egui's clock.
+    last_double_secs: Option<f64>,
+}
+
+/// A click that may still become a double click.
+pub(super) struct PendingClick {
+    camera: Camera,
+    pixel: UVec2,
+    pos: Pos2,
+    /// When it has become a single click, by egui's clock.
+    due_secs: f64,
+}
+
+impl App {
+    /// Handles drags, wheel and clicks.
+    pub(super) fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
+        let drag = response.drag_delta() * canvas.pixels_per_point;
+        let drag = DVec2::new(drag.x.into(), drag.y.into());
+        let is_shift = ui.input(|input| input.modifiers.shift);
+        if response.dragged_by(PointerButton::Primary) && !is_shift {
+            self.turntable.orbit(drag, canvas.resolution);
+        } else if response.dragged() {
+            self.turntable.pan(drag, canvas.resolution);
+        }
+        if let Some(pos) = response.hover_pos() {
+            self.wheel(ui, pos, canvas);
+        }
+        if let Some(pos) = response.interact_pointer_pos() {
+            self.click(ui, response, pos, canvas);
+        }
+        self.end_click(ui.ctx());
+    }
+
+    /// Zooms about the point under the pointer.
+    fn wheel(&mut self, ui: &egui::Ui, pos: Pos2, canvas: Canvas) {
+        /// A notch of a wheel, about 50 points, zooms by a fifth.
+        const POINTS_PER_E: f32 = 220.0;
+        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
+        let factor = (-(scroll.y + scroll.x) / POINTS_PER_E).exp() / pinch;
+        if factor != 1.0 {
+            let newest = || self.turntable.camera(canvas.resolution);
+            let camera = self.shown_camera().unwrap_or_else(newest);
+            let at = canvas.pixel_of(pos, &camera);
+            let on_pivots_plane = || camera.on_plane_through(self.turntable.pivot, at);
+            let anchor = self.surface_at(&camera, at).unwrap_or_else(on_pivots_plane);
+            self.turntable.zoom(factor.into(), anchor);
+        }
+    }
+
+    /// Sets the pivot on a double click; keeps a single click until it can't become a double click.
+    fn click(&mut self, ui: &egui::Ui, response: &Response, pos: Pos2, canvas: Canvas) {
+        if !response.clicked() {
+            return;
+        }
+        let Some(camera) = self.shown_camera() else {
+            return;
+        };
+        let (delay, distance) = ui.ctx().options(|options| {
+            let input = &options.input_options;
+            (input.max_double_click_delay, input.max_click_dist)
+        });
+        let now = ui.input(|input| input.time);
+        let at = canvas.pixel_of(pos, &camera);
+        let first = self.clicks.pending.take();
+        if first.is_some_and(|first| first.pos.distance(pos) <= distance) {
+            self.clicks.last_double_secs = Some(now);
+            if let Some(point) = self.surface_at(&camera, at) {
+                self.turntable.centre_on(point);
+            }
+        } else if self
+            .clicks
+            .last_double_secs
+            .is_none_or(|last| now - last > delay)
+        {
+            // The third click of three is ignored.
+            let last_pixel = camera.resolution() - 1;
+            self.clicks.pending = Some(PendingClick {
+                camera,
+                pixel: at.max(DVec2::ZERO).as_uvec2().min(last_pixel),
+                pos,
+                due_secs: now + delay,
+            });
+        }
+    }
+
+    /// Inspects the pixel of a click that can't become a double click any more.
+    fn end_click(&mut self, ctx: &egui::Context) {
+        let Some(click) = &self.clicks.pending else {
+            return;
+        };
+        let left_secs = click.due_secs - ctx.input(|input| input.time);
+        if left_secs > 0.0 {
+            ctx.request_repaint_after(std::time::Duration::from_secs_f64(left_secs));
+            return;
+        }
+        let (camera, pixel) = (click.camera, click.pixel);
+        self.clicks.pending = None;
+        self.inspect(camera, pixel, ctx);
+    }
+
+    /// The camera of the picture on the screen; `None` while that shows another mesh, or none.
+    pub fn shown_camera(&self) -> Option<Camera> {
+        let (scene, camera) = self.on_screen.as_ref()?;
+        let is_current = std::ptr::eq(scene.mesh(), self.document.loaded.scene.mesh());
+        is_current.then_some(*camera)
+    }
+
+    /// The point of the mesh under a pixel, in the scene's coordinates.
+    fn surface_at(&self, camera: &Camera, at_px: DVec2) -> Option<DVec3> {
+        let ray = camera.ray_through(at_px);
+        let hit = self.document.intersector().closest_hit(&ray)?;
+        Some(ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3())
+    }
+}

@@ -1,0 +1,87 @@
+//! Numbers as text.
+
+use std::fmt::{Display, LowerExp};
+
+/// `1234567` as `1 234 567`, with narrow spaces.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+/// `1 triangle`, `2 triangles`.
+pub fn counted(number: usize, noun: &str) -> String {
+    let ending = if number == 1 { "" } else { "s" };
+    format!("{} {noun}{ending}", grouped(number))
+}
+
+/// All digits of an f32 or f64, with an exponent where there would be many zeros; zero without a sign.
+pub fn number(x: impl Into<f64> + Display + LowerExp + Copy) -> String {
+    let size = x.into().abs();
+    if size == 0.0 {
+        "0".to_owned()
+    } else if (1e-4..1e9).contains(&size) || !size.is_finite() {
+        x.to_string()
+    } else {
+        format!("{x:e}")
+    }
+}
+
+/// A number rounded to significant digits, at least one; zero without a sign.
+pub fn significant(x: f64, digits: usize) -> String {
+    if x == 0.0 {
+        return "0".to_owned();
+    }
+    let scientific = format!("{x:.*e}", digits - 1);
+    let exponent = scientific.split('e').nth(1);
+    match exponent.and_then(|exponent| exponent.parse::<i32>().ok()) {
+        Some(exponent) if (-4..digits as i32).contains(&exponent) => {
+            format!("{x:.*}", (digits as i32 - 1 - exponent) as usize)
+        }
+        _ => scientific,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn digits_are_grouped_by_three() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(69451), "69\u{202f}451");
+        assert_eq!(grouped(1_111_216), "1\u{202f}111\u{202f}216");
+    }
+
+    #[test]
+    fn one_is_singular() {
+        assert_eq!(counted(0, "triangle"), "0 triangles");
+        assert_eq!(counted(1, "triangle"), "1 triangle");
+        assert_eq!(counted(1200, "line"), "1\u{202f}200 lines");
+    }
+
+    #[test]
+    fn small_and_large_numbers_have_an_exponent_and_zero_no_sign() {
+        assert_eq!(number(1.456_372_9e-12_f32), "1.4563729e-12");
+        assert_eq!(number(-0.0_f32), "0");
+        assert_eq!(number(0.25_f32), "0.25");
+        assert_eq!(number(-500_000.001_f64), "-500000.001");
+        assert_eq!(number(3e38_f32), "3e38");
+        assert_eq!(number(f64::NEG_INFINITY), "-inf");
+    }
+
+    #[test]
+    fn rounding_keeps_significant_digits() {
+        assert_eq!(significant(0.333_333_333_333, 9), "0.333333333");
+        assert_eq!(significant(-1e-17, 9), "-1.00000000e-17");
+        assert_eq!(significant(-0.0, 9), "0");
+        assert_eq!(significant(9.999_999_999_9, 3), "10.0");
+        assert_eq!(significant(123_456.0, 3), "1.23e5");
+    }
+}
