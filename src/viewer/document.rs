@@ -3,7 +3,7 @@
 use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
-use hitscope_core::obj::{self, LoadError, LoadOptions};
+use hitscope_core::obj::{self, LineRuns, LoadError, LoadOptions};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Intersector, Scene};
@@ -101,6 +101,7 @@ impl Document {
             warnings: Vec::new(),
             vertex_count: 0,
             max_rounding: 0.0,
+            face_lines: LineRuns::default(),
             files: Vec::new(),
             load_time: Duration::ZERO,
         };

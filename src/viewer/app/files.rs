@@ -93,7 +93,7 @@ impl App {
     /// Looks at the scene from the default direction. What is no matter of the mesh stays: the up axis, the
     /// projection and its angle.
     pub(super) fn use_default_view(&mut self) {
-        let bounds = self.document.loaded.scene.bounds();
+        let bounds = self.document.loaded.scene.bounds_with_elements();
         let mut turntable = Turntable::framing(bounds, self.resolution);
         turntable.fov_y_radians = self.turntable.fov_y_radians;
         turntable.is_orthographic = self.turntable.is_orthographic;
