@@ -285,6 +285,51 @@ mod tests {
     }
 
     #[test]
+    fn a_film_that_restarts_keeps_its_colours_where_its_size_stays() {
+        let size = UVec2::new(50, 2);
+        let mut film = Film::new(Plan::new(size, 1, 1), Vec3::ZERO);
+        let white = |film: &mut Film| {
+            for tile in 0..film.plan().tile_count() {
+                let unit = film.plan().unit(tile);
+                let sums = film.plan().pixels(unit).map(|_| [ONE as u32; 3]).collect();
+                film.add(&TileSamples { unit, sums });
+            }
+        };
+        white(&mut film);
+        assert_eq!((film.samples(), film.is_complete()), (1, true));
+        film.restart(Plan::new(size, 2, 1), Vec3::ZERO);
+        assert_eq!((film.samples(), film.passes_done()), (0, 0));
+        assert!(film.pixels().iter().all(|&p| p == [255; 4]));
+        // Nothing is left of the samples before: white once more is no brighter.
+        white(&mut film);
+        assert_eq!(film.counts.iter().filter(|&&n| n == 1).count(), 25);
+        let size = UVec2::new(51, 2);
+        film.restart(Plan::new(size, 1, 1), Vec3::ZERO);
+        assert_eq!(film.size(), size);
+        assert_eq!(film.pixels(), [[0, 0, 0, 255]; 102]);
+    }
+
+    #[test]
+    fn a_film_counts_skipped_tiles_as_done() {
+        let plan = Plan::new(UVec2::new(50, 50), 1, 1);
+        let mut film = Film::new(plan.clone(), Vec3::ONE);
+        (0..plan.unit_count()).for_each(|k| film.skip(plan.unit(k)));
+        assert!(film.is_complete());
+        assert!(film.pixels().iter().all(|&p| p == [255; 4]));
+    }
+
+    #[test]
+    fn the_union_of_rectangles_holds_both() {
+        let rect = |a, b, c, d| PixelRect {
+            min: UVec2::new(a, b),
+            max: UVec2::new(c, d),
+        };
+        let (first, second) = (rect(3, 1, 5, 9), rect(2, 4, 8, 6));
+        assert_eq!(first.union(second), rect(2, 1, 8, 9));
+        assert_eq!(second.union(first), rect(2, 1, 8, 9));
+    }
+
+    #[test]
     fn the_first_pass_covers_the_whole_picture() {
         let plan = Plan::new(UVec2::new(101, 53), 8, 1);
         let mut film = Film::new(plan.clone(), Vec3::ZERO);

@@ -29,6 +29,9 @@ mod exact;
 // A ray that leaves a surface doesn't meet it again.
 mod reintersect;
 
+// Where each policy starts such a ray.
+mod spawn_policies;
+
 // What holds for any triangle and ray: scaling, permuting, reversing.
 mod properties;
 // Any file that people have is a mesh or a clear error.

@@ -122,11 +122,19 @@ fn a_ray_begins_above_the_computed_point_by_the_bound_that_the_policy_derives() 
             .into_iter()
             .fold(0.0, f64::max);
         let height = side.dot(ray.origin.as_dvec3() - p.as_dvec3());
-        // The lift itself takes some ten operations in f32, which lose 10u of it at most.
-        let least = 7.0 * U * (size.as_dvec3() + extent).dot(normal.abs()) * (1.0 - 10.0 * U);
+        // The lift itself takes some ten operations in f32, which change it by 10u of it at most.
+        let lift = 7.0 * U * (size.as_dvec3() + extent).dot(normal.abs());
+        let least = lift * (1.0 - 10.0 * U);
         assert!(
             height >= least && least > 0.0,
             "{height:e} {least:e} {corners:?} {hit:?} {dir}"
+        );
+        // Each coordinate is then rounded and moved on, by three half-ulps in all.
+        let ulps = ray.origin.as_dvec3().abs().max(p.as_dvec3().abs());
+        let most = lift * (1.0 + 20.0 * U) + 3.0 * U * ulps.dot(normal.abs());
+        assert!(
+            height <= most,
+            "{height:e} {most:e} {corners:?} {hit:?} {dir}"
         );
         count += 1;
     }
