@@ -12,12 +12,11 @@ use crate::window;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
-use hitscope_core::obj::{LoadOptions, shown};
-use hitscope_core::scene::SceneOptions;
+use hitscope_core::obj::{LoadOptions, Recentre, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
     BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output, PictureArgs,
-    RenderArgs, TraceArgs, is_stdin, load, parse_png, print_line, start_thread_pool,
+    RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
 };
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write, stdout};
@@ -189,11 +188,9 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
         return output.write_png(size, rendered.film.pixels());
     };
     let mut pixels = rendered.film.pixels().to_vec();
-    {
-        let edges = args.wireframe.then_some(WireframeEdges::Polygons);
-        let normals = args.normals.then_some(rendered.shading);
-        offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
-    }
+    let edges = args.wireframe.then_some(WireframeEdges::Polygons);
+    let normals = args.normals.then_some(rendered.shading);
+    offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
     output.write_png(size, &pixels)
 }
 
@@ -251,7 +248,7 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
         (Err(error), Some(_)) => Err(CommandError::Other(no_window(&error))),
         (Err(error), None) => {
             print_line(format_args!("hitscope: {}", no_window(&error)));
-            render_instead(cli.file.as_deref(), load_options)
+            render_instead(cli)
         }
     }
 }
@@ -276,18 +273,18 @@ fn no_window(error: &eframe::Error) -> String {
     }
 }
 
-/// The file or the embedded scene as a picture in the current folder.
-fn render_instead(file: Option<&Path>, load_options: LoadOptions) -> Result<(), CommandError> {
+/// Writes a picture of the file or of the embedded scene to the current directory.
+fn render_instead(cli: &Cli) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
-    let input = file.map_or("the built-in scene".to_owned(), shown);
+    let PictureDefaults { mut picture } = PictureDefaults::parse_from(["hitscope"]);
+    picture.mesh.memory = cli.memory;
+    picture.check()?;
     let output = Output::create(Path::new(OUTPUT))?;
-    let loaded = match file {
-        Some(path) => load(path, load_options, SceneOptions::default())?,
-        None => embedded_scene(),
+    let (input, loaded) = match &cli.file {
+        Some(path) => (shown(path), picture.mesh.load(path, Recentre::Auto)?),
+        None => ("the built-in scene".to_owned(), embedded_scene()),
     };
-    let rendered = PictureDefaults::parse_from(["hitscope"])
-        .picture
-        .trace(loaded)?;
+    let rendered = picture.trace(loaded)?;
     output.write_png(rendered.film.size(), rendered.film.pixels())?;
     let mut out = stdout().lock();
     writeln!(out, "rendered {input} to {OUTPUT}")?;

@@ -100,6 +100,11 @@ fn the_memory_limit_covers_the_picture_and_refuses_nothing_that_fits() {
     assert!(render("good.obj --max-memory 4").status.success());
     let ran = render("none.obj --max-memory 3");
     assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 4 MB");
+    // The picture that stands in for the window: 19 bytes for each of 1280 by 720 pixels, 16.7 MB.
+    let ran = program.run("good.obj --max-memory 16");
+    assert_eq!(ran.status.code(), Some(2), "{}", stderr(&ran));
+    let ran = program.run("good.obj --max-memory 18");
+    assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
     // A mesh whose triangles take more than the remaining 0.7 MB.
     let vertices: String = (0..5000)
         .map(|k| format!("v {k} 0 0\nv {k} 1 {k}\n"))

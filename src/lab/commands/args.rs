@@ -1,7 +1,8 @@
 //! Arguments that several commands share.
 
+use super::CommandError;
+use super::input::load;
 use super::picture::ShadingArg;
-use super::{CommandError, load};
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
@@ -138,7 +139,7 @@ impl MeshArgs {
     /// Loads a scene, and prints the file's warnings.
     ///
     /// # Errors
-    /// See [`load`].
+    /// [`CommandError::Load`]; [`CommandError::Usage`] where standard input would have to be read twice.
     pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, CommandError> {
         let load_options = LoadOptions {
             recentre,

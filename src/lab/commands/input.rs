@@ -23,7 +23,7 @@ pub fn is_stdin(path: &Path) -> bool {
 ///
 /// # Errors
 /// [`CommandError::Load`]; [`CommandError::Usage`] where standard input would have to be read twice.
-pub fn load(
+pub(super) fn load(
     path: &Path,
     load_options: LoadOptions,
     options: SceneOptions,
