@@ -1,4 +1,4 @@
-//! What happens to this ray? The hit, the exact answer, and every kernel beside it.
+//! Inspection of one ray: its hit, the exact answer, and the answers of all kernels.
 
 use crate::frames;
 use crate::json;
@@ -13,47 +13,47 @@ use hitscope_core::scene::{Scene, Shading};
 use hitscope_core::{Camera, Hit, Intersector, Ray};
 use serde::Serialize;
 
-/// All that is known of a pixel's ray. Serialises to what `inspect --json` prints.
+/// The ray of a pixel, and everything known about it. Serialises to the output of `inspect --json`.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Inspection {
     /// The pixel, from the top left.
     pub pixel: [u32; 2],
     /// The ray through its centre.
     pub ray: RayReport,
-    /// The kernel that was asked.
+    /// The kernel that answered.
     pub kernel: &'static str,
-    /// What it found.
+    /// Its answer; `None` for a miss.
     pub hit: Option<HitReport>,
-    /// What there is to be found.
+    /// The exact answer; `None` for a miss.
     pub exact: Option<ExactReport>,
-    /// Every kernel in the table.
+    /// The answers of all kernels in the table.
     pub kernels: Vec<KernelRow>,
-    /// What the ray cost.
+    /// The tests done for the ray.
     pub cost: CostReport,
 }
 
 /// A ray in the file's coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct RayReport {
-    /// Where it starts.
+    /// The origin.
     pub origin: [f64; 3],
-    /// Where it goes; t counts its lengths.
+    /// The direction; t counts its lengths.
     pub direction: [f32; 3],
     /// The largest distance, in one coordinate and in the file's units, between this ray and the one in f64 that the
     /// camera asks for, where they may meet the mesh. Large for a camera that is far away.
     pub ray_rounding: f64,
 }
 
-/// A hit, with what the mesh says of its place. Positions are in the file's coordinates.
+/// A hit, and the mesh at this point. Positions are in the file's coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HitReport {
     /// Distance in lengths of the direction.
     pub t: f32,
     /// Weights of the three corners.
     pub barycentric: [f32; 3],
-    /// Index of the triangle.
+    /// Index of the triangle, counted from 0.
     pub triangle: u32,
-    /// Index of the file's face.
+    /// Index of the face in the file, counted from 0.
     pub face: u32,
     /// l1·A + l2·B + l3·C.
     pub position: [f64; 3],
@@ -74,7 +74,7 @@ pub struct HitReport {
 pub struct ExactReport {
     /// The nearest triangle; of several at the same t the lowest.
     pub triangle: u32,
-    /// Others at exactly the same t.
+    /// Other triangles at exactly the same t.
     pub also: Vec<u32>,
     /// Distance in lengths of the direction.
     pub t: f64,
@@ -88,14 +88,14 @@ pub struct ExactReport {
     pub is_on_boundary: bool,
 }
 
-/// What one kernel says of the ray.
+/// The answer of one kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct KernelRow {
     /// The kernel.
     pub name: &'static str,
-    /// Whether it hit anything.
+    /// Whether it found a hit.
     pub hit: bool,
-    /// The triangle that it hit.
+    /// The triangle, counted from 0.
     pub triangle: Option<u32>,
     /// Distance in lengths of the direction.
     pub t: Option<f32>,
@@ -108,7 +108,7 @@ pub struct KernelRow {
     pub barycentric_error: Option<f64>,
 }
 
-/// Tests done for the ray.
+/// The number of tests done for a ray.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
 pub struct CostReport {
     /// Boxes tested.
@@ -176,7 +176,7 @@ impl Inspection {
 }
 
 impl HitReport {
-    /// Looks up all that is known of a hit.
+    /// The mesh at a hit.
     pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
         let surface = SurfaceInteraction::new(scene, hit, shading);

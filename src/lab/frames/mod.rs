@@ -101,10 +101,9 @@ impl<'a> Frames<'a> {
     /// # Errors
     /// See [`RayError`].
     pub fn place(&self, given: &GivenRay) -> Result<PlacedRay, RayError> {
-        if !matches!(
-            given.t_min.partial_cmp(&given.t_max),
-            Some(std::cmp::Ordering::Less)
-        ) {
+        // False for NaN, too.
+        let has_interval = given.t_min < given.t_max;
+        if !has_interval {
             return Err(RayError::IntervalEmpty);
         }
         let frame = Frame::of_mesh(self.scene);
