@@ -1,4 +1,4 @@
-//! `hitscope inspect`: what happens to one pixel's ray.
+//! `hitscope inspect`: the ray of one pixel.
 
 use super::CommandError;
 use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs};
@@ -12,21 +12,22 @@ use std::io::Write;
 use std::path::PathBuf;
 
 const ABOUT: &str = "\
-Show one pixel's ray: what it hits, the exact answer, and what every kernel says
+Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
 
-The ray is the one that `render` with the same camera traces through the centre of the pixel. The exact answer is \
-computed with integers. The table compares all kernels with it.
+The ray is the one that `render` traces, with the same camera, through the centre of the pixel. The
+exact answer is computed with integers; the table compares every kernel with it.
 
-In the output, also as JSON:
+Values, in the text and in JSON:
 
-  t                  in lengths of the ray's direction, which is about one unit of the file long
-  barycentric        the weights of the triangle's corners A, B and C
+  t                  in lengths of the ray's direction, which has unit length up to rounding
+  barycentric        weights of the triangle's corners A, B and C
   triangle, face     indices, counted from 0, in the order of the file
-  position, normal   in the file's coordinates
+  position           in the file's coordinates
   t_error_ulps       error of t, in units in the last place of f32
-  barycentric_error  the largest error of a weight
-  ray_rounding       the largest distance, in one coordinate and in units of the file, between this ray and the \
-camera's in f64, where they may meet the mesh; large for a camera that is far away
+  barycentric_error  largest error of a weight
+  ray_rounding       largest distance, in one coordinate and in units of the file, between this ray
+                     and the camera's ray in f64, where they may meet the mesh. It is large for a
+                     camera that is far away.
 
 Numbers in JSON read back to the same value as a double.";
 
@@ -39,9 +40,9 @@ Examples:
 Exit status:
   0  done, also if the ray hits nothing
   1  the mesh can't be read: one line on stderr says why
-  2  the command line is at fault, as with a pixel outside of the picture";
+  2  the command line is at fault, for example a pixel outside the picture";
 
-/// Show one pixel's ray: what it hits, the exact answer, and what every kernel says
+/// Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
 #[derive(Args, Clone, Debug)]
 #[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct InspectArgs {

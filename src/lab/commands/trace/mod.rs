@@ -27,37 +27,38 @@ const LEAST_PER_THREAD: usize = 256;
 const ABOUT: &str = "\
 Trace rays through a mesh and print one JSON object per ray
 
-Input: one ray per line, as six or eight numbers in the file's coordinates:
+Input: one ray per line, as six or eight numbers in the file's coordinates.
 
   ox oy oz dx dy dz [tmin tmax]
 
-The ray is the points o + t*d with tmin < t < tmax; without the last two numbers, 0 < t < infinity. d needn't have \
-unit length. # starts a comment. Lines end in LF, CR or CRLF and may be 65536 bytes long. With --rays -, each line is \
-answered as soon as no more input is waiting.
+The ray is the points o + t*d with tmin < t < tmax; without the last two numbers, 0 < t < infinity.
+d needn't have unit length. # starts a comment. Lines end in LF, CR or CRLF and have at most 65536
+bytes. Whenever no more input is waiting, the lines so far are answered.
 
-Output, in the order of the input; blank lines and comments have none:
+Output: one JSON object per ray, in the order of the input. Blank lines and comments have none.
 
-  {\"hit\":true,\"t\":2.5,\"barycentric\":[0.25,0.5,0.25],\"triangle\":10,\"face\":5,\"position\":[0.25,0.5,1.0],
-   \"line\":1,\"ray_rounding\":0.0}
+  {\"hit\":true,\"t\":2.0,\"barycentric\":[0.25,0.5,0.25],\"triangle\":10,\"face\":5,
+   \"position\":[0.25,0.5,1.0],\"line\":1,\"ray_rounding\":0.0}
   {\"hit\":false,\"line\":2,\"ray_rounding\":0.0}
   {\"error\":\"a ray has 6 or 8 numbers, here are 5\",\"line\":3}
 
   t             in lengths of d, counted from o
-  barycentric   the weights of the triangle's corners A, B and C; position is their weighted sum
-  triangle      index of the triangle, from 0, in the order in which faces are split into triangles
-  face          index of the face in the file, from 0
+  barycentric   weights of the triangle's corners A, B and C; their weighted sum is the position
+  triangle      index of the triangle, counted from 0, in the order in which faces are triangulated
+  face          index of the face in the file, counted from 0
   position      in the file's coordinates
-  line          line number in the input, from 1
+  line          number of the line in the input, counted from 1
   ray_rounding  in units of the file, see below
 
-Numbers read back to the same value as a double. Indices count from 0.
+Numbers read back to the same value as a double.
 
-Rounding: kernels trace f32 rays through a mesh of f32 coordinates about an origin near it (--recentre). A ray given \
-with more digits, or from far away, is rounded. To lose as little as possible, the traced ray starts where the given \
-one comes near the mesh, or is traced in the file's own coordinates, where that is better. ray_rounding is what \
-remains: the largest distance, in one coordinate, between the traced ray and the given one at the same t, for all t \
-at which they may meet the mesh. 0 means that the ray is traced exactly as given. tmin and tmax are rounded outwards \
-to f32. The rounding of the mesh itself is shown by `hitscope info`.";
+Rounding: rays and meshes are traced as f32 numbers, about an origin near the mesh (--recentre). A
+ray with more digits, or from far away, is rounded. So that this loses as little as possible, the
+traced ray starts where the given ray comes near the mesh, or is traced in the file's coordinates,
+where that is more accurate. ray_rounding is what remains: the largest distance, in one coordinate,
+between the traced ray and the given ray at the same t, for all t at which they may meet the mesh.
+0 means that the ray is traced exactly as given. tmin and tmax are rounded outwards to f32. How far
+the mesh itself is rounded is shown by `hitscope info`.";
 
 const EXAMPLES: &str = "\
 Examples:
