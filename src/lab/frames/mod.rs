@@ -201,7 +201,8 @@ impl Frame {
         let [entry, exit] = self.reach(given);
         // In steps of a sixteenth of the way through the ball: a number of few digits keeps t = start + t′ exact
         // for many rays.
-        let step = 2f64.powi((exit - entry).log2().floor() as i32 - 4);
+        let exponent = (exit - entry).log2().floor() as i32;
+        let step = 2f64.powi(exponent.saturating_sub(4));
         let start = ((entry / step).floor() * step).max(given.t_min);
         if !start.is_finite() || start == 0.0 || start >= given.t_max {
             return None;

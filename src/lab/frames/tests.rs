@@ -132,3 +132,16 @@ fn what_is_no_ray_is_refused() {
     let far = place(given(DVec3::new(-1e39, 1000.25, 1000.25), DVec3::X));
     assert!(far.is_ok(), "{far:?}");
 }
+
+#[test]
+fn a_mesh_without_triangles_is_missed_wherever_the_ray_starts() {
+    let scene = Scene::new(TriangleMesh::default(), &Progress::default()).expect("nobody cancels");
+    let frames = Frames::new(&scene, default_triangle_kernel(), u64::MAX);
+    for origin in [DVec3::ZERO, DVec3::splat(0.1), DVec3::splat(1e30)] {
+        let placed = frames
+            .place(&given(origin, DVec3::splat(0.1)))
+            .expect("a ray");
+        assert!(placed.rounding.is_finite(), "{placed:?}");
+        assert!(!frames.intersector(&placed).any_hit(&placed.ray));
+    }
+}
