@@ -214,7 +214,7 @@ mod tests {
     #[test]
     fn a_face_is_read_with_what_its_corners_name() {
         let joined = source(6).expect("a face");
-        assert_eq!(joined.statement, "f 1/1 2   3");
+        assert_eq!(joined.statement, "f 1/1 2  3");
         assert_eq!(joined.corners[0].uv, Some(DVec2::new(0.5, 0.25)));
         assert_eq!(joined.corners[1].uv, None);
         let quad = source(9).expect("a face");

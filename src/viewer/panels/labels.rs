@@ -38,7 +38,7 @@ fn candidates(point: Pos2, size: Vec2) -> impl Iterator<Item = Rect> {
         [1.0, 1.0],
         [-1.0, 1.0],
     ];
-    (0..12).flat_map(move |ring| {
+    (0..40).flat_map(move |ring| {
         SIDES.into_iter().map(move |[x, y]| {
             let away = egui::vec2(GAP, GAP + ring as f32 * 0.5 * size.y);
             let middle = point + egui::vec2(x, y) * (0.5 * size + away);
