@@ -3,7 +3,7 @@
 use crate::harness::{Window, app, app_scaled, bare, click, in_picture, pointer, press, wait};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton};
 use egui_kittest::kittest::Queryable as _;
-use glam::{DVec2, Vec2};
+use glam::{DVec2, Vec2, Vec3};
 use hitscope::app::App;
 use hitscope_core::Camera;
 
@@ -351,7 +351,14 @@ fn the_face_of_a_pick_is_read_from_the_file() {
     }
     window.get_by_label_contains("A = v ");
     window.get_by_label("line");
-    window.get_by_label("front");
+    let found = window.state().inspection().expect("a pick");
+    let normal = found.hit.as_ref().expect("a hit").geometric_normal;
+    let is_behind = Vec3::from_array(normal).dot(Vec3::from_array(found.ray.direction)) > 0.0;
+    window.get_by_label(if is_behind {
+        "back: hit from behind"
+    } else {
+        "front"
+    });
 }
 
 #[test]

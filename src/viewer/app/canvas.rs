@@ -9,7 +9,6 @@ use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
 use hitscope_core::Camera;
 use hitscope_core::integrator::Context;
-use hitscope_core::srgb::from_display;
 use std::sync::Arc;
 
 /// Place of the picture in the window: whole physical pixels, so that each of its pixels is one of the screen's.
@@ -119,7 +118,7 @@ impl App {
                 second: Arc::clone(self.document.second()),
                 camera: self.turntable.camera(resolution),
                 shading: self.settings.shading(),
-                background: from_display(background),
+                background,
             },
             integrator: self.settings.view(),
             samples: self.settings.samples,

@@ -134,12 +134,12 @@ fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
             .iter()
             .map(|t| format!(", and triangle {t} at the same t"));
         let place = if exact.is_on_boundary {
-            "on the boundary"
+            "on the boundary of"
         } else {
             "inside"
         };
         let text = format!(
-            "The exact hit is {place} of triangle {}{}.",
+            "The exact hit is {place} triangle {}{}.",
             exact.triangle,
             also.collect::<String>()
         );

@@ -2,13 +2,19 @@
 
 use egui::{Pos2, Rect, Vec2};
 
-/// A place for each label, as near to its point as there is room. Labels come in the order of their importance.
-pub fn place(points: &[Pos2], sizes: &[Vec2], within: Rect) -> Vec<Rect> {
+/// A place for each label, as near to its point as there is room beside all points and the labels before it.
+pub fn place(points: &[Pos2], sizes: &[Vec2], all_points: &[Pos2], within: Rect) -> Vec<Rect> {
+    /// Half the size of a point.
+    const RADIUS: f32 = 5.0;
+    let around = |point: &Pos2| Rect::from_center_size(*point, Vec2::splat(2.0 * RADIUS));
+    let obstacles: Vec<Rect> = all_points.iter().map(around).collect();
     let mut placed: Vec<Rect> = Vec::new();
     for (&point, &size) in points.iter().zip(sizes) {
         let is_free = |rect: &Rect| {
             let is_clear = |other: &Rect| !rect.intersects(*other);
-            within.contains_rect(*rect) && placed.iter().all(is_clear)
+            within.contains_rect(*rect)
+                && placed.iter().all(is_clear)
+                && obstacles.iter().all(is_clear)
         };
         // Where no place is free, the label stands where it hides the fewest others.
         let hidden = |rect: &Rect| {
@@ -70,10 +76,12 @@ mod tests {
                 [90.0, 14.0],
             ];
             let sizes = sizes.map(|[x, y]| Vec2::new(x, y));
-            let placed = place(&points, &sizes, WITHIN);
+            let others = [at, at + Vec2::new(-30.0, 4.0)];
+            let placed = place(&points, &sizes, &others, WITHIN);
             assert_eq!(placed.len(), points.len());
             for (i, a) in placed.iter().enumerate() {
                 assert!(WITHIN.contains_rect(*a), "{a:?}");
+                assert!(others.iter().all(|point| !a.contains(*point)), "{a:?}");
                 for b in &placed[i + 1..] {
                     assert!(!a.intersects(*b), "{a:?} {b:?}");
                 }
@@ -83,8 +91,12 @@ mod tests {
 
     #[test]
     fn a_lone_label_stands_right_beside_its_point() {
-        let [label] = place(&[Pos2::new(100.0, 100.0)], &[Vec2::new(40.0, 14.0)], WITHIN)[..]
-        else {
+        let [label] = place(
+            &[Pos2::new(100.0, 100.0)],
+            &[Vec2::new(40.0, 14.0)],
+            &[],
+            WITHIN,
+        )[..] else {
             panic!("one label");
         };
         assert_eq!(label.left_center(), Pos2::new(108.0, 100.0));

@@ -41,7 +41,7 @@ pub fn aligned<const N: usize>(cells: &[String; N], widths: &[usize; N]) -> Stri
         if column == 0 {
             text += &format!("{cell:<width$}");
         } else {
-            text += &format!("  {cell:>width$}");
+            text += &format!(" {cell:>width$}");
         }
     }
     text
@@ -62,6 +62,6 @@ mod tests {
         let cells = cells.map(|row| row.map(str::to_owned));
         let widths = widths(&cells);
         let lines = cells.each_ref().map(|row| aligned(row, &widths));
-        assert_eq!(lines, ["          t", "exact   1.5", "Möller    –"]);
+        assert_eq!(lines, ["         t", "exact  1.5", "Möller   –"]);
     }
 }

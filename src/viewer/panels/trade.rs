@@ -122,6 +122,7 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         .show_y(false);
     let theme = ui.theme();
     let mut labelled: Vec<(&KernelInfo, Pos2)> = Vec::new();
+    let mut points: Vec<Pos2> = Vec::new();
     let response = plot.show(ui, |plot| {
         plot.hline(HLine::new("zero", floor).color(Color32::GRAY.gamma_multiply(0.5)));
         for row in rows {
@@ -131,6 +132,8 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
                 let at = PlotPoint::new(speed(row), height(row));
                 labelled.push((info(row), plot.screen_from_plot(at)));
             }
+            let at = PlotPoint::new(speed(row), height(row));
+            points.push(plot.screen_from_plot(at));
         }
         let pointer = plot.response().hover_pos()?;
         let distance = |row: &SceneRow| {
@@ -143,7 +146,8 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         // The width of a finger.
         (distance(nearest) < 20.0).then_some(nearest)
     });
-    draw_labels(&ui.painter_at(response.response.rect), &labelled, theme);
+    let painter = ui.painter_at(response.response.rect);
+    draw_labels(&painter, &labelled, &points, theme);
     if let Some(row) = response.inner {
         if response.response.clicked() {
             settings.use_for_session(row.kernel);
@@ -167,7 +171,12 @@ fn draw_point(plot: &mut PlotUi<'_>, row: &SceneRow, at: [f64; 2], is_current: b
 }
 
 /// Names beside the points of the tiers and of the current kernel.
-fn draw_labels(painter: &egui::Painter, labelled: &[(&KernelInfo, Pos2)], theme: Theme) {
+fn draw_labels(
+    painter: &egui::Painter,
+    labelled: &[(&KernelInfo, Pos2)],
+    all_points: &[Pos2],
+    theme: Theme,
+) {
     let font = FontId::proportional(11.5);
     let galleys: Vec<_> = labelled
         .iter()
@@ -178,7 +187,7 @@ fn draw_labels(painter: &egui::Painter, labelled: &[(&KernelInfo, Pos2)], theme:
         .collect();
     let points: Vec<Pos2> = labelled.iter().map(|(_, at)| *at).collect();
     let sizes: Vec<egui::Vec2> = galleys.iter().map(|galley| galley.size()).collect();
-    let places = labels::place(&points, &sizes, painter.clip_rect());
+    let places = labels::place(&points, &sizes, all_points, painter.clip_rect());
     for (galley, place) in galleys.into_iter().zip(places) {
         painter.galley(place.min, galley, Color32::PLACEHOLDER);
     }
@@ -186,7 +195,7 @@ fn draw_labels(painter: &egui::Painter, labelled: &[(&KernelInfo, Pos2)], theme:
 
 /// A row for each kernel; a click chooses it.
 fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
-    const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps p99"];
+    const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps"];
     let cells: Vec<[String; 5]> = std::iter::once(COLUMNS.map(str::to_owned))
         .chain(rows.iter().map(cells))
         .collect();
@@ -204,7 +213,9 @@ fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.spacing_mut().interact_size.y = 0.0;
             // A row that can't be pressed, so that it is aligned with the others.
-            let header = egui::Button::new(text(&cells[0]).strong()).frame(false);
+            let header = egui::Button::new(text(&cells[0]).strong())
+                .frame(false)
+                .wrap_mode(egui::TextWrapMode::Extend);
             ui.add(header.sense(egui::Sense::hover()));
             for (row, cells) in rows.iter().zip(&cells[1..]) {
                 let info = info(row);
@@ -214,7 +225,8 @@ fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
                 if !is_current {
                     text = text.color(kernel_colour(info.tier, theme));
                 }
-                let response = ui.selectable_label(is_current, text);
+                let button = egui::Button::selectable(is_current, text);
+                let response = ui.add(button.wrap_mode(egui::TextWrapMode::Extend));
                 if response
                     .on_hover_text(format!("{}. {}", info.title, info.summary))
                     .clicked()
