@@ -77,7 +77,9 @@ fn list_ui(
     });
     let text = |index: usize| {
         let point = flaw_place::point(mesh, health, place.flaw, index);
-        let point = point.map_or_else(String::new, |p| on_one_line(mesh.in_file(p)));
+        let point = point.map_or_else(String::new, |p| {
+            on_one_line(mesh.vertex_in_file(p.as_vec3()))
+        });
         RichText::new(format!("{}: {point}", grouped(index + 1)))
             .monospace()
             .size(10.5)

@@ -158,16 +158,20 @@ fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
 fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
     let is_right = |kernel: &&KernelRow| kernel.triangle == exact.map(|exact| exact.triangle);
     let right = kernels.iter().filter(is_right).count();
-    let decision = if exact.is_some() { "triangle" } else { "miss" };
+    let decision = if exact.is_some() {
+        "find the exact triangle"
+    } else {
+        "miss, as exact arithmetic does"
+    };
     let errors = kernels.iter().filter_map(|kernel| kernel.t_error_ulps);
     let worst = errors.reduce(f64::max).map_or_else(String::new, |ulps| {
         format!("; t off by at most {} ulps", significant(ulps, 3))
     });
     let count = kernels.len();
     if right == count {
-        format!("All {count} kernels find the exact {decision}{worst}.")
+        format!("All {count} kernels {decision}{worst}.")
     } else {
-        format!("{right} of {count} kernels find the exact {decision}{worst}.")
+        format!("{right} of {count} kernels {decision}{worst}.")
     }
 }
 
