@@ -3,6 +3,7 @@
 use crate::app::{App, StartOptions};
 use crate::document::embedded_scene;
 use crate::gpu::GpuError;
+use crate::gpu::adapter::Gpu;
 use crate::offscreen;
 use crate::overlay::wireframe::WireframeEdges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
@@ -178,10 +179,7 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
     args.check()?;
     let output = Output::create(&args.output)?;
     let needs_gpu = args.wireframe || args.normals;
-    let gpu = needs_gpu
-        .then(offscreen::device)
-        .transpose()
-        .map_err(failed)?;
+    let gpu = needs_gpu.then(Gpu::open).transpose().map_err(failed)?;
     let rendered = args.trace()?;
     let size = rendered.film.size();
     let Some(gpu) = gpu else {

@@ -1,5 +1,6 @@
 //! The overlay without a window: for `render --wireframe` and `--normals`.
 
+use crate::gpu::adapter::Gpu;
 use crate::gpu::depth::DepthMesh;
 use crate::gpu::lines::{Line, LineOcclusion, StyleUniform};
 use crate::gpu::view::ViewUniform;
@@ -15,7 +16,7 @@ use hitscope_lab::commands::Rendered;
 /// # Errors
 /// See [`GpuError`]: without an adapter there is nothing to draw with.
 pub fn draw_over(
-    (device, queue): &(wgpu::Device, wgpu::Queue),
+    Gpu { device, queue, .. }: &Gpu,
     pixels: &mut [[u8; 4]],
     rendered: &Rendered,
     wireframe: Option<WireframeEdges>,
@@ -81,33 +82,6 @@ fn require_size(device: &wgpu::Device, size: UVec2) -> Result<(), GpuError> {
 /// Bytes of a row in a buffer that a texture is copied to.
 fn row_bytes(width: u32) -> u64 {
     (4 * u64::from(width)).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT.into())
-}
-
-/// A device with the largest buffers that the adapter grants.
-///
-/// # Errors
-/// [`GpuError::NoAdapter`].
-pub fn device() -> Result<(wgpu::Device, wgpu::Queue), GpuError> {
-    let no_adapter = |error: String| GpuError::NoAdapter(error);
-    let mut descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
-    // OpenGL would look for a display, and complain.
-    descriptor.backends &= wgpu::Backends::PRIMARY;
-    let instance = wgpu::Instance::new(descriptor);
-    let adapter =
-        pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
-            .map_err(|error| no_adapter(error.to_string()))?;
-    let granted = adapter.limits();
-    let descriptor = wgpu::DeviceDescriptor {
-        label: Some("offscreen"),
-        required_limits: wgpu::Limits {
-            max_buffer_size: granted.max_buffer_size,
-            max_texture_dimension_2d: granted.max_texture_dimension_2d,
-            ..wgpu::Limits::default()
-        },
-        ..wgpu::DeviceDescriptor::default()
-    };
-    pollster::block_on(adapter.request_device(&descriptor))
-        .map_err(|error| no_adapter(error.to_string()))
 }
 
 /// The pixels of a texture of four bytes each.

@@ -1,12 +1,14 @@
 //! The app in a harness, and the gate for tests that need a GPU.
 
+use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
 use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
-use hitscope::offscreen;
+use hitscope::gpu::adapter::Gpu;
 use std::io::Write as _;
 use std::path::PathBuf;
+use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
 /// The app, and what it would be given by a window.
@@ -31,14 +33,15 @@ pub fn say(text: &str) {
     _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// A device, or `None` where the test is to be skipped.
-pub fn gpu() -> Option<(wgpu::Device, wgpu::Queue)> {
-    let device = offscreen::device();
+/// The device that all tests share, or `None` where the test is to be skipped. It is never closed.
+pub fn gpu() -> Option<&'static Gpu> {
+    static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
+    let gpu = GPU.get_or_init(|| Gpu::open().ok()).as_ref();
     require(
         "a graphics adapter (Mesa's software Vulkan will do)",
-        device.is_ok(),
+        gpu.is_some(),
     );
-    device.ok()
+    gpu
 }
 
 /// The app in a window of 800 × 600 points, once its first picture is there.
@@ -48,7 +51,13 @@ pub fn app(file: Option<PathBuf>) -> Option<Harness<'static, App>> {
 
 /// The same at another scale of the window.
 pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harness<'static, App>> {
-    gpu()?;
+    let gpu = gpu()?;
+    let setup = WgpuSetup::Existing(WgpuSetupExisting {
+        instance: gpu.instance.clone(),
+        adapter: gpu.adapter.clone(),
+        device: gpu.device.clone(),
+        queue: gpu.queue.clone(),
+    });
     let start = StartOptions {
         file,
         ..StartOptions::default()
@@ -58,7 +67,7 @@ pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harnes
         .with_pixels_per_point(pixels_per_point)
         // As on a screen: a double click is two clicks within 0.3 s.
         .with_step_dt(1.0 / 60.0)
-        .wgpu()
+        .wgpu_setup(setup)
         .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
     wait(&mut harness, "the first picture", |app| {
         app.film().passes_done() > 0

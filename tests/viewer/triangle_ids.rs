@@ -7,6 +7,7 @@
 use crate::harness::{gpu, say};
 use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
 use hitscope::document::embedded_scene;
+use hitscope::gpu::adapter::Gpu;
 use hitscope::gpu::texture;
 use hitscope::gpu::view::{self, ViewBinding, ViewUniform};
 use hitscope::offscreen::read_back;
@@ -213,13 +214,15 @@ fn distance_to_edge(scene: &Scene, camera: &Camera, pixel: UVec2, id: u32) -> f6
 
 #[test]
 fn rasterized_triangles_are_those_that_rays_hit() {
-    let Some((device, queue)) = gpu() else { return };
+    let Some(Gpu { device, queue, .. }) = gpu() else {
+        return;
+    };
     let embedded = embedded_scene().scene;
     let blob = far_blob();
     for (name, scene) in [("embedded", &*embedded), ("far blob", &blob)] {
         let intersector = scene.intersector(triangle_kernel("watertight").expect("in the table"));
         for (view, camera) in cameras(scene).into_iter().enumerate() {
-            let drawn = rasterized(&device, &queue, scene, &camera);
+            let drawn = rasterized(device, queue, scene, &camera);
             let (mut covered, mut different) = (0, 0);
             for (i, drawn) in drawn.into_iter().enumerate() {
                 let pixel = UVec2::new(i as u32 % SIZE.x, i as u32 / SIZE.x);

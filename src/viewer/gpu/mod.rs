@@ -5,6 +5,7 @@
 //! window's: depth first ([`depth`]), then lines ([`lines`]), both for the same [`view`]. Depth is
 //! reversed (1 near, 0 far), which keeps its precision far away.
 
+pub mod adapter;
 pub mod depth;
 pub mod lines;
 pub mod picture;

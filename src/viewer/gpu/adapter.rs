@@ -1,0 +1,217 @@
+//! Graphics adapters: which backends are tried in which order, and the device of a program without a window.
+
+use super::GpuError;
+use std::sync::atomic::{AtomicBool, Ordering};
+use wgpu::Backends;
+
+/// Backends in the order in which they are tried. OpenGL comes last, because asking for it next to Vulkan has
+/// a driver set up both: it looks for a display server, and NVIDIA's can deadlock when it closes them.
+const DEFAULT_ORDER: [Backends; 2] = [Backends::PRIMARY, Backends::GL];
+
+/// The environment variable that names the backends to try first, as `vulkan,gl`. wgpu's name.
+const VARIABLE: &str = "WGPU_BACKEND";
+
+/// Sets of backends, to be tried one after the other until one has an adapter.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct BackendOrder {
+    /// The sets, best first.
+    pub sets: Vec<Backends>,
+    /// What is wrong with the value of the environment variable.
+    pub warning: Option<String>,
+}
+
+impl BackendOrder {
+    /// The order for this program's environment.
+    pub fn from_env() -> Self {
+        let value = std::env::var_os(VARIABLE);
+        Self::new(
+            value
+                .as_deref()
+                .map(|value| value.to_string_lossy())
+                .as_deref(),
+        )
+    }
+
+    /// The order if the environment variable has this value: the named backends, then the others.
+    pub fn new(value: Option<&str>) -> Self {
+        let mut order = Self {
+            sets: DEFAULT_ORDER.to_vec(),
+            warning: None,
+        };
+        let Some(value) = value else { return order };
+        let words = value
+            .split(',')
+            .map(str::trim)
+            .filter(|word| !word.is_empty());
+        let (known, unknown): (Vec<&str>, Vec<&str>) =
+            words.partition(|word| !Backends::from_comma_list(word).is_empty());
+        let named = known
+            .iter()
+            .map(|word| Backends::from_comma_list(word))
+            .fold(Backends::empty(), Backends::union);
+        if !named.is_empty() {
+            let others = order.sets.iter().map(|&set| set.difference(named));
+            let others = others.filter(|set| !set.is_empty());
+            order.sets = std::iter::once(named).chain(others).collect();
+        }
+        let is_bad = named.is_empty() || !unknown.is_empty();
+        order.warning = is_bad.then(|| {
+            let what = match unknown.as_slice() {
+                [] => "it names no graphics backend".to_owned(),
+                [word] => format!("“{}” is no graphics backend", word.escape_debug()),
+                [word, ..] => format!(
+                    "“{}” and others are no graphics backends",
+                    word.escape_debug()
+                ),
+            };
+            format!("{VARIABLE} is ignored in part or whole: {what} (vulkan, metal, dx12 or gl)")
+        });
+        order
+    }
+}
+
+/// A graphics device without a window.
+///
+/// A process has one at a time: NVIDIA's driver can deadlock where several come and go at the same time.
+pub struct Gpu {
+    /// The connection to the drivers.
+    pub instance: wgpu::Instance,
+    /// The GPU, or software that acts as one.
+    pub adapter: wgpu::Adapter,
+    /// Makes buffers, textures and pipelines.
+    pub device: wgpu::Device,
+    /// Takes commands.
+    pub queue: wgpu::Queue,
+}
+
+/// Whether this process has a [`Gpu`].
+static IS_OPEN: AtomicBool = AtomicBool::new(false);
+
+impl Gpu {
+    /// Opens the first adapter that a backend has, with the largest buffers that it grants.
+    ///
+    /// # Errors
+    /// [`GpuError::NoAdapter`].
+    ///
+    /// # Panics
+    /// In debug builds, if the process has one already.
+    pub fn open() -> Result<Self, GpuError> {
+        let was_open = IS_OPEN.swap(true, Ordering::Relaxed);
+        debug_assert!(!was_open, "a process has one wgpu::Instance at a time");
+        let opened = open_first(&BackendOrder::from_env());
+        if opened.is_err() {
+            IS_OPEN.store(false, Ordering::Relaxed);
+        }
+        opened
+    }
+}
+
+impl Drop for Gpu {
+    fn drop(&mut self) {
+        IS_OPEN.store(false, Ordering::Relaxed);
+    }
+}
+
+fn open_first(order: &BackendOrder) -> Result<Gpu, GpuError> {
+    if let Some(warning) = &order.warning {
+        eprintln!("hitscope: {warning}");
+    }
+    let mut errors = Vec::new();
+    for &backends in &order.sets {
+        match pollster::block_on(open(backends)) {
+            Ok(gpu) => return Ok(gpu),
+            Err(error) => errors.push(error),
+        }
+    }
+    Err(GpuError::NoAdapter(errors.join("; ")))
+}
+
+#[expect(
+    clippy::disallowed_methods,
+    reason = "the one place that makes an instance, guarded by IS_OPEN"
+)]
+async fn open(backends: Backends) -> Result<Gpu, String> {
+    let instance = wgpu::Instance::new(wgpu::InstanceDescriptor {
+        backends,
+        ..wgpu::InstanceDescriptor::new_without_display_handle_from_env()
+    });
+    let adapter = instance
+        .request_adapter(&wgpu::RequestAdapterOptions::default())
+        .await
+        .map_err(|error| error.to_string())?;
+    let (device, queue) = adapter
+        .request_device(&device_descriptor(&adapter))
+        .await
+        .map_err(|error| error.to_string())?;
+    Ok(Gpu {
+        instance,
+        adapter,
+        device,
+        queue,
+    })
+}
+
+/// A device with the largest buffers and textures that the adapter grants: a mesh or a picture may need them.
+pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
+    let granted = adapter.limits();
+    // What egui asks for.
+    let base = if adapter.get_info().backend == wgpu::Backend::Gl {
+        wgpu::Limits::downlevel_webgl2_defaults()
+    } else {
+        wgpu::Limits::default()
+    };
+    wgpu::DeviceDescriptor {
+        label: Some("hitscope"),
+        required_limits: wgpu::Limits {
+            max_buffer_size: granted.max_buffer_size,
+            max_texture_dimension_2d: granted.max_texture_dimension_2d,
+            ..base
+        },
+        ..wgpu::DeviceDescriptor::default()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn opengl_is_tried_alone_and_last() {
+        let order = BackendOrder::new(None);
+        assert_eq!(order.sets, [Backends::PRIMARY, Backends::GL]);
+        assert_eq!(order.warning, None);
+    }
+
+    #[test]
+    fn named_backends_come_first_and_the_others_follow() {
+        let order = BackendOrder::new(Some("GL"));
+        assert_eq!(order.sets, [Backends::GL, Backends::PRIMARY]);
+        assert_eq!(order.warning, None);
+        let order = BackendOrder::new(Some("vk, dx12"));
+        let named = Backends::VULKAN | Backends::DX12;
+        assert_eq!(order.sets, [named, Backends::PRIMARY - named, Backends::GL]);
+        assert_eq!(order.warning, None);
+    }
+
+    #[test]
+    fn a_value_without_a_usable_name_leaves_the_order_and_is_told() {
+        for value in ["", " ,", "glide", "glide,3dfx"] {
+            let order = BackendOrder::new(Some(value));
+            assert_eq!(order.sets, DEFAULT_ORDER, "{value:?}");
+            let warning = order.warning.expect(value);
+            assert!(warning.starts_with("WGPU_BACKEND "), "{warning}");
+            assert_eq!(
+                warning.contains("“glide”"),
+                value.contains("glide"),
+                "{warning}"
+            );
+        }
+        let order = BackendOrder::new(Some("glide,gl"));
+        assert_eq!(order.sets, [Backends::GL, Backends::PRIMARY]);
+        assert!(
+            order
+                .warning
+                .is_some_and(|warning| warning.contains("“glide”"))
+        );
+    }
+}
