@@ -1,9 +1,10 @@
 //! The command line: parsing, the exit status, and the commands that need the viewer's crates.
 
 use crate::app::{App, StartOptions};
+use crate::display::{self, DisplayServer};
 use crate::document::embedded_scene;
 use crate::gpu::GpuError;
-use crate::gpu::adapter::Gpu;
+use crate::gpu::adapter::{BackendOrder, Gpu, device_descriptor};
 use crate::offscreen;
 use crate::overlay::wireframe::WireframeEdges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
@@ -215,24 +216,7 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
             outcome: Arc::clone(&outcome),
         }),
     };
-    let options = eframe::NativeOptions {
-        viewport: window::viewport(),
-        window_builder: Some(Box::new(window::checked)),
-        wgpu_options: WgpuConfiguration {
-            wgpu_setup: WgpuSetup::CreateNew(wgpu_setup()),
-            ..WgpuConfiguration::default()
-        },
-        // The bytes of the picture must reach the screen unchanged.
-        dithering: false,
-        persist_window: cli.screenshot.is_none(),
-        // A picture of the window doesn't depend on what was stored: nothing is read from nowhere.
-        persistence_path: cli.screenshot.as_ref().map(|_| PathBuf::new()),
-        ..eframe::NativeOptions::default()
-    };
-    let ctx = egui_context(start.settings.zoom);
-    let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, start)?)));
-    let run = || eframe::run_native_ext(APP_ID, options, Some(ctx), create);
-    let ran = window::run_until_destroyed(run).unwrap_or(Ok(()));
+    let ran = run_window(&start);
     match (ran, &cli.screenshot) {
         (Ok(()), None) => Ok(()),
         (Ok(()), Some(_)) => {
@@ -263,12 +247,41 @@ fn egui_context(zoom: f32) -> egui::Context {
     ctx
 }
 
-/// Why there is no window, without the source code locations in winit's error.
-fn no_window(error: &eframe::Error) -> String {
-    match error {
-        eframe::Error::WinitEventLoop(_) => "no window: there is no display".to_owned(),
-        error => format!("no window: {error}"),
+/// Opens the window on the first display server and graphics backend that can be used, and runs it until it closes.
+fn run_window(start: &StartOptions) -> Result<(), eframe::Error> {
+    let display = DisplayServer::from_env();
+    if let DisplayServer::X11 { warning } = &display {
+        print_line(format_args!("hitscope: {warning}; using DISPLAY"));
     }
+    let is_graphics = |error: &eframe::Error| matches!(error, eframe::Error::Wgpu(_));
+    let run = |backends| {
+        let is_screenshot = start.screenshot.is_some();
+        let options = eframe::NativeOptions {
+            viewport: window::viewport(),
+            window_builder: Some(Box::new(window::checked)),
+            wgpu_options: WgpuConfiguration {
+                wgpu_setup: WgpuSetup::CreateNew(wgpu_setup(backends)),
+                ..WgpuConfiguration::default()
+            },
+            event_loop_builder: display.event_loop_builder(),
+            // The bytes of the picture must reach the screen unchanged.
+            dithering: false,
+            persist_window: !is_screenshot,
+            // A picture of the window doesn't depend on what was stored: nothing is read from nowhere.
+            persistence_path: is_screenshot.then(PathBuf::new),
+            ..eframe::NativeOptions::default()
+        };
+        let (ctx, start) = (egui_context(start.settings.zoom), start.clone());
+        let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, start)?)));
+        let run = || eframe::run_native_ext(APP_ID, options, Some(ctx), create);
+        window::run_until_destroyed(run).unwrap_or(Ok(()))
+    };
+    BackendOrder::from_env().first_that_opens(is_graphics, run)
+}
+
+/// Why there is no window.
+fn no_window(error: &eframe::Error) -> String {
+    format!("no window: {}", display::explain(error))
 }
 
 /// Writes a picture of the file or of the embedded scene to the current directory.
@@ -300,18 +313,12 @@ struct PictureDefaults {
     picture: PictureArgs,
 }
 
-/// eframe's setup, with the largest buffers that the adapter grants: a mesh may need them.
-fn wgpu_setup() -> WgpuSetupCreateNew {
-    let setup = WgpuSetupCreateNew::without_display_handle();
-    let base = Arc::clone(&setup.device_descriptor);
-    WgpuSetupCreateNew {
-        device_descriptor: Arc::new(move |adapter| {
-            let mut descriptor = base(adapter);
-            descriptor.required_limits.max_buffer_size = adapter.limits().max_buffer_size;
-            descriptor
-        }),
-        ..setup
-    }
+/// eframe's setup with these backends, and with the limits that a large mesh needs.
+fn wgpu_setup(backends: wgpu::Backends) -> WgpuSetupCreateNew {
+    let mut setup = WgpuSetupCreateNew::without_display_handle();
+    setup.instance_descriptor.backends = backends;
+    setup.device_descriptor = Arc::new(device_descriptor);
+    setup
 }
 
 fn parse_seconds(text: &str) -> Result<Duration, String> {

@@ -6,6 +6,7 @@
 //! | [`cli`] | the command line |
 //! | [`app`] | the app: its state and the order of a frame |
 //! | [`bindings`] | keys and pointer |
+//! | [`display`] | the display server of the window |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
 //! | [`tracer`] | the picture in progress |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
@@ -20,6 +21,7 @@
 pub mod app;
 pub mod bindings;
 pub mod cli;
+pub mod display;
 pub mod document;
 pub mod face_lookup;
 pub mod flaw_place;
@@ -39,3 +41,14 @@ pub mod tracer;
 pub mod trade;
 pub mod watch;
 pub mod window;
+
+// The library's own tests use the harness of the integration tests.
+#[cfg(test)]
+extern crate self as hitscope;
+#[cfg(test)]
+#[path = "../../tests/viewer/harness.rs"]
+#[expect(
+    dead_code,
+    reason = "its other functions are for the integration tests"
+)]
+mod harness;

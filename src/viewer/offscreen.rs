@@ -1,15 +1,17 @@
 //! The overlay without a window: for `render --wireframe` and `--normals`.
 
+use crate::gpu::GpuError;
 use crate::gpu::adapter::Gpu;
 use crate::gpu::depth::DepthMesh;
-use crate::gpu::lines::{Line, LineOcclusion, StyleUniform};
+use crate::gpu::drawing::{Canvas, Drawing, DrawingState, DrawnLines, Overlay, Paces, Targets};
+use crate::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
 use crate::gpu::view::ViewUniform;
-use crate::gpu::{GpuError, Overlay};
 use crate::overlay::wireframe::{self, WireframeEdges};
 use crate::overlay::{Options, marks, normals};
 use glam::UVec2;
 use hitscope_core::scene::Shading;
 use hitscope_lab::commands::Rendered;
+use std::sync::Arc;
 
 /// Draws edges and normals over a rendered picture.
 ///
@@ -33,7 +35,6 @@ pub fn draw_over(
         line_width_px: 1.0,
         ..Options::NOTHING
     };
-    let mut overlay = Overlay::new(device);
     let mut wanted: Vec<(Vec<Line>, StyleUniform)> = Vec::new();
     if let Some(edges) = options.wireframe {
         let lines = wireframe::lines(scene.mesh(), edges);
@@ -45,18 +46,29 @@ pub fn draw_over(
     if options.elements {
         wanted.push((marks::elements(scene), options.element_style()));
     }
-    let pipelines = overlay.lines();
-    let sets: Vec<_> = wanted
-        .iter()
-        .map(|(lines, style)| pipelines.upload(device, queue, lines, style))
-        .collect::<Result<_, _>>()?;
-    let sets: Vec<_> = sets
-        .iter()
-        .map(|set| (set, LineOcclusion::HiddenByMesh))
-        .collect();
-    let mesh = DepthMesh::new(device, scene.mesh())?;
-    let view = ViewUniform::new(&rendered.camera, &scene.bounds_with_elements());
-    let texture = overlay.draw(device, queue, &view, &mesh, &sets);
+    let upload = |(lines, style): (Vec<Line>, StyleUniform)| {
+        Ok(DrawnLines {
+            lines: Arc::new(LineSet::new(device, queue, &lines)?),
+            style,
+            occlusion: LineOcclusion::HiddenByMesh,
+        })
+    };
+    let drawing = Drawing {
+        view: ViewUniform::new(&rendered.camera, &scene.bounds_with_elements()),
+        mesh: Arc::new(DepthMesh::new(device, queue, scene.mesh())?),
+        sets: wanted
+            .into_iter()
+            .map(upload)
+            .collect::<Result<_, GpuError>>()?,
+    };
+    let canvas = Canvas {
+        targets: Arc::new(Targets::new(device, drawing.view.size())),
+        colour: 0,
+        has_depth: false,
+    };
+    let (mut paces, state) = (Paces::UNLIMITED, DrawingState::default());
+    Overlay::new(device, queue).draw(&drawing, &canvas, &mut paces, &state, || ());
+    let texture = canvas.targets.colour(canvas.colour);
     let drawn = read_back(device, queue, texture)?;
     for (under, over) in pixels.iter_mut().zip(drawn) {
         *under = blend(*under, over);

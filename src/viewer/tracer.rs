@@ -376,3 +376,6 @@ impl Tracer {
         }
     }
 }
+
+#[cfg(test)]
+mod tests;

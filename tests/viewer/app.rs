@@ -284,13 +284,36 @@ fn t_toggles_auto_rotation() {
 }
 
 #[test]
-fn a_window_of_one_pixel_lives() {
-    let Some(mut window) = app(None) else { return };
+fn a_window_of_one_pixel_lives_and_the_picture_comes_back_as_it_was() {
+    // A side panel would stay as narrow as the window made it.
+    let Some(mut window) = bare() else { return };
+    wait(&mut window, "all samples", App::is_settled);
+    let before = window.state().film().clone();
     window.set_size(egui::vec2(1.0, 1.0));
-    window.run_steps(5);
+    wait(&mut window, "the smallest picture", |app| {
+        app.film().size() == glam::UVec2::ONE && app.is_settled()
+    });
     window.set_size(egui::vec2(800.0, 600.0));
-    wait(&mut window, "the picture", |app| app.film().samples() > 0);
-    assert!(window.state().document().loaded.scene.bounds().extent() != DVec3::ZERO);
+    wait(&mut window, "the picture", |app| {
+        app.film().size() == before.size() && app.is_settled()
+    });
+    assert!(window.state().film().pixels() == before.pixels());
+}
+
+#[test]
+fn the_window_shows_the_traced_picture_pixel_by_pixel() {
+    let Some(mut window) = app(None) else { return };
+    wait(&mut window, "all samples", App::is_settled);
+    window.step();
+    let shown = window.render().expect("an image");
+    let film = window.state().film();
+    let corner = window.get_by_label("Rendered picture").rect().min;
+    let (left, top) = (corner.x as u32, corner.y as u32);
+    for (i, &expected) in film.pixels().iter().enumerate() {
+        let (x, y) = (i as u32 % film.size().x, i as u32 / film.size().x);
+        let found = shown.get_pixel(left + x, top + y).0;
+        assert_eq!(found, expected, "pixel {x}, {y}");
+    }
 }
 
 #[test]

@@ -1,10 +1,6 @@
 //! The built program's exit statuses, and what it does without a display.
 
-use crate::harness::gpu;
 use crate::program::{Program, assert_fails, stderr, stdout};
-
-const OCTAHEDRON: &str = "v 1 0 0\nv 0 1 0\nv 0 0 1\nv -1 0 0\nv 0 -1 0\nv 0 0 -1
-f 1 2 3\nf 2 4 3\nf 4 5 3\nf 5 1 3\nf 2 1 6\nf 4 2 6\nf 5 4 6\nf 1 5 6\n";
 
 #[test]
 fn exit_statuses_tell_done_from_bad_input_from_bad_usage() {
@@ -46,37 +42,6 @@ fn without_a_display_the_picture_goes_to_a_file() {
         std::fs::remove_file(program.path("hitscope.png")).expect("it was there");
     }
     assert_eq!(program.run("bad.obj").status.code(), Some(1));
-}
-
-#[test]
-fn a_wireframe_is_drawn_over_a_render() {
-    if gpu().is_none() {
-        return;
-    }
-    let program = Program::new();
-    program.write("solid.obj", OCTAHEDRON);
-    let render = |more: &str| {
-        let line = "render solid.obj -o out.png --size 600x400 --samples 1 --eye 4,1,0.2";
-        let ran = program.run(&format!("{line} {more}"));
-        assert!(ran.status.success(), "{}", stderr(&ran));
-        image::open(program.path("out.png"))
-            .expect("a PNG")
-            .to_rgba8()
-    };
-    let plain = render("");
-    for overlay in ["--wireframe", "--normals"] {
-        let drawn = render(overlay);
-        let changed = plain
-            .pixels()
-            .zip(drawn.pixels())
-            .filter(|(a, b)| a != b)
-            .count();
-        // Some pixels, and by far not all.
-        assert!(
-            (10..24_000).contains(&changed),
-            "{overlay}: {changed} pixels"
-        );
-    }
 }
 
 #[test]

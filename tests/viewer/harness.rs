@@ -44,6 +44,16 @@ pub fn gpu() -> Option<&'static Gpu> {
     gpu
 }
 
+/// The shared device, for a harness.
+pub fn shared_setup(gpu: &Gpu) -> WgpuSetup {
+    WgpuSetup::Existing(WgpuSetupExisting {
+        instance: gpu.instance.clone(),
+        adapter: gpu.adapter.clone(),
+        device: gpu.device.clone(),
+        queue: gpu.queue.clone(),
+    })
+}
+
 /// The app in a window of 800 × 600 points, once its first picture is there.
 pub fn app(file: Option<PathBuf>) -> Option<Harness<'static, App>> {
     app_scaled(file, 1.0)
@@ -52,18 +62,23 @@ pub fn app(file: Option<PathBuf>) -> Option<Harness<'static, App>> {
 /// The same at another scale of the window.
 pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harness<'static, App>> {
     let gpu = gpu()?;
-    let setup = WgpuSetup::Existing(WgpuSetupExisting {
-        instance: gpu.instance.clone(),
-        adapter: gpu.adapter.clone(),
-        device: gpu.device.clone(),
-        queue: gpu.queue.clone(),
-    });
+    let size = egui::vec2(800.0, 600.0);
+    Some(app_on(shared_setup(gpu), file, size, pixels_per_point))
+}
+
+/// The same on a device of its own, in a window of this size.
+pub fn app_on(
+    setup: WgpuSetup,
+    file: Option<PathBuf>,
+    size: egui::Vec2,
+    pixels_per_point: f32,
+) -> Window {
     let start = StartOptions {
         file,
         ..StartOptions::default()
     };
     let mut harness = Harness::builder()
-        .with_size(egui::vec2(800.0, 600.0))
+        .with_size(size)
         .with_pixels_per_point(pixels_per_point)
         // As on a screen: a double click is two clicks within 0.3 s.
         .with_step_dt(1.0 / 60.0)
@@ -72,18 +87,18 @@ pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harnes
     wait(&mut harness, "the first picture", |app| {
         app.film().passes_done() > 0
     });
-    Some(harness)
+    harness
 }
 
-/// Draws frames until something is the case; panics if it isn't within a minute.
+/// A test that waits for longer has failed, however busy the machine is.
+const PATIENCE: Duration = Duration::from_secs(300);
+
+/// Draws frames until something is the case; panics if it isn't within [`PATIENCE`].
 pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> bool) {
     let start = Instant::now();
     harness.step();
     while !is_so(harness.state()) {
-        assert!(
-            start.elapsed() < Duration::from_secs(60),
-            "waited in vain for {what}"
-        );
+        assert!(start.elapsed() < PATIENCE, "waited in vain for {what}");
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
     }

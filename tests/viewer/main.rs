@@ -6,6 +6,10 @@ mod app;
 mod cli;
 // The built program beside others on a display.
 mod desktop;
+// The overlay in slices, and on a GPU with small buffers.
+mod gpu;
+// What is done about names in the environment that can't be used.
+mod environment;
 // The app in a harness, and the gate for tests that need a GPU.
 mod harness;
 // Standard input, warnings, and a machine that lacks memory or threads.
@@ -18,10 +22,14 @@ mod opening;
 // Files that the program writes.
 #[cfg(unix)]
 mod outputs;
+// What the overlay draws.
+mod overlay;
 // The pointer on its picture.
 mod pointer;
 // The built program, run in a folder.
 mod program;
+// `render --wireframe` and `--normals`, pixel by pixel.
+mod render_lines;
 // Every shader parses and validates, without a GPU.
 mod shaders;
 // The built program's answers to rays that come through a pipe.

@@ -154,7 +154,7 @@ impl App {
         };
         self.on_screen = Some((scene, camera));
         let painter = ui.painter_at(canvas.rect);
-        painter.extend(self.picture.shape(canvas.rect, overlay));
+        painter.extend(self.picture.shape(canvas.rect, overlay.as_ref()));
         if let Some(error) = error {
             self.settings.shows_wireframe = false;
             self.settings.shows_normals = false;

@@ -160,7 +160,7 @@ impl App {
             tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
             picture: Picture::new(&render_state),
-            overlay: OverlayLayer::new(render_state),
+            overlay: OverlayLayer::new(&render_state),
             on_screen: None,
             clicks: Clicks::default(),
             pick: None,
@@ -189,7 +189,7 @@ impl App {
         self.tracer.film()
     }
 
-    /// Whether the picture has all its samples and nothing is being loaded.
+    /// Whether the picture has all its samples, the overlay all its lines, and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
         let is_wanted = |request: &Request| {
             Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
@@ -199,6 +199,7 @@ impl App {
             && self.document.has_last_tree()
             && self.tracer.posted().is_some_and(is_wanted)
             && self.tracer.film().is_complete()
+            && self.overlay.is_complete()
     }
 
     /// Whether the view shows the cost of rays in the final tree.
@@ -383,3 +384,6 @@ fn catch_gpu_errors(render_state: &RenderState, ctx: &egui::Context) -> Arc<Mute
     });
     errors
 }
+
+#[cfg(test)]
+mod panics;

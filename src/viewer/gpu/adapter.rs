@@ -1,6 +1,7 @@
 //! Graphics adapters: which backends are tried in which order, and the device of a program without a window.
 
 use super::GpuError;
+use hitscope_lab::commands::print_line;
 use std::sync::atomic::{AtomicBool, Ordering};
 use wgpu::Backends;
 
@@ -68,6 +69,41 @@ impl BackendOrder {
         });
         order
     }
+
+    /// Opens something with the first set that works. A set without an adapter gives an error for which `is_graphics`
+    /// holds; any other error ends the search. The last error tells of what was tried last.
+    ///
+    /// # Errors
+    /// Those of `open`.
+    pub fn first_that_opens<T, E: std::fmt::Display>(
+        &self,
+        is_graphics: impl Fn(&E) -> bool,
+        mut open: impl FnMut(Backends) -> Result<T, E>,
+    ) -> Result<T, E> {
+        if let Some(warning) = &self.warning {
+            print_line(format_args!("hitscope: {warning}"));
+        }
+        // An order has a set, whatever the environment says.
+        let (&last, others) = self.sets.split_last().unwrap_or((&Backends::GL, &[]));
+        for &backends in others {
+            match open(backends) {
+                Err(error) if is_graphics(&error) => {
+                    if self.is_named(backends) {
+                        print_line(format_args!(
+                            "hitscope: {VARIABLE} can't be used ({error}); trying others"
+                        ));
+                    }
+                }
+                result => return result,
+            }
+        }
+        open(last)
+    }
+
+    /// Whether the environment asks for these.
+    fn is_named(&self, backends: Backends) -> bool {
+        self.sets.first() == Some(&backends) && self.sets != DEFAULT_ORDER
+    }
 }
 
 /// A graphics device without a window.
@@ -98,7 +134,10 @@ impl Gpu {
     pub fn open() -> Result<Self, GpuError> {
         let was_open = IS_OPEN.swap(true, Ordering::Relaxed);
         debug_assert!(!was_open, "a process has one wgpu::Instance at a time");
-        let opened = open_first(&BackendOrder::from_env());
+        let is_graphics = |_: &String| true;
+        let opened = BackendOrder::from_env()
+            .first_that_opens(is_graphics, |backends| pollster::block_on(open(backends)))
+            .map_err(GpuError::NoAdapter);
         if opened.is_err() {
             IS_OPEN.store(false, Ordering::Relaxed);
         }
@@ -110,20 +149,6 @@ impl Drop for Gpu {
     fn drop(&mut self) {
         IS_OPEN.store(false, Ordering::Relaxed);
     }
-}
-
-fn open_first(order: &BackendOrder) -> Result<Gpu, GpuError> {
-    if let Some(warning) = &order.warning {
-        eprintln!("hitscope: {warning}");
-    }
-    let mut errors = Vec::new();
-    for &backends in &order.sets {
-        match pollster::block_on(open(backends)) {
-            Ok(gpu) => return Ok(gpu),
-            Err(error) => errors.push(error),
-        }
-    }
-    Err(GpuError::NoAdapter(errors.join("; ")))
 }
 
 #[expect(
@@ -191,6 +216,29 @@ mod tests {
         let named = Backends::VULKAN | Backends::DX12;
         assert_eq!(order.sets, [named, Backends::PRIMARY - named, Backends::GL]);
         assert_eq!(order.warning, None);
+    }
+
+    #[test]
+    fn sets_are_tried_in_order_until_one_opens_and_the_last_error_is_returned() {
+        let order = BackendOrder::new(Some("vulkan"));
+        let mut tried = Vec::new();
+        let opened = order.first_that_opens(
+            |_: &&str| true,
+            |backends| {
+                tried.push(backends);
+                if backends == Backends::GL {
+                    Ok(7)
+                } else {
+                    Err("none")
+                }
+            },
+        );
+        assert_eq!((opened, tried.as_slice()), (Ok(7), order.sets.as_slice()));
+        let failed = order.first_that_opens(|_| true, |backends| Err::<(), _>(backends.bits()));
+        assert_eq!(failed, Err(Backends::GL.bits()));
+        // What isn't about graphics isn't better with other graphics.
+        let failed = order.first_that_opens(|_| false, |backends| Err::<(), _>(backends.bits()));
+        assert_eq!(failed, Err(Backends::VULKAN.bits()));
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! The mesh's depth, which hides lines behind it.
 
+use super::upload::{buffer, buffers};
 use super::view::ViewBinding;
-use super::{GpuError, buffer, shader};
+use super::{GpuError, shader};
 use hitscope_core::TriangleMesh;
+use std::ops::Range;
 
 /// Comes behind [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/depth.wgsl");
@@ -17,23 +19,31 @@ const CONSTANT_BIAS: i32 = -16;
 /// The vertices and indices of a mesh on the GPU.
 pub struct DepthMesh {
     positions: wgpu::Buffer,
-    indices: wgpu::Buffer,
-    index_count: u32,
+    /// Three indices for each triangle, and how many triangles.
+    triangles: Vec<(wgpu::Buffer, u32)>,
 }
 
 impl DepthMesh {
-    /// Uploads a mesh.
+    /// Uploads a mesh. For a thread that may wait.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
-    pub fn new(device: &wgpu::Device, mesh: &TriangleMesh) -> Result<Self, GpuError> {
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        mesh: &TriangleMesh,
+    ) -> Result<Self, GpuError> {
+        use wgpu::BufferUsages as Usage;
         let positions = bytemuck::cast_slice(&mesh.positions);
-        let indices = bytemuck::cast_slice(&mesh.triangles);
         Ok(Self {
-            positions: buffer(device, "positions", positions, wgpu::BufferUsages::VERTEX)?,
-            indices: buffer(device, "indices", indices, wgpu::BufferUsages::INDEX)?,
-            index_count: 3 * mesh.triangles.len() as u32,
+            positions: buffer(device, queue, "positions", positions, Usage::VERTEX)?,
+            triangles: buffers(device, queue, "indices", &mesh.triangles, Usage::INDEX)?,
         })
+    }
+
+    /// Triangles of each buffer.
+    pub(super) fn triangle_counts(&self) -> Vec<u32> {
+        self.triangles.iter().map(|(_, count)| *count).collect()
     }
 }
 
@@ -85,10 +95,19 @@ impl DepthPipeline {
         Self(device.create_render_pipeline(&descriptor))
     }
 
-    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, mesh: &DepthMesh) {
+    /// Draws these ranges of the mesh's buffers.
+    pub(super) fn draw(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        mesh: &DepthMesh,
+        ranges: &[(usize, Range<u32>)],
+    ) {
         pass.set_pipeline(&self.0);
-        pass.set_vertex_buffer(0, mesh.positions.slice(..));
-        pass.set_index_buffer(mesh.indices.slice(..), wgpu::IndexFormat::Uint32);
-        pass.draw_indexed(0..mesh.index_count, 0, 0..1);
+        for (part, triangles) in ranges {
+            let (indices, _) = &mesh.triangles[*part];
+            pass.set_vertex_buffer(0, mesh.positions.slice(..));
+            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+            pass.draw_indexed(3 * triangles.start..3 * triangles.end, 0, 0..1);
+        }
     }
 }

@@ -1,9 +1,11 @@
 //! Anti-aliased lines of constant width.
 
+use super::upload::buffers;
 use super::view::ViewBinding;
-use super::{GpuError, buffer, shader, uniform_group, uniform_layout};
+use super::{GpuError, shader, uniform_group, uniform_layout};
 use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
+use std::ops::Range;
 
 /// Comes behind [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/lines.wgsl");
@@ -56,20 +58,31 @@ pub enum LineOcclusion {
     ThroughMesh,
 }
 
-/// Lines of one look on the GPU.
-pub struct LineSet {
-    style: wgpu::Buffer,
-    group: wgpu::BindGroup,
-    /// Buffers no larger than the device grants, each with its number of lines.
-    chunks: Vec<(wgpu::Buffer, u32)>,
-}
+/// Lines on the GPU.
+pub struct LineSet(Vec<(wgpu::Buffer, u32)>);
 
 impl LineSet {
-    /// Changes the look for what is submitted next.
-    pub fn set_style(&self, queue: &wgpu::Queue, style: &StyleUniform) {
-        queue.write_buffer(&self.style, 0, bytemuck::bytes_of(style));
+    /// Uploads lines. For a thread that may wait.
+    ///
+    /// # Errors
+    /// [`GpuError::TooLarge`] if the device grants no buffer for even one line.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        lines: &[Line],
+    ) -> Result<Self, GpuError> {
+        let usage = wgpu::BufferUsages::VERTEX;
+        Ok(Self(buffers(device, queue, "lines", lines, usage)?))
+    }
+
+    /// The buffers, each with its number of lines.
+    pub(super) fn buffers(&self) -> &[(wgpu::Buffer, u32)] {
+        &self.0
     }
 }
+
+/// A look of lines on the GPU.
+pub(super) struct LineStyle(wgpu::BindGroup);
 
 /// Draws sets of lines.
 pub struct LinePipelines {
@@ -138,49 +151,37 @@ impl LinePipelines {
         }
     }
 
-    /// Uploads lines, in as many buffers as the device needs.
-    ///
-    /// # Errors
-    /// [`GpuError::TooLarge`] if it grants none for even one line.
-    pub fn upload(
-        &self,
-        device: &wgpu::Device,
-        queue: &wgpu::Queue,
-        lines: &[Line],
-        style: &StyleUniform,
-    ) -> Result<LineSet, GpuError> {
-        let per_buffer = device.limits().max_buffer_size as usize / size_of::<Line>();
-        let upload = |chunk: &[Line]| {
-            let contents = bytemuck::cast_slice(chunk);
-            let buffer = buffer(device, "lines", contents, wgpu::BufferUsages::VERTEX)?;
-            Ok((buffer, chunk.len() as u32))
-        };
-        let chunks = lines.chunks(per_buffer.max(1)).map(upload);
-        let size = size_of::<StyleUniform>();
-        let (style_buffer, group) = uniform_group(device, "line style", &self.style_layout, size);
-        let set = LineSet {
-            style: style_buffer,
-            group,
-            chunks: chunks.collect::<Result<_, GpuError>>()?,
-        };
-        set.set_style(queue, style);
-        Ok(set)
+    /// Uploads a look.
+    pub(super) fn style(&self, device: &wgpu::Device, style: &StyleUniform) -> LineStyle {
+        use wgpu::util::DeviceExt as _;
+        let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
+            label: Some("line style"),
+            contents: bytemuck::bytes_of(style),
+            usage: wgpu::BufferUsages::UNIFORM,
+        });
+        LineStyle(uniform_group(
+            device,
+            "line style",
+            &self.style_layout,
+            &buffer,
+        ))
     }
 
+    /// Draws a range of a buffer's lines.
     pub(super) fn draw(
         &self,
         pass: &mut wgpu::RenderPass<'_>,
-        set: &LineSet,
-        visibility: LineOcclusion,
+        occlusion: LineOcclusion,
+        style: &LineStyle,
+        buffer: &wgpu::Buffer,
+        lines: Range<u32>,
     ) {
-        pass.set_pipeline(match visibility {
+        pass.set_pipeline(match occlusion {
             LineOcclusion::HiddenByMesh => &self.hidden,
             LineOcclusion::ThroughMesh => &self.through,
         });
-        pass.set_bind_group(1, &set.group, &[]);
-        for (buffer, count) in &set.chunks {
-            pass.set_vertex_buffer(0, buffer.slice(..));
-            pass.draw(0..6, 0..*count);
-        }
+        pass.set_bind_group(1, &style.0, &[]);
+        pass.set_vertex_buffer(0, buffer.slice(..));
+        pass.draw(0..6, lines);
     }
 }

@@ -67,7 +67,13 @@ impl ViewBinding {
     /// Makes the buffer; [`upload`](Self::upload) fills it.
     pub fn new(device: &wgpu::Device) -> Self {
         let layout = uniform_layout(device, "view");
-        let (buffer, group) = uniform_group(device, "view", &layout, size_of::<ViewUniform>());
+        let buffer = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("view"),
+            size: size_of::<ViewUniform>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let group = uniform_group(device, "view", &layout, &buffer);
         Self {
             layout,
             buffer,

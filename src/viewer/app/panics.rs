@@ -1,0 +1,109 @@
+//! Tests: a panic in the background is told, and the window goes on.
+
+use super::App;
+use crate::harness::{Window, app, click, in_picture, press, wait};
+use crate::settings::Settings;
+use crate::task::sabotage;
+use crate::trade::{Axis, Trade, TradeState};
+use egui::Key;
+use glam::UVec2;
+
+const MESSAGE: &str = "an internal error ended the work; the terminal has the details";
+
+fn wait_for_message(window: &mut Window) {
+    wait(window, "the message", |app| app.notice() == Some(MESSAGE));
+    press(window, Key::Escape);
+    assert_eq!(window.state().notice(), None);
+}
+
+#[test]
+fn a_pick_that_panics_is_told_and_the_next_one_works() {
+    let Some(mut window) = app(None) else { return };
+    let at = in_picture(&window, 0.5, 0.5);
+    sabotage::next("inspect");
+    click(&mut window, at);
+    wait_for_message(&mut window);
+    assert!(window.state().inspection().is_none());
+    // Two clicks in 0.3 s would be a double click.
+    window.run_steps(30);
+    click(&mut window, at);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+}
+
+#[test]
+fn lines_that_panic_are_told_and_switched_off_and_can_be_switched_on_again() {
+    let Some(mut window) = app(None) else { return };
+    for task in ["overlay upload", "overlay"] {
+        sabotage::next(task);
+        press(&mut window, Key::W);
+        // Only a software GPU draws in the background.
+        if task == "overlay" && !window.state().overlay.rests_while_moving() {
+            continue;
+        }
+        wait_for_message(&mut window);
+        assert!(!window.state().settings().shows_wireframe, "{task}");
+    }
+    press(&mut window, Key::N);
+    wait(&mut window, "the normals", App::is_settled);
+    assert!(window.state().settings().shows_normals);
+}
+
+#[test]
+fn a_kernel_whose_packing_panics_is_told_and_the_one_before_stays() {
+    let Some(mut window) = app(None) else { return };
+    sabotage::next("pack");
+    window.state_mut().settings.kernel = "moller-trumbore".to_owned();
+    wait_for_message(&mut window);
+    assert_eq!(window.state().settings().kernel().info.name, "watertight");
+    assert_eq!(
+        window.state().document().intersector().kernel().name,
+        "watertight"
+    );
+    window.state_mut().settings.kernel = "moller-trumbore".to_owned();
+    wait(&mut window, "the kernel", |app| {
+        app.document().intersector().kernel().name == "moller-trumbore"
+    });
+}
+
+#[test]
+fn a_comparing_view_whose_packing_panics_is_told_and_the_usual_view_comes_back() {
+    let Some(mut window) = app(None) else { return };
+    sabotage::next("pack");
+    window.state_mut().settings.view = "error-t".to_owned();
+    assert!(window.state().settings().second_kernel().is_some());
+    wait_for_message(&mut window);
+    assert_eq!(window.state().settings().view, Settings::default().view);
+}
+
+#[test]
+fn a_file_whose_loading_panics_is_told_and_the_old_one_stays() {
+    let Some(mut window) = app(None) else { return };
+    let name = window.state().document().name();
+    let ctx = window.ctx.clone();
+    sabotage::next("load");
+    window.state_mut().load("mesh.obj".into(), &ctx);
+    wait(&mut window, "the message", |app| {
+        app.notice() == Some(format!("mesh.obj: {MESSAGE}").as_str())
+    });
+    assert_eq!(window.state().document().name(), name);
+}
+
+#[test]
+fn a_measurement_that_panics_has_failed() {
+    let Some(mut window) = app(None) else { return };
+    let ctx = window.ctx.clone();
+    let camera = window.state().turntable().camera(UVec2::new(64, 64));
+    let scene = std::sync::Arc::clone(&window.state().document().loaded.scene);
+    sabotage::next("trade");
+    window.state_mut().trade = Some(Trade::start(&scene, camera, Axis::default(), &ctx));
+    wait(&mut window, "the end", |_| true);
+    while window.state().trade().map(Trade::state) == Some(TradeState::Measuring) {
+        if let Some(trade) = &mut window.state_mut().trade {
+            trade.poll();
+        }
+    }
+    assert_eq!(
+        window.state().trade().map(Trade::state),
+        Some(TradeState::Failed)
+    );
+}

@@ -1,0 +1,322 @@
+//! The overlay: lines over a mesh, hidden where the mesh is in front of them.
+//!
+//! It is drawn into a colour and a depth texture of its own, so that the result doesn't depend on the window's: the
+//! mesh's depth first, then the lines. Depth is reversed (1 near, 0 far), which keeps its precision far away.
+
+use super::depth::{DepthMesh, DepthPipeline};
+use super::lines::{LineOcclusion, LinePipelines, LineSet, LineStyle, StyleUniform};
+use super::slices::{Pace, Slices, submit_and_wait};
+use super::view::{ViewBinding, ViewUniform};
+use super::{COLOUR_FORMAT, DEPTH_FORMAT, texture};
+use glam::UVec2;
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, Ordering};
+
+/// Lines of one look.
+#[derive(Clone)]
+pub struct DrawnLines {
+    /// The lines.
+    pub lines: Arc<LineSet>,
+    /// Their look.
+    pub style: StyleUniform,
+    /// Whether the mesh hides them.
+    pub occlusion: LineOcclusion,
+}
+
+/// What an overlay shows.
+#[derive(Clone)]
+pub struct Drawing {
+    /// From where, and the size.
+    pub view: ViewUniform,
+    /// What hides lines.
+    pub mesh: Arc<DepthMesh>,
+    /// The lines, later ones over earlier ones.
+    pub sets: Vec<DrawnLines>,
+}
+
+impl PartialEq for Drawing {
+    fn eq(&self, other: &Self) -> bool {
+        let is_same = |(a, b): (&DrawnLines, &DrawnLines)| {
+            Arc::ptr_eq(&a.lines, &b.lines) && (a.style, a.occlusion) == (b.style, b.occlusion)
+        };
+        self.has_depth_of(other)
+            && self.sets.len() == other.sets.len()
+            && self.sets.iter().zip(&other.sets).all(is_same)
+    }
+}
+
+impl Drawing {
+    /// Whether the mesh has the same depth in both.
+    pub fn has_depth_of(&self, other: &Self) -> bool {
+        self.view == other.view && Arc::ptr_eq(&self.mesh, &other.mesh)
+    }
+
+    /// Whether it has more lines that `other` hasn't than `other` has.
+    pub fn is_mostly_new_to(&self, other: &Self) -> bool {
+        let is_old = |set: &DrawnLines| {
+            let lines = other.sets.iter().map(|set| &set.lines);
+            lines.clone().any(|lines| Arc::ptr_eq(lines, &set.lines))
+        };
+        let count = |sets: &mut dyn Iterator<Item = &DrawnLines>| -> u64 {
+            sets.flat_map(|set| set.lines.buffers())
+                .map(|(_, count)| u64::from(*count))
+                .sum()
+        };
+        count(&mut self.sets.iter().filter(|set| !is_old(set))) > count(&mut other.sets.iter())
+    }
+}
+
+/// Textures of the picture's size.
+pub struct Targets {
+    size: UVec2,
+    /// One to be shown while the other is drawn.
+    colours: [wgpu::Texture; 2],
+    depth: wgpu::Texture,
+}
+
+impl Targets {
+    /// Makes the textures.
+    pub fn new(device: &wgpu::Device, size: UVec2) -> Self {
+        use wgpu::TextureUsages as Usage;
+        let usage = Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
+        let colour = |label| texture(device, label, size, COLOUR_FORMAT, usage);
+        let usage = Usage::RENDER_ATTACHMENT;
+        Self {
+            size,
+            colours: [colour("overlay colour 0"), colour("overlay colour 1")],
+            depth: texture(device, "overlay depth", size, DEPTH_FORMAT, usage),
+        }
+    }
+
+    /// Width and height in pixels.
+    pub fn size(&self) -> UVec2 {
+        self.size
+    }
+
+    /// The texture with this number, 0 or 1.
+    pub fn colour(&self, number: usize) -> &wgpu::Texture {
+        &self.colours[number]
+    }
+}
+
+/// How a drawing is cut into slices.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Paces {
+    /// Of the mesh's triangles.
+    pub triangles: Pace,
+    /// Of lines.
+    pub lines: Pace,
+}
+
+impl Paces {
+    /// Everything at once, without waiting for it.
+    pub const UNLIMITED: Self = Self {
+        triangles: Pace::UNLIMITED,
+        lines: Pace::UNLIMITED,
+    };
+}
+
+/// What a drawing is drawn into.
+#[derive(Clone)]
+pub struct Canvas {
+    /// The textures.
+    pub targets: Arc<Targets>,
+    /// Which of the colour textures.
+    pub colour: usize,
+    /// Whether the depth texture holds the mesh's depth already.
+    pub has_depth: bool,
+}
+
+/// What others may see and do while a drawing is drawn.
+#[derive(Default)]
+pub struct DrawingState {
+    /// Ends the drawing after the slice that is being drawn.
+    pub is_cancelled: AtomicBool,
+    /// Whether the colour texture is cleared, and has some lines.
+    pub has_lines: AtomicBool,
+}
+
+/// The pipelines of the overlay. Live as long as the device.
+pub struct Overlay {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    view: ViewBinding,
+    depth: DepthPipeline,
+    lines: LinePipelines,
+}
+
+impl Overlay {
+    /// Compiles the shaders.
+    pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
+        let view = ViewBinding::new(device);
+        Self {
+            depth: DepthPipeline::new(device, &view, DEPTH_FORMAT),
+            lines: LinePipelines::new(device, &view, COLOUR_FORMAT, DEPTH_FORMAT),
+            view,
+            device: device.clone(),
+            queue: queue.clone(),
+        }
+    }
+
+    /// The device, and the queue that everything is submitted to.
+    pub fn gpu(&self) -> (&wgpu::Device, &wgpu::Queue) {
+        (&self.device, &self.queue)
+    }
+
+    /// Draws over a transparent ground. Returns whether all was drawn: it wasn't if it was cancelled.
+    ///
+    /// One drawing at a time: they share the view's buffer.
+    pub fn draw(
+        &self,
+        drawing: &Drawing,
+        canvas: &Canvas,
+        paces: &mut Paces,
+        state: &DrawingState,
+        progress: impl Fn(),
+    ) -> bool {
+        self.view.upload(&self.queue, &drawing.view);
+        if !canvas.has_depth && !self.draw_depth(drawing, canvas, &mut paces.triangles, state) {
+            return false;
+        }
+        self.draw_lines(drawing, canvas, &mut paces.lines, state, progress)
+    }
+
+    fn draw_depth(
+        &self,
+        drawing: &Drawing,
+        canvas: &Canvas,
+        pace: &mut Pace,
+        state: &DrawingState,
+    ) -> bool {
+        let mut slices = Slices::new(drawing.mesh.triangle_counts());
+        let mut load = wgpu::LoadOp::Clear(0.0);
+        let depth = view_of(&canvas.targets.depth);
+        loop {
+            let slice = slices.take(pace.primitives());
+            if slice.is_empty() && load == wgpu::LoadOp::Load {
+                return true;
+            }
+            let mut encoder = self.encoder();
+            {
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("overlay depth"),
+                    depth_stencil_attachment: Some(depth_attachment(&depth, load)),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, self.view.group(), &[]);
+                self.depth.draw(&mut pass, &drawing.mesh, &slice);
+            }
+            self.submit(encoder, pace);
+            load = wgpu::LoadOp::Load;
+            if state.is_cancelled.load(Ordering::Relaxed) {
+                return false;
+            }
+        }
+    }
+
+    fn draw_lines(
+        &self,
+        drawing: &Drawing,
+        canvas: &Canvas,
+        pace: &mut Pace,
+        state: &DrawingState,
+        progress: impl Fn(),
+    ) -> bool {
+        let styles = drawing
+            .sets
+            .iter()
+            .map(|set| self.lines.style(&self.device, &set.style));
+        let styles: Vec<LineStyle> = styles.collect();
+        // Parts: every buffer of every set.
+        let parts = (0..drawing.sets.len())
+            .flat_map(|set| (0..drawing.sets[set].lines.buffers().len()).map(move |k| (set, k)));
+        let parts: Vec<(usize, usize)> = parts.collect();
+        let sizes = parts
+            .iter()
+            .map(|&(set, k)| drawing.sets[set].lines.buffers()[k].1);
+        let mut slices = Slices::new(sizes.collect());
+        let mut load = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
+        let colour = view_of(canvas.targets.colour(canvas.colour));
+        let depth = view_of(&canvas.targets.depth);
+        loop {
+            let slice = slices.take(pace.primitives());
+            if slice.is_empty() && load == wgpu::LoadOp::Load {
+                return true;
+            }
+            let mut encoder = self.encoder();
+            {
+                let attachments = [Some(colour_attachment(&colour, load))];
+                let mut pass = encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+                    label: Some("overlay lines"),
+                    color_attachments: &attachments,
+                    depth_stencil_attachment: Some(depth_attachment(&depth, wgpu::LoadOp::Load)),
+                    ..Default::default()
+                });
+                pass.set_bind_group(0, self.view.group(), &[]);
+                for (part, range) in slice {
+                    let (set, k) = parts[part];
+                    let drawn = &drawing.sets[set];
+                    let buffer = &drawn.lines.buffers()[k].0;
+                    self.lines
+                        .draw(&mut pass, drawn.occlusion, &styles[set], buffer, range);
+                }
+            }
+            self.submit(encoder, pace);
+            load = wgpu::LoadOp::Load;
+            state.has_lines.store(true, Ordering::Relaxed);
+            progress();
+            if state.is_cancelled.load(Ordering::Relaxed) {
+                return false;
+            }
+        }
+    }
+
+    fn encoder(&self) -> wgpu::CommandEncoder {
+        self.device
+            .create_command_encoder(&wgpu::CommandEncoderDescriptor {
+                label: Some("overlay"),
+            })
+    }
+
+    fn submit(&self, encoder: wgpu::CommandEncoder, pace: &mut Pace) {
+        if *pace == Pace::UNLIMITED {
+            self.queue.submit([encoder.finish()]);
+        } else {
+            let commands = Some(encoder.finish());
+            pace.adapt(submit_and_wait(&self.device, &self.queue, commands));
+        }
+    }
+}
+
+fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
+}
+
+fn colour_attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<wgpu::Color>,
+) -> wgpu::RenderPassColorAttachment<'_> {
+    wgpu::RenderPassColorAttachment {
+        view,
+        depth_slice: None,
+        resolve_target: None,
+        ops: wgpu::Operations {
+            load,
+            store: wgpu::StoreOp::Store,
+        },
+    }
+}
+
+fn depth_attachment(
+    view: &wgpu::TextureView,
+    load: wgpu::LoadOp<f32>,
+) -> wgpu::RenderPassDepthStencilAttachment<'_> {
+    wgpu::RenderPassDepthStencilAttachment {
+        view,
+        depth_ops: Some(wgpu::Operations {
+            load,
+            store: wgpu::StoreOp::Store,
+        }),
+        stencil_ops: None,
+    }
+}

@@ -1,0 +1,83 @@
+//! What is drawn over the picture, and how it looks.
+
+use super::wireframe::WireframeEdges;
+use crate::gpu::lines::StyleUniform;
+use hitscope_core::mesh::Flaw;
+use hitscope_core::scene::Shading;
+
+/// What is drawn over the picture. Lengths are in physical pixels.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Options {
+    /// The mesh's edges.
+    pub wireframe: Option<WireframeEdges>,
+    /// sRGB of the edges.
+    pub wire_colour: [u8; 3],
+    /// Normals, of which kind.
+    pub normals: Option<Shading>,
+    /// Length of the normals, as a part of the mesh's radius.
+    pub normal_length: f32,
+    /// The file's own lines and points.
+    pub elements: bool,
+    /// Where flaws of this kind are.
+    pub flaw: Option<Flaw>,
+    /// The picked triangle.
+    pub picked: Option<u32>,
+    /// Width of the wireframe's lines in pixels.
+    pub line_width_px: f32,
+}
+
+impl Options {
+    /// No lines at all.
+    pub const NOTHING: Self = Self {
+        wireframe: None,
+        wire_colour: [0; 3],
+        normals: None,
+        normal_length: 0.0,
+        elements: false,
+        flaw: None,
+        picked: None,
+        line_width_px: 1.0,
+    };
+
+    pub(super) fn is_nothing(&self) -> bool {
+        self.wireframe.is_none()
+            && self.normals.is_none()
+            && !self.elements
+            && self.flaw.is_none()
+            && self.picked.is_none()
+    }
+
+    pub(crate) fn wire_style(&self) -> StyleUniform {
+        let [r, g, b] = self.wire_colour.map(|c| f32::from(c) / 255.0);
+        style([r, g, b, 0.85], self.line_width_px, 1.0)
+    }
+
+    pub(crate) fn normal_style(&self) -> StyleUniform {
+        StyleUniform {
+            stretch: self.normal_length,
+            ..style([0.16, 0.55, 0.95, 0.8], self.line_width_px, 1.0)
+        }
+    }
+
+    pub(crate) fn element_style(&self) -> StyleUniform {
+        style([0.10, 0.75, 0.62, 0.95], 1.6 * self.line_width_px, 0.0)
+    }
+
+    pub(super) fn flaw_style(&self, alpha: f32) -> StyleUniform {
+        style([0.95, 0.15, 0.20, alpha], 2.6 * self.line_width_px, 0.0)
+    }
+
+    pub(super) fn picked_style(&self, alpha: f32) -> StyleUniform {
+        style([1.0, 0.55, 0.0, alpha], 2.2 * self.line_width_px, 0.0)
+    }
+}
+
+fn style(colour: [f32; 4], width_px: f32, fade: f32) -> StyleUniform {
+    StyleUniform {
+        colour,
+        half_width_px: 0.5 * width_px,
+        stretch: 1.0,
+        fade,
+        padding: 0.0,
+    }
+}

@@ -1,0 +1,253 @@
+//! What the overlay draws: which lines, where, in which colours.
+
+use crate::harness::{gpu, shared_setup};
+use eframe::egui_wgpu::{RenderState, RendererOptions};
+use egui_kittest::wgpu::create_render_state;
+use glam::{DVec3, UVec2, Vec3};
+use hitscope::gpu::adapter::Gpu;
+use hitscope::offscreen::read_back;
+use hitscope::overlay::wireframe::WireframeEdges;
+use hitscope::overlay::{Options, OverlayLayer};
+use hitscope_core::camera::{Camera, Projection};
+use hitscope_core::mesh::shapes::{mesh, scene};
+use hitscope_core::mesh::{Flaw, Health};
+use hitscope_core::scene::{Scene, Shading};
+use std::sync::Arc;
+use std::time::{Duration, Instant};
+
+const SIZE: UVec2 = UVec2::new(200, 200);
+const BACKGROUND: [u8; 4] = [0; 4];
+const WIRE: [u8; 3] = [200, 100, 50];
+
+/// Fifty pixels a unit, (0, 0) in the middle of the picture: y points upwards.
+fn camera() -> Camera {
+    let projection = Projection::Orthographic { height: 4.0 };
+    Camera::look_at(
+        DVec3::new(0.0, 0.0, 5.0),
+        DVec3::ZERO,
+        DVec3::Y,
+        projection,
+        SIZE,
+    )
+    .expect("a camera")
+}
+
+/// A square, a triangle behind it, a triangle seen edge-on at its right, and a line in front of it. What is vertical or
+/// horizontal runs through the centres of pixels.
+///
+/// ```text
+///   3───────────2   8      The square's left edge is at x = 50.5 pixels, its right one at 150.5,
+///   │  9─────10 │   │      its upper one at y = 50.5, its lower one at 150.5.
+///   │   6       │   │      The triangle behind has its left edge at x = 80.5, from y = 80.5 to 120.5.
+///   │   4──5    │   7      The edge-on one is at x = 170.5, and its normal points to the right.
+///   0───────────1          The line is at y = 60.5, from x = 70.5 to 130.5.
+/// ```
+fn marked_scene() -> Arc<Scene> {
+    let at = |x: f32, y: f32, z: f32| Vec3::new((x - 100.0) / 50.0, (100.0 - y) / 50.0, z);
+    let corners = vec![
+        at(50.5, 150.5, 0.0),
+        at(150.5, 150.5, 0.0),
+        at(150.5, 50.5, 0.0),
+        at(50.5, 50.5, 0.0),
+        at(80.5, 120.5, -1.0),
+        at(110.5, 120.5, -1.0),
+        at(80.5, 80.5, -1.0),
+        at(170.5, 130.5, 0.0),
+        at(170.5, 70.5, 0.0),
+        at(70.5, 60.5, 1.0),
+        at(130.5, 60.5, 1.0),
+    ];
+    let mut corners_and_edge_on = corners;
+    corners_and_edge_on.push(at(170.5, 100.5, -1.0));
+    let mut mesh = mesh(
+        corners_and_edge_on,
+        vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [7, 11, 8]],
+    );
+    // The square is one face.
+    mesh.outline = vec![0b011, 0b110, 0b111, 0b111];
+    mesh.lines = vec![[9, 10]];
+    Arc::new(scene(mesh))
+}
+
+const BEHIND: u32 = 2;
+
+/// Draws until everything is there.
+fn drawn(
+    layer: &mut OverlayLayer,
+    gpu: &Gpu,
+    scene: &Arc<Scene>,
+    options: &Options,
+) -> Vec<[u8; 4]> {
+    let health = Arc::new(Health::of(scene.mesh()));
+    let start = Instant::now();
+    loop {
+        let ctx = egui::Context::default();
+        let texture = layer
+            .draw(scene, Some(&health), &camera(), options, &ctx)
+            .expect("drawn");
+        if layer.is_complete() {
+            let texture = texture.expect("something is drawn");
+            return read_back(&gpu.device, &gpu.queue, &texture).expect("read back");
+        }
+        assert!(start.elapsed() < Duration::from_secs(300), "waited in vain");
+        std::thread::sleep(Duration::from_millis(1));
+    }
+}
+
+fn layer() -> Option<(OverlayLayer, &'static Gpu)> {
+    let gpu = gpu()?;
+    let state: RenderState = create_render_state(shared_setup(gpu), RendererOptions::PREDICTABLE);
+    Some((OverlayLayer::new(&state), gpu))
+}
+
+/// A colour of alpha 0 … 1 as the texture holds it: multiplied in.
+fn premultiplied(colour: [f32; 3], alpha: f32) -> [u8; 4] {
+    let byte = |x: f32| (255.0 * x).round() as u8;
+    [
+        colour[0] * alpha,
+        colour[1] * alpha,
+        colour[2] * alpha,
+        alpha,
+    ]
+    .map(byte)
+}
+
+/// Each blend rounds to a byte; two of them, and the byte expected here, are off by 1/2 each.
+fn assert_is(pixels: &[[u8; 4]], [x, y]: [u32; 2], expected: [u8; 4], what: &str) {
+    let found = pixels[(y * SIZE.x + x) as usize];
+    let off = (0..4).map(|k| found[k].abs_diff(expected[k])).max();
+    assert!(
+        off <= Some(2),
+        "{what} at {x}, {y}: {found:?} for {expected:?}"
+    );
+}
+
+const ON_THE_SQUARES_EDGE: [u32; 2] = [50, 110];
+const ON_ITS_DIAGONAL: [u32; 2] = [130, 70];
+const ON_THE_EDGE_BEHIND: [u32; 2] = [80, 100];
+const ON_THE_LINE: [u32; 2] = [100, 60];
+const ON_THE_NORMAL: [u32; 2] = [180, 100];
+
+#[test]
+fn the_wireframe_shows_the_edges_of_faces_or_of_triangles_unless_the_mesh_hides_them() {
+    let Some((mut layer, gpu)) = layer() else {
+        return;
+    };
+    let scene = marked_scene();
+    let wire = premultiplied(WIRE.map(|c| f32::from(c) / 255.0), 0.85);
+    for (edges, diagonal) in [
+        (WireframeEdges::Polygons, BACKGROUND),
+        (WireframeEdges::Triangles, wire),
+    ] {
+        let options = Options {
+            wireframe: Some(edges),
+            wire_colour: WIRE,
+            ..Options::NOTHING
+        };
+        let pixels = drawn(&mut layer, gpu, &scene, &options);
+        assert_is(&pixels, ON_THE_SQUARES_EDGE, wire, "the square's edge");
+        assert_is(&pixels, ON_ITS_DIAGONAL, diagonal, "its diagonal");
+        assert_is(&pixels, ON_THE_EDGE_BEHIND, BACKGROUND, "the edge behind");
+        assert_is(&pixels, ON_THE_LINE, BACKGROUND, "the file's line");
+    }
+}
+
+#[test]
+fn lines_of_the_file_and_normals_are_drawn_in_their_colours() {
+    let Some((mut layer, gpu)) = layer() else {
+        return;
+    };
+    let scene = marked_scene();
+    let options = Options {
+        elements: true,
+        ..Options::NOTHING
+    };
+    let pixels = drawn(&mut layer, gpu, &scene, &options);
+    let element = premultiplied([0.10, 0.75, 0.62], 0.95);
+    assert_is(&pixels, ON_THE_LINE, element, "the file's line");
+    assert_is(&pixels, ON_THE_SQUARES_EDGE, BACKGROUND, "no wireframe");
+    let options = Options {
+        normals: Some(Shading::Flat),
+        normal_length: 0.3,
+        ..Options::NOTHING
+    };
+    let pixels = drawn(&mut layer, gpu, &scene, &options);
+    let normal = premultiplied([0.16, 0.55, 0.95], 0.8);
+    assert_is(
+        &pixels,
+        ON_THE_NORMAL,
+        normal,
+        "the edge-on triangle's normal",
+    );
+    assert_is(&pixels, ON_THE_LINE, BACKGROUND, "no lines");
+}
+
+#[test]
+fn marks_are_strong_on_the_mesh_and_faint_behind_it() {
+    let Some((mut layer, gpu)) = layer() else {
+        return;
+    };
+    let scene = marked_scene();
+    let options = Options {
+        flaw: Some(Flaw::OpenEdge),
+        ..Options::NOTHING
+    };
+    let pixels = drawn(&mut layer, gpu, &scene, &options);
+    let flaw = |alpha| premultiplied([0.95, 0.15, 0.20], alpha);
+    assert_is(&pixels, ON_THE_SQUARES_EDGE, flaw(1.0), "an open edge");
+    assert_is(
+        &pixels,
+        ON_THE_EDGE_BEHIND,
+        flaw(0.3),
+        "an open edge behind",
+    );
+    assert_is(&pixels, ON_ITS_DIAGONAL, BACKGROUND, "a closed edge");
+
+    let picked = |alpha| premultiplied([1.0, 0.55, 0.0], alpha);
+    for (triangle, edge, behind) in [
+        (1, picked(1.0), BACKGROUND),
+        (BEHIND, BACKGROUND, picked(0.3)),
+    ] {
+        let options = Options {
+            picked: Some(triangle),
+            ..Options::NOTHING
+        };
+        let pixels = drawn(&mut layer, gpu, &scene, &options);
+        assert_is(&pixels, ON_THE_SQUARES_EDGE, edge, "the square's edge");
+        assert_is(&pixels, ON_THE_EDGE_BEHIND, behind, "the edge behind");
+    }
+}
+
+#[test]
+fn the_last_overlay_stays_until_the_next_is_drawn_but_not_for_another_view() {
+    let Some((mut layer, gpu)) = layer() else {
+        return;
+    };
+    let scene = marked_scene();
+    let options = |width| Options {
+        wireframe: Some(WireframeEdges::Polygons),
+        wire_colour: WIRE,
+        line_width_px: width,
+        ..Options::NOTHING
+    };
+    drawn(&mut layer, gpu, &scene, &options(1.0));
+    let ctx = egui::Context::default();
+    let mut draw = |camera: &Camera, width| {
+        let drawn = layer.draw(&scene, None, camera, &options(width), &ctx);
+        drawn.expect("drawn")
+    };
+    assert!(draw(&camera(), 3.0).is_some(), "a frame without lines");
+    // Ten pixels to the left.
+    let (eye, target) = (DVec3::new(0.2, 0.0, 5.0), DVec3::new(0.2, 0.0, 0.0));
+    let projection = Projection::Orthographic { height: 4.0 };
+    let moved = Camera::look_at(eye, target, DVec3::Y, projection, SIZE).expect("a camera");
+    if let Some(texture) = draw(&moved, 3.0) {
+        let pixels = read_back(&gpu.device, &gpu.queue, &texture).expect("read back");
+        assert_is(
+            &pixels,
+            ON_THE_SQUARES_EDGE,
+            BACKGROUND,
+            "where the edge was",
+        );
+    }
+}
