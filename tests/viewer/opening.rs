@@ -1,6 +1,6 @@
 //! What the window shows before, while and after a file is opened.
 
-use crate::harness::{Window, bare, press, wait};
+use crate::harness::{Window, bare, gpu, press, shared_setup, wait};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
@@ -27,9 +27,7 @@ fn open(window: &mut Window, path: PathBuf, name: &str) {
 
 #[test]
 fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
-    if crate::harness::gpu().is_none() {
-        return;
-    }
+    let Some(gpu) = gpu() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     for (file, is_good) in [("flat.obj", true), ("none.obj", false)] {
         if is_good {
@@ -41,7 +39,7 @@ fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
         };
         let mut window: Window = egui_kittest::Harness::builder()
             .with_size(egui::vec2(800.0, 600.0))
-            .wgpu()
+            .wgpu_setup(shared_setup(gpu))
             .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
         for _ in 0..10_000 {
             let app = window.state();
