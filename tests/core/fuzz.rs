@@ -134,7 +134,7 @@ fn hard_polygons() -> [(&'static str, Case); 3] {
     const COUNT: usize = 10_000;
     let mut random = Random::new(9);
     let star = (0..COUNT).map(|i| {
-        let step = 4.000_000_2 * std::f64::consts::PI * (COUNT as f64 / 2.0 - 1.0) / COUNT as f64;
+        let step = 2.000_000_1 * std::f64::consts::PI * (COUNT as f64 / 2.0 - 1.0) / COUNT as f64;
         let (sin, cos) = (step * i as f64).sin_cos();
         [cos, sin]
     });

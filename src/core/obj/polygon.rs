@@ -3,18 +3,15 @@
 use super::delaunay;
 use super::error::Problem;
 use super::fence::fenced;
-use crate::progress::{BackgroundError, Cancelled, Progress};
+use crate::progress::{Cancelled, Progress};
 use earcut::Earcut;
 use glam::DVec3;
 
 /// Up to so many corners, ears are clipped: for a polygon that crosses itself that takes up to FEW³ steps, a tenth of
-/// a millisecond (2026-11). Larger ones are cut by a Delaunay triangulation, which takes n log n.
+/// a millisecond (2026-11). Larger ones are cut by a Delaunay triangulation, which takes n log n: 50 ms for 10 000.
 const FEW: usize = 100;
 /// Of more corners than this, rounding makes a circle concave here and there; by so little that a fan fits it.
 const MANY: usize = 1000;
-/// Of more corners than this, a polygon is cut on a thread of its own, which nobody waits for if the load is
-/// cancelled: of this many that takes some 20 ms (2026-11).
-const LARGE: usize = 10_000;
 /// Of more corners than this, a concave polygon becomes a fan: a triangulation takes some 300 bytes a corner.
 pub(super) const LARGEST: usize = 1_000_000;
 
@@ -50,7 +47,7 @@ impl Triangulator {
     /// by a Delaunay triangulation.
     ///
     /// # Errors
-    /// Cancelled by `progress`, or the system grants no thread.
+    /// Cancelled by `progress`.
     pub(super) fn cut(
         &mut self,
         corners: &[DVec3],
@@ -80,21 +77,7 @@ impl Triangulator {
         if corners.len() > LARGEST {
             return Ok(false);
         }
-        if corners.len() <= LARGE {
-            return triangulated(corners, progress, &mut self.indices);
-        }
-        let (corners, shared) = (corners.to_vec(), progress.clone());
-        let cut = move || {
-            let mut indices = Vec::new();
-            triangulated(&corners, &shared, &mut indices).map(|is_cut| (is_cut, indices))
-        };
-        let (is_cut, indices) = match progress.run_in_background("polygon", cut) {
-            Ok(result) => result?,
-            Err(BackgroundError::Cancelled) => return Err(Problem::Cancelled),
-            Err(BackgroundError::NoThread(error)) => return Err(Problem::Read(error)),
-        };
-        self.indices = indices;
-        Ok(is_cut)
+        triangulated(corners, progress, &mut self.indices)
     }
 
     /// Whether ears could be clipped so that the triangles' areas add up to the polygon's.
@@ -162,10 +145,10 @@ fn fan_fits(corners: &[DVec3]) -> bool {
         .fold((0.0, 0.0), |(right, wrong), x| {
             (right + x.max(0.0), wrong + (-x).max(0.0))
         });
-    wrong <= 1e-9 * right && right > 0.0
+    wrong <= 1e-9 * right && right > 0.0 && goes_round_once(corners, normal)
 }
 
-/// Whether every corner turns the same way and the boundary goes round once: a fan then fits.
+/// Whether every corner turns the same way and the boundary goes round once, so that a fan fits.
 fn is_convex(corners: &[DVec3]) -> bool {
     let normal = vector_area(corners);
     let count = corners.len();
@@ -175,7 +158,36 @@ fn is_convex(corners: &[DVec3]) -> bool {
         let side = (corners[k] - corners[0]).cross(corners[k + 1] - corners[0]);
         side.dot(normal) >= 0.0
     });
-    normal != DVec3::ZERO && (0..count).all(turns_left) && fan_is_positive
+    normal != DVec3::ZERO
+        && (0..count).all(turns_left)
+        && fan_is_positive
+        && goes_round_once(corners, normal)
+}
+
+/// Whether a polygon all of whose corners turn the same way, but for rounding, goes round its middle once.
+fn goes_round_once(corners: &[DVec3], normal: DVec3) -> bool {
+    // Fewer corners can't go round twice.
+    const LEAST: usize = 5;
+    let count = corners.len();
+    let Some(normal) = normal.try_normalize() else {
+        return count < LEAST;
+    };
+    if count < LEAST {
+        return true;
+    }
+    let y = normal.any_orthonormal_vector();
+    let middle = corners.iter().sum::<DVec3>() / count as f64;
+    // Passes over the ray from the middle along x, less those the other way.
+    let mut turns = 0;
+    for k in 0..count {
+        let [from, to] = [k, (k + 1) % count].map(|k| corners[k] - middle);
+        let (is_above, becomes_above) = (from.dot(y) >= 0.0, to.dot(y) >= 0.0);
+        let side = from.cross(to).dot(normal);
+        if is_above != becomes_above && (side > 0.0) == becomes_above {
+            turns += if becomes_above { 1 } else { -1 };
+        }
+    }
+    turns == 1
 }
 
 #[cfg(test)]

@@ -86,12 +86,7 @@ fn star(count: u32) -> Vec<[f64; 2]> {
 
 #[test]
 fn stars_of_any_size_are_cut() {
-    for count in [
-        FEW as u32 - 2,
-        FEW as u32 + 2,
-        LARGE as u32,
-        LARGE as u32 + 2,
-    ] {
+    for count in [FEW as u32 - 2, FEW as u32 + 2, 10_000] {
         let (how, area) = cut(&star(count));
         // As many triangles of radii 1 and 0.7 as corners.
         let angle = std::f64::consts::TAU / f64::from(count);
@@ -120,12 +115,9 @@ fn a_polygon_that_is_not_wanted_is_given_up() {
     let in_plane = |p: &[f64; 2]| DVec3::new(p[0], p[1], 0.0);
     let progress = Progress::default();
     progress.cancel();
-    // On the thread of the load, and on one of its own.
-    for count in [LARGE as u32, LARGE as u32 + 2] {
-        let corners: Vec<DVec3> = star(count).iter().map(in_plane).collect();
-        let result = Triangulator::new().cut(&corners, &progress, |_| {});
-        assert!(matches!(result, Err(Problem::Cancelled)));
-    }
+    let corners: Vec<DVec3> = star(10_000).iter().map(in_plane).collect();
+    let result = Triangulator::new().cut(&corners, &progress, |_| {});
+    assert!(matches!(result, Err(Problem::Cancelled)));
 }
 
 /// Every edge of a polygon belongs to just one triangle, if the polygon is simple and each triangle has the right
@@ -242,9 +234,18 @@ fn random_polygons_are_cut_as_by_ear_clipping() {
 #[test]
 fn large_polygons_that_cross_themselves_become_a_fan() {
     let mut random = crate::random::Random::new(5);
-    let count = LARGE / 4;
+    let count = 2500;
     let noise = (0..count).map(|_| [random.index(1000) as f64, random.index(1000) as f64]);
     assert_eq!(cut(&noise.collect::<Vec<_>>()).0, Cut::Fan);
+    // Twice round the same circle.
+    for count in [7, 201, 2001] {
+        let twice = ring(count, [0.0, 0.0], 1.0, 2.0);
+        assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
+        assert_eq!(
+            cut(&ring(count, [0.0, 0.0], 1.0, 1.0).collect::<Vec<_>>()).0,
+            Cut::Good
+        );
+    }
     // Around twice, inside of itself and outside.
     let twice = ring(101, [0.0, 0.0], 1.0, 1.0).chain(ring(101, [0.0, 0.0], 2.0, 1.0));
     assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
