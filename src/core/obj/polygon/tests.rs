@@ -238,7 +238,7 @@ fn large_polygons_that_cross_themselves_become_a_fan() {
     let noise = (0..count).map(|_| [random.index(1000) as f64, random.index(1000) as f64]);
     assert_eq!(cut(&noise.collect::<Vec<_>>()).0, Cut::Fan);
     // Twice round the same circle.
-    for count in [7, 201, 2001] {
+    for count in [200, 2000] {
         let twice = ring(count, [0.0, 0.0], 1.0, 2.0);
         assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
         assert_eq!(
