@@ -131,7 +131,7 @@ fn main() {
 
 /// Polygons that took an ear clipper the cube of their corners.
 fn hard_polygons() -> [(&'static str, Case); 3] {
-    const COUNT: usize = 10_000;
+    const COUNT: usize = 30_000;
     let mut random = Random::new(9);
     let star = (0..COUNT).map(|i| {
         let step = 2.000_000_1 * std::f64::consts::PI * (COUNT as f64 / 2.0 - 1.0) / COUNT as f64;
