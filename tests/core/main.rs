@@ -23,7 +23,7 @@ mod trees;
 // Kernels that promise it: no ray leaves a closed mesh.
 mod watertight;
 
-// The exact kernel where a hair's breadth decides.
+// The exact kernel in edge cases.
 mod exact;
 
 // A ray that leaves a surface doesn't meet it again.

@@ -20,5 +20,8 @@ mod accuracy;
 // The lecture's slips.
 mod lecture;
 
+// From which distance on a scene requires more than `fast`.
+mod requirement;
+
 // Closed meshes, boxes, leaving rays.
 mod watertight;

@@ -236,6 +236,20 @@ mod tests {
     }
 
     #[test]
+    fn a_ray_that_touches_a_boxs_edge_meets_it_though_rounding_parts_the_planes() {
+        // It enters the lower x plane before it leaves the upper y plane, by some 2⁻³⁸ of t; computed, it
+        // leaves 5.2u before it enters. No ray was found that needs more than 6u, climbing for 1.8·10⁸ steps
+        // (2026-11); 7u is what the derivation asks for.
+        let bounds = Aabb {
+            min: Vec3::new(0.503_587_66, -2.0, -4.0),
+            max: Vec3::new(2.0, 0.322_396_4, 4.0),
+        };
+        let origin = Vec3::new(-0.623_539_9, -0.801_188_9, 0.0);
+        let dir = Vec3::new(0.986_117_1, 0.983_018, 0.25);
+        assert!(enters(origin, dir, bounds));
+    }
+
+    #[test]
     fn a_slope_whose_inverse_overflows_reaches_the_box_ahead_and_behind() {
         let bounds = Aabb::around([Vec3::ZERO, Vec3::new(1.0, 1.0, 20.0)]);
         let tiny = 1e-42f32;
