@@ -81,9 +81,13 @@ impl<'a> Program<'a> {
         std::fs::read_to_string(self.folder.path().join("stderr")).unwrap_or_default()
     }
 
-    /// Ends the program by its key.
-    fn quit(self) {
-        self.xdotool(&["key", "ctrl+q"]);
+    /// Ends the program by its key, pressed until the window listens.
+    fn quit(mut self) {
+        let start = Instant::now();
+        while self.child.try_wait().expect("a child").is_none() && start.elapsed() < PATIENCE {
+            self.xdotool(&["windowfocus", &self.id, "key", "ctrl+q"]);
+            std::thread::sleep(Duration::from_millis(500));
+        }
         self.ends_well("Ctrl+Q");
     }
 
