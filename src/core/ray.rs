@@ -54,7 +54,8 @@ impl Ray {
         Self::with_interval(origin, dir, 0.0, f32::INFINITY)
     }
 
-    /// A ray over `t_min < t < t_max`. `t_max` may be infinite, `t_min` negative.
+    /// A ray over `t_min < t < t_max`. `t_max` may be infinite, `t_min` negative, and minus infinity. A hit is
+    /// a miss if its |t|, in lengths of `dir`, is f32's largest number or more.
     ///
     /// A direction whose longest coordinate isn't between 2⁻¹⁶ and 2¹⁶ is brought to between 1 and 2 by a
     /// power of two, where that rounds no coordinate, and the interval with it, whose ends may be rounded
@@ -107,11 +108,18 @@ impl Ray {
         }
         Self {
             dir: usual,
-            t_min: scaled(self.t_min, exponent),
-            t_max: scaled(self.t_max, exponent),
+            t_min: scaled(self.t_min.max(-f32::MAX), exponent),
+            t_max: scaled(self.t_max.min(f32::MAX), exponent),
             scale: -exponent,
             ..self
         }
+    }
+
+    /// The part of the interval in which a hit's t is a finite f32: what is as far as f32's largest number,
+    /// ahead or behind, is a miss.
+    #[inline(always)]
+    pub(crate) fn finite_interval(&self) -> [f32; 2] {
+        [self.t_min.max(-f32::MAX), self.t_max.min(f32::MAX)]
     }
 
     /// A distance in lengths of the direction that the ray was made with.

@@ -1,6 +1,7 @@
-//! Which tier does a scene require, and why?
+//! Which tier a scene requires, and why.
 //!
-//! The thresholds are where the laboratory's matrix shows that a tier begins to decide rays wrongly:
+//! `watertight` and the tiers above decide every ray rightly. The thresholds are where the laboratory's matrix
+//! shows that `fast` decides more than one ray in a thousand wrongly:
 //! `hitscope lab --case sliver --case far --case scale`.
 
 use glam::UVec2;
@@ -13,8 +14,6 @@ use std::cmp::Reverse;
 
 /// Distance over a triangle's size from which f32 decides more than one ray in a thousand wrongly.
 const FAR_FOR_F32: f64 = 1e4;
-/// Aspect, and distance over size, at which f64's digits end.
-const END_OF_F64: f64 = 1e12;
 /// Distance from (0, 0, 0) over size that is worth mentioning.
 const FAR_OUT: f64 = 100.0;
 
@@ -39,30 +38,20 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
         let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
         found.add(Tier::Precise, format!(
-            "it is {size:.1e} units large: outside of {least:e} to {most:e} products of lengths leave f32's range"
+            "it is {size:.1e} units large: outside of {least:e} to {most:e} products of lengths leave f32's range, so that `watertight` tests nearly every triangle again in f64, one by one"
         ));
     }
     if health.max_aspect > SLIVER_ASPECT {
-        let tier = if health.max_aspect < END_OF_F64 {
-            Tier::Precise
-        } else {
-            Tier::Exact
-        };
-        found.add(tier, format!(
-            "{} sliver(s), up to {:.0e} times longer than high: f32 decides some of their rays wrongly",
+        found.add(Tier::Watertight, format!(
+            "{} sliver(s), up to {:.0e} times longer than high: `fast` decides some of their rays wrongly",
             health.places(Flaw::Sliver).count().unwrap_or(0), health.max_aspect
         ));
     }
     if let Some(distance) = distance_in_triangles(scene)
         && distance > FAR_FOR_F32
     {
-        let tier = if distance < END_OF_F64 {
-            Tier::Precise
-        } else {
-            Tier::Exact
-        };
-        found.add(tier, format!(
-            "the starting view is {distance:.0e} times as far away as half of the triangles are large: f32 decides some rays wrongly"
+        found.add(Tier::Watertight, format!(
+            "the starting view is {distance:.0e} times as far away as half of the triangles are large: `fast` decides some rays wrongly"
         ));
     }
     let offset = mesh.origin.length();
@@ -145,6 +134,7 @@ mod tests {
     use super::*;
     use glam::{DVec3, Vec3};
     use hitscope_core::TriangleMesh;
+    use hitscope_core::mesh::corridors::{Corridor, Footprint};
     use hitscope_core::mesh::shapes::{Placement, scene, soup, sphere};
 
     fn required(mesh: TriangleMesh) -> Requirement {
@@ -160,18 +150,24 @@ mod tests {
         let tiny = required(sphere(4, Placement::new(1e-20, 0.0)));
         assert_eq!(tiny.tier, "precise");
         assert!(tiny.reasons[0].contains("f32's range"), "{tiny:?}");
-        let thin = Vec3::new(0.5, 1e-5, 0.0);
-        let sliver = required(soup(&[[Vec3::ZERO, Vec3::X, thin], corners]));
-        assert_eq!(sliver.tier, "precise");
-        let needle = Vec3::new(0.5, 1e-15, 0.0);
-        assert_eq!(
-            required(soup(&[[Vec3::ZERO, Vec3::X, needle]])).tier,
-            "exact"
-        );
+        for height in [1e-5, 1e-15] {
+            let thin = [Vec3::ZERO, Vec3::X, Vec3::new(0.5, height, 0.0)];
+            let sliver = required(soup(&[thin]));
+            assert_eq!(sliver.tier, "watertight");
+            assert!(sliver.reasons[0].contains("sliver"), "{sliver:?}");
+        }
         // Small triangles far apart: the view that shows them all is far away from each.
         let dust = |p: Vec3| corners.map(|c| p + c * 1e-6);
         let spread = required(soup(&[dust(Vec3::ZERO), dust(Vec3::X), dust(Vec3::Y)]));
-        assert_eq!(spread.tier, "precise", "{spread:?}");
+        assert_eq!(spread.tier, "watertight", "{spread:?}");
+    }
+
+    #[test]
+    fn boxes_of_any_length_require_watertight() {
+        for length in [1.0, 30.0, 100.0, 1e4, 1e9] {
+            let mesh = Corridor::new(Footprint::Square, length, false).mesh;
+            assert_eq!(required(mesh).tier, "watertight", "{length}");
+        }
     }
 
     #[test]

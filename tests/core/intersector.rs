@@ -207,8 +207,11 @@ fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
 fn an_interval_that_ends_at_a_hit_leaves_it_out() {
     let mut random = Random::new(12);
     let scene = scene(sphere(6, Placement::UNIT));
-    let in_f32 = |kernel: &&TriangleKernel| kernel.info.precision == Precision::F32;
-    for kernel in TRIANGLE_KERNELS.iter().filter(in_f32) {
+    // What decides in more digits than it reports compares t before it is rounded.
+    let as_reported = |kernel: &&TriangleKernel| {
+        kernel.info.precision == Precision::F32 && !kernel.info.promises.is_watertight
+    };
+    for kernel in TRIANGLE_KERNELS.iter().filter(as_reported) {
         let intersector = scene.intersector(kernel);
         for _ in 0..500 {
             let (origin, dir) = (0.3 * random.in_cube_f32(), random.in_cube_f32());

@@ -7,6 +7,7 @@ mod conformance;
 
 // The tree with its SIMD lanes against each triangle asked alone.
 mod intersector;
+mod interval;
 
 // Every SIMD level, rays one by one and together: the same bits.
 mod simd;

@@ -4,6 +4,7 @@
 
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::mesh::corridors::{Corridor, FOOTPRINTS, Footprint};
 use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, in_torus, scene, sphere, torus};
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::random::Random;
@@ -151,6 +152,82 @@ fn no_ray_leaves_a_closed_mesh_through_an_edge_or_a_corner() {
             kernel.info.name,
             found.join("\n")
         );
+    }
+}
+
+/// Rays for each corridor and kernel; `HITSCOPE_LEAK_RAYS` asks for more.
+fn rays_per_corridor() -> usize {
+    let asked = std::env::var("HITSCOPE_LEAK_RAYS").ok();
+    asked.map_or(1_500, |n| n.parse().expect("a number of rays"))
+}
+
+#[test]
+fn no_ray_leaves_a_long_box_prism_or_corridor() {
+    let lengths = [1.0, 10.0, 100.0, 1e3, 1e4, 1e5, 1e6];
+    let cases = FOOTPRINTS.iter().flat_map(|&footprint| {
+        let lengths = lengths.iter();
+        lengths.flat_map(move |&l| [(footprint, l, false), (footprint, l, true)])
+    });
+    let mut leaks = Vec::new();
+    for (footprint, length, is_turned) in cases {
+        let corridor = Corridor::new(footprint, length, is_turned);
+        let scene = scene(corridor.mesh.clone());
+        for kernel in watertight_kernels() {
+            let intersector = scene.intersector(kernel);
+            let mut random = Random::new(17);
+            let rays: Vec<Ray> = (0..rays_per_corridor())
+                .map(|_| corridor.ray(&mut random))
+                .collect();
+            let (mut alone, mut together) = (vec![None; rays.len()], vec![None; rays.len()]);
+            let mut any = vec![false; rays.len()];
+            intersector.closest_hits(&rays, &mut alone);
+            intersector.coherent_hits(&rays, &mut together);
+            intersector.any_hits(&rays, &mut any);
+            let is_lost = |i: &usize| alone[*i].is_none() || together[*i].is_none() || !any[*i];
+            let lost: Vec<usize> = (0..rays.len()).filter(is_lost).collect();
+            if let Some(first) = lost.first() {
+                leaks.push(format!(
+                    "{}: {} leave the {footprint:?} of {length:e}, turned {is_turned}: {:?}",
+                    kernel.info.name,
+                    lost.len(),
+                    rays[*first]
+                ));
+            }
+        }
+    }
+    assert!(leaks.is_empty(), "{}", leaks.join("\n"));
+}
+
+/// Rays that left the mesh before edges and t were decided exactly.
+#[test]
+fn rays_that_once_left_a_box_meet_the_wall_that_they_cross() {
+    let cube = Corridor::new(Footprint::Square, 1.0, false).mesh;
+    let mut long = Corridor::new(Footprint::Square, 30.0, false).mesh;
+    // Along x, as the ray was found.
+    long.positions.iter_mut().for_each(|p| *p = p.zxy());
+    for (mesh, origin, dir, t) in [
+        (
+            cube,
+            Vec3::new(0.1, 0.95, 0.99),
+            Vec3::new(0.06, 0.050_000_1, 0.01),
+            1_677_722.0 / 1_677_725.0,
+        ),
+        (
+            long,
+            Vec3::new(0.5, 0.2, 0.3),
+            Vec3::new(1.0, 0.8, 0.700_002),
+            11_744_051.0 / 11_744_085.0,
+        ),
+    ] {
+        let scene = scene(mesh);
+        for kernel in watertight_kernels() {
+            let ray = Ray::new(origin, dir).expect("a ray");
+            let hit = scene.intersector(kernel).closest_hit(&ray);
+            let found = f64::from(hit.unwrap_or_else(|| panic!("{}", kernel.info.name)).t);
+            // What t may err by: 513u.
+            let most = 513.0 * t / f64::from(1 << 24);
+            assert!((found - t).abs() <= most, "{} {found}", kernel.info.name);
+        }
     }
 }
 

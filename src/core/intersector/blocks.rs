@@ -174,14 +174,17 @@ impl Blocks<f32> {
     pub fn corners(&self, block: usize, lane: usize) -> [Vec3; 3] {
         match &self.shared {
             Some(shared) => shared.corners(block, lane % BLOCK_SIZE),
-            None => {
-                let rows = &self.rows[block * CORNERS..][..CORNERS];
-                let value = |k: usize| rows[k].0[lane % BLOCK_SIZE];
-                let corner = |k: usize| Vec3::new(value(k), value(k + 1), value(k + 2));
-                [corner(0), corner(3), corner(6)]
-            }
+            None => corners(&self.rows[block * CORNERS..][..CORNERS], lane),
         }
     }
+}
+
+/// The corners of the triangle in a lane, for a kernel that packs them as they are.
+#[inline(always)]
+pub(super) fn corners<T: Stored<f32>>(rows: &[Row<T>], lane: usize) -> [Vec3; 3] {
+    let value = |k: usize| -> f32 { rows[k].0[lane % BLOCK_SIZE].number() };
+    let corner = |k: usize| Vec3::new(value(k), value(k + 1), value(k + 2));
+    [corner(0), corner(3), corner(6)]
 }
 
 /// The box around each of a block's triangles, as the kernel `K` takes their corners to be.

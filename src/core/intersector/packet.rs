@@ -2,7 +2,7 @@
 //! same way, as a camera's do.
 
 use super::Intersector;
-use super::blocks::{Blocks, LaneValues, Scratch, boxes};
+use super::blocks::{Blocks, LaneValues, Scratch, boxes, corners};
 use super::mesh::MeshIntersector;
 use crate::bvh::{
     BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank, rank_floor, with_stack,
@@ -12,11 +12,13 @@ use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
 use crate::simd::prefetch;
 use fearless_simd::{Simd, dispatch, f32x16, prelude::*, u32x8, u32x16};
+use glam::Vec3;
 
 /// Looks for the nearest hit of each ray. The same order of hits as for rays one by one: see
 /// `Found::is_before` in `mesh`.
 struct Nearest<'a, K: Kernel, S: Simd> {
     token: S,
+    all: &'a [Ray; PACKET],
     blocks: &'a Blocks<K::Stored<f32>>,
     scratch: &'a mut Scratch<K::Stored<f32>>,
     rays: K::Prepared<f32x16<S>>,
@@ -47,16 +49,29 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
                 let (entry, met) = slabs.enter_one(self.token, &boxes, lane);
                 let floor = rank_floor(entry);
                 let primitive = u32x16::splat(self.token, lanes[lane]);
-                let rank = rank(hit.t, floor);
-                let counts = hit.mask & met & rank.simd_lt(self.end) & hit.t.simd_lt(infinity);
-                let is_lower = hit.t.simd_lt(self.t)
-                    | (hit.t.simd_eq(self.t) & primitive.simd_lt(self.primitive));
+                let (mut is_hit, [mut t, mut u, mut v]) = (hit.mask & met, [hit.t, hit.u, hit.v]);
+                let doubtful = if K::IS_ADAPTIVE {
+                    (hit.doubtful & met).to_bitmask() as u32
+                } else {
+                    0
+                };
+                if doubtful != 0 {
+                    let mut values = [t.to_array(), u.to_array(), v.to_array()];
+                    let corners = corners(rows, lane);
+                    let hits = decide::<K>(self.all, corners, doubtful, &mut values);
+                    is_hit = is_hit | SimdMask::from_bitmask(self.token, u64::from(hits));
+                    [t, u, v] = values.map(|x| f32x16::load_array(self.token, x));
+                }
+                let rank = rank(t, floor);
+                let counts = is_hit & rank.simd_lt(self.end) & t.simd_lt(infinity);
+                let is_lower =
+                    t.simd_lt(self.t) | (t.simd_eq(self.t) & primitive.simd_lt(self.primitive));
                 let is_before = rank.simd_lt(self.rank) | (rank.simd_eq(self.rank) & is_lower);
                 let is_best = counts & is_before;
                 self.rank = is_best.select(rank, self.rank);
-                self.t = is_best.select(hit.t, self.t);
-                self.u = is_best.select(hit.u, self.u);
-                self.v = is_best.select(hit.v, self.v);
+                self.t = is_best.select(t, self.t);
+                self.u = is_best.select(u, self.u);
+                self.v = is_best.select(v, self.v);
                 self.primitive = is_best.select(primitive, self.primitive);
             }
         }
@@ -67,6 +82,27 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
     fn announce(&self, block: usize) {
         (self.blocks).announce::<false, S>(self.token, block, K::VALUES);
     }
+}
+
+/// Decides about the rays whose bits are set, and returns those that hit.
+// Out of line: it is the rare path, and the common one is the better for it.
+#[inline(never)]
+fn decide<K: Kernel>(
+    rays: &[Ray; PACKET],
+    corners: [Vec3; 3],
+    mut doubtful: u32,
+    [t, u, v]: &mut [[f32; PACKET]; 3],
+) -> u32 {
+    let mut hits = 0;
+    while doubtful != 0 {
+        let i = doubtful.trailing_zeros() as usize % PACKET;
+        doubtful &= doubtful - 1;
+        if let Some(hit) = K::decide::<f32>(&rays[i], corners) {
+            [t[i], u[i], v[i]] = hit;
+            hits |= 1 << i;
+        }
+    }
+    hits
 }
 
 impl<K: Kernel> MeshIntersector<K, f32> {
@@ -119,12 +155,15 @@ impl<K: Kernel> MeshIntersector<K, f32> {
         let Some(packet) = RayPacket::new(token, rays) else {
             return false;
         };
-        let Some(lanes) = RayLanes::side_by_side(packet.origin, packet.dir) else {
+        let Some(lanes) =
+            RayLanes::side_by_side(packet.origin, packet.dir, [packet.t_min, packet.t_max])
+        else {
             return false;
         };
         let nothing = -packet.t_max;
         let mut visitor = Nearest::<K, S> {
             token,
+            all: rays,
             blocks: &self.blocks,
             scratch,
             rays: K::prepare(&lanes),

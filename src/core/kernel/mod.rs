@@ -1,4 +1,4 @@
-//! Where does a ray meet a primitive? One algorithm, one file, written once over a lane type.
+//! Tests of a ray against a primitive: one algorithm a file, written once over a lane type.
 //!
 //! A new triangle kernel is its file in `triangle/` and its lines in `triangle/mod.rs`: the module, and a
 //! row of [`TRIANGLE_KERNELS`] for each precision.
@@ -15,7 +15,8 @@ pub use triangle::{
 };
 
 use crate::aabb::Planes;
-use crate::lane::{Lane, Number, Stored};
+use crate::lane::{Lane, LaneMask, Number, Stored};
+use crate::ray::Ray;
 use glam::Vec3;
 
 /// The tier that a user chooses by, from fast to exact.
@@ -23,9 +24,9 @@ use glam::Vec3;
 pub enum Tier {
     /// The quickest; promises nothing beyond what is measured.
     Fast,
-    /// No gap between triangles that share an edge or a vertex.
+    /// Hit or miss as exact arithmetic says, so no gap between triangles that share an edge or a vertex.
     Watertight,
-    /// The right decision and t to f32's last place, but at the farthest extremes.
+    /// The same, and t to f32's last place.
     Precise,
     /// Hit or miss, and which of two hits is nearer, always as exact arithmetic says.
     Exact,
@@ -70,9 +71,7 @@ impl Precision {
 pub struct Promises {
     /// No ray slips between triangles of a closed mesh.
     pub is_watertight: bool,
-    /// The right decision, and t within 0.7 ulp of f32, where no more than f64's digits are asked for: not
-    /// at edges to the last bit, nor where some lengths are 10¹² times others, nor for a ray that starts
-    /// on the triangle.
+    /// Hit or miss as exact arithmetic says, and t within 0.7 ulp of f32.
     pub is_accurate: bool,
     /// Hit or miss, and the order of two hits, are as exact arithmetic says.
     pub is_exact: bool,
@@ -116,17 +115,33 @@ impl KernelInfo {
     }
 }
 
-/// What a test found: which lanes hit, and there t, u and v. Other lanes hold rubbish.
+/// What a test found: which lanes hit, and t, u and v there. Other lanes are undefined.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneHit<L: Lane> {
     /// The lanes that hit.
     pub mask: L::Mask,
+    /// The lanes that [`Kernel::decide`] decides about.
+    pub doubtful: L::Mask,
     /// Distance in lengths of the direction.
     pub t: L,
     /// Weight of the second vertex.
     pub u: L,
     /// Weight of the third vertex.
     pub v: L,
+}
+
+impl<L: Lane> LaneHit<L> {
+    /// No lane is in doubt; `None` if no lane hit.
+    #[inline(always)]
+    pub fn certain(mask: L::Mask, t: L, u: L, v: L) -> Option<Self> {
+        mask.any().then_some(Self {
+            mask,
+            doubtful: mask & !mask,
+            t,
+            u,
+            v,
+        })
+    }
 }
 
 /// What a kernel keeps of triangles side by side, one a lane.
@@ -171,6 +186,10 @@ pub(crate) trait Kernel: Send + Sync + 'static {
     /// Rays made ready for many tests.
     type Prepared<L: Lane>: Copy;
 
+    /// Whether lanes may be doubtful. A lane without a triangle would then always be: it holds another
+    /// triangle's corners, as no corner is NaN.
+    const IS_ADAPTIVE: bool = false;
+
     /// Makes a triangle ready; done once, into [`VALUES`](Self::VALUES) numbers.
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [Self::Stored<N>]);
 
@@ -191,6 +210,13 @@ pub(crate) trait Kernel: Send + Sync + 'static {
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>>;
+
+    /// t, u and v where a ray hits a triangle in the ray's interval, for a lane that `intersect` left in
+    /// doubt.
+    #[cold]
+    fn decide<N: Number>(_: &Ray, _: [Vec3; 3]) -> Option<[N; 3]> {
+        None
+    }
 }
 
 /// As many values as any kernel keeps of a triangle.

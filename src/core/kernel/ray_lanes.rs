@@ -10,6 +10,8 @@ pub(crate) struct RayLanes<L> {
     pub origin: [L; 3],
     /// Where they go.
     pub dir: [L; 3],
+    /// The ends of their intervals.
+    pub interval: [L; 2],
     /// Which coordinates to take as x, y and z: z is the direction's longest one, the next two are x and
     /// y, swapped where z looks backwards, which keeps the triangles' winding.
     pub axes: [usize; 3],
@@ -24,13 +26,14 @@ impl<L: Lane> RayLanes<L> {
         Self {
             origin: [L::of(token, x), L::of(token, y), L::of(token, z)],
             dir: [L::of(token, i), L::of(token, j), L::of(token, k)],
+            interval: [L::of(token, ray.t_min), L::of(token, ray.t_max)],
             axes: axes_of(dir),
         }
     }
 
     /// A ray in each lane; `None` if they don't all look along the same axis.
     #[inline(always)]
-    pub fn side_by_side(origin: [L; 3], dir: [L; 3]) -> Option<Self> {
+    pub fn side_by_side(origin: [L; 3], dir: [L; 3], interval: [L; 2]) -> Option<Self> {
         let size = [dir[0].abs(), dir[1].abs(), dir[2].abs()];
         let is_x = size[1].le(size[0]) & size[2].le(size[0]);
         let is_y = size[2].le(size[1]);
@@ -47,6 +50,7 @@ impl<L: Lane> RayLanes<L> {
         Some(Self {
             origin,
             dir,
+            interval,
             axes: axes_along(z, is_backward.any()),
         })
     }

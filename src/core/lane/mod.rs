@@ -9,7 +9,7 @@ mod scalar;
 mod vector;
 
 use fearless_simd::Simd;
-use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Sub};
+use std::ops::{Add, BitAnd, BitOr, Div, Mul, Neg, Not, Sub};
 
 /// Width of a vector over triangles.
 pub const LANES: usize = 8;
@@ -17,7 +17,9 @@ pub const LANES: usize = 8;
 pub const PACKET: usize = 16;
 
 /// The lanes for which a comparison holds.
-pub trait LaneMask: Copy + BitAnd<Output = Self> + BitOr<Output = Self> {
+pub trait LaneMask:
+    Copy + BitAnd<Output = Self> + BitOr<Output = Self> + Not<Output = Self>
+{
     /// Whether it holds in any lane.
     fn any(self) -> bool;
     /// Whether it holds in all lanes.
@@ -58,13 +60,8 @@ pub trait Lane:
     fn lt(self, other: Self) -> Self::Mask;
     /// `self ≤ other`; false for NaN.
     fn le(self, other: Self) -> Self::Mask;
-    /// `self = other`; false for NaN.
-    fn eq(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
-    /// Recomputes `self`, which is `a·b − c·d`, in the next wider format; only the sign is meaningful.
-    /// Unchanged for f64, which has no wider format. Slow; meant for rare cases.
-    fn widened(self, factors: [Self; 4]) -> Self;
 
     /// The same f32 in all lanes.
     #[inline(always)]
@@ -93,8 +90,18 @@ pub trait Number:
     const LEAST_NORMAL: Self;
     /// Whether the product of any two f32 is exact.
     const HOLDS_PRODUCTS: bool;
+    /// Relative error bound of t above which a kernel computes it again in more digits.
+    const T_SLACK: Self;
+    /// The same for a weight; absolute.
+    const WEIGHT_SLACK: Self;
     /// Rounded to f32; infinite if it overflows.
     fn to_f32(self) -> f32;
+    /// Rounded from f64.
+    fn of_f64(x: f64) -> Self;
+    /// The number after this one.
+    fn next_up(self) -> Self;
+    /// The number before this one.
+    fn next_down(self) -> Self;
     /// Widens [`LANES`] f32.
     fn load<S: Simd>(token: S, from: &[f32; LANES]) -> Self::Lanes<S>;
     /// The numbers of a vector.

@@ -1,11 +1,10 @@
 //! [`Lane`] for SIMD vectors.
 
-use super::scalar::difference_of_products;
 use super::{Lane, LaneMask};
 use fearless_simd::{Simd, f32x8, f32x16, f64x8, mask32x8, mask32x16, mask64x8, prelude::*};
 
 macro_rules! vector_lane {
-    ($vector:ident, $mask:ident, $number:ty, $sign_bit:expr, $widened:expr) => {
+    ($vector:ident, $mask:ident, $number:ty, $sign_bit:expr) => {
         impl<S: Simd> LaneMask for $mask<S> {
             #[inline(always)]
             fn any(self) -> bool {
@@ -58,47 +57,13 @@ macro_rules! vector_lane {
                 self.simd_le(other)
             }
             #[inline(always)]
-            fn eq(self, other: Self) -> Self::Mask {
-                self.simd_eq(other)
-            }
-            #[inline(always)]
             fn select(mask: Self::Mask, a: Self, b: Self) -> Self {
                 mask.select(a, b)
-            }
-            #[inline(always)]
-            fn widened(self, factors: [Self; 4]) -> Self {
-                $widened(self, factors)
             }
         }
     };
 }
 
-vector_lane!(
-    f32x8,
-    mask32x8,
-    f32,
-    0x8000_0000u32,
-    |x: f32x8<S>, factors: [f32x8<S>; 4]| {
-        let factors = factors.map(|x| x.to_array());
-        let lane = |i: usize| difference_of_products(factors.map(|x| x[i]));
-        SimdBase::load_array(Lane::token(x), std::array::from_fn(lane))
-    }
-);
-vector_lane!(
-    f32x16,
-    mask32x16,
-    f32,
-    0x8000_0000u32,
-    |x: f32x16<S>, factors: [f32x16<S>; 4]| {
-        let factors = factors.map(|x| x.to_array());
-        let lane = |i: usize| difference_of_products(factors.map(|x| x[i]));
-        SimdBase::load_array(Lane::token(x), std::array::from_fn(lane))
-    }
-);
-vector_lane!(
-    f64x8,
-    mask64x8,
-    f64,
-    0x8000_0000_0000_0000u64,
-    |x: f64x8<S>, _| x
-);
+vector_lane!(f32x8, mask32x8, f32, 0x8000_0000u32);
+vector_lane!(f32x16, mask32x16, f32, 0x8000_0000u32);
+vector_lane!(f64x8, mask64x8, f64, 0x8000_0000_0000_0000u64);

@@ -4,6 +4,7 @@
 //! triangle the polygon that it came from, so that a wireframe can hide triangulation diagonals.
 
 mod area;
+pub mod corridors;
 mod edges;
 mod health;
 mod material;

@@ -4,6 +4,7 @@ use super::statistics::{bound_per_million, per_million};
 use glam::DVec3;
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::mesh::corridors::{Corridor, FOOTPRINTS, Footprint};
 use hitscope_core::mesh::shapes::{Placement, in_torus, scene, sphere, torus};
 use hitscope_core::random::Random;
 use hitscope_core::ray::ulp_at;
@@ -18,10 +19,20 @@ pub struct MeshCase {
     pub title: String,
     /// What is extreme about it.
     pub about: &'static str,
-    /// Whether the products of its lengths leave f32's range.
-    pub is_beyond_f32: bool,
-    place: Placement,
-    aim: Aim,
+    body: Body,
+}
+
+/// The mesh, and where rays start and go.
+#[derive(Clone, Copy)]
+enum Body {
+    /// A sphere and a torus.
+    Round { place: Placement, aim: Aim },
+    /// A long box, prism or the like.
+    Long {
+        footprint: Footprint,
+        length: f64,
+        is_turned: bool,
+    },
 }
 
 #[derive(Clone, Copy)]
@@ -81,43 +92,58 @@ pub fn mesh_cases() -> Vec<MeshCase> {
                 name: format!("closed {name} {target}").replace(' ', "-"),
                 title: format!("closed, {name}, {target}"),
                 about: "A sphere and a torus, from inside: every ray must hit.",
-                is_beyond_f32: !(1e-15..=1e16).contains(&place.scale),
-                place,
-                aim,
+                body: Body::Round { place, aim },
             })
         })
         .chain([1e3, 1e5, 1e6].map(|distance| MeshCase {
             name: format!("closed-far-{distance:e}"),
             title: format!("closed, from {distance:e}"),
             about: "The same from so many sizes away, at points well inside.",
-            is_beyond_f32: false,
-            place: Placement::UNIT,
-            aim: Aim::From(distance),
+            body: Body::Round {
+                place: Placement::UNIT,
+                aim: Aim::From(distance),
+            },
         }))
+        .chain(long_cases())
         .collect()
+}
+
+fn long_cases() -> impl Iterator<Item = MeshCase> {
+    let sizes = [1.0, 1e2, 1e4, 1e6].into_iter();
+    let poses = sizes.flat_map(|length| [(length, false), (length, true)]);
+    poses.flat_map(|(length, is_turned)| {
+        FOOTPRINTS.map(|footprint| {
+            let turned = if is_turned { " turned" } else { "" };
+            let title = format!("closed, {} {length:e}{turned}", footprint.name());
+            MeshCase {
+                name: title.replace(", ", "-").replace(' ', "-"),
+                title,
+                about: "A long closed mesh, from inside, half of the rays near or at walls and edges: every ray must hit.",
+                body: Body::Long {
+                    footprint,
+                    length,
+                    is_turned,
+                },
+            }
+        })
+    })
 }
 
 impl MeshCase {
     /// Traces `n` rays.
     pub fn measure(&self, kernel: &'static TriangleKernel, n: u64, seed: u64) -> MeshCell {
         let mut random = Random::new(seed);
-        let inside_sphere: fn(&mut Random) -> DVec3 = |random| 0.4 * random.in_cube();
-        let inside_torus: fn(&mut Random) -> DVec3 =
-            |random| in_torus(random.unit(), random.unit(), 0.5 * random.unit());
         let mut count = Count::default();
-        for (mesh, inside) in [
-            (sphere(6, self.place), inside_sphere),
-            (torus(24, 12, self.place), inside_torus),
-        ] {
-            let scene = scene(mesh);
-            let intersector = scene.intersector(kernel);
-            for k in 0..n / 2 {
-                let ray = self.ray(scene.mesh(), inside, &mut random);
+        let bodies = self.bodies();
+        let n = n / bodies.len() as u64 * bodies.len() as u64;
+        for (mesh, next_ray) in &bodies {
+            let intersector = scene(mesh.clone()).intersector(kernel);
+            for k in 0..n / bodies.len() as u64 {
+                let ray = next_ray(mesh, &mut random);
                 count.add(&*intersector, &ray, k % EVERY == 0);
             }
         }
         let adapts = kernel.info.promises.is_exact;
-        let n = n / 2 * 2;
         let rate = |x: u64| adapts.then(|| per_million(x, n));
         MeshCell {
             case: self.name.clone(),
@@ -134,38 +160,74 @@ impl MeshCase {
         }
     }
 
-    fn ray(
-        &self,
-        mesh: &TriangleMesh,
-        inside: impl Fn(&mut Random) -> DVec3,
-        random: &mut Random,
-    ) -> Ray {
-        loop {
-            let within = inside(random);
-            if let Aim::From(distance) = self.aim {
-                let origin = (distance * random.direction()).as_vec3();
-                // From a million sizes away f32 aims to within a tenth: still inside.
-                let dir = (within - origin.as_dvec3()).as_vec3();
-                if let Ok(ray) = Ray::new(origin, dir) {
-                    return ray;
-                }
-                continue;
+    /// The meshes, and what makes their rays.
+    fn bodies(&self) -> Vec<(TriangleMesh, RaySource)> {
+        match self.body {
+            Body::Round { place, aim } => {
+                let inside_sphere: Inside = |random| 0.4 * random.in_cube();
+                let inside_torus: Inside =
+                    |random| in_torus(random.unit(), random.unit(), 0.5 * random.unit());
+                let bodies = [
+                    (sphere(6, place), inside_sphere),
+                    (torus(24, 12, place), inside_torus),
+                ];
+                let with_rays = bodies.map(|(mesh, inside)| {
+                    let source: RaySource =
+                        Box::new(move |mesh, random| aimed_ray(mesh, place, aim, inside, random));
+                    (mesh, source)
+                });
+                with_rays.into()
             }
-            let origin = self.place.of(within);
-            let corners = mesh.corners(random.index(mesh.triangles.len()) as u32);
-            let start = random.index(3);
-            let [a, b] = [corners[start], corners[(start + 1) % 3]].map(|p| p.as_dvec3());
-            let target = match self.aim {
-                Aim::Vertices => a,
-                Aim::Edges => a.lerp(b, random.unit()),
-                Aim::Anywhere | Aim::From(_) => {
-                    origin.as_dvec3() + random.in_cube() * self.place.scale
-                }
-            };
-            let dir = (target - origin.as_dvec3()).as_vec3();
+            Body::Long {
+                footprint,
+                length,
+                is_turned,
+            } => {
+                let corridor = Corridor::new(footprint, length, is_turned);
+                let mesh = corridor.mesh.clone();
+                vec![(mesh, Box::new(move |_, random| corridor.ray(random)))]
+            }
+        }
+    }
+}
+
+/// A point inside, before it is placed.
+type Inside = fn(&mut Random) -> DVec3;
+
+/// Makes a ray from inside a mesh.
+type RaySource = Box<dyn Fn(&TriangleMesh, &mut Random) -> Ray>;
+
+/// A ray from inside a round body, or to its inside.
+fn aimed_ray(
+    mesh: &TriangleMesh,
+    place: Placement,
+    aim: Aim,
+    inside: Inside,
+    random: &mut Random,
+) -> Ray {
+    loop {
+        let within = inside(random);
+        if let Aim::From(distance) = aim {
+            let origin = (distance * random.direction()).as_vec3();
+            // From a million sizes away f32 aims to within a tenth: still inside.
+            let dir = (within - origin.as_dvec3()).as_vec3();
             if let Ok(ray) = Ray::new(origin, dir) {
                 return ray;
             }
+            continue;
+        }
+        let origin = place.of(within);
+        let corners = mesh.corners(random.index(mesh.triangles.len()) as u32);
+        let start = random.index(3);
+        let [a, b] = [corners[start], corners[(start + 1) % 3]].map(|p| p.as_dvec3());
+        let target = match aim {
+            Aim::Vertices => a,
+            Aim::Edges => a.lerp(b, random.unit()),
+            Aim::Anywhere | Aim::From(_) => origin.as_dvec3() + random.in_cube() * place.scale,
+        };
+        let dir = (target - origin.as_dvec3()).as_vec3();
+        if let Ok(ray) = Ray::new(origin, dir) {
+            return ray;
         }
     }
 }

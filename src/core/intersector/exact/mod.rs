@@ -202,6 +202,32 @@ impl ExactIntersector {
     }
 }
 
+/// Adds the hits to `crossings`, by t, those at equal t together and by primitive.
+///
+/// A quicksort in three parts: each hit is compared with few others, also where thousands are at equal t, as at
+/// the tip of a fan or around an edge, where a comparison takes integers.
+fn sort_into_crossings<F: Fn(usize) -> [Vec3; 3]>(
+    judge: &mut Judge<'_, F>,
+    hits: Vec<Candidate>,
+    crossings: &mut Vec<Vec<Candidate>>,
+) {
+    let Some(mut middle) = hits.get(hits.len() / 2).copied() else {
+        return;
+    };
+    let (mut nearer, mut equal, mut farther) = (Vec::new(), Vec::new(), Vec::new());
+    for mut hit in hits {
+        match judge.compare(&mut hit, &mut middle) {
+            Ordering::Less => nearer.push(hit),
+            Ordering::Equal => equal.push(hit),
+            Ordering::Greater => farther.push(hit),
+        }
+    }
+    equal.sort_unstable_by_key(|hit| hit.primitive);
+    sort_into_crossings(judge, nearer, crossings);
+    crossings.push(equal);
+    sort_into_crossings(judge, farther, crossings);
+}
+
 /// What some rays hit, before it is rounded.
 struct CandidateBatch {
     lanes: [HitLanes; ROUNDED_TOGETHER / LANES],
@@ -267,28 +293,15 @@ impl Intersector for ExactIntersector {
         if hits.len() > 1 {
             // Once, before each is compared with several.
             hits.iter_mut().for_each(|hit| _ = judge.narrow(hit));
+            hits.sort_by(|a, b| a.bounds()[0].total_cmp(&b.bounds()[0]));
         }
-        hits.sort_by(|a, b| {
-            let by_t = judge.compare(&mut { *a }, &mut { *b });
-            by_t.then(a.primitive.cmp(&b.primitive))
-        });
-        let mut crossings: Vec<(Candidate, Vec<u32>)> = Vec::new();
-        for mut hit in hits {
-            if let Some((first, also)) = crossings.last_mut()
-                && judge.compare(first, &mut hit) == Ordering::Equal
-            {
-                also.push(hit.primitive);
-            } else {
-                crossings.push((hit, Vec::new()));
-            }
-        }
-        crossings
-            .into_iter()
-            .map(|(first, also)| Crossing {
-                hit: judge.hit(first),
-                also,
-            })
-            .collect()
+        let mut crossings = Vec::new();
+        sort_into_crossings(&mut judge, hits, &mut crossings);
+        let crossing = |equal: Vec<Candidate>| Crossing {
+            hit: judge.hit(equal[0]),
+            also: equal[1..].iter().map(|hit| hit.primitive).collect(),
+        };
+        crossings.into_iter().map(crossing).collect()
     }
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {

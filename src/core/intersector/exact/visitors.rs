@@ -4,7 +4,7 @@ use super::{ExactIntersector, Vector};
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor};
 use crate::intersector::Cost;
 use crate::intersector::blocks::{BlockValues, Scratch, is_asked};
-use crate::kernel::exact::{Candidate, Filtered, Judge, VALUES, filter};
+use crate::kernel::exact::{Candidate, Judge, VALUES, filter};
 use crate::kernel::{ShearedRay, pack_corners};
 use crate::lane::{Lane, LaneMask, Number};
 use fearless_simd::Simd;
@@ -60,17 +60,11 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
         let Some(filtered) = filter(&self.sheared, &values) else {
             return ControlFlow::Continue(());
         };
-        let Filtered {
-            certain,
-            missed,
-            near,
-            far,
-            ..
-        } = filtered;
+        let (near, far) = (filtered.near(), filtered.far());
         let splat = |x: f32| Vector::<S>::splat(self.token, x);
-        let is_outside = certain & (splat(deepest).lt(near) | far.lt(splat(self.earliest)));
-        let certain = certain.bits();
-        let mut lanes = !(missed | is_outside).bits() & ((1 << BLOCK_SIZE) - 1);
+        let is_outside = splat(deepest).lt(near) | far.lt(splat(self.earliest));
+        let certain = filtered.certain.bits();
+        let mut lanes = !(filtered.missed | is_outside).bits() & ((1 << BLOCK_SIZE) - 1);
         let (near, far) = (f32::store(near), f32::store(far));
         let primitives = blocks.bvh.lanes(block);
         while lanes != 0 {

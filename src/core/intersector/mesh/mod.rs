@@ -2,7 +2,7 @@
 
 mod visitors;
 
-use super::blocks::{BlockValues, Blocks, Scratch, candidates};
+use super::blocks::{BlockValues, Blocks, Scratch, candidates, corners};
 use super::compact::{EmptyLanes, Packing};
 use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
 use crate::bvh::{Bvh, Stack, with_stack};
@@ -36,7 +36,11 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         packing: Packing,
     ) -> Self {
         const { assert!(K::VALUES <= MOST_VALUES) };
-        let empty = EmptyLanes::Nothing;
+        let empty = if K::IS_ADAPTIVE {
+            EmptyLanes::First
+        } else {
+            EmptyLanes::Nothing
+        };
         Self {
             blocks: Blocks::new(mesh, bvh, packing, K::VALUES, empty, K::pack::<N>),
             level,
@@ -56,10 +60,10 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
             token,
             blocks: &self.blocks,
             scratch,
-            ray: K::prepare(&RayLanes::of(token, ray)),
+            prepared: K::prepare(&RayLanes::of(token, ray)),
             t_min: Lane::of(token, ray.t_min),
             end: N::from(ray.t_max),
-            exclude: ray.exclude,
+            ray: *ray,
         }
     }
 
@@ -155,7 +159,14 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
             let rows = (self.blocks).rows::<true>(block, K::VALUES, &mut scratch, K::pack::<N>);
             let values = BlockValues::<N, S, _>::new(token, rows);
             if let Some(hit) = K::intersect(&prepared, &values, t_min, t_max) {
-                count += LaneMask::bits(hit.mask).count_ones() as usize;
+                let [certain, doubtful] = [hit.mask, hit.doubtful].map(LaneMask::bits);
+                for lane in 0..self.blocks.bvh.block(block).len() {
+                    let is_hit = certain >> lane & 1 == 1
+                        || (K::IS_ADAPTIVE
+                            && doubtful >> lane & 1 == 1
+                            && K::decide::<N>(ray, corners(rows, lane)).is_some());
+                    count += usize::from(is_hit);
+                }
             }
         }
         count

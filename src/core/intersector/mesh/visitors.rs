@@ -2,10 +2,10 @@
 
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor, rank, rank_floor};
 use crate::intersector::Cost;
-use crate::intersector::blocks::{BlockValues, Blocks, Scratch, boxes, is_asked};
+use crate::intersector::blocks::{BlockValues, Blocks, Row, Scratch, boxes, corners, is_asked};
 use crate::kernel::Kernel;
 use crate::lane::{Lane, LaneMask, Number};
-use crate::ray::Hit;
+use crate::ray::{Hit, Ray};
 use fearless_simd::Simd;
 use std::ops::ControlFlow;
 
@@ -57,10 +57,10 @@ pub(super) struct Tester<'a, K: Kernel, N: Number, S: Simd> {
     pub token: S,
     pub blocks: &'a Blocks<K::Stored<N>>,
     pub scratch: &'a mut Scratch<K::Stored<N>>,
-    pub ray: K::Prepared<N::Lanes<S>>,
+    pub prepared: K::Prepared<N::Lanes<S>>,
     pub t_min: N::Lanes<S>,
     pub end: N,
-    pub exclude: Option<u32>,
+    pub ray: Ray,
 }
 
 impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
@@ -78,7 +78,7 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
             (self.blocks).rows::<MAYBE_COMPACT>(block, K::VALUES, self.scratch, K::pack::<N>);
         let values = BlockValues::<N, S, _>::new(self.token, rows);
         let t_max = Lane::splat(self.token, limit);
-        let Some(hit) = K::intersect(&self.ray, &values, self.t_min, t_max) else {
+        let Some(hit) = K::intersect(&self.prepared, &values, self.t_min, t_max) else {
             return ControlFlow::Continue(());
         };
         // What a ray hits beside the triangle's own box doesn't count.
@@ -87,20 +87,29 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
         let (entries, met) = slabs.enter::<IS_BEHIND>(self.token, &boxes, infinity);
         let (t, u, v) = (N::store(hit.t), N::store(hit.u), N::store(hit.v));
         let primitives = self.blocks.bvh.lanes(block);
-        let mut lanes = LaneMask::bits(hit.mask) & met;
+        let doubtful = LaneMask::bits(hit.doubtful);
+        let mut lanes = (LaneMask::bits(hit.mask) | doubtful) & met;
         while lanes != 0 {
             let lane = lanes.trailing_zeros() as usize % BLOCK_SIZE;
             lanes &= lanes - 1;
-            let (t, primitive) = (t[lane], primitives[lane]);
+            let primitive = primitives[lane];
+            let [t, u, v] = if K::IS_ADAPTIVE && doubtful >> lane & 1 == 1 {
+                match decide::<K, N>(&self.ray, rows, primitive, lane) {
+                    Some(hit) => hit,
+                    None => continue,
+                }
+            } else {
+                [t[lane], u[lane], v[lane]]
+            };
             let floor = N::from(rank_floor(entries[lane]));
             let rank = rank(t, floor);
-            // What is farther than f32's largest number is a miss.
-            if rank < self.end && t.to_f32() < f32::INFINITY && is_asked(primitive, self.exclude) {
+            // What is farther than f32's largest number, ahead or behind, is a miss.
+            if rank < self.end && t.to_f32().is_finite() && is_asked(primitive, self.ray.exclude) {
                 found(Found {
                     rank,
                     t,
-                    u: u[lane],
-                    v: v[lane],
+                    u,
+                    v,
                     primitive,
                 })?;
             }
@@ -112,6 +121,18 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
     fn announce<const MAYBE_COMPACT: bool>(&self, block: usize) {
         (self.blocks).announce::<MAYBE_COMPACT, S>(self.token, block, K::VALUES);
     }
+}
+
+/// t, u and v of a hit that the kernel left in doubt.
+// Out of line: it is the rare path, and the common one is the better for it.
+#[inline(never)]
+fn decide<K: Kernel, N: Number>(
+    ray: &Ray,
+    rows: &[Row<K::Stored<N>>],
+    primitive: u32,
+    lane: usize,
+) -> Option<[N; 3]> {
+    is_asked(primitive, ray.exclude).then(|| K::decide(ray, corners(rows, lane)))?
 }
 
 /// Looks for the nearest hit.

@@ -84,7 +84,7 @@ impl Kernel for BaldwinWeber {
         let p = plus(&ray.origin, &times(t, &ray.dir));
         let (u, v) = (moved(triangles, 4, &p), moved(triangles, 8, &p));
         let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);
-        mask.any().then_some(LaneHit { mask, t, u, v })
+        LaneHit::certain(mask, t, u, v)
     }
 }
 

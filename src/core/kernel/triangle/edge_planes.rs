@@ -93,6 +93,6 @@ impl Kernel for EdgePlanes {
         let t = dot(&normal, &a) / dot(&normal, &ray.dir);
         let (u, v) = (w2 / det, w3 / det);
         let mask = inside & t_min.lt(t) & t.le(t_max) & zero.le(u) & zero.le(v);
-        mask.any().then_some(LaneHit { mask, t, u, v })
+        LaneHit::certain(mask, t, u, v)
     }
 }

@@ -144,11 +144,16 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<
     let prepared = K::prepare::<N>(&RayLanes::of((), ray));
     let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);
     let hit = K::intersect(&prepared, &OneTriangle(&values[..K::VALUES]), t_min, t_max)?;
-    let t = hit.t.to_f32();
-    (hit.mask && hit.t < t_max && t < f32::INFINITY).then_some(Hit {
-        t,
-        u: hit.u.to_f32(),
-        v: hit.v.to_f32(),
+    let [t, u, v] = if hit.doubtful {
+        K::decide(ray, corners)?
+    } else {
+        [hit.t, hit.u, hit.v]
+    };
+    let is_hit = (hit.mask || hit.doubtful) && t < t_max && t.to_f32().is_finite();
+    is_hit.then_some(Hit {
+        t: t.to_f32(),
+        u: u.to_f32(),
+        v: v.to_f32(),
         primitive: 0,
     })
 }

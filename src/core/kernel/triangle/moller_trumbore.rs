@@ -96,11 +96,6 @@ impl Kernel for MollerTrumbore {
 
         let t = dot(&e2, &q).flip(det) / det_abs;
         let mask = inside & t_min.lt(t) & t.le(t_max);
-        mask.any().then(|| LaneHit {
-            mask,
-            t,
-            u: u / det_abs,
-            v: v / det_abs,
-        })
+        LaneHit::certain(mask, t, u / det_abs, v / det_abs)
     }
 }

@@ -84,6 +84,6 @@ impl Kernel for Parametric {
         let u = dot(&scaled, &cross(&p, &e2)) / area;
         let v = dot(&scaled, &cross(&e1, &p)) / area;
         let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);
-        mask.any().then_some(LaneHit { mask, t, u, v })
+        LaneHit::certain(mask, t, u, v)
     }
 }

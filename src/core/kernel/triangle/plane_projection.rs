@@ -89,6 +89,6 @@ impl Kernel for PlaneProjection {
         let u = dot(&triangles.three(6), &p);
         let v = dot(&triangles.three(9), &p);
         let mask = ahead & zero.le(u) & zero.le(v) & (u + v).le(one);
-        mask.any().then_some(LaneHit { mask, t, u, v })
+        LaneHit::certain(mask, t, u, v)
     }
 }

@@ -31,7 +31,9 @@ impl<L: Lane> ShearedRay<L> {
 
     #[inline(always)]
     pub fn new(rays: &RayLanes<L>) -> Self {
-        let RayLanes { origin, dir, axes } = *rays;
+        let RayLanes {
+            origin, dir, axes, ..
+        } = *rays;
         let [dx, dy, dz] = [dir[axes[0]], dir[axes[1]], dir[axes[2]]];
         let (unit, slope) = if L::Number::HOLDS_PRODUCTS {
             (dz, [dx, dy])

@@ -1,39 +1,48 @@
-//! Ray–triangle test that two triangles sharing an edge can't both miss.
+//! Ray–triangle test whose hits and misses are those of exact arithmetic, so that no ray slips through a
+//! closed mesh. t and weights are those of f32, or of f64.
 //!
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
-//! Differs from it: no back-face culling; only the edge value that came out 0 is decided again in
-//!   f64, lane by lane, so that a lane's answer doesn't depend on its neighbours; the weights are
-//!   divided before they meet the depths, which are interpolated from A's.
-//! Promises: watertight over shared edges and vertices, at any offset; in f32 for edges and distances
-//!   from 1e-18 to 1e17 (so for meshes of 1e-15 to 1e16, seen from ten times as far), as beyond the product of two leaves its range. In f64, where no product of f32
-//!   numbers does: t within 0.7 ulp of f32, and the right decision but for rays that pass an edge at
-//!   less than some 2⁻⁵⁰ of their length.
-//! Doesn't promise: in f32, accurate t and weights at the lower end of that, where the products are
-//!   nearly subnormal; an answer for triangles of zero area (they are dropped at load); the right
-//!   triangle of two where rounding the sheared vertices moves an edge across the ray; a hit beside the box
-//!   of a needle that is seen along its length (see `bvh/slab.rs`; none was found).
+//! Differs from it: no back-face culling; a triangle is tested again in f64, and in integers where that
+//!   leaves it open, if an edge function or t lies within its error bound of where the decision changes, or
+//!   if t's error bound exceeds [`Number::T_SLACK`]. The bounds are those of `exact::filter`.
+//! Promises: hit or miss and `t_min < t < t_max` as exact arithmetic says, for any finite ray and triangle;
+//!   the reported t lies in the interval, too. So it is watertight over shared edges and vertices. t errs by
+//!   at most 513u relatively in f32 (u = 2⁻²⁴; measured: a hundredth of that), and by 0.51 ulp of f32 in f64, a weight there by 1.02·2⁻²⁵.
+//! Doesn't promise: the order of two hits whose t differ by less than that; the lowest of several triangles
+//!   at equal t; accurate weights in f32; anything through a tree whose boxes lie at distances that aren't
+//!   normal f32 numbers (see `bvh::slab`).
 //!
-//! Why no ray slips through: a vertex is moved to 2D by the same operations whichever triangle it
-//! belongs to, and the two neighbours of an edge compute its edge function from the same two points.
-//!
-//! ```text
-//!      y     B          The edge function of AB is the signed area of A, B and the origin, where
-//!      │    ╱│          the ray pierces the plane. Rounded, it keeps its sign or becomes 0, for
-//!      │   ╱ │          rounding is monotone; 0 counts as inside for both neighbours.
-//!      A──┼──┘ x        A fused multiply-add would break this: it rounds one product only.
-//! ```
+//! Why the paper's test alone isn't enough: neighbours agree about their common edge, but a wrong sign hands
+//! the ray to the neighbour. If that one lies behind the ray's origin by its t, or if the ray
+//! misses its box, both are missed.
 
 use super::bounds;
+use super::exact::{self, filter};
 use super::shear::ShearedRay;
 use crate::aabb::Planes;
 use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
 };
 use crate::lane::{Lane, LaneMask, Number};
+use crate::ray::Ray;
 use glam::Vec3;
 
 /// See the [module](self).
 pub(super) struct Watertight;
+
+/// A ray made ready for many tests.
+#[derive(Clone, Copy)]
+pub(super) struct PreparedRay<L> {
+    sheared: ShearedRay<L>,
+    /// |d_z|: a depth is t times this.
+    depth_per_t: L,
+    /// Hits below this depth certainly lie before the interval,
+    earliest: L,
+    /// those above this one certainly behind its start,
+    start: L,
+    /// and those below this one certainly before its end.
+    end: L,
+}
 
 impl Kernel for Watertight {
     const IN_F32: KernelInfo = KernelInfo {
@@ -42,7 +51,7 @@ impl Kernel for Watertight {
         tier: Some(Tier::Watertight),
         precision: Precision::F32,
         source: "Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013",
-        summary: "No ray slips through a closed mesh from 1e-15 to 1e16 in size, at any offset.",
+        summary: "Every hit and miss is right, so no ray slips through a closed mesh.",
         promises: Promises {
             is_watertight: true,
             ..Promises::PLAIN
@@ -61,8 +70,9 @@ impl Kernel for Watertight {
         ..Self::IN_F32
     };
     const VALUES: usize = 9;
+    const IS_ADAPTIVE: bool = true;
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = ShearedRay<L>;
+    type Prepared<L: Lane> = PreparedRay<L>;
 
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         pack_corners(corners, values);
@@ -74,63 +84,66 @@ impl Kernel for Watertight {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> ShearedRay<L> {
-        ShearedRay::new(rays)
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> PreparedRay<L> {
+        let sheared = ShearedRay::new(rays);
+        let depth_per_t = sheared.dir_z().abs();
+        let most = L::of(depth_per_t.token(), f32::MAX);
+        let start = rays.interval[0].greater(-most) * depth_per_t;
+        let end = rays.interval[1].lesser(most) * depth_per_t;
+        PreparedRay {
+            sheared,
+            depth_per_t,
+            earliest: surely_below(start),
+            start: -surely_below(-start),
+            end: surely_below(end),
+        }
     }
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &ShearedRay<L>,
+        ray: &PreparedRay<L>,
         triangles: &impl Values<L>,
-        t_min: L,
-        t_max: L,
+        _: L,
+        limit: L,
     ) -> Option<LaneHit<L>> {
-        let zero = L::of(t_min.token(), 0.0);
+        let found = filter(&ray.sheared, triangles)?;
+        let (near, far) = (found.near(), found.far());
 
-        // Translate to the ray's origin, so that the edge tests see small numbers; then shear.
-        let [a, b, c] = ray.sheared(triangles);
-
-        // Edge functions: U belongs to A and lies opposite it, V to B, W to C.
-        let mut u = c[0] * b[1] - c[1] * b[0];
-        let mut v = a[0] * c[1] - a[1] * c[0];
-        let mut w = b[0] * a[1] - b[1] * a[0];
-        let mut inside = one_sign(u, v, w, zero);
-        if !inside.any() {
+        // Before the interval, or behind the nearest hit so far: neither counts, whatever else is open.
+        let deepest = -surely_below(-(limit * ray.depth_per_t));
+        let is_outside = far.lt(ray.earliest) | deepest.lt(near);
+        let is_possible = !(found.missed | is_outside);
+        if !is_possible.any() {
             return None;
         }
 
-        // A 0 may hide a sign that f64 knows: there the products of two f32 are exact. Only lanes at 0
-        // are decided again, so that an answer doesn't depend on the neighbours.
-        let any_zero = u.eq(zero) | v.eq(zero) | w.eq(zero);
-        if (any_zero & inside).any() {
-            let resolved = |edge: L, p: &[L; 3], q: &[L; 3]| {
-                let wider = edge.widened([p[0], q[1], p[1], q[0]]);
-                L::select(edge.eq(zero), wider, edge)
-            };
-            u = resolved(u, &c, &b);
-            v = resolved(v, &a, &c);
-            w = resolved(w, &b, &a);
-            inside = one_sign(u, v, w, zero);
-        }
-
-        // det = 0: the triangle is seen edge-on. A NaN fails every comparison.
-        let det = u + v + w;
-        // Weights before depths: a product of three lengths would leave f32's range at 1e±13.
-        let (l2, l3) = (v / det, w / det);
-        let depth = a[2] + (l2 * (b[2] - a[2]) + l3 * (c[2] - a[2]));
-        let t = depth / ray.dir_z();
-        let mask = inside & zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
-        mask.any().then_some(LaneHit {
-            mask,
+        // Whether a lane is in doubt depends on ray and triangle alone, not on other hits.
+        let is_within = ray.start.lt(near) & far.lt(ray.end);
+        let is_known = found.certain & is_within & found.is_accurate();
+        let t = found.depth / ray.depth_per_t;
+        Some(LaneHit {
+            mask: is_possible & is_known & t.le(limit),
+            doubtful: is_possible & !is_known,
             t,
-            u: l2,
-            v: l3,
+            u: found.weights[0],
+            v: found.weights[1],
         })
+    }
+
+    fn decide<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[N; 3]> {
+        let [t, u, v] = exact::answer_for::<N>(ray, corners)?.map(N::of_f64);
+        // The hit lies inside the interval; rounding may have moved it to an end.
+        let [start, end] = ray.finite_interval().map(N::from);
+        Some([t.greater(start.next_up()).lesser(end.next_down()), u, v])
     }
 }
 
-/// Where the three aren't of both signs: the ray passes inside, or along the boundary.
+/// A number below the product of two f32 that was rounded to `x`. Infinite where that is.
 #[inline(always)]
-fn one_sign<L: Lane>(u: L, v: L, w: L, zero: L) -> L::Mask {
-    zero.le(u.lesser(v).lesser(w)) | u.greater(v).greater(w).le(zero)
+fn surely_below<L: Lane>(x: L) -> L {
+    let token = x.token();
+    let number = |x: L::Number| L::splat(token, x);
+    let (one, ulps) = (L::of(token, 1.0), L::of(token, 8.0) * number(L::Number::U));
+    let nearer = (x * (one - ulps)).lesser(x * (one + ulps));
+    nearer - number(L::Number::LEAST_NORMAL)
 }

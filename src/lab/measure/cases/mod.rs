@@ -18,9 +18,6 @@ pub struct Case {
     pub title: String,
     /// What makes it extreme.
     pub about: &'static str,
-    /// Whether f64 doesn't suffice: a distance of 10¹³ sizes, coordinates 10¹² times as large as others, a ray that
-    /// starts on its triangle or lies in its plane, or an exact aim at edges.
-    pub is_beyond_f64: bool,
     aim: Aim,
     /// Length of directions; the distance to the triangle if `None`.
     dir_length: Option<f64>,

@@ -22,21 +22,7 @@ impl NamedRecipe {
                 format!("{}, at edges", self.name),
             ),
         };
-        const BEYOND_F64: [&str; 9] = [
-            "far 1e12",
-            "tiny 1e-13",
-            "tiny 1e-40",
-            "origin on triangle",
-            // The aim is exact if differences of coordinates are floats.
-            "needle",
-            // Some rays start on the triangle.
-            "integer grid 4",
-            "mixed exponents 20",
-            "mixed exponents 60",
-            "mixed exponents 126",
-        ];
         Case {
-            is_beyond_f64: aim == Aim::Edges || BEYOND_F64.contains(&&*title),
             name: name.replace(' ', "-"),
             title,
             about: self.about,

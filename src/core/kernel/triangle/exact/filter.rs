@@ -38,6 +38,11 @@
 //! The code has 4·err, which pays for R's rounding and is a weight's error besides.
 //!
 //! **Weights.** E/S is off by (1 + 3)·err/|S| and by four roundings.
+//!
+//! Both hold for every triangle that is hit, also where the signs of E + e leave that open: S is then the
+//! computed sum, of which nothing is asked but that it isn't 0. Two of the computed edge functions may then
+//! have the wrong sign, by at most err each, so that roundings relative to Σ|E + e| ≤ |S| + 4·err are larger
+//! than those relative to S by no more than O(u)·err/|S|.
 
 use super::super::shear::ShearedRay;
 use crate::kernel::Values;
@@ -49,14 +54,42 @@ pub(crate) struct Filtered<L: Lane> {
     pub certain: L::Mask,
     /// Certain misses.
     pub missed: L::Mask,
-    /// Lower bound on |t·d_z|, with t's sign, where certain.
-    pub near: L,
-    /// Upper bound.
-    pub far: L,
-    /// Weights of the second and the third corner, where certain.
+    /// |t·d_z|, with t's sign. This and what follows is for lanes whose triangle is hit, certain or not.
+    pub depth: L,
+    /// What the depth errs by at most.
+    pub slack: L,
+    /// Weights of the second and the third corner.
     pub weights: [L; 2],
     /// What those err by at most, four roundings not counted.
     pub weight_error: L,
+}
+
+impl<L: Lane> Filtered<L> {
+    /// The depth is at least this,
+    #[inline(always)]
+    pub fn near(&self) -> L {
+        self.depth - self.slack
+    }
+
+    /// and at most that.
+    #[inline(always)]
+    pub fn far(&self) -> L {
+        self.depth + self.slack
+    }
+
+    /// Where t errs by no more than `t_slack`, relatively, and the weights by no more than `weight_slack`.
+    #[inline(always)]
+    pub fn is_within(&self, t_slack: L::Number, weight_slack: L::Number) -> L::Mask {
+        let token = self.depth.token();
+        let most = L::splat(token, t_slack) * self.depth.abs();
+        self.slack.le(most) & self.weight_error.le(L::splat(token, weight_slack))
+    }
+
+    /// The same for [`Number::T_SLACK`] and [`Number::WEIGHT_SLACK`].
+    #[inline(always)]
+    pub fn is_accurate(&self) -> L::Mask {
+        self.is_within(L::Number::T_SLACK, L::Number::WEIGHT_SLACK)
+    }
 }
 
 /// Tests the line of a ray against triangles whose corners are the values. `None`: all are certain
@@ -103,12 +136,11 @@ pub(crate) fn filter<L: Lane>(
     let weight_error = constant(4.0) * error * inverse.abs();
     let slack =
         weight_error * range + (constant(7.5) * range + constant(4.25) * z) * u + least_normal;
-    let ahead = depth.flip(ray.dir_z());
     Some(Filtered {
         certain,
         missed,
-        near: ahead - slack,
-        far: ahead + slack,
+        depth: depth.flip(ray.dir_z()),
+        slack,
         weights,
         weight_error,
     })

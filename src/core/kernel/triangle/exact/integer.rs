@@ -34,6 +34,17 @@ pub(super) fn is_inside(ray: &Ray, corners: [Vec3; 3]) -> bool {
     }
 }
 
+/// Whether the ray's line goes through a point.
+pub(super) fn meets(ray: &Ray, point: Vec3) -> bool {
+    let lengths = Span::of(&[ray.origin, point]);
+    let dirs = Span::of(&[ray.dir]);
+    if dirs.bits + lengths.bits + 2 <= 127 {
+        meets_in::<i128>(ray, point, lengths, dirs)
+    } else {
+        meets_in::<IBig>(ray, point, lengths, dirs)
+    }
+}
+
 /// Of which of two triangles t is less; the ray is parallel to neither.
 pub(super) fn compare(ray: &Ray, first: [Vec3; 3], second: [Vec3; 3]) -> Ordering {
     let [a, b, c] = first;
@@ -105,6 +116,16 @@ where
     let zero = T::from(0);
     let side = (&(&a + &b) + &c).cmp(&zero);
     side != Ordering::Equal && [a, b, c].iter().all(|w| w.cmp(&zero) != side.reverse())
+}
+
+fn meets_in<T: Integer>(ray: &Ray, point: Vec3, lengths: Span, dirs: Span) -> bool
+where
+    for<'a> &'a T: Arithmetic<'a, T>,
+{
+    let origin = lengths.integers::<T>(ray.origin);
+    let to_point = minus(&lengths.integers(point), &origin);
+    let moment = cross(&dirs.integers(ray.dir), &to_point);
+    moment.iter().all(|x| *x == T::from(0))
 }
 
 fn compare_in<T: Integer>(

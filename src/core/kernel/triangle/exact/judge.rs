@@ -2,10 +2,9 @@
 //! integers.
 
 use super::super::shear::ShearedRay;
-use super::rounding::MAX_F64_ERROR;
-use super::{VALUES, filter, integer};
+use super::{Filtered, VALUES, filter, integer};
 use crate::kernel::{OneTriangle, pack_corners};
-use crate::lane::LaneMask;
+use crate::lane::Number;
 use crate::ray::{Hit, Ray};
 use glam::Vec3;
 use std::cmp::Ordering;
@@ -86,8 +85,7 @@ pub(crate) struct Judge<'a, F> {
     ray: &'a Ray,
     corners: F,
     dir_z: f64,
-    /// The interval's ends as depths, exactly: 24 digits by 24. What is farther than f32's largest number is
-    /// never hit.
+    /// The ends of [`Ray::finite_interval`] as depths, exactly: 24 digits by 24.
     interval: [f64; 2],
     pub work: JudgeCounters,
 }
@@ -95,12 +93,11 @@ pub(crate) struct Judge<'a, F> {
 impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
     pub fn new(ray: &'a Ray, corners: F) -> Self {
         let dir_z = f64::from(ray.dir.abs().max_element());
-        let end = ray.t_max.min(f32::MAX);
         Self {
             ray,
             corners,
             dir_z,
-            interval: [f64::from(ray.t_min) * dir_z, f64::from(end) * dir_z],
+            interval: ray.finite_interval().map(|t| f64::from(t) * dir_z),
             work: JudgeCounters::default(),
         }
     }
@@ -141,7 +138,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         if !is_certain && !self.narrow(&mut candidate) {
             return None;
         }
-        let (start, end) = (self.ray.t_min, self.ray.t_max.min(f32::MAX));
+        let [start, end] = self.ray.finite_interval();
         let is_after = self.compare_with(&mut candidate, start) == Ordering::Greater;
         (is_after && self.compare_with(&mut candidate, end) == Ordering::Less).then_some(candidate)
     }
@@ -182,6 +179,11 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         self.narrow(second);
         by_bounds(first, second).unwrap_or_else(|| {
             self.work.in_integers += 1;
+            // Through a shared corner: many triangles may share it, and this takes a fraction of the time.
+            let mut shared = a.iter().filter(|p| b.contains(p));
+            if shared.any(|p| integer::meets(self.ray, *p)) {
+                return Ordering::Equal;
+            }
             integer::compare(self.ray, a, b)
         })
     }
@@ -217,25 +219,27 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         candidate.is_narrow = true;
         self.work.in_f64 += 1;
         let corners = (self.corners)(candidate.slot);
-        match in_f64(self.ray, corners) {
-            F64Verdict::Missed => false,
-            F64Verdict::Certain { near, far, .. } => {
-                (candidate.near, candidate.far) = (near, far);
-                true
-            }
-            F64Verdict::Doubtful => {
-                self.work.in_integers += 1;
-                let is_inside = integer::is_inside(self.ray, corners);
-                if is_inside {
-                    let [t, ..] = integer::rounded(self.ray, corners);
-                    let depth = t * self.dir_z;
-                    // Three roundings, and the digits that were cut off.
-                    let slack = 4.0 * f64::EPSILON * depth.abs();
-                    (candidate.near, candidate.far) = (depth - slack, depth + slack);
-                }
-                is_inside
+        let Some(filtered) = in_f64(self.ray, corners) else {
+            return false;
+        };
+        if !filtered.certain {
+            self.work.in_integers += 1;
+            if !integer::is_inside(self.ray, corners) {
+                return false;
             }
         }
+        let (near, far) = (filtered.near(), filtered.far());
+        // Neither where the sum of the edge functions came out 0.
+        if near <= far && far - near < f64::INFINITY {
+            (candidate.near, candidate.far) = (near, far);
+        } else {
+            let [t, ..] = integer::rounded(self.ray, corners);
+            let depth = t * self.dir_z;
+            // Three roundings, and the digits that were cut off.
+            let slack = 4.0 * f64::EPSILON * depth.abs();
+            (candidate.near, candidate.far) = (depth - slack, depth + slack);
+        }
+        true
     }
 
     /// The hit, rounded.
@@ -243,48 +247,31 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         candidate.hit(self.values(candidate))
     }
 
-    /// t, u and v, off by at most [`MAX_F64_ERROR`].
+    /// t, u and v of a hit: t off by at most 2⁻³² of it, weights by 2⁻³¹.
     pub fn values(&self, candidate: Candidate) -> [f64; 3] {
+        self.values_for::<f64>(candidate)
+    }
+
+    /// t, u and v of a hit, t off by at most [`Number::T_SLACK`] of it, weights by [`Number::WEIGHT_SLACK`].
+    pub fn values_for<N: Number>(&self, candidate: Candidate) -> [f64; 3] {
         let corners = (self.corners)(candidate.slot);
+        let (t_slack, weight_slack) = (N::T_SLACK.into(), N::WEIGHT_SLACK.into());
         match in_f64(self.ray, corners) {
-            F64Verdict::Certain {
-                near,
-                far,
-                weights: [u, v],
-                weight_error,
-            } if far - near <= MAX_F64_ERROR * near.abs() && weight_error <= MAX_F64_ERROR => {
-                [0.5 * (near + far) / self.dir_z, u, v]
+            Some(filtered) if filtered.is_within(t_slack, weight_slack) => {
+                // What is hit has no weight below 0.
+                let [u, v] = filtered.weights.map(|weight| weight.max(0.0));
+                [filtered.depth / self.dir_z, u, v]
             }
             _ => integer::rounded(self.ray, corners),
         }
     }
 }
 
-/// What f64 knows of a triangle.
-enum F64Verdict {
-    Missed,
-    Doubtful,
-    Certain {
-        near: f64,
-        far: f64,
-        weights: [f64; 2],
-        weight_error: f64,
-    },
-}
-
+/// What f64 knows of a triangle; `None`: it is missed.
 // Out of line: it is the rare path, and the common one is the better for it.
 #[inline(never)]
-fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> F64Verdict {
+fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Option<Filtered<f64>> {
     let mut values = [0.0; VALUES];
     pack_corners(corners, &mut values);
-    match filter(&ShearedRay::<f64>::of((), ray), &OneTriangle(&values)) {
-        None => F64Verdict::Missed,
-        Some(filtered) if filtered.certain.any() => F64Verdict::Certain {
-            near: filtered.near,
-            far: filtered.far,
-            weights: filtered.weights,
-            weight_error: filtered.weight_error,
-        },
-        Some(_) => F64Verdict::Doubtful,
-    }
+    filter(&ShearedRay::<f64>::of((), ray), &OneTriangle(&values))
 }

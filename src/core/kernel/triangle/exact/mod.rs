@@ -20,9 +20,8 @@ pub(crate) use filter::{Filtered, filter};
 pub(crate) use judge::{Candidate, Judge};
 pub(crate) use rounding::HitLanes;
 
-use super::shear::ShearedRay;
-use crate::kernel::{KernelInfo, OneTriangle, Precision, Promises, Tier, pack_corners};
-use crate::lane::LaneMask;
+use crate::kernel::{KernelInfo, Precision, Promises, Tier};
+use crate::lane::Number;
 use crate::ray::{Hit, Ray};
 use glam::Vec3;
 
@@ -55,7 +54,13 @@ pub(super) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
 ///
 /// A NaN or an infinity in a corner is a miss.
 pub fn exact_answer(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
-    ask(ray, corners, |judge, candidate| judge.values(candidate))
+    answer_for::<f64>(ray, corners)
+}
+
+/// The same, t and weights as accurate as `N` asks for.
+pub(super) fn answer_for<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
+    let answer = |judge: &Judge<'_, _>, candidate| judge.values_for::<N>(candidate);
+    ask(ray, corners, answer)
 }
 
 fn ask<T>(
@@ -66,13 +71,9 @@ fn ask<T>(
     if !corners.iter().all(|p| p.is_finite()) {
         return None;
     }
-    let mut values = [0.0; VALUES];
-    pack_corners(corners, &mut values);
-    let filtered = filter(&ShearedRay::<f32>::of((), ray), &OneTriangle(&values))?;
     let find: &dyn Fn(usize) -> [Vec3; 3] = &|_| corners;
     let mut judge = Judge::new(ray, find);
-    let is_certain = filtered.certain.bits() != 0;
-    let candidate = Candidate::new(0, 0, filtered.near, filtered.far);
-    let candidate = judge.within(candidate, is_certain)?;
+    let unknown = Candidate::new(0, 0, f32::NEG_INFINITY, f32::INFINITY);
+    let candidate = judge.within(unknown, false)?;
     Some(answer(&judge, candidate))
 }

@@ -7,10 +7,6 @@ use crate::ray::Ray;
 use fearless_simd::{Simd, f64x8};
 use glam::Vec3;
 
-/// f64 results are used if t's bounds are at most this apart, relatively, and weights off by at most
-/// this: 2⁻⁶ of f32's half ulp of 1.
-pub(super) const MAX_F64_ERROR: f64 = 1.0 / (1u64 << 31) as f64;
-
 /// Rays and the triangles that they hit, side by side. Each ray's own axes come first, second and third, so
 /// that all lanes look along the third.
 #[derive(Clone, Copy)]
@@ -29,7 +25,7 @@ pub(crate) struct RoundedLanes {
 }
 
 impl RoundedLanes {
-    /// t, u and v in a lane, unless they may be off by more than [`MAX_F64_ERROR`].
+    /// t, u and v in a lane, if they are [accurate](super::Filtered::is_accurate).
     pub fn of(&self, lane: usize) -> Option<[f64; 3]> {
         let is_good = self.good >> lane & 1 == 1;
         is_good.then(|| [self.t[lane], self.u[lane], self.v[lane]])
@@ -87,6 +83,7 @@ impl HitLanes {
                 row(&self.origin, 2),
             ],
             dir: [row(&self.dir, 0), row(&self.dir, 1), row(&self.dir, 2)],
+            interval: [f64x8::splat(token, 0.0), f64x8::splat(token, f64::INFINITY)],
             axes: [0, 1, 2],
         };
         let sheared = ShearedRay::<f64x8<S>>::new(&rays);
@@ -102,12 +99,8 @@ impl HitLanes {
                 good: 0,
             };
         };
-        let number = |x: f64| f64x8::splat(token, x);
-        let (near, far) = (filtered.near, filtered.far);
-        let is_good = filtered.certain
-            & (far - near).le(number(MAX_F64_ERROR) * near.abs())
-            & filtered.weight_error.le(number(MAX_F64_ERROR));
-        let t = number(0.5) * (near + far) / sheared.dir_z().abs();
+        let is_good = filtered.certain & filtered.is_accurate();
+        let t = filtered.depth / sheared.dir_z().abs();
         let [u, v] = filtered.weights;
         RoundedLanes {
             t: f64::store(t),
