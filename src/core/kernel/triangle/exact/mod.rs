@@ -59,8 +59,9 @@ pub fn exact_answer(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
 
 /// The same, t and weights as accurate as `N` asks for.
 pub(super) fn answer_for<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
-    let answer = |judge: &Judge<'_, _>, candidate| judge.values_for::<N>(candidate);
-    ask(ray, corners, answer)
+    ask(ray, corners, |judge, candidate| {
+        judge.values_for::<N>(candidate)
+    })
 }
 
 fn ask<T>(
