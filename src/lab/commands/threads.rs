@@ -50,7 +50,9 @@ pub fn start_thread_pool() -> Result<(), CommandError> {
             Err(_) => {
                 // Loading a mesh takes a thread beside these.
                 if idle.len() > 1 {
-                    idle.pop().map(IdleThread::end);
+                    if let Some(thread) = idle.pop() {
+                        thread.end();
+                    }
                 }
                 break;
             }
