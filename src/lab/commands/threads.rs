@@ -49,10 +49,10 @@ pub fn start_thread_pool() -> Result<(), CommandError> {
             Err(source) if idle.is_empty() => return Err(no_threads(&source)),
             Err(_) => {
                 // Loading a mesh takes a thread beside these.
-                if idle.len() > 1 {
-                    if let Some(thread) = idle.pop() {
-                        thread.end();
-                    }
+                if idle.len() > 1
+                    && let Some(thread) = idle.pop()
+                {
+                    thread.end();
                 }
                 break;
             }
