@@ -158,7 +158,7 @@ fn no_ray_leaves_a_closed_mesh_through_an_edge_or_a_corner() {
 /// Rays for each corridor and kernel; `HITSCOPE_LEAK_RAYS` asks for more.
 fn rays_per_corridor() -> usize {
     let asked = std::env::var("HITSCOPE_LEAK_RAYS").ok();
-    asked.map_or(300, |n| n.parse().expect("a number of rays"))
+    asked.map_or(1_500, |n| n.parse().expect("a number of rays"))
 }
 
 #[test]

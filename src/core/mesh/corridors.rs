@@ -24,7 +24,7 @@ pub enum Footprint {
     Triangle,
     /// The square, its sides cut into many.
     Strips,
-    /// Two arms, 2 wide and as long as the corridor.
+    /// A square and two arms from it, as long as the corridor.
     L,
 }
 
@@ -64,11 +64,11 @@ impl Footprint {
             }
             Self::L => vec![
                 p(-1.0, -1.0),
-                p(length, -1.0),
-                p(length, 1.0),
+                p(1.0 + length, -1.0),
+                p(1.0 + length, 1.0),
                 p(1.0, 1.0),
-                p(1.0, length),
-                p(-1.0, length),
+                p(1.0, 1.0 + length),
+                p(-1.0, 1.0 + length),
             ],
         }
     }
@@ -229,7 +229,7 @@ mod tests {
                 for _ in 0..1000 {
                     let ray = corridor.ray(&mut random);
                     let p = corridor.turn.inverse() * ray.origin.as_dvec3();
-                    let is_in_arm = |x: f64, y: f64| x < 100.0 && y < 1.0;
+                    let is_in_arm = |x: f64, y: f64| x < 101.0 && y < 1.0;
                     assert!(p.z.abs() < corridor.half_height && p.x > -1.0 && p.y > -1.0);
                     assert!(is_in_arm(p.x, p.y) || is_in_arm(p.y, p.x));
                 }
