@@ -1,8 +1,8 @@
-//! Bounding volume hierarchy: a tree over boxes with eight children per node, which knows nothing of what lies in
-//! the boxes.
+//! Bounding volume hierarchy over boxes, with eight children per node. It doesn't depend on the type of
+//! primitives in the boxes.
 //!
-//! [`Bvh::build`] builds it. `walk` passes the blocks of primitives that a ray meets to a visitor, nearest first;
-//! `packet` those that any of sixteen rays meets.
+//! [`Bvh::build`] builds it. `walk` passes the blocks of primitives that a ray meets to a visitor, nearest
+//! first; `packet` passes the blocks that any of sixteen rays meets.
 
 mod build;
 mod packet;
@@ -16,20 +16,20 @@ pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
 pub(crate) use slab::SlabRay;
 pub(crate) use walk::{Stack, Visitor, rank, rank_floor, with_stack};
 
-/// Primitives per block, which a SIMD test takes at once.
+/// Primitives per block; a SIMD test takes a whole block.
 pub const BLOCK_SIZE: usize = 8;
 
-/// Memory that building a tree takes at most for each primitive, the finished tree included (measured 2026-11).
+/// Peak memory per primitive while a tree is built, including the finished tree (measured 2026-11).
 pub(crate) const BYTES_WHILE_BUILDING: usize = 110;
 
-/// Children of a node.
+/// Children per node.
 const WIDTH: usize = 8;
 
-/// Largest depth of a leaf, so that a walk's stack can't overflow: on each level a node leaves at most seven of
-/// its children on it.
+/// Largest depth of a leaf. It keeps the stack of a walk from overflowing: on each level a node pushes at
+/// most seven of its children.
 const MAX_DEPTH: usize = 34;
 
-/// Most blocks of a leaf.
+/// Largest number of blocks per leaf.
 const LEAF_BLOCKS: usize = 2;
 
 /// Marks a lane of a block without a primitive.
@@ -37,13 +37,13 @@ pub(crate) const NO_PRIMITIVE: u32 = u32::MAX;
 
 /// A node's child: a node, a leaf, or nothing.
 ///
-/// A leaf is a run of blocks: the highest bit is set, three bits hold their number less one, the rest holds the
-/// index of the first one.
+/// A leaf is a run of blocks: the highest bit is set, three bits hold the number of blocks minus one, the
+/// rest holds the index of the first block.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 struct Child(u32);
 
 impl Child {
-    /// No child. Its box is empty, so that no ray meets it.
+    /// No child. Its box is empty, so no ray meets it.
     const NONE: Self = Self(u32::MAX);
     const LEAF: u32 = 1 << 31;
     const INDEX: u32 = (1 << 28) - 1;
@@ -76,7 +76,7 @@ impl Child {
         (self.0 >> 28 & 7) as usize + 1
     }
 
-    /// The same child after this many nodes and blocks were put before its own.
+    /// The same child after `nodes` nodes and `blocks` blocks were inserted before its own.
     fn moved(self, nodes: usize, blocks: usize) -> Self {
         if self == Self::NONE {
             self
@@ -114,15 +114,15 @@ impl Node {
 /// Fast SIMD Ray Tracing of Incoherent Rays", EGSR 2008.
 #[derive(Clone, Debug)]
 pub struct Bvh {
-    /// The first one is the root; empty for a tree over nothing.
+    /// The first node is the root; empty for a tree without primitives.
     nodes: Vec<Node>,
-    /// The primitives of each block, from the first lane on.
+    /// The primitives of each block; unused lanes come last.
     blocks: Vec<[u32; BLOCK_SIZE]>,
     bounds: Aabb,
 }
 
 impl Bvh {
-    /// The box around everything; [`Aabb::EMPTY`] for a tree over nothing.
+    /// The box around all primitives; [`Aabb::EMPTY`] for a tree without primitives.
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }

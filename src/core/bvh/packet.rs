@@ -1,14 +1,14 @@
-//! Visiting the blocks that any of sixteen rays meets, for rays that look much the same way.
+//! Traversal of a tree by packets of sixteen rays with similar directions.
 //!
 //! Source: I. Wald, S. Boulos, P. Shirley, "Ray Tracing Deformable Scenes Using Dynamic Bounding Volume
 //! Hierarchies", ACM TOG 26(1), 2007. Differs from it: a node's eight boxes are tested at once against the
-//! interval that holds all the rays, and so are the boxes of a block's triangles: those of a leaf that no ray
-//! comes near cost no test of their own. To test each box that the interval meets against all the rays,
-//! too, throws away one in a hundred.
+//! interval that encloses all the rays, and so are the boxes of a block's triangles, which avoids tests of
+//! the leaves that no ray comes near. Testing the boxes that the interval meets against all the rays would
+//! cull only one in a hundred.
 //!
-//! Each ray gets the bits that it gets alone. The interval's bounds are rounded as the rays' distances are,
-//! and rounding is monotone, so that no box is left out that a ray meets; and what a ray hits counts where it
-//! meets the triangle's own box, in a packet or alone.
+//! Each ray gets bit for bit the same result as alone. The interval's bounds are rounded like the rays'
+//! distances, and rounding is monotone, so no box that a ray meets is omitted. A hit counts if the ray meets
+//! the triangle's own box, in a packet or alone.
 
 use super::slab::{AHEAD, MOST_INVERSE, at_least, at_most};
 use super::walk::{
@@ -21,17 +21,17 @@ use crate::ray::Ray;
 use crate::simd::prefetch;
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, mask32x16, prelude::*};
 
-/// What is done with the blocks that rays meet.
+/// Handler of the blocks that rays meet.
 pub(crate) trait PacketVisitor<S: Simd> {
-    /// Looks at a block, and returns the farthest t that is still of interest, ray by ray. `farthest`: that
-    /// of all rays, a little beyond.
+    /// Processes a block and returns the farthest t of interest of each ray. `farthest` is the largest of
+    /// these over all rays, plus a small margin.
     fn visit(&mut self, block: usize, slabs: &Slabs<S>, farthest: f32) -> f32x16<S>;
 
-    /// A block will be visited soon, unless hits come in between.
+    /// Announces a block that will be visited soon, unless a hit makes that unnecessary.
     fn announce(&self, block: usize);
 }
 
-/// Sixteen rays whose directions' coordinates have the same signs.
+/// Sixteen rays whose directions have the same signs.
 #[derive(Clone, Copy)]
 pub(crate) struct RayPacket<S: Simd> {
     pub origin: [f32x16<S>; 3],
@@ -39,18 +39,19 @@ pub(crate) struct RayPacket<S: Simd> {
     pub t_min: f32x16<S>,
     pub t_max: f32x16<S>,
     inverse: [f32x16<S>; 3],
-    /// Axis by axis whether the directions go down.
+    /// Per axis, whether the directions are negative.
     is_down: [bool; 3],
 }
 
 impl<S: Simd> RayPacket<S> {
-    /// `None` where rays go different ways, begin behind their origins or exclude a primitive: those are
-    /// traced one by one.
+    /// Makes a packet. `None` if the rays' directions differ in sign, or if a ray starts behind its origin or
+    /// excludes a primitive; such rays are traced one by one.
     #[inline(always)]
     pub fn new(token: S, rays: &[Ray; PACKET]) -> Option<Self> {
         let mut is_plain = true;
         let (mut starts, mut rests) = ([[0.0; 4]; PACKET], [[0.0; 4]; PACKET]);
-        // Plain loops, here as below: what an iterator calls may lose the CPU's features.
+        // Plain loops, here and below: functions called by an iterator may be compiled without the CPU's
+        // features.
         let mut i = 0;
         while i < PACKET {
             let ray = &rays[i];
@@ -70,7 +71,7 @@ impl<S: Simd> RayPacket<S> {
             let down = inverse[axis].simd_lt(zero);
             is_down[axis] = down.all_true();
             is_plain &= is_down[axis] || !down.any_true();
-            // Of 0·∞ and numbers together the interval's bounds would make either.
+            // A mix of 0·∞ and numbers would make the interval's bounds arbitrary.
             let most = f32x16::splat(token, MOST_INVERSE);
             let is_finite = inverse[axis].abs().simd_le(most).all_true();
             is_plain &= is_finite || dir[axis].simd_eq(zero).all_true();
@@ -87,8 +88,8 @@ impl<S: Simd> RayPacket<S> {
     }
 }
 
-/// The first numbers of all rows, the second ones, and so on. By shuffles: what the compiler makes of loading
-/// number by number, gathers, takes a sixth of a packet's time (bunny, AVX-512, 2026-11).
+/// Transposes rows to columns. By shuffles: the gathers that the compiler generates for element-wise loads
+/// take a sixth of a packet's time (bunny, AVX-512, 2026-11).
 #[inline(always)]
 fn columns<S: Simd>(token: S, rows: &[[f32; 4]; PACKET]) -> [f32x16<S>; 4] {
     let row = |i: usize| f32x4::load_array_ref(token, &rows[i]);
@@ -105,17 +106,18 @@ fn columns<S: Simd>(token: S, rows: &[[f32; 4]; PACKET]) -> [f32x16<S>; 4] {
     ]
 }
 
-/// The rays made ready for boxes: one by one, and the interval that holds them all.
+/// The rays prepared for box tests: each ray, and the interval that encloses all of them.
 pub(crate) struct Slabs<S: Simd> {
     origin: [f32x16<S>; 3],
     inv_near: [f32x16<S>; 3],
     inv_far: [f32x16<S>; 3],
     t_min: f32x16<S>,
-    /// Which of a node's rows holds the planes that the rays meet first, axis by axis.
+    /// Per axis, the row of a node's planes that the rays meet first.
     near: [usize; 3],
-    /// The origin for near planes and for far ones that gives the least and the greatest distance.
+    /// Per axis, the origin that gives the least distance of near planes and the one that gives the greatest
+    /// distance of far planes.
     origins: [[f32x8<S>; 2]; 3],
-    /// The least and the greatest inverse for near planes, and for far ones.
+    /// Per axis, the least and the greatest inverse for near planes, then for far planes.
     inverses: [[f32x8<S>; 4]; 3],
     least_t_min: f32x8<S>,
 }
@@ -162,7 +164,8 @@ impl<S: Simd> Slabs<S> {
         slabs
     }
 
-    /// Which of the boxes any ray may enter before `t_max`, a bit each, and where at the earliest.
+    /// A bit mask of the boxes that any ray may enter before `t_max`, and the earliest distances at which it
+    /// does.
     #[inline(always)]
     pub fn enter_any(
         &self,
@@ -185,7 +188,7 @@ impl<S: Simd> Slabs<S> {
         (near.to_array(), near.simd_le(far).to_bitmask() as u32)
     }
 
-    /// Where each ray enters one of the boxes, and whether it does: the bits of
+    /// The distance at which each ray enters one of the boxes, and whether it does; bit for bit as
     /// [`SlabRay::enter`](super::SlabRay::enter).
     #[inline(always)]
     pub fn enter_one(
@@ -209,7 +212,7 @@ impl<S: Simd> Slabs<S> {
 }
 
 impl Bvh {
-    /// Hands each block that any of the rays meets to the visitor.
+    /// Passes each block that any of the rays meets to the visitor.
     #[inline(always)]
     pub(crate) fn walk_packet<S: Simd, V: PacketVisitor<S>>(
         &self,
@@ -226,7 +229,7 @@ impl Bvh {
         let mut depth = 0u8;
         let mut current = Child::node(0);
         loop {
-            // Down to the nearest leaf.
+            // Descend to the nearest leaf.
             while !current.is_leaf() {
                 let node = &self.nodes[current.node_index()];
                 let (entries, mut met) = slabs.enter_any(token, &node.planes, farthest);
@@ -253,7 +256,7 @@ impl Bvh {
                     farthest = end_slackened(limits).reduce_max();
                 }
             }
-            // Back to what was put off, but for what has since turned out to lie behind all hits.
+            // Pop a deferred child, skipping those that now lie behind all hits.
             loop {
                 if depth == 0 {
                     return;

@@ -1,59 +1,60 @@
-//! Does a ray meet boxes? Never a false no, as long as distances and inverses are normal numbers.
+//! Slab test of a ray against boxes. It has no false negatives if distances and inverses are normal numbers.
 //!
-//! The slab test: the ray is inside a box while it is between the two planes of all three axes at
-//! once. Of `(plane − origin)·(1/d)` each of the three operations rounds, so that a far plane may
-//! come out too near by three half-ulps against a near plane that came out too far by as many.
+//! A ray is inside a box while it is between the two planes of all three axes. Each of the three operations
+//! of `(plane − origin)·(1/d)` rounds, so a far plane may come out too near by three half-ulps and a near
+//! plane too far by as many.
 //!
 //! Sources: Kay, Kajiya, "Ray Tracing Complex Scenes", SIGGRAPH 1986; Ize, "Robust BVH Ray
-//! Traversal", JCGT 2(2), 2013. Differs from the latter: the padding is in the inverse direction of
-//! the far planes, where it costs nothing a box, and is wider, as hits mustn't be missed that the watertight
-//! kernel accepts beside the box; far planes behind the origin are padded, too, for rays whose interval
-//! begins there.
+//! Traversal", JCGT 2(2), 2013. Differs from the latter: the padding is in the inverse direction of the far
+//! planes, where it costs nothing per box; it is wider, so that no hit is lost that the watertight kernel
+//! accepts just outside the box; far planes behind the origin are also padded, for rays whose interval starts
+//! there.
 //!
-//! Why a hit of that kernel isn't lost beside the box: say that the ray leaves the slab of x before it
-//! enters that of y, both going up; X and Y are those two planes, and (x, y, z) a corner, all relative to the
-//! origin; s = z/d_z. The kernel moves the corner to x' = x − s·d_x and y' = y − s·d_y, and accepts if
-//! (0, 0) lies in the hull of the three. As x ≤ X and y ≥ Y,
+//! Why no hit of that kernel just outside a box is lost: suppose that the ray leaves the slab of x before it
+//! enters that of y, both upwards. X and Y are those two planes and (x, y, z) is a corner, all relative to
+//! the origin; s = z/d_z. The kernel moves the corner to x' = x − s·d_x and y' = y − s·d_y, and accepts if
+//! (0, 0) lies in the hull of the three corners. As x ≤ X and y ≥ Y,
 //!
 //! ```text
 //! y'/d_y − x'/d_x  ≥  Y/d_y − X/d_x  >  0
 //! ```
 //!
-//! at each corner, so that a line parts them from (0, 0). Rounding must use up the gap between Y/d_y and
-//! X/d_x before that fails. The difference from the origin is rounded alike here and there, which keeps
-//! x ≤ X and y ≥ Y. Slope and product then move x'/d_x and y'/d_y by 2u·s each, their last rounding the
-//! sum by 2u of the gap's distance: 6u of it for 0 ≤ s up to there. With the slabs' own 2u each and 1u for
-//! the padding's product that is 11u of the 12u there are. The slab of z is the same with z' = 0.
+//! at each corner, so a line separates the corners from (0, 0). This fails only if rounding uses up the gap
+//! between Y/d_y and X/d_x. Kernel and slab test round the difference from the origin alike, which preserves
+//! x ≤ X and y ≥ Y. Slope and product then move x'/d_x and y'/d_y by 2u·s each, and their last rounding moves
+//! the sum by 2u of the gap's distance: in total 6u of it for 0 ≤ s up to that distance. With the slabs' own
+//! 2u each and 1u for the padding's product the sum is 11u, of the 12u that the padding provides. The slab of
+//! z is the same with z' = 0.
 //!
-//! Three ends are open: a needle seen along its length, one of whose corners is many times as deep as where
-//! the ray passes its near end; a corner behind the origin; and a distance or an inverse that isn't normal.
-//! Of 55 million such needles none was lost (2026-11). Kernels in f64 and the exact one don't round the
-//! difference as the slabs do, and need 7u; for the other kernels in f32 no padding would do: see `walk`.
+//! Three cases aren't covered: a needle seen along its length, with a corner many times as deep as the point
+//! where the ray passes its near end; a corner behind the origin; a distance or an inverse that isn't normal.
+//! Of 55 million such needles none was lost (2026-11). Kernels in f64 and the exact kernel don't round the
+//! difference as the slabs do, and need 7u. For the other f32 kernels no padding would suffice: see `walk`.
 
 use super::WIDTH;
 use crate::aabb::Planes;
 use crate::ray::Ray;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
-/// 1 + 12u with u = 2⁻²⁴: what a far distance ahead is lengthened by; see the [module](self).
+/// 1 + 12u with u = 2⁻²⁴: factor that lengthens far distances ahead of the origin; see the [module](self).
 pub(super) const AHEAD: f32 = 1.0 + 6.0 * f32::EPSILON;
-/// 1 − 12u: a far distance behind the origin is negative, and made nearer to it.
+/// 1 − 12u: factor that moves far distances behind the origin, which are negative, towards the origin.
 const BEHIND: f32 = 1.0 - 6.0 * f32::EPSILON;
 
-/// A ray made ready for many boxes.
+/// A ray prepared for testing many boxes.
 #[derive(Clone, Copy)]
 pub(crate) struct SlabRay<S: Simd> {
     origin: [f32x8<S>; 3],
     inv_near: [f32x8<S>; 3],
     inv_far: [f32x8<S>; 3],
     inv_far_behind: [f32x8<S>; 3],
-    /// Which of a node's rows holds the planes that the ray meets first, axis by axis.
+    /// Per axis, the row of a node's planes that the ray meets first.
     near: [usize; 3],
     t_min: f32x8<S>,
 }
 
 impl<S: Simd> SlabRay<S> {
-    /// Boxes are met from `t_min` on, which may be a little before `ray.t_min`.
+    /// Tests boxes from `t_min` on, which may be a little before `ray.t_min`.
     #[inline(always)]
     pub(super) fn new(token: S, ray: &Ray, t_min: f32) -> Self {
         let [x, y, z] = ray.dir.to_array();
@@ -69,11 +70,11 @@ impl<S: Simd> SlabRay<S> {
         }
     }
 
-    /// Where the ray enters each of the boxes, and which it enters before `t_max`, a bit each.
-    /// `IS_BEHIND`: `t_min` may be negative.
+    /// The distances at which the ray enters the boxes, and a bit mask of the boxes that it enters before
+    /// `t_max`. Set `IS_BEHIND` if `t_min` may be negative.
     ///
-    /// 0·∞ is a NaN where the origin lies in a plane that the ray runs along; such a plane doesn't
-    /// constrain the ray, which is why each comparison keeps the old bound on NaN.
+    /// 0·∞ is NaN if the origin lies in a plane that is parallel to the ray. Such a plane doesn't constrain
+    /// the ray, so each comparison keeps the old bound on NaN.
     #[inline(always)]
     pub(crate) fn enter<const IS_BEHIND: bool>(
         &self,
@@ -102,7 +103,7 @@ impl<S: Simd> SlabRay<S> {
     }
 }
 
-/// The row of lower planes of an axis, or that of the upper ones for a ray that goes down.
+/// The row of an axis's lower planes, or of its upper planes if the ray goes down.
 #[inline(always)]
 fn near_row(axis: usize, inverse: f32) -> usize {
     2 * axis + usize::from(inverse.is_sign_negative())
@@ -117,7 +118,7 @@ fn splat3<S: Simd>(token: S, [x, y, z]: [f32; 3]) -> [f32x8<S>; 3] {
     ]
 }
 
-/// The larger one; the bound where the other is NaN. On x86 the second operand is what comes out then.
+/// The larger value, or the bound if the other is NaN. On x86 `max` returns the second operand in that case.
 #[inline(always)]
 pub(super) fn at_least<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
     if cfg!(target_arch = "x86_64") {
@@ -127,7 +128,7 @@ pub(super) fn at_least<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
     }
 }
 
-/// The smaller one; the bound where the other is NaN.
+/// The smaller value, or the bound if the other is NaN.
 #[inline(always)]
 pub(super) fn at_most<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
     if cfg!(target_arch = "x86_64") {
@@ -137,11 +138,11 @@ pub(super) fn at_most<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
     }
 }
 
-/// Half of what f32 holds, as the padded value mustn't overflow either.
+/// Half of the largest f32, so that the padded value doesn't overflow either.
 pub(super) const MOST_INVERSE: f32 = 0.5 * f32::MAX;
 
-/// 1/d; a NaN, which no comparison heeds, where it overflows. Then the axis doesn't constrain the ray: a
-/// number in its place would be wrong on one side of the origin or the other.
+/// 1/d, or NaN if it overflows; comparisons ignore the NaN. The axis then doesn't constrain the ray: any
+/// number instead would be wrong on one side of the origin.
 #[inline(always)]
 pub(super) fn inverse_of(d: f32) -> f32 {
     let inverse = 1.0 / d;
@@ -161,7 +162,8 @@ mod tests {
     use fearless_simd::dispatch;
     use glam::Vec3;
 
-    /// Where a ray enters a box, the last child of a node; the same at every SIMD level.
+    /// The distance at which a ray enters a box, stored as the last child of a node; the same at every SIMD
+    /// level.
     fn entry(ray: &Ray, bounds: Aabb, t_max: f32) -> Option<f32> {
         let mut node = Node::EMPTY;
         let (lower, upper) = (bounds.min.to_array(), bounds.max.to_array());
@@ -188,7 +190,7 @@ mod tests {
     }
 
     #[test]
-    fn an_axis_aligned_ray_meets_all_that_it_touches_with_either_sign_of_zero() {
+    fn an_axis_aligned_ray_meets_every_box_that_it_touches_with_either_sign_of_zero() {
         let flat = Aabb::around([Vec3::new(0.0, 0.0, 1.0), Vec3::new(1.0, 1.0, 1.0)]);
         for zero in [0.0, -0.0] {
             let dir = Vec3::new(zero, zero, 1.0);
@@ -219,8 +221,8 @@ mod tests {
     }
 
     #[test]
-    fn a_point_of_the_box_that_a_ray_is_aimed_at_is_never_missed() {
-        // Exactly representable on both sides: the ray goes through the corner, no rounding asked.
+    fn a_ray_aimed_at_a_corner_of_a_box_meets_the_box() {
+        // Exactly representable on both sides, so the ray passes through the corner without any rounding.
         let origin = Vec3::new(-3.0, 5.0, 7.0);
         for scale in [1e-30f32, 1e-6, 1.0, 1e6, 1e18] {
             for offset in [0.0f32, 1e5] {
@@ -236,10 +238,10 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_that_touches_a_boxs_edge_meets_it_though_rounding_parts_the_planes() {
-        // It enters the lower x plane before it leaves the upper y plane, by some 2⁻³⁸ of t; computed, it
-        // leaves 5.2u before it enters. No ray was found that needs more than 6u, climbing for 1.8·10⁸ steps
-        // (2026-11); 7u is what the derivation asks for.
+    fn a_ray_that_touches_the_edge_of_a_box_meets_it_despite_rounding() {
+        // The ray enters the lower x plane before it leaves the upper y plane, by some 2⁻³⁸ of t. As
+        // computed, it leaves 5.2u before it enters. A search of 1.8·10⁸ steps found no ray that needs more
+        // than 6u (2026-11); the derivation requires 7u.
         let bounds = Aabb {
             min: Vec3::new(0.503_587_66, -2.0, -4.0),
             max: Vec3::new(2.0, 0.322_396_4, 4.0),

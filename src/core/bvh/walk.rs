@@ -1,19 +1,19 @@
-//! Visiting the blocks that a ray meets, nearest first.
+//! Traversal of the blocks that a ray meets, nearest first.
 //!
-//! A walk never leaves out what could still count, and what counts doesn't depend on the tree. A kernel may
-//! accept a ray that passes beside the triangle, at a t that lies before it, by more than any padding would
-//! cover where the triangle is a sliver or seen edge-on. So its hit counts if
+//! A walk never omits a block whose hits could count, and the hits that count don't depend on the tree. A
+//! kernel may accept a ray that passes outside the triangle, at a t that lies before it; for slivers and
+//! triangles seen edge-on the error exceeds any padding. So a hit counts if
 //!
 //! 1. the ray meets the triangle's own box (see [`triangle_bounds`](crate::kernel::triangle_bounds)), by the
-//!    same padded operations as the tree's; and it ranks
-//! 2. by its t, but as no nearer than [`rank_floor`] of where the ray enters that box.
+//!    same padded operations as the tree's boxes; and it ranks
+//! 2. by its t, but as no nearer than [`rank_floor`] of the distance at which the ray enters that box.
 //!
-//! Both are of the ray and the triangle alone. A box of the tree holds the boxes of the triangles below it, and
-//! each operation that tells where a ray enters and leaves it is monotone in its planes, rounded or not: so
-//! the ray meets it, too, and enters it no later. The walk puts it aside only if the ray enters it behind the
-//! best rank so far, and with it only hits that rank behind that. The exact kernel's hits lie in their boxes
-//! and are ordered exactly: it needs neither. That a box is padded enough for what its
-//! triangles' kernels are right to accept is another matter: see `slab`.
+//! Both depend on the ray and the triangle alone. A box of the tree encloses the boxes of the triangles below
+//! it, and each operation that computes where a ray enters and leaves it is monotone in its planes, rounded
+//! or not. So the ray also meets the tree's box, and enters it no later. The walk skips a box only if the ray
+//! enters it behind the best rank so far; all hits in it then rank behind that. The hits of the exact kernel
+//! lie in their boxes and are ordered exactly, so it needs neither rule. `slab` derives the padding that a
+//! box needs for the hits that its triangles' kernels are right to accept.
 
 use super::slab::SlabRay;
 use super::{Bvh, Child, MAX_DEPTH, Node, WIDTH};
@@ -24,26 +24,25 @@ use fearless_simd::{Simd, f32x8};
 use std::cell::RefCell;
 use std::ops::ControlFlow;
 
-/// How much farther than the farthest t of interest, and how much beyond the interval's ends, boxes are
-/// visited, relatively: 24 ulp. By 8 more than hits rank before their boxes' entries, for the rounding of
-/// either product.
+/// Relative distance by which boxes are visited beyond the farthest t of interest and beyond the interval's
+/// ends: 24 ulp. It exceeds [`RANK_SLACK`] by 8 ulp for the rounding of either product.
 const SLACK: f32 = 24.0 * f32::EPSILON;
 
-/// How much nearer than its box's entry a hit may rank, relatively: 16 ulp.
+/// Relative distance by which a hit may rank before its box's entry: 16 ulp.
 ///
-/// A kernel's t is rounded some nine times and an entry three, so that of hits at equal t in two boxes one
-/// may be reported before its box is entered, and the lowest triangle is to count. Measured on overlapping
-/// triangles in one plane, where that shows: of 5 M rays the lowest triangle lost 15 with 3 ulp, 9 with
-/// 4, 5 with 8, none with 16 (with the leaf's box, which is entered no later, 2026-11).
+/// A kernel rounds t some nine times and an entry is rounded three times. So of hits at equal t in two boxes
+/// one may be reported before its box is entered, yet the lowest triangle must count. Measured on overlapping
+/// triangles in one plane, where this shows: of 5 M rays the lowest triangle lost 15 with 3 ulp, 9 with 4, 5
+/// with 8, none with 16 (with the leaf's box, which is entered no later, 2026-11).
 const RANK_SLACK: f32 = 16.0 * f32::EPSILON;
 
-/// Children that were put off: the bits of where the ray enters them, above the child. Nearer ones are
-/// smaller. An index of one byte can't leave it; the tree's depth keeps it from wrapping.
+/// Deferred children: the bits of the distance at which the ray enters them, above the child. Nearer children
+/// compare less. A one-byte index can't leave the stack; the tree's depth keeps it from wrapping.
 pub(crate) type Stack = [u64; 256];
 
 const _: () = assert!(MAX_DEPTH * (WIDTH - 1) < 256);
 
-/// Lends the thread's stack, which mustn't be asked for again meanwhile. To zero one for each ray costs 10
+/// Lends the thread's stack to `walk`, which mustn't borrow it again. Zeroing a stack for each ray costs 10
 /// to 25 % (2026-11).
 pub(crate) fn with_stack<T>(walk: impl FnOnce(&mut Stack) -> T) -> T {
     thread_local! {
@@ -52,36 +51,36 @@ pub(crate) fn with_stack<T>(walk: impl FnOnce(&mut Stack) -> T) -> T {
     STACK.with_borrow_mut(walk)
 }
 
-/// What is done with the blocks that a ray meets.
+/// Handler of the blocks that a ray meets.
 pub(crate) trait Visitor<S: Simd> {
     /// Whether the ray's interval may begin behind its origin.
     const IS_BEHIND: bool;
 
-    /// Looks at a block, and returns the farthest t that is still of interest; a break ends the walk. Boxes
-    /// at exactly that distance are still visited, and those a little behind it.
+    /// Processes a block and returns the farthest t of interest; a break ends the walk. Boxes at exactly that
+    /// distance and a little behind it are still visited.
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32>;
 
-    /// A block will be visited soon, unless a hit comes in between.
+    /// Announces a block that will be visited soon, unless a hit makes that unnecessary.
     fn announce(&self, block: usize);
 
-    /// So many boxes were tested.
+    /// Counts boxes that were tested.
     fn count_boxes(&mut self, count: u32);
 }
 
-/// The least that a hit is ranked by in a box entered at `entry`.
+/// Lower bound of a hit's rank in a box entered at `entry`.
 #[inline(always)]
 pub(crate) fn rank_floor<L: Lane>(entry: L) -> L {
     entry - entry.abs() * L::of(entry.token(), RANK_SLACK)
 }
 
-/// What a hit is ranked by; see [`rank_floor`].
+/// A hit's rank; see [`rank_floor`].
 #[inline(always)]
 pub(crate) fn rank<L: Lane>(t: L, floor: L) -> L {
     L::select(t.lt(floor), floor, t)
 }
 
 impl Bvh {
-    /// Hands each block that the ray meets to the visitor.
+    /// Passes each block that the ray meets to the visitor.
     #[inline(always)]
     pub(crate) fn walk<S: Simd, V: Visitor<S>>(
         &self,
@@ -116,12 +115,12 @@ impl Bvh {
                     current = a;
                     continue;
                 }
-                // All this in line: a function of its own, which must be lent the depth, costs 3 %
-                // (bunny, 2026-11).
+                // All this is inlined: a separate function, which would take the depth by reference, costs 3
+                // % (bunny, 2026-11).
                 let first = depth;
                 let b = self.next(token, &mut met, &node.child, &entries, visitor);
                 let (mut nearest, mut farther) = (a.min(b), a.max(b));
-                // Two and three are sorted without branches that nobody could foretell.
+                // Sort two and three children without unpredictable branches.
                 if met != 0 {
                     let c = self.next(token, &mut met, &node.child, &entries, visitor);
                     stack[usize::from(depth)] = farther.max(c);
@@ -150,7 +149,7 @@ impl Bvh {
                 }
                 far = Lane::splat(token, limit);
             }
-            // Back to what was put off, but for what has since turned out to lie behind the hit.
+            // Pop a deferred child, skipping those that now lie behind the hit.
             loop {
                 if depth == 0 {
                     return;
@@ -164,7 +163,7 @@ impl Bvh {
         }
     }
 
-    /// Takes the lowest child out of `met`, and asks for it.
+    /// Removes the lowest child from `met`, prefetches it and returns its key.
     #[inline(always)]
     fn next<S: Simd, V: Visitor<S>>(
         &self,
@@ -186,7 +185,7 @@ impl Bvh {
     }
 }
 
-/// Puts a key among those from `first` to `depth`, the nearest last.
+/// Inserts a key between `first` and `depth`, sorted so that the nearest is last.
 #[inline(always)]
 pub(super) fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
     let mut at = depth;
@@ -197,7 +196,7 @@ pub(super) fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
     stack[usize::from(at)] = key;
 }
 
-/// No child: behind all others.
+/// Key of no child; compares greater than all others.
 pub(super) const NOTHING: u64 = u64::MAX;
 
 #[inline(always)]
@@ -215,13 +214,13 @@ pub(super) fn entry_of(key: u64) -> f32 {
     f32::from_bits((key >> 32) as u32)
 }
 
-/// Until where boxes are visited that lie before `t`.
+/// The distance up to which boxes are visited for hits before `t`.
 #[inline(always)]
 pub(super) fn end_slackened<L: Lane>(t: L) -> L {
     t + t.abs() * L::of(t.token(), SLACK)
 }
 
-/// From where on boxes are visited that lie behind `t`.
+/// The distance from which boxes are visited for hits behind `t`.
 #[inline(always)]
 pub(super) fn start_slackened<L: Lane>(t: L) -> L {
     t - t.abs() * L::of(t.token(), SLACK)

@@ -1,4 +1,4 @@
-//! The triangles of each block of the tree as a kernel keeps them, one a lane.
+//! The triangles of the tree's blocks in a kernel's packed layout, one triangle per lane.
 
 use super::compact::{BLOCKS_AT_ONCE, EmptyLanes, Packing, SharedCorners};
 use crate::aabb::Planes;
@@ -16,21 +16,21 @@ use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// A value of the triangles in a block. Aligned, so that no row of f32 lies in two cache lines.
+/// One value of each triangle in a block. Aligned so that no row of f32 spans two cache lines.
 #[derive(Clone, Copy)]
 #[repr(C, align(32))]
 pub(super) struct Row<T>([T; BLOCK_SIZE]);
 
-/// What a kernel keeps of the tree's triangles, and the tree.
+/// The tree and the kernel's packed values of its triangles.
 pub(super) struct Blocks<T> {
     pub bvh: Arc<Bvh>,
-    /// So many a block; none where corners are kept instead.
+    /// A fixed number of rows per block; empty if corners are stored instead.
     rows: Vec<Row<T>>,
-    /// Corners, of which rows are made when they are wanted.
+    /// Corners from which rows are packed on demand.
     shared: Option<SharedCorners>,
 }
 
-/// Where a block's rows are made that aren't kept. One for many rays: to zero it takes as long as a test.
+/// Buffer for rows packed on demand. Reused for many rays: zeroing it takes as long as a test.
 pub(super) struct Scratch<T>([Row<T>; MOST_VALUES]);
 
 impl<T: Copy + Default> Scratch<T> {
@@ -56,14 +56,14 @@ impl<T: Copy + Default> Scratch<T> {
     }
 }
 
-/// A block's values of one lane, in every lane of a vector.
+/// The values of one lane of a block, broadcast to all lanes of a vector.
 pub(super) struct LaneValues<'a, T, S> {
     token: S,
     rows: &'a [Row<T>],
     lane: usize,
 }
 
-/// A block's values as vectors of `N`.
+/// The values of a block as vectors of `N`.
 pub(super) struct BlockValues<'a, N, S, T> {
     token: S,
     rows: &'a [Row<T>],
@@ -89,7 +89,7 @@ impl<N: Number, S: Simd, T: Stored<N>> Values<N::Lanes<S>> for BlockValues<'_, N
 }
 
 impl<'a, T: Stored<f32>, S: Simd> LaneValues<'a, T, S> {
-    /// Those of a lane below [`BLOCK_SIZE`].
+    /// The values of a lane, which must be below [`BLOCK_SIZE`].
     #[inline(always)]
     pub fn new(token: S, rows: &'a [Row<T>], lane: usize) -> Self {
         Self { token, rows, lane }
@@ -105,7 +105,8 @@ impl<T: Stored<f32>, S: Simd> Values<f32x16<S>> for LaneValues<'_, T, S> {
 }
 
 impl<T: Copy + Default + Send + Sync> Blocks<T> {
-    /// `pack` makes so many values of a triangle, of NaN corners what no kernel hits.
+    /// Packs the triangles of all blocks. `pack` writes `rows_per_block` values per triangle; those of NaN
+    /// corners must be a miss for the kernel.
     pub fn new(
         mesh: &TriangleMesh,
         bvh: Arc<Bvh>,
@@ -121,13 +122,13 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         Self { bvh, rows, shared }
     }
 
-    /// Whether rows are made when they are wanted.
+    /// Whether rows are packed on demand.
     pub fn are_compact(&self) -> bool {
         self.shared.is_some()
     }
 
-    /// The rows of a block; `count` is their number, known to the compiler. `MAYBE_COMPACT`: of packed rows
-    /// to ask where they are costs a walk 2 to 5 % (bunny, 2026-11).
+    /// The rows of a block; `count` is their number, known at compile time. `MAYBE_COMPACT` skips the check
+    /// for compact packing if it is false: the check slows a walk by 2 to 5 % (bunny, 2026-11).
     #[inline(always)]
     pub fn rows<'a, const MAYBE_COMPACT: bool>(
         &'a self,
@@ -145,7 +146,7 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         }
     }
 
-    /// Asks the cache for a block and its primitives.
+    /// Prefetches a block and its primitives.
     #[inline(always)]
     pub fn announce<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
@@ -169,7 +170,7 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
 }
 
 impl Blocks<f32> {
-    /// The corners in a lane of a block, where they are what was packed.
+    /// The corners in a lane of a block, for kernels that pack corners.
     #[inline(always)]
     pub fn corners(&self, block: usize, lane: usize) -> [Vec3; 3] {
         match &self.shared {
@@ -179,7 +180,7 @@ impl Blocks<f32> {
     }
 }
 
-/// The corners of the triangle in a lane, for a kernel that packs them as they are.
+/// The corners of the triangle in a lane, for kernels that pack them unchanged.
 #[inline(always)]
 pub(super) fn corners<T: Stored<f32>>(rows: &[Row<T>], lane: usize) -> [Vec3; 3] {
     let value = |k: usize| -> f32 { rows[k].0[lane % BLOCK_SIZE].number() };
@@ -187,7 +188,7 @@ pub(super) fn corners<T: Stored<f32>>(rows: &[Row<T>], lane: usize) -> [Vec3; 3]
     [corner(0), corner(3), corner(6)]
 }
 
-/// The box around each of a block's triangles, as the kernel `K` takes their corners to be.
+/// The box around each of a block's triangles, with the corners as the kernel `K` computes them.
 #[inline(always)]
 pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
     token: S,
@@ -205,7 +206,7 @@ pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
     ]
 }
 
-/// The rows of all blocks.
+/// Packs the rows of all blocks.
 fn rows_of<T: Copy + Default + Send + Sync>(
     mesh: &TriangleMesh,
     bvh: &Bvh,
@@ -260,8 +261,8 @@ pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
     gathered.found
 }
 
-/// Whether a lane holds a triangle that the ray may hit.
+/// Whether a lane holds a triangle that the ray doesn't exclude.
 #[inline(always)]
-pub(super) fn is_asked(primitive: u32, exclude: Option<u32>) -> bool {
+pub(super) fn can_be_hit(primitive: u32, exclude: Option<u32>) -> bool {
     primitive != NO_PRIMITIVE && Some(primitive) != exclude
 }

@@ -1,6 +1,7 @@
-//! Triangles in half the memory: a block's corners once each, and which of them its triangles have.
+//! Compact storage of triangles in half the memory: each block's corners once, and indices of its triangles
+//! into them.
 //!
-//! A block's values are made of them anew for every test.
+//! A block's values are packed again for every test.
 
 use crate::bvh::{BLOCK_SIZE, Bvh};
 use crate::mesh::TriangleMesh;
@@ -9,29 +10,29 @@ use fearless_simd::Simd;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// How triangles are kept for tracing. The answers are the same, bit for bit.
+/// Storage of triangles for tracing. The results are the same, bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Packing {
-    /// As a kernel wants to read them: the quickest.
+    /// In the kernel's layout: the fastest.
     #[default]
     Full,
     /// In the least memory.
     Compact,
 }
 
-/// What lanes without a triangle hold.
+/// Contents of lanes without a triangle.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum EmptyLanes {
-    /// What no kernel hits.
+    /// Values that no kernel hits.
     Nothing,
-    /// The block's first triangle again.
+    /// A copy of the block's first triangle.
     First,
 }
 
-/// Blocks that a thread packs at a time.
+/// Blocks per chunk that a thread packs.
 pub(super) const BLOCKS_AT_ONCE: usize = 1024;
 
-/// A block's triangles: for A, B and C the corner in each lane, counted from the block's first one.
+/// A block's triangles: per lane, the indices of A, B and C among the block's corners.
 struct CornerSlots {
     first: u32,
     corners: [[u8; BLOCK_SIZE]; 3],
@@ -76,7 +77,7 @@ impl SharedCorners {
         all
     }
 
-    /// Adds a block of triangles.
+    /// Appends a block of triangles.
     fn push(&mut self, mesh: &TriangleMesh, triangles: &[u32], empty: EmptyLanes) {
         let first = self.corners.len();
         let mut vertices: Vec<u32> = Vec::with_capacity(3 * BLOCK_SIZE);
@@ -119,7 +120,7 @@ impl SharedCorners {
         [corner(0), corner(1), corner(2)]
     }
 
-    /// Asks the cache for a block.
+    /// Prefetches a block.
     #[inline(always)]
     pub fn announce<S: Simd>(&self, token: S, block: usize) {
         /// A block of a closed mesh has about as many corners as triangles.

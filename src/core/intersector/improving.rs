@@ -1,15 +1,15 @@
-//! An intersector under which the tree is replaced while rays are traced: every tree gives the same bits.
+//! Intersector whose tree can be replaced while rays are traced; every tree gives the same bits.
 
 use super::{Cost, Crossing, Intersector};
 use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
 
-/// Where the intersector is found that answers at present.
+/// Shared handle to the current intersector.
 #[derive(Clone)]
 pub(crate) struct Current(Arc<RwLock<Arc<dyn Intersector>>>);
 
-/// The same, for whoever replaces it while it is still used.
+/// Weak handle for the thread that replaces the intersector.
 pub(crate) struct WeakCurrent(Weak<RwLock<Arc<dyn Intersector>>>);
 
 impl Current {
@@ -21,27 +21,27 @@ impl Current {
         WeakCurrent(Arc::downgrade(&self.0))
     }
 
-    /// A pointer, so that no lock is held while tracing.
+    /// Clones the pointer, so that no lock is held while tracing.
     fn get(&self) -> Arc<dyn Intersector> {
         Arc::clone(&self.0.read().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
 impl WeakCurrent {
-    /// The next one answers from now on; it is made only if it is still wanted.
+    /// Replaces the intersector; `next` is called only if the handle is still in use.
     pub fn replace(&self, next: impl FnOnce() -> Box<dyn Intersector>) {
         if let Some(current) = self.0.upgrade() {
             let next = Arc::from(next());
             let mut place = current.write().unwrap_or_else(PoisonError::into_inner);
             let last = std::mem::replace(&mut *place, next);
-            // Its memory is freed when nobody waits for the lock.
+            // The old intersector is freed after the lock has been released.
             drop(place);
             drop(last);
         }
     }
 }
 
-/// Asks the one that answers at present.
+/// Forwards to the current intersector.
 pub(crate) struct Improving {
     pub kernel: &'static KernelInfo,
     pub current: Current,

@@ -1,10 +1,10 @@
-//! Where does a ray meet the scene? The tree and one kernel together.
+//! Intersectors: a tree and a kernel that together find a scene's hits.
 //!
-//! Kernel and CPU level are chosen when the intersector is made; a batch of rays then costs one virtual call,
-//! or two while a better tree is to come.
-//! `mesh` is for kernels that decide about each triangle by itself, `packet` for several rays of theirs at a
-//! time; `exact` for the one that weighs hits against each other; `improving` asks another one, under which the
-//! tree may be replaced.
+//! Kernel and CPU level are chosen when an intersector is made. A batch of rays then costs one virtual call,
+//! or two while a better tree is being built. `mesh` serves kernels that decide about each triangle
+//! separately, and `packet` traces several rays at once for them; `exact` serves the kernel that compares
+//! hits with each other; `improving` forwards to an intersector that can be replaced when a better tree is
+//! ready.
 
 mod blocks;
 mod compact;
@@ -19,91 +19,92 @@ use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};
 use std::slice::from_ref;
 
-/// What a ray cost.
+/// The cost of tracing a ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// Boxes tested.
     pub boxes: u32,
     /// Triangles tested.
     pub triangles: u32,
-    /// Triangles whose bounds the exact kernel had to narrow in f64; 0 for the others.
+    /// Triangles whose bounds the exact kernel narrowed in f64; 0 for the other kernels.
     pub in_f64: u32,
-    /// Decisions that it took in integers.
+    /// Decisions that the exact kernel took in integers.
     pub in_integers: u32,
 }
 
-/// A place where a ray meets the surface: a hit, and those at the same t.
+/// A point where a ray crosses the surface: a hit, and other hits at the same t.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Crossing {
-    /// That of the lowest primitive.
+    /// The hit of the lowest primitive.
     pub hit: Hit,
-    /// The other primitives, in order.
+    /// The other primitives, in ascending order.
     pub also: Vec<u32>,
 }
 
-/// Answers rays for one scene with one kernel.
+/// Finds the hits of rays in one scene with one kernel.
 ///
-/// Rays come from [`Ray::new`] or a [`Camera`](crate::Camera), so they hold no NaN. A ray's interval and
-/// hits are compared in the kernel's own precision; of hits at equal t the lowest primitive counts. A hit
-/// whose t is beyond f32's largest number is a miss.
+/// Rays come from [`Ray::new`] or a [`Camera`](crate::Camera), so they hold no NaN. A ray's interval and hits
+/// are compared in the kernel's precision; of hits at equal t the lowest primitive counts. A hit whose t
+/// exceeds the largest finite f32 is a miss.
 ///
-/// A hit counts only where the ray meets the box around the triangle, and comes no nearer than that box: the
-/// first of [`all_hits`](Self::all_hits), by t alone, may be another one where t errs by more than the box is
-/// large. So the tree changes no answer.
+/// A hit counts only if the ray meets the box around the triangle, and it ranks no nearer than that box. So
+/// answers don't depend on the tree. The first of [`all_hits`](Self::all_hits), which are ordered by t alone,
+/// may differ from the closest hit if t errs by more than the size of the box.
 pub trait Intersector: Send + Sync {
-    /// The kernel that it was made with.
+    /// The intersector's kernel.
     fn kernel(&self) -> &'static KernelInfo;
 
-    /// The nearest hit with `t_min < t < t_max` of each ray, or `None`.
+    /// Finds the nearest hit with `t_min < t < t_max` of each ray, or `None`.
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]);
 
-    /// The same, quicker for rays that go together: sixteen in a row that look much the same way.
+    /// As [`closest_hits`](Self::closest_hits), but faster for coherent rays: sixteen consecutive rays with
+    /// similar directions.
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         self.closest_hits(rays, hits);
     }
 
-    /// How many rays [`coherent_hits`](Self::coherent_hits) traces together.
+    /// The number of rays that [`coherent_hits`](Self::coherent_hits) traces together.
     fn rays_together(&self) -> usize {
         1
     }
 
-    /// That of one ray.
+    /// The nearest hit of one ray.
     fn closest_hit(&self, ray: &Ray) -> Option<Hit> {
         let mut hit = [None];
         self.closest_hits(from_ref(ray), &mut hit);
         hit[0]
     }
 
-    /// The same, and what it cost.
+    /// The nearest hit of one ray, and its cost.
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost);
 
-    /// Whether anything lies in `t_min < t < t_max`, ray by ray.
+    /// Finds out for each ray whether it has any hit with `t_min < t < t_max`.
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]);
 
-    /// The same for one ray.
+    /// Whether one ray has any hit.
     fn any_hit(&self, ray: &Ray) -> bool {
         let mut is_hit = [false];
         self.any_hits(from_ref(ray), &mut is_hit);
         is_hit[0]
     }
 
-    /// All hits with `t_min < t < t_max`, by t; those at equal t are one crossing.
+    /// All hits with `t_min < t < t_max`, ordered by t; hits at equal t form one crossing.
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing>;
 
-    /// The triangles in the leaves whose boxes the ray meets, in no particular order: all that it
-    /// could hit, whatever the kernel says.
+    /// The triangles in the leaves whose boxes the ray meets, in no particular order: all that it could hit,
+    /// with any kernel.
     fn candidates(&self, ray: &Ray) -> Vec<u32>;
 
-    /// Tests the ray against every triangle, tree and boxes aside, and counts the hits: for measurements.
-    /// What the ray excludes is not excluded, and an end of its interval may count.
+    /// Counts the hits among all triangles, without tree and boxes, for measurements. The ray's `exclude` is
+    /// ignored, and hits at an end of its interval may count.
     fn count_hits(&self, ray: &Ray) -> usize;
 
-    /// Bytes that the packed triangles take, the tree not counted.
+    /// Size of the packed triangles in bytes, without the tree.
     fn bytes(&self) -> usize;
 }
 
-/// Answers those rays whose intervals begin behind their origins, one by one: boxes then need padding on both
-/// sides, which the others aren't to pay for.
+/// Traces the rays whose intervals start behind their origins, one by one. These rays need boxes padded on
+/// both sides, a cost that the other rays avoid.
 fn answer_behind<T>(rays: &[Ray], answers: &mut [T], answer: impl Fn(&Ray) -> T) {
     let pairs = rays.iter().zip(answers);
     for (ray, place) in pairs.filter(|(ray, _)| is_behind(ray)) {
@@ -111,7 +112,7 @@ fn answer_behind<T>(rays: &[Ray], answers: &mut [T], answer: impl Fn(&Ray) -> T)
     }
 }
 
-/// Whether a ray's interval begins behind its origin.
+/// Whether a ray's interval starts behind its origin.
 fn is_behind(ray: &Ray) -> bool {
     ray.t_min < 0.0
 }

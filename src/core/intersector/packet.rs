@@ -1,5 +1,5 @@
-//! Sixteen rays at a time against a mesh, a ray a lane: for rays that start together and look much the
-//! same way, as a camera's do.
+//! Traces packets of sixteen rays against a mesh, one ray per lane. For rays with a common origin and similar
+//! directions, such as a camera's.
 
 use super::Intersector;
 use super::blocks::{Blocks, LaneValues, Scratch, boxes, corners};
@@ -14,8 +14,7 @@ use crate::simd::prefetch;
 use fearless_simd::{Simd, dispatch, f32x16, prelude::*, u32x8, u32x16};
 use glam::Vec3;
 
-/// Looks for the nearest hit of each ray. The same order of hits as for rays one by one: see
-/// `Found::is_before` in `mesh`.
+/// Finds the nearest hit of each ray. Orders hits as for single rays; see `Found::is_before` in `mesh`.
 struct Nearest<'a, K: Kernel, S: Simd> {
     token: S,
     all: &'a [Ray; PACKET],
@@ -84,8 +83,8 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
     }
 }
 
-/// Decides about the rays whose bits are set, and returns those that hit.
-// Out of line: it is the rare path, and the common one is the better for it.
+/// Decides about the rays whose bits are set, and returns the bits of those that hit.
+// Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
 fn decide<K: Kernel>(
     rays: &[Ray; PACKET],
@@ -106,7 +105,7 @@ fn decide<K: Kernel>(
 }
 
 impl<K: Kernel> MeshIntersector<K, f32> {
-    /// Lets the intersector trace rays together that go together.
+    /// Enables tracing of coherent rays as packets.
     pub fn with_packets(self) -> Self {
         Self {
             packets: Some(Self::trace_packets),
@@ -115,7 +114,7 @@ impl<K: Kernel> MeshIntersector<K, f32> {
     }
 
     fn trace_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        /// A bit each for those that don't go together.
+        /// One bit per packet marks those that aren't coherent.
         const AT_ONCE: usize = u64::BITS as usize * PACKET;
         for (rays, hits) in rays.chunks(AT_ONCE).zip(hits.chunks_mut(AT_ONCE)) {
             let (packets, rest) = rays.as_chunks::<PACKET>();
@@ -125,8 +124,8 @@ impl<K: Kernel> MeshIntersector<K, f32> {
                 dispatch!(self.level.level(), token => {
                     let mut alone = 0u64;
                     for (i, (rays, hits)) in packets.iter().zip(&mut *hits_of_packets).enumerate() {
-                        // A packet is done in less time than its rays take to come from memory: without
-                        // this a quarter less (bunny, 2026-11).
+                        // Tracing a packet takes less time than loading its rays from memory: without the
+                        // prefetch a quarter less is traced (bunny, 2026-11).
                         prefetch(token, packets, i + 1, size_of_val(rays));
                         alone |= u64::from(!self.packet(token, rays, hits, stack, &mut scratch)) << i;
                     }
@@ -142,7 +141,7 @@ impl<K: Kernel> MeshIntersector<K, f32> {
         }
     }
 
-    /// Finds the hits of rays that go together; says no if they don't.
+    /// Finds the hits of coherent rays; returns `false` if they aren't coherent.
     #[inline(always)]
     fn packet<S: Simd>(
         &self,

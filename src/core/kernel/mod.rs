@@ -1,7 +1,7 @@
-//! Tests of a ray against a primitive: one algorithm a file, written once over a lane type.
+//! Ray–primitive tests: one algorithm per file, written once and generic over the lane type.
 //!
-//! A new triangle kernel is its file in `triangle/` and its lines in `triangle/mod.rs`: the module, and a
-//! row of [`TRIANGLE_KERNELS`] for each precision.
+//! To add a triangle kernel, add its file in `triangle/`, and to `triangle/mod.rs` the module and a row of
+//! [`TRIANGLE_KERNELS`] for each precision.
 
 mod ray_lanes;
 mod triangle;
@@ -19,21 +19,22 @@ use crate::lane::{Lane, LaneMask, Number, Stored};
 use crate::ray::Ray;
 use glam::Vec3;
 
-/// The tier that a user chooses by, from fast to exact.
+/// A kernel's tier, from fast to exact.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Tier {
-    /// The quickest; promises nothing beyond what is measured.
+    /// The fastest; promises nothing beyond the measured figures.
     Fast,
-    /// Hit or miss as exact arithmetic says, so no gap between triangles that share an edge or a vertex.
+    /// Hits and misses match exact arithmetic, so there are no gaps between triangles that share an edge or a
+    /// vertex.
     Watertight,
-    /// The same, and t to f32's last place.
+    /// As watertight, with t correct to the last place of f32.
     Precise,
-    /// Hit or miss, and which of two hits is nearer, always as exact arithmetic says.
+    /// Hits, misses and the order of hits match exact arithmetic.
     Exact,
 }
 
 impl Tier {
-    /// As `--kernel` takes it.
+    /// The name that `--kernel` takes.
     pub fn name(self) -> &'static str {
         match self {
             Self::Fast => "fast",
@@ -44,19 +45,19 @@ impl Tier {
     }
 }
 
-/// What a kernel computes in.
+/// The arithmetic of a kernel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Precision {
-    /// 24 binary digits.
+    /// 24 significant bits.
     F32,
-    /// 53 binary digits, of the f32 mesh.
+    /// 53 significant bits, on the f32 mesh.
     F64,
-    /// As many as it takes.
+    /// As many bits as the decision needs.
     Adaptive,
 }
 
 impl Precision {
-    /// For tables.
+    /// The name shown in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::F32 => "f32",
@@ -66,21 +67,22 @@ impl Precision {
     }
 }
 
-/// What a kernel promises beyond the figures that are measured; the conformance suite tests it.
+/// The guarantees of a kernel beyond the measured figures; the conformance suite tests them.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Promises {
-    /// No ray slips between triangles of a closed mesh.
+    /// No ray passes between adjacent triangles of a closed mesh.
     pub is_watertight: bool,
-    /// Hit or miss as exact arithmetic says, and t within 0.7 ulp of f32.
+    /// Hits and misses match exact arithmetic, and t is within 0.7 ulp of f32.
     pub is_accurate: bool,
-    /// Hit or miss, and the order of two hits, are as exact arithmetic says.
+    /// Hits, misses and the order of two hits match exact arithmetic.
     pub is_exact: bool,
-    /// Where moving ray and triangle by the same vector rounds no coordinate, it changes no bit.
+    /// Translating ray and triangle by the same vector changes no bit, provided that no coordinate is
+    /// rounded.
     pub is_translation_invariant: bool,
 }
 
 impl Promises {
-    /// What a kernel keeps that starts from differences of coordinates.
+    /// The promises of a kernel that starts from differences of coordinates.
     pub(crate) const PLAIN: Self = Self {
         is_watertight: false,
         is_accurate: false,
@@ -89,40 +91,40 @@ impl Promises {
     };
 }
 
-/// What a kernel says of itself.
+/// A kernel's description.
 #[derive(Clone, Copy, Debug)]
 pub struct KernelInfo {
-    /// As `--kernel` takes it.
+    /// The name that `--kernel` takes.
     pub name: &'static str,
-    /// For menus.
+    /// The title shown in menus.
     pub title: &'static str,
     /// The tier it serves, if any.
     pub tier: Option<Tier>,
-    /// What it computes in.
+    /// Its arithmetic.
     pub precision: Precision,
     /// Author, title, year.
     pub source: &'static str,
-    /// What it is good and bad at, in a sentence.
+    /// Its strengths and weaknesses in a sentence.
     pub summary: &'static str,
-    /// What the conformance suite holds it to.
+    /// The guarantees that the conformance suite tests.
     pub promises: Promises,
 }
 
 impl KernelInfo {
-    /// As a user asks for it: by its tier if it serves one, else by its own name.
+    /// The name of its tier if it serves one, else its own name.
     pub fn short_name(&self) -> &'static str {
         self.tier.map_or(self.name, Tier::name)
     }
 }
 
-/// What a test found: which lanes hit, and t, u and v there. Other lanes are undefined.
+/// The result of a test: the lanes that hit, with t, u and v. Other lanes are undefined.
 #[derive(Clone, Copy)]
 pub(crate) struct LaneHit<L: Lane> {
     /// The lanes that hit.
     pub mask: L::Mask,
-    /// The lanes that [`Kernel::decide`] decides about.
+    /// The lanes that [`Kernel::decide`] must decide.
     pub doubtful: L::Mask,
-    /// Distance in lengths of the direction.
+    /// Distance in units of the direction's length.
     pub t: L,
     /// Weight of the second vertex.
     pub u: L,
@@ -131,7 +133,7 @@ pub(crate) struct LaneHit<L: Lane> {
 }
 
 impl<L: Lane> LaneHit<L> {
-    /// No lane is in doubt; `None` if no lane hit.
+    /// A result without doubtful lanes; `None` if no lane hit.
     #[inline(always)]
     pub fn certain(mask: L::Mask, t: L, u: L, v: L) -> Option<Self> {
         mask.any().then_some(Self {
@@ -144,15 +146,15 @@ impl<L: Lane> LaneHit<L> {
     }
 }
 
-/// What a kernel keeps of triangles side by side, one a lane.
+/// The packed values of several triangles, one triangle per lane.
 ///
-/// A kernel asks for the values that it wants: to permute the axes then costs it an address, no
+/// A kernel loads only the values that it needs, so permuting the axes changes an address and needs no
 /// shuffle of loaded vectors.
 pub(crate) trait Values<L: Lane> {
-    /// A value, by the index at which the kernel packed it.
+    /// The value at an index of the kernel's packed layout.
     fn value(&self, index: usize) -> L;
 
-    /// Three values in a row.
+    /// Three consecutive values.
     #[inline(always)]
     fn three(&self, first: usize) -> [L; 3] {
         [
@@ -173,37 +175,36 @@ impl<N: Number, T: Stored<N>> Values<N> for OneTriangle<'_, T> {
     }
 }
 
-/// One algorithm, in f32 and in f64.
+/// A ray–triangle algorithm in f32 and f64.
 pub(crate) trait Kernel: Send + Sync + 'static {
-    /// What it says of itself in f32.
+    /// Its description in f32.
     const IN_F32: KernelInfo;
-    /// What it says of itself in f64.
+    /// Its description in f64.
     const IN_F64: KernelInfo;
-    /// How many numbers it keeps of a triangle.
+    /// The number of values stored per triangle.
     const VALUES: usize;
-    /// What it keeps them as where it works in `N`.
+    /// The type of the stored values when computing in `N`.
     type Stored<N: Number>: Stored<N> + Stored<f32>;
-    /// Rays made ready for many tests.
+    /// Rays prepared for many tests.
     type Prepared<L: Lane>: Copy;
 
-    /// Whether lanes may be doubtful. A lane without a triangle would then always be: it holds another
-    /// triangle's corners, as no corner is NaN.
+    /// Whether lanes can be doubtful. If so, lanes without a triangle hold another triangle's corners: NaN
+    /// corners would always be doubtful.
     const IS_ADAPTIVE: bool = false;
 
-    /// Makes a triangle ready; done once, into [`VALUES`](Self::VALUES) numbers.
+    /// Packs a triangle into [`VALUES`](Self::VALUES) numbers, once.
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [Self::Stored<N>]);
 
-    /// The box around each triangle as `pack::<N>` packed it, exactly; within
-    /// [`triangle_bounds`].
+    /// The exact box around each triangle as packed by `pack::<N>`; it lies within [`triangle_bounds`].
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L>;
 
-    /// Makes rays ready; done once a ray.
+    /// Prepares rays, once per ray.
     fn prepare<L: Lane>(rays: &RayLanes<L>) -> Self::Prepared<L>;
 
-    /// Tests lane by lane a ray against a triangle: one ray against many triangles, or many against one.
+    /// Tests a ray against a triangle in each lane: one ray against many triangles, or many rays against one.
     ///
-    /// A hit has `t_min < t ≤ t_max`; a triangle with a NaN is a miss, and so is one of zero area
-    /// where the kernel recognises it. `None`: no lane hit.
+    /// A hit has `t_min < t ≤ t_max`. A triangle with a NaN is a miss, and so is one of zero area if the
+    /// kernel detects it. Returns `None` if no lane hit.
     fn intersect<L: Lane>(
         ray: &Self::Prepared<L>,
         triangles: &impl Values<L>,
@@ -211,18 +212,17 @@ pub(crate) trait Kernel: Send + Sync + 'static {
         t_max: L,
     ) -> Option<LaneHit<L>>;
 
-    /// t, u and v where a ray hits a triangle in the ray's interval, for a lane that `intersect` left in
-    /// doubt.
+    /// t, u and v of the hit in the ray's interval, for a lane that `intersect` left doubtful.
     #[cold]
     fn decide<N: Number>(_: &Ray, _: [Vec3; 3]) -> Option<[N; 3]> {
         None
     }
 }
 
-/// As many values as any kernel keeps of a triangle.
+/// The largest number of values that any kernel stores per triangle.
 pub(crate) const MOST_VALUES: usize = 18;
 
-/// Packs the corners as they are: the x, y and z of A, of B, of C.
+/// Packs the corners unchanged: x, y and z of A, then of B, then of C.
 pub(crate) fn pack_corners(corners: [Vec3; 3], values: &mut [f32]) {
     for (corner, kept) in corners.iter().zip(values.chunks_exact_mut(3)) {
         kept.copy_from_slice(&corner.to_array());

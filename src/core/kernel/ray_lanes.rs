@@ -1,24 +1,25 @@
-//! Rays side by side.
+//! Rays in SIMD lanes.
 
 use crate::lane::{Lane, LaneMask, longest_axis};
 use crate::ray::Ray;
 
-/// One ray in every lane, or as many rays as there are lanes, all of which look along the same axis.
+/// One ray in every lane, or a different ray in each lane, all with the same dominant axis and direction
+/// along it.
 #[derive(Clone, Copy)]
 pub(crate) struct RayLanes<L> {
-    /// Where they start.
+    /// Origins.
     pub origin: [L; 3],
-    /// Where they go.
+    /// Directions.
     pub dir: [L; 3],
-    /// The ends of their intervals.
+    /// Starts and ends of the intervals.
     pub interval: [L; 2],
-    /// Which coordinates to take as x, y and z: z is the direction's longest one, the next two are x and
-    /// y, swapped where z looks backwards, which keeps the triangles' winding.
+    /// The coordinates to use as x, y and z. z is the direction's longest component; x and y are the next
+    /// two, swapped if z points backwards, which preserves the triangles' winding.
     pub axes: [usize; 3],
 }
 
 impl<L: Lane> RayLanes<L> {
-    /// The same ray in every lane.
+    /// Puts the same ray in every lane.
     #[inline(always)]
     pub fn of(token: L::Token, ray: &Ray) -> Self {
         let ([x, y, z], [i, j, k]) = (ray.origin.to_array(), ray.dir.to_array());
@@ -31,7 +32,7 @@ impl<L: Lane> RayLanes<L> {
         }
     }
 
-    /// A ray in each lane; `None` if they don't all look along the same axis.
+    /// Puts a different ray in each lane; `None` if their dominant axes or directions along them differ.
     #[inline(always)]
     pub fn side_by_side(origin: [L; 3], dir: [L; 3], interval: [L; 2]) -> Option<Self> {
         let size = [dir[0].abs(), dir[1].abs(), dir[2].abs()];
@@ -56,7 +57,7 @@ impl<L: Lane> RayLanes<L> {
     }
 }
 
-/// See [`RayLanes::axes`].
+/// The axes of a direction; see [`RayLanes::axes`].
 #[inline(always)]
 pub(crate) fn axes_of(dir: [f32; 3]) -> [usize; 3] {
     let z = longest_axis(dir);
@@ -75,7 +76,7 @@ mod tests {
     use glam::Vec3;
 
     #[test]
-    fn the_axes_keep_the_winding_whichever_way_the_ray_looks() {
+    fn the_axes_preserve_winding_in_every_direction() {
         for dir in [Vec3::X, Vec3::Y, Vec3::Z] {
             for sign in [1.0, -1.0] {
                 let d = (dir * sign).to_array();

@@ -1,9 +1,9 @@
-//! The tree's builder: top-down, directly to eight children, with splits chosen by the surface-area heuristic.
+//! Top-down tree builder: splits directly into eight children, by the surface-area heuristic.
 //!
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
-//! centroids' box). Differs from it: a node's largest child is split until there are eight; costs
-//! count blocks, as a SIMD test costs the same with full and with empty lanes; near the root several threads bin
-//! and partition a range together, below it each thread builds subtrees of its own.
+//!   centroids' box). Differs from it: a node's largest child is split until there are eight; costs count
+//!   blocks, as a SIMD test costs the same with full and with empty lanes; near the root several threads bin
+//!   and partition a range together; below it each thread builds separate subtrees.
 
 mod quick;
 mod split;
@@ -17,23 +17,23 @@ use glam::{Vec3A, Vec4};
 use rayon::prelude::*;
 use split::{Scale, Splitter};
 
-/// Smaller subtrees are built by one thread.
+/// Subtrees with fewer primitives are built by one thread.
 const LEAST_JOB: usize = 4096;
-/// Least number of subtrees that the threads share.
+/// Smallest number of subtrees that the threads share.
 const JOBS: usize = 64;
-/// Smaller ranges are built without a check for cancellation.
+/// Ranges with fewer primitives are built without a check for cancellation.
 const ASK_FROM: usize = 1024;
 
-/// A primitive while the tree is built: its box and its index.
+/// A primitive during the build: its box and its index.
 ///
-/// The index is kept out of the vectors that the builder computes with: as the bits of an f32 a small
-/// integer is a subnormal number, and an Intel processor takes some 150 cycles for each operation on one.
-/// Wherever the compiler loads four lanes from either corner, the fourth is a coordinate or the zero.
+/// The index is kept out of the vectors that the builder computes with: interpreted as an f32, a small
+/// integer is a subnormal number, on which an operation takes an Intel processor some 150 cycles. If the
+/// compiler loads four lanes from either corner, the fourth lane is a coordinate or zero.
 #[derive(Clone, Copy)]
 #[repr(C, align(32))]
 struct Item {
     lower: [f32; 3],
-    /// The fourth is 0.
+    /// The fourth component is 0.
     upper: [f32; 4],
     index: u32,
 }
@@ -56,7 +56,7 @@ impl Item {
     }
 }
 
-/// The primitives that rays can hit: those whose boxes are neither empty nor hold a NaN or an infinity.
+/// The primitives that rays can hit: those whose boxes aren't empty and hold no NaN or infinity.
 fn items_of(count: usize, bounds_of: impl Fn(u32) -> Aabb + Sync) -> Vec<Item> {
     let item = |index| {
         let bounds = bounds_of(index);
@@ -95,7 +95,7 @@ impl From<Bounds> for Aabb {
     }
 }
 
-/// A run of primitives, the box around them, and the box around their centres.
+/// A run of primitives with the box around them and the box around their centres.
 struct Range<'a> {
     items: &'a mut [Item],
     bounds: Bounds,
@@ -109,7 +109,7 @@ struct Subtree {
     blocks: Vec<[u32; BLOCK_SIZE]>,
 }
 
-/// A subtree that is still to be built, and the node and slot of which it becomes the child.
+/// A subtree that is still to be built, and the node and slot that will hold it.
 struct Job<'a> {
     range: Range<'a>,
     depth: usize,
@@ -177,7 +177,7 @@ impl Bvh {
         Ok(bvh)
     }
 
-    /// Appends subtrees, and links each to its node.
+    /// Appends subtrees and links each to its node.
     fn append(&mut self, places: Vec<(usize, usize)>, subtrees: Vec<(Child, Subtree)>) {
         let count = |of: fn(&Subtree) -> usize| subtrees.iter().map(|(_, tree)| of(tree)).sum();
         self.nodes.reserve_exact(count(|tree| tree.nodes.len()));
@@ -194,7 +194,7 @@ impl Bvh {
     }
 }
 
-/// Builds a subtree, and leaves parts of it as jobs.
+/// Builds a subtree and leaves parts of it as jobs.
 struct Builder<'a, 'k> {
     splitter: Splitter,
     keep_going: KeepGoing<'k>,
@@ -205,7 +205,7 @@ struct Builder<'a, 'k> {
 }
 
 impl<'a> Builder<'a, '_> {
-    /// The root is a node even in a tree of one leaf, so that its box is tested.
+    /// The root is a node even if the tree has one leaf, so that its box is tested.
     fn root(&mut self, range: Range<'a>) -> Result<(), Cancelled> {
         match self.split(range, 0) {
             Ok(halves) => self.node(halves, 0)?,
@@ -228,7 +228,7 @@ impl<'a> Builder<'a, '_> {
         }
     }
 
-    /// Splits a range in two, or returns it where a leaf is better.
+    /// Splits a range in two, or returns it if a leaf is cheaper.
     fn split(&mut self, range: Range<'a>, depth: usize) -> Result<[Range<'a>; 2], Range<'a>> {
         let count = range.items.len();
         if count <= BLOCK_SIZE {
@@ -241,13 +241,13 @@ impl<'a> Builder<'a, '_> {
         self.splitter.split(range)
     }
 
-    /// A node above the two ranges.
+    /// Builds a node above the two ranges.
     fn node(&mut self, [first, second]: [Range<'a>; 2], depth: usize) -> Result<Child, Cancelled> {
         if first.items.len() + second.items.len() >= ASK_FROM {
             (self.keep_going)()?;
         }
         let mut ranges: [Option<Range<'a>>; WIDTH] = [const { None }; WIDTH];
-        // The area of ranges that may be split again, else 0.
+        // The area of each range that may be split again, else 0.
         let mut weight = [0.0; WIDTH];
         (weight[0], weight[1]) = (self.weight(&first), self.weight(&second));
         (ranges[0], ranges[1]) = (Some(first), Some(second));
@@ -310,8 +310,8 @@ impl<'a> Builder<'a, '_> {
     }
 }
 
-/// Takes the range with the largest weight out of its slot, and sets that weight to 0. Of equal weights, which
-/// identical boxes have, the range with more primitives is taken.
+/// Takes the range with the largest weight from its slot and sets that weight to 0. Of equal weights, which
+/// identical boxes have, takes the range with more primitives.
 fn take_largest<'a>(
     ranges: &mut [Option<Range<'a>>; WIDTH],
     weight: &mut [f32; WIDTH],

@@ -1,4 +1,4 @@
-//! A builder that is fast: primitives in the order of a space-filling curve, eight per block, eight blocks or
+//! Fast tree builder: primitives in the order of a space-filling curve, eight per block, eight blocks or
 //! nodes per node. Its trees are slower to trace than those of the surface-area heuristic.
 //!
 //! Source: C. Lauterbach, M. Garland, S. Sengupta, D. Luebke, D. Manocha, "Fast BVH Construction on GPUs",
@@ -17,7 +17,7 @@ use rayon::prelude::*;
 const BITS: u32 = 10;
 
 impl Bvh {
-    /// Builds a tree like [`build`](Self::build), in a fraction of the time; rays take longer.
+    /// Builds a tree in a fraction of the time of [`build`](Self::build); rays take longer.
     ///
     /// # Errors
     /// [`Cancelled`] if `keep_going` returned it.
@@ -30,7 +30,7 @@ impl Bvh {
         let items = items_of(count, bounds_of);
         let bounds = around(&items);
         let grid = Grid::over(bounds);
-        // The code in the upper half, the index in the lower one: one number to sort by.
+        // The code in the upper half, the index in the lower half, so that one number can be sorted.
         let key = |at: usize| u64::from(grid.code(items[at].bounds())) << 32 | at as u64;
         let mut order: Vec<u64> = (0..items.len()).into_par_iter().map(key).collect();
         keep_going()?;
@@ -103,7 +103,7 @@ struct Grid {
 impl Grid {
     fn over(bounds: Bounds) -> Self {
         let cells = (1 << BITS) as f32;
-        // Halves, as the extent may leave f32.
+        // Computed from halves, as the extent may overflow f32.
         let half = 0.5 * bounds.upper - 0.5 * bounds.lower;
         let per_length = Vec3A::splat(0.5 * cells) / half;
         Self {
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn bits_are_spread_two_apart() {
+    fn spread_inserts_two_zeros_between_bits() {
         for bit in 0..BITS {
             assert_eq!(spread(1 << bit), 1 << (3 * bit));
         }

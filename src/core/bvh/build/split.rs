@@ -1,22 +1,22 @@
-//! Splits a range of primitives in two: by bins along each axis and the surface-area heuristic.
+//! Splits a range of primitives in two, by bins along each axis and the surface-area heuristic.
 
 use super::super::{BLOCK_SIZE, LEAF_BLOCKS};
 use super::{Bounds, Item, Range};
 use glam::Vec3A;
 use rayon::prelude::*;
 
-/// Most bins of an axis; a power of two.
+/// Largest number of bins per axis; a power of two.
 const BINS: usize = 32;
 /// Larger ranges are binned and partitioned by several threads together.
 const TOGETHER_FROM: usize = 1 << 16;
-/// Primitives per thread and chunk of these.
+/// Primitives per chunk that one thread bins.
 const CHUNK: usize = 1 << 14;
 
-/// The power of two by which lengths are multiplied, so that areas neither over- nor underflow.
+/// Power-of-two factor of lengths that keeps areas from over- and underflowing.
 #[derive(Clone, Copy)]
 pub(super) struct Scale {
     lengths: f32,
-    /// Half of it: a centre is half the sum of two corners.
+    /// Half of `lengths`: a centre is half the sum of two corners.
     centres: f32,
 }
 
@@ -27,7 +27,7 @@ impl Scale {
         let extent = (upper - lower)
             .max_element()
             .max(f64::from(f32::MIN_POSITIVE));
-        // The exponent from its bits: a logarithm may differ from machine to machine.
+        // The exponent is taken from the bits: a logarithm may differ between machines.
         let exponent = ((extent.to_bits() >> 52) as i32 - 1023).clamp(-120, 126);
         let lengths = f32::from_bits(((127 - exponent) as u32) << 23);
         Self {
@@ -98,7 +98,7 @@ struct Grid {
     scale: Scale,
     bins: usize,
     start: Vec3A,
-    /// 0 along an axis in which all centres are the same.
+    /// 0 along an axis in which all centres coincide.
     per_length: Vec3A,
 }
 
@@ -115,10 +115,10 @@ impl Grid {
         }
     }
 
-    /// The bin along each axis.
+    /// The bin of a box along each axis.
     #[inline(always)]
     fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
-        // From 2²³ on floats are integers: the sum rounds to one, and its low bits are the bin.
+        // Floats from 2²³ on are integers: the sum rounds to one, and its low bits are the bin.
         const WHOLE: Vec3A = Vec3A::splat((1 << 23) as f32);
         let place = (self.scale.centre(bounds) - self.start) * self.per_length;
         let whole = (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + WHOLE;
@@ -128,7 +128,7 @@ impl Grid {
     }
 }
 
-/// The primitives in each bin of each axis: their box and their number.
+/// The box and the number of the primitives in each bin of each axis.
 struct FilledBins {
     bounds: [[Bounds; BINS]; 3],
     counts: [[u32; BINS]; 3],
@@ -174,7 +174,7 @@ impl FilledBins {
 struct Cut {
     cost: f32,
     axis: usize,
-    /// The first bin above it.
+    /// The first bin above the plane.
     bin: usize,
 }
 
@@ -192,7 +192,7 @@ impl Splitter {
         }
     }
 
-    /// Splits a range where it costs least, or returns it where a leaf costs no more.
+    /// Splits a range at the cheapest plane, or returns it if a leaf costs no more.
     pub fn split<'a>(&mut self, range: Range<'a>) -> Result<[Range<'a>; 2], Range<'a>> {
         let count = range.items.len();
         let grid = Grid::new(self.scale, range.centres, count);
@@ -211,7 +211,7 @@ impl Splitter {
         Ok(halves(range.items, middle, sides))
     }
 
-    /// Splits a range by count, in its present order.
+    /// Splits a range in its present order into halves of equal count.
     pub fn halve<'a>(&self, range: Range<'a>) -> [Range<'a>; 2] {
         let middle = range.items.len() / 2;
         let (low, high) = range.items.split_at(middle);
@@ -244,8 +244,8 @@ impl Splitter {
         }
     }
 
-    /// The cheapest plane between bins along any axis, with costs in blocks times area; `None` if no plane separates
-    /// the centres.
+    /// The cheapest plane between bins along any axis, with costs in blocks times area; `None` if no plane
+    /// separates the centres.
     fn best_cut(&self, grid: &Grid) -> Option<Cut> {
         let mut best: Option<Cut> = None;
         let cost = |bounds: Bounds, count: u32| self.scale.half_area(bounds) * blocks(count);
@@ -319,9 +319,9 @@ fn halves(items: &mut [Item], middle: usize, [low, high]: [SideBoxes; 2]) -> [Ra
     [range(first, low), range(second, high)]
 }
 
-/// Moves the items for which `is_below` holds to the front, in place; returns their number and the boxes of both
-/// sides. Large ranges are partitioned in halves at the same time, whose middle parts then swap places. The
-/// count alone decides how, so that the order doesn't depend on the threads.
+/// Moves the items for which `is_below` holds to the front, in place; returns their number and the boxes of
+/// both sides. The halves of a large range are partitioned in parallel, then their middle parts swap places.
+/// This depends on the count alone, so the order doesn't depend on the threads.
 fn partition(
     items: &mut [Item],
     scale: Scale,

@@ -5,17 +5,17 @@ use glam::Vec3;
 
 fn build(boxes: &[Aabb]) -> Bvh {
     let bounds_of = |primitive: u32| boxes[primitive as usize];
-    Bvh::build(boxes.len(), bounds_of, &|| Ok(())).expect("nobody cancels")
+    Bvh::build(boxes.len(), bounds_of, &|| Ok(())).expect("never cancelled")
 }
 
 fn build_quickly(boxes: &[Aabb]) -> Bvh {
     let bounds_of = |primitive: u32| boxes[primitive as usize];
-    Bvh::build_quickly(boxes.len(), bounds_of, &|| Ok(())).expect("nobody cancels")
+    Bvh::build_quickly(boxes.len(), bounds_of, &|| Ok(())).expect("never cancelled")
 }
 
 const BUILDERS: [fn(&[Aabb]) -> Bvh; 2] = [build, build_quickly];
 
-/// Every primitive in exactly one block, every block within its ancestors' boxes.
+/// Asserts that every primitive is in exactly one block, and every block within its ancestors' boxes.
 fn assert_sound(bvh: &Bvh, boxes: &[Aabb], expected: usize) {
     let mut seen = vec![0; boxes.len()];
     let mut stack: Vec<(usize, Aabb, usize)> = vec![];
@@ -66,7 +66,7 @@ fn scattered(n: u64) -> Vec<Aabb> {
 }
 
 #[test]
-fn every_primitive_is_in_one_leaf_and_every_box_holds_what_is_below() {
+fn every_primitive_is_in_one_leaf_and_every_box_encloses_its_children() {
     for n in [0, 1, 8, 9, 1000, 150_000] {
         let boxes = scattered(n);
         for build in BUILDERS {
@@ -109,7 +109,7 @@ fn the_tree_does_not_depend_on_the_scenes_size() {
 }
 
 #[test]
-fn boxes_that_no_ray_can_meet_are_left_out() {
+fn boxes_that_no_ray_can_meet_are_omitted() {
     let good = Aabb::around([Vec3::ZERO, Vec3::ONE]);
     let nan = Aabb {
         min: Vec3::splat(f32::NAN),
@@ -125,7 +125,7 @@ fn boxes_that_no_ray_can_meet_are_left_out() {
     }
 }
 
-/// All four lanes of a register, of which a vector of three coordinates names three.
+/// All four lanes of a register, including the one that isn't a coordinate.
 #[cfg(target_arch = "x86_64")]
 fn lanes(v: Vec3A) -> [f32; 4] {
     bytemuck::cast(std::arch::x86_64::__m128::from(v))
@@ -148,7 +148,7 @@ fn no_lane_that_the_builder_computes_with_is_subnormal() {
 }
 
 #[test]
-fn a_cancelled_build_says_so() {
+fn a_cancelled_build_returns_an_error() {
     let unit = |_| Aabb::around([Vec3::ZERO, Vec3::ONE]);
     assert!(Bvh::build(2000, unit, &|| Err(Cancelled)).is_err());
     assert!(Bvh::build_quickly(2000, unit, &|| Err(Cancelled)).is_err());

@@ -1,5 +1,4 @@
-//! A mesh, packed for the exact kernel: hits are weighed against each other as exact arithmetic orders
-//! them.
+//! Intersector of a mesh for the exact kernel, which orders hits as exact arithmetic does.
 
 mod visitors;
 
@@ -22,7 +21,7 @@ use visitors::{Any, Each, KeptHits, LaneCandidate, Nearest, Tester};
 
 type Vector<S> = <f32 as Number>::Lanes<S>;
 
-/// Triangles for the exact kernel.
+/// Triangles packed for the exact kernel.
 pub(crate) struct ExactIntersector {
     blocks: Blocks<f32>,
     level: SimdLevel,
@@ -37,7 +36,8 @@ impl ExactIntersector {
         }
     }
 
-    /// The corners in a slot, a lane of a block. From there and not from the mesh: they are in the cache.
+    /// The corners in a slot, which is a lane of a block. They are read from the block, not from the mesh,
+    /// because the block is in the cache.
     #[inline(always)]
     fn corners(&self, slot: usize) -> [Vec3; 3] {
         self.blocks.corners(slot / BLOCK_SIZE, slot % BLOCK_SIZE)
@@ -79,7 +79,7 @@ impl ExactIntersector {
                 far: f32::INFINITY,
                 is_certain: true,
             },
-            weighed: None,
+            narrowed: None,
             t_max: ray.t_max,
         };
         self.blocks.bvh.walk(token, ray, stack, &mut visitor);
@@ -136,7 +136,7 @@ impl ExactIntersector {
         count
     }
 
-    /// Finds what rays hit first, for those that don't begin behind their origins.
+    /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
     #[inline(always)]
     fn find<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
@@ -152,7 +152,7 @@ impl ExactIntersector {
                 && let Some(candidate) =
                     self.nearest::<MAYBE_COMPACT, S>(token, &rays[i], stack, &mut scratch)
             {
-                // Now, while the corners are in the cache.
+                // Store the corners now, while they are in the cache.
                 let corners = self.corners(candidate.slot);
                 let count = batch.count;
                 batch.lanes[count / LANES].set(count % LANES, &rays[i], corners);
@@ -163,7 +163,7 @@ impl ExactIntersector {
         }
     }
 
-    /// Whether rays hit anything, for the same.
+    /// Finds out whether these rays hit anything.
     #[inline(always)]
     fn find_any<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
@@ -180,7 +180,7 @@ impl ExactIntersector {
         }
     }
 
-    /// Rounds what was found.
+    /// Rounds the batch's hits.
     #[inline(always)]
     fn round<S: Simd>(
         &self,
@@ -202,10 +202,10 @@ impl ExactIntersector {
     }
 }
 
-/// Adds the hits to `crossings`, by t, those at equal t together and by primitive.
+/// Appends the hits to `crossings`, ordered by t. Hits at equal t form one crossing, ordered by primitive.
 ///
-/// A quicksort in three parts: each hit is compared with few others, also where thousands are at equal t, as at
-/// the tip of a fan or around an edge, where a comparison takes integers.
+/// A three-way quicksort: it compares each hit with few others, even if thousands are at equal t, as at the
+/// tip of a fan or around an edge, where a comparison needs integers.
 fn sort_into_crossings<F: Fn(usize) -> [Vec3; 3]>(
     judge: &mut Judge<'_, F>,
     hits: Vec<Candidate>,
@@ -228,15 +228,15 @@ fn sort_into_crossings<F: Fn(usize) -> [Vec3; 3]>(
     sort_into_crossings(judge, farther, crossings);
 }
 
-/// What some rays hit, before it is rounded.
+/// The hits of some rays, before rounding.
 struct CandidateBatch {
     lanes: [HitLanes; ROUNDED_TOGETHER / LANES],
-    /// The ray's index, and the hit.
+    /// Index of the ray, and its hit.
     found: [Option<(usize, Candidate)>; ROUNDED_TOGETHER],
     count: usize,
 }
 
-/// Rays whose hits are rounded together, after they have been traced: so many that few lanes stay empty.
+/// Number of rays whose hits are rounded together after tracing; large enough that few lanes stay empty.
 const ROUNDED_TOGETHER: usize = 64;
 
 impl Intersector for ExactIntersector {
@@ -260,7 +260,8 @@ impl Intersector for ExactIntersector {
                     dispatch!(level, token => self.find::<false, _>(token, rays, &mut batch, stack));
                 }
                 hits.fill(None);
-                // Apart from the search, which otherwise loses a tenth (bunny, primary rays, 2026-11).
+                // Separate from the search, which otherwise becomes a tenth slower (bunny, primary rays,
+                // 2026-11).
                 dispatch!(level, token => self.round(token, rays, &batch, hits));
             }
         });
@@ -291,7 +292,7 @@ impl Intersector for ExactIntersector {
         let (mut hits, _) = self.each(ray, KeptHits::All);
         let mut judge = Judge::new(ray, |slot| self.corners(slot));
         if hits.len() > 1 {
-            // Once, before each is compared with several.
+            // Narrow each hit once, as each is compared with several others.
             hits.iter_mut().for_each(|hit| _ = judge.narrow(hit));
             hits.sort_by(|a, b| a.bounds()[0].total_cmp(&b.bounds()[0]));
         }

@@ -1,9 +1,9 @@
-//! What the exact kernel does with the blocks that a ray meets.
+//! Visitors that test blocks with the exact kernel.
 
 use super::{ExactIntersector, Vector};
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor};
 use crate::intersector::Cost;
-use crate::intersector::blocks::{BlockValues, Scratch, is_asked};
+use crate::intersector::blocks::{BlockValues, Scratch, can_be_hit};
 use crate::kernel::exact::{Candidate, Judge, VALUES, filter};
 use crate::kernel::{ShearedRay, pack_corners};
 use crate::lane::{Lane, LaneMask, Number};
@@ -11,26 +11,27 @@ use fearless_simd::Simd;
 use glam::Vec3;
 use std::ops::ControlFlow;
 
-/// One ray against blocks.
+/// Tests one ray against blocks.
 pub(super) struct Tester<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
     pub intersector: &'a ExactIntersector,
     pub token: S,
     pub scratch: &'a mut Scratch<f32>,
     pub sheared: ShearedRay<Vector<S>>,
     pub judge: Judge<'a, F>,
-    /// Depths below this are before the ray's interval: among them those of the triangle that it leaves.
+    /// A depth below which hits lie before the ray's interval, among them the hit of the triangle that the
+    /// ray leaves.
     pub earliest: f32,
-    /// t is a depth times this.
+    /// Factor from depth to t.
     pub inverse_dir_z: f32,
 }
 
-/// A lane of a block that isn't a certain miss, and not certainly too deep.
+/// A lane of a block that isn't a certain miss or certainly too deep.
 #[derive(Clone, Copy)]
 pub(super) struct LaneCandidate {
     pub primitive: u32,
-    /// Where its corners are found.
+    /// The slot whose corners it has.
     pub slot: u32,
-    /// Bounds on its depth.
+    /// Bounds of its depth.
     pub near: f32,
     pub far: f32,
     pub is_certain: bool,
@@ -45,7 +46,7 @@ impl LaneCandidate {
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
     Tester<'_, S, F, MAYBE_COMPACT>
 {
-    /// Hands each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to
+    /// Passes each lane of a block that may be hit in the ray's interval, at a depth of at most `deepest`, to
     /// `on_candidate`, until that breaks.
     #[inline(always)]
     pub fn test(
@@ -71,7 +72,7 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
             let lane = lanes.trailing_zeros() as usize % BLOCK_SIZE;
             lanes &= lanes - 1;
             let primitive = primitives[lane];
-            if is_asked(primitive, self.judge.ray().exclude) {
+            if can_be_hit(primitive, self.judge.ray().exclude) {
                 let hit = LaneCandidate {
                     primitive,
                     slot: (block * BLOCK_SIZE + lane) as u32,
@@ -91,31 +92,31 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
     }
 }
 
-/// Looks for the nearest hit.
+/// Finds the nearest hit.
 pub(super) struct Nearest<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
     pub tester: Tester<'a, S, F, MAYBE_COMPACT>,
-    /// The nearest so far, or [`NO_PRIMITIVE`] and infinity.
+    /// The nearest candidate so far, or [`NO_PRIMITIVE`] and infinity.
     pub best: LaneCandidate,
-    /// The same, where it had to be looked at more closely.
-    pub weighed: Option<Candidate>,
+    /// The same candidate with narrowed bounds, if it needed them.
+    pub narrowed: Option<Candidate>,
     pub t_max: f32,
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool>
     Nearest<'_, S, F, MAYBE_COMPACT>
 {
-    /// What was found.
+    /// The nearest hit.
     #[inline(always)]
     pub fn candidate(&self) -> Option<Candidate> {
-        candidate_of(&self.best, self.weighed)
+        candidate_of(&self.best, self.narrowed)
     }
 }
 
-/// The nearest hit so far as it was weighed last.
+/// The nearest hit so far, with its narrowest known bounds.
 #[inline(always)]
-fn candidate_of(best: &LaneCandidate, weighed: Option<Candidate>) -> Option<Candidate> {
+fn candidate_of(best: &LaneCandidate, narrowed: Option<Candidate>) -> Option<Candidate> {
     let is_hit = best.primitive != NO_PRIMITIVE;
-    is_hit.then(|| weighed.unwrap_or_else(|| best.candidate()))
+    is_hit.then(|| narrowed.unwrap_or_else(|| best.candidate()))
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
@@ -125,23 +126,23 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
 
     #[inline(always)]
     fn visit(&mut self, block: usize, _: &SlabRay<S>) -> ControlFlow<(), f32> {
-        let (best, weighed) = (&mut self.best, &mut self.weighed);
+        let (best, narrowed) = (&mut self.best, &mut self.narrowed);
         let deepest = best.far;
         _ = self.tester.test(block, deepest, |judge, hit| {
             let [start, end] = judge.interval();
             let is_inside = start < f64::from(hit.near) && f64::from(hit.far) < end;
             if hit.is_certain && is_inside && hit.far < best.near {
-                (*best, *weighed) = (hit, None);
+                (*best, *narrowed) = (hit, None);
             } else if !(hit.is_certain && best.far < hit.near) {
-                let nearest = nearer(judge, &hit, candidate_of(best, *weighed));
+                let nearest = nearer(judge, &hit, candidate_of(best, *narrowed));
                 if let Some(nearest) = nearest {
                     [best.near, best.far] = nearest.bounds_f32();
-                    (best.primitive, *weighed) = (nearest.primitive, Some(nearest));
+                    (best.primitive, *narrowed) = (nearest.primitive, Some(nearest));
                 }
             }
             ControlFlow::Continue(())
         });
-        // Rounded twice, which what boxes are allowed beyond it pays for.
+        // Rounded twice; the slack with which boxes are visited covers that.
         let t = self.best.far * self.tester.inverse_dir_z;
         ControlFlow::Continue(t.min(self.t_max))
     }
@@ -155,8 +156,8 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
     fn count_boxes(&mut self, _: u32) {}
 }
 
-/// The nearer of a hit and the nearest so far, where f32 doesn't tell.
-// Out of line: it is the rare path, and the common one is the better for it.
+/// The nearer of a hit and the best so far, if f32 can't decide.
+// Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
 fn nearer<F: Fn(usize) -> [Vec3; 3]>(
     judge: &mut Judge<'_, F>,
@@ -176,7 +177,7 @@ fn nearer<F: Fn(usize) -> [Vec3; 3]>(
     }
 }
 
-/// Looks for a hit, whichever.
+/// Finds any hit.
 pub(super) struct Any<'a, S: Simd, F, const MAYBE_COMPACT: bool> {
     pub tester: Tester<'a, S, F, MAYBE_COMPACT>,
     pub is_hit: bool,
@@ -210,15 +211,15 @@ impl<S: Simd, F: Fn(usize) -> [Vec3; 3], const MAYBE_COMPACT: bool> Visitor<S>
     fn count_boxes(&mut self, _: u32) {}
 }
 
-/// Which hits are kept.
+/// The hits that [`Each`] keeps.
 #[derive(Clone, Copy, PartialEq, Eq)]
 pub(super) enum KeptHits {
     Nearest,
     All,
 }
 
-/// Keeps hits, and counts what they cost: for rarer questions, and rays whose interval begins behind
-/// their origin.
+/// Collects hits and counts their cost. For rarer queries, and for rays whose interval starts behind their
+/// origin.
 pub(super) struct Each<'a, S: Simd, F> {
     pub tester: Tester<'a, S, F, true>,
     pub kept: KeptHits,
@@ -227,7 +228,7 @@ pub(super) struct Each<'a, S: Simd, F> {
 }
 
 impl<S: Simd, F: Fn(usize) -> [Vec3; 3]> Each<'_, S, F> {
-    /// Hits deeper than this aren't kept.
+    /// The depth beyond which hits aren't kept.
     fn deepest(&self) -> f32 {
         match self.hits.first() {
             Some(nearest) if self.kept == KeptHits::Nearest => nearest.bounds_f32()[1],

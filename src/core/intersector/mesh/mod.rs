@@ -1,4 +1,4 @@
-//! A mesh, packed for a kernel that decides about each triangle by itself.
+//! Intersector of a mesh for kernels that decide about each triangle separately.
 
 mod visitors;
 
@@ -16,12 +16,12 @@ use std::ops::ControlFlow;
 use std::sync::Arc;
 use visitors::{Any, Each, Found, Nearest, Tester};
 
-/// Triangles for the kernel `K`, working in `N`.
+/// Triangles packed for the kernel `K`, computing in `N`.
 pub(crate) struct MeshIntersector<K: Kernel, N: Number> {
     pub(super) blocks: Blocks<K::Stored<N>>,
     pub(super) level: SimdLevel,
     pub(super) kernel: &'static KernelInfo,
-    /// How to trace rays that go together; not for every kernel, as that is each one's code once more.
+    /// Traces packets of coherent rays. Only for some kernels, as each needs its own copy of the code.
     pub(super) packets: Option<Packets<K, N>>,
 }
 
@@ -100,7 +100,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         visitor.is_hit
     }
 
-    /// What rays hit first, for those that don't begin behind their origins.
+    /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
     #[inline(always)]
     fn find<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
@@ -117,7 +117,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         }
     }
 
-    /// Whether they hit anything, for the same.
+    /// Finds out whether these rays hit anything.
     #[inline(always)]
     fn find_any<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
@@ -134,7 +134,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         }
     }
 
-    /// Hands each hit to `found`, which returns the farthest rank of interest.
+    /// Passes each hit to `found`, which returns the farthest rank of interest.
     fn each(&self, ray: &Ray, found: &mut dyn FnMut(Found<N>) -> ControlFlow<(), N>) -> Cost {
         with_stack(|stack| {
             let (token, mut scratch) = (baseline(), Scratch::new());
@@ -154,7 +154,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         let prepared = K::prepare(&RayLanes::of(token, ray));
         let (t_min, t_max) = (Lane::of(token, ray.t_min), Lane::of(token, ray.t_max));
         let (mut count, mut scratch) = (0, Scratch::new());
-        // A plain loop: what an iterator calls may lose the CPU's features.
+        // A plain loop: functions called by an iterator may be compiled without the CPU's features.
         for block in 0..self.blocks.bvh.block_count() {
             let rows = (self.blocks).rows::<true>(block, K::VALUES, &mut scratch, K::pack::<N>);
             let values = BlockValues::<N, S, _>::new(token, rows);

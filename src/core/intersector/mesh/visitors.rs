@@ -1,18 +1,18 @@
-//! What is done with the blocks that a ray meets, for a kernel that decides about each triangle by itself.
+//! Visitors that test blocks with kernels that decide about each triangle separately.
 
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, Visitor, rank, rank_floor};
 use crate::intersector::Cost;
-use crate::intersector::blocks::{BlockValues, Blocks, Row, Scratch, boxes, corners, is_asked};
+use crate::intersector::blocks::{BlockValues, Blocks, Row, Scratch, boxes, can_be_hit, corners};
 use crate::kernel::Kernel;
 use crate::lane::{Lane, LaneMask, Number};
 use crate::ray::{Hit, Ray};
 use fearless_simd::Simd;
 use std::ops::ControlFlow;
 
-/// A hit as the kernel computed it.
+/// A hit as computed by the kernel.
 #[derive(Clone, Copy)]
 pub(super) struct Found<N> {
-    /// What it is ordered by: t, or what its own box's entry allows.
+    /// The sort key of the hit: t, but no nearer than the triangle's box allows.
     pub rank: N,
     pub t: N,
     pub u: N,
@@ -21,7 +21,7 @@ pub(super) struct Found<N> {
 }
 
 impl<N: Number> Found<N> {
-    /// No hit: none that lies at or behind `end` comes before it.
+    /// No hit; every hit before `end` precedes it.
     #[inline(always)]
     pub fn nothing(end: N) -> Self {
         Self {
@@ -52,7 +52,7 @@ impl<N: Number> Found<N> {
     }
 }
 
-/// One ray against blocks.
+/// Tests one ray against blocks.
 pub(super) struct Tester<'a, K: Kernel, N: Number, S: Simd> {
     pub token: S,
     pub blocks: &'a Blocks<K::Stored<N>>,
@@ -64,8 +64,8 @@ pub(super) struct Tester<'a, K: Kernel, N: Number, S: Simd> {
 }
 
 impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
-    /// Hands each hit in a block whose rank is at most `limit` to `found`, until that breaks.
-    /// `IS_BEHIND`: as for [`SlabRay::enter`]; `MAYBE_COMPACT`: as for [`Blocks::rows`].
+    /// Passes each hit in a block whose rank is at most `limit` to `found`, until that breaks. For
+    /// `IS_BEHIND` see [`SlabRay::enter`], for `MAYBE_COMPACT` see [`Blocks::rows`].
     #[inline(always)]
     fn test<const IS_BEHIND: bool, const MAYBE_COMPACT: bool>(
         &mut self,
@@ -81,7 +81,7 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
         let Some(hit) = K::intersect(&self.prepared, &values, self.t_min, t_max) else {
             return ControlFlow::Continue(());
         };
-        // What a ray hits beside the triangle's own box doesn't count.
+        // Hits outside the triangle's own box don't count.
         let boxes = boxes::<K, N, S>(self.token, rows);
         let infinity = Lane::splat(self.token, f32::INFINITY);
         let (entries, met) = slabs.enter::<IS_BEHIND>(self.token, &boxes, infinity);
@@ -103,8 +103,9 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
             };
             let floor = N::from(rank_floor(entries[lane]));
             let rank = rank(t, floor);
-            // What is farther than f32's largest number, ahead or behind, is a miss.
-            if rank < self.end && t.to_f32().is_finite() && is_asked(primitive, self.ray.exclude) {
+            // Hits beyond the largest finite f32, ahead or behind, are misses.
+            if rank < self.end && t.to_f32().is_finite() && can_be_hit(primitive, self.ray.exclude)
+            {
                 found(Found {
                     rank,
                     t,
@@ -123,8 +124,8 @@ impl<K: Kernel, N: Number, S: Simd> Tester<'_, K, N, S> {
     }
 }
 
-/// t, u and v of a hit that the kernel left in doubt.
-// Out of line: it is the rare path, and the common one is the better for it.
+/// t, u and v of a hit that the kernel left doubtful.
+// Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
 fn decide<K: Kernel, N: Number>(
     ray: &Ray,
@@ -132,10 +133,10 @@ fn decide<K: Kernel, N: Number>(
     primitive: u32,
     lane: usize,
 ) -> Option<[N; 3]> {
-    is_asked(primitive, ray.exclude).then(|| K::decide(ray, corners(rows, lane)))?
+    can_be_hit(primitive, ray.exclude).then(|| K::decide(ray, corners(rows, lane)))?
 }
 
-/// Looks for the nearest hit.
+/// Finds the nearest hit.
 pub(super) struct Nearest<'a, K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> {
     pub tester: Tester<'a, K, N, S>,
     pub best: Found<N>,
@@ -170,8 +171,8 @@ impl<K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> Visitor<S>
     fn count_boxes(&mut self, _: u32) {}
 }
 
-/// Looks for a hit, whichever. The nearest child first here, too: in any order random rays take a twentieth more
-/// time (1.1 M triangles, 2026-11).
+/// Finds any hit. Visits the nearest child first, too: in any other order random rays take a twentieth longer
+/// (1.1 M triangles, 2026-11).
 pub(super) struct Any<'a, K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> {
     pub tester: Tester<'a, K, N, S>,
     pub t_max: f32,
@@ -204,12 +205,12 @@ impl<K: Kernel, N: Number, S: Simd, const MAYBE_COMPACT: bool> Visitor<S>
     fn count_boxes(&mut self, _: u32) {}
 }
 
-/// Hands hits to whoever asks, and counts what they cost: for rarer questions, and rays whose interval
-/// begins behind their origin.
+/// Passes hits to a closure and counts their cost. For rarer queries, and for rays whose interval starts
+/// behind their origin.
 pub(super) struct Each<'a, 'f, K: Kernel, N: Number, S: Simd> {
     pub tester: Tester<'a, K, N, S>,
     pub limit: N,
-    /// Returns the farthest rank that is still of interest.
+    /// Returns the farthest rank of interest.
     pub found: &'f mut dyn FnMut(Found<N>) -> ControlFlow<(), N>,
     pub cost: Cost,
 }

@@ -1,12 +1,13 @@
-//! Ray–triangle test by a stored map that takes the triangle to (0, 0), (1, 0), (0, 1) in a plane.
+//! Ray–triangle test with a stored affine map that takes the triangle to (0, 0), (1, 0), (0, 1) in a plane.
 //!
 //! Source: Baldwin, Weber, "Fast Ray-Triangle Intersections by Coordinate Transformation",
 //!   JCGT 5(3), 2016.
-//! Differs from it: the map's trivial column is stored, as triangles side by side have it at
-//!   different places.
-//! Promises: nothing beyond the figures that are measured.
-//! Doesn't promise: an answer at shared edges and vertices; in f32, any accuracy far from the world's
-//!   origin: the map's translation is rounded there. At a thousand times its size a mesh is full of holes.
+//! Differs from it: the map's trivial column is stored, because its position differs among the triangles of a
+//!   SIMD block.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: a hit at shared edges and vertices; in f32, accuracy far from the world's origin, because
+//!   the map's translation is rounded there. A mesh at a distance of a thousand times its size is full of
+//!   holes.
 
 use super::bounds;
 use super::dominant_axis::{self, Rows};
@@ -15,7 +16,7 @@ use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, 
 use crate::lane::{Lane, LaneMask, Number, dot, plus, times};
 use glam::Vec3;
 
-/// Where the box is kept.
+/// Index of the box in the packed values.
 const BOX: usize = 12;
 
 /// See the [module](self).
@@ -28,7 +29,7 @@ impl Kernel for BaldwinWeber {
         tier: None,
         precision: Precision::F32,
         source: "Baldwin, Weber, Fast Ray-Triangle Intersections by Coordinate Transformation, JCGT 2016",
-        summary: "The least arithmetic a test, twice the memory; useless far from (0, 0, 0).",
+        summary: "The least arithmetic per test, twice the memory; useless far from (0, 0, 0).",
         promises: Promises {
             is_translation_invariant: false,
             ..Promises::PLAIN
@@ -73,7 +74,7 @@ impl Kernel for BaldwinWeber {
     ) -> Option<LaneHit<L>> {
         let (zero, one) = (L::of(t_min.token(), 0.0), L::of(t_min.token(), 1.0));
 
-        // In the triangle's space its plane is z = 0. A NaN or an infinity fails what follows.
+        // In the triangle's space its plane is z = 0. The comparisons below reject NaN and infinity.
         let det = dot(&triangles.three(0), &ray.dir);
         let t = -moved(triangles, 0, &ray.origin) / det;
         let ahead = zero.lt(det.abs()) & t_min.lt(t) & t.le(t_max);
@@ -88,7 +89,7 @@ impl Kernel for BaldwinWeber {
     }
 }
 
-/// A row of the map, times a point.
+/// A row of the map applied to a point.
 #[inline(always)]
 fn moved<L: Lane>(triangles: &impl Values<L>, row: usize, p: &[L; 3]) -> L {
     dot(&triangles.three(row), p) + triangles.value(row + 3)

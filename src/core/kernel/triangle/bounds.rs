@@ -1,8 +1,7 @@
-//! Which box must a ray meet for its hit of a triangle to count?
+//! Boxes that a ray must meet for its hit of a triangle to count.
 //!
-//! The box around the triangle's corners, as the kernel takes them to be. Each lies within the one that the
-//! tree is built from, [`triangle_bounds`], so that a ray that meets it meets every box of the tree around
-//! the triangle.
+//! A box encloses the triangle's corners as the kernel computes them. It lies within [`triangle_bounds`],
+//! from which the tree is built, so a ray that meets it also meets every box of the tree around the triangle.
 
 use crate::aabb::{Aabb, Planes};
 use crate::kernel::Values;
@@ -10,24 +9,24 @@ use crate::lane::{Lane, Number, plus};
 use crate::mesh::TriangleMesh;
 use glam::Vec3;
 
-/// The box of a triangle in the tree: around its corners, and around those that a kernel finds again from
-/// the first one and the edges.
+/// The triangle's box in the tree: it encloses the corners, and the corners as a kernel recomputes them from
+/// the first corner and the edges.
 pub fn triangle_bounds([a, b, c]: [Vec3; 3]) -> Aabb {
     Aabb::around([a, b, c, a + (b - a), a + (c - a)])
 }
 
-/// [`triangle_bounds`] of each of a mesh's triangles: what a tree over it is built from.
+/// A function that returns [`triangle_bounds`] of a mesh's triangles; trees over the mesh are built from it.
 pub fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
     |triangle| triangle_bounds(mesh.corners(triangle))
 }
 
-/// The box around A, B and C, packed from the first value on.
+/// The box around A, B and C, which are packed from value 0.
 #[inline(always)]
 pub(super) fn around_corners<L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
     around([triangles.three(0), triangles.three(3), triangles.three(6)])
 }
 
-/// The box around A, A + e1 and A + e2, packed from the first value on.
+/// The box around A, A + e1 and A + e2, which are packed from value 0.
 #[inline(always)]
 pub(super) fn around_edges<L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
     let a = triangles.three(0);
@@ -42,7 +41,7 @@ fn around<L: Lane>([a, b, c]: [[L; 3]; 3]) -> Planes<L> {
     [lower(0), upper(0), lower(1), upper(1), lower(2), upper(2)]
 }
 
-/// Packs the box of a triangle of which the kernel keeps no corners: [`kept`] finds it again.
+/// Packs the box of a triangle whose corners the kernel doesn't store; [`kept`] reads it.
 pub(super) fn pack<N: Number>([a, b, c]: [Vec3; 3], values: &mut [N]) {
     let (lower, upper) = (a.min(b).min(c).to_array(), a.max(b).max(c).to_array());
     for (axis, kept) in values.chunks_exact_mut(2).enumerate() {
@@ -50,12 +49,12 @@ pub(super) fn pack<N: Number>([a, b, c]: [Vec3; 3], values: &mut [N]) {
     }
 }
 
-/// The box that was packed from `first` on.
+/// The box packed at `first`.
 #[inline(always)]
 pub(super) fn kept<L: Lane>(triangles: &impl Values<L>, first: usize) -> Planes<L> {
     let ([a, b, c], [d, e, f]) = (triangles.three(first), triangles.three(first + 3));
     [a, b, c, d, e, f]
 }
 
-/// How many values [`pack`] makes.
+/// The number of values that [`pack`] writes.
 pub(super) const VALUES: usize = 6;

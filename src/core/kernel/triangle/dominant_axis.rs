@@ -1,5 +1,5 @@
-//! A triangle seen along the axis in which its normal is longest: what the kernels share that look
-//! at it so, once a triangle.
+//! Triangles projected along the dominant axis of their normal: precomputation shared by the kernels that
+//! project.
 //!
 //! ```text
 //!   y  C            P − A = u·(B − A) + v·(C − A), with the coordinate k left out:
@@ -7,12 +7,12 @@
 //!   A────B   x      where n_k = b_x·c_y − b_y·c_x is the normal's component along k.
 //! ```
 //!
-//! u and v are linear in P − A, so each is a row to be multiplied by it; its place k is 0.
+//! u and v are linear in P − A, so each is the dot product of a row with P − A; component k of the row is 0.
 
 use crate::lane::{Number, cross, longest_axis, minus};
 use glam::Vec3;
 
-/// Rows that, multiplied by P − A, give u, v, and the distance from the plane in units of n_k.
+/// Rows whose dot products with P − A are u, v, and the distance from the plane in units of n_k.
 pub(super) struct Rows<N> {
     pub u: [N; 3],
     pub v: [N; 3],
@@ -21,7 +21,7 @@ pub(super) struct Rows<N> {
     pub a: [N; 3],
 }
 
-/// The rows; not finite for a triangle of zero area, which is then never hit.
+/// Computes the rows. They aren't finite for a triangle of zero area, which therefore is never hit.
 pub(super) fn rows<N: Number>(corners: [Vec3; 3]) -> Rows<N> {
     let [a, b, c] = corners.map(|p| p.to_array().map(N::from));
     let (b, c) = (minus(&b, &a), minus(&c, &a));
@@ -46,7 +46,7 @@ mod tests {
     use crate::lane::dot;
 
     #[test]
-    fn the_rows_take_each_corner_to_its_weight_whichever_axis_is_longest() {
+    fn the_rows_map_each_corner_to_its_weights_for_every_dominant_axis() {
         let corners = [
             Vec3::new(1.0, 2.0, 3.0),
             Vec3::new(3.0, 2.5, 3.5),
@@ -58,7 +58,7 @@ mod tests {
             for (corner, expected) in turned.iter().zip([[0.0, 0.0], [1.0, 0.0], [0.0, 1.0]]) {
                 let p = minus(&corner.to_array().map(f64::from), &rows.a);
                 let found = [dot(&rows.u, &p), dot(&rows.v, &p), dot(&rows.normal, &p)];
-                // Three products of numbers below 8: a few ulps of that.
+                // Three products of numbers below 8 err by a few ulps.
                 for (found, expected) in found.into_iter().zip([expected[0], expected[1], 0.0]) {
                     assert!((found - expected).abs() < 1e-14, "{turn}: {found}");
                 }

@@ -1,20 +1,20 @@
-//! Ray–triangle test by the three planes through the ray's origin and an edge.
+//! Ray–triangle test against the three planes through the ray's origin and an edge.
 //!
 //! ```text
 //!            C
 //!           ╱ ╲          The direction lies inside the pyramid over the triangle if it is on the
-//!          ╱ × ╲         same side of all three of its planes; seen from behind, the sides are the
-//!    o ···A─────B        other ones.
+//!          ╱ × ╲         same side of all three of its planes. For back faces the sides are
+//!    o ···A─────B        swapped.
 //! ```
 //!
 //! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (3).
-//! Differs from the lecture: either side hits; the planes' normals aren't made unit length, which is a
-//!   NaN where the origin lies on the line of an edge; the sign that is tested is that of d·n, as the
-//!   point on the triangle's plane lies in the same direction.
-//! Promises: nothing beyond the figures that are measured.
-//! Doesn't promise: an answer at shared vertices, though none is lost at shared edges, whose normal
-//!   both neighbours round alike; any accuracy far from the triangle: the normals' size follows the
-//!   square of the distance.
+//! Differs from the lecture: both sides hit; the planes' normals aren't normalised, which would give NaN if
+//!   the origin lies on the line of an edge; the sign tested is that of d·n, because the point on the
+//!   triangle's plane lies in the same direction.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: a hit at shared vertices (at shared edges none is lost, because both neighbours round the
+//!   edge's normal alike); accuracy far from the triangle, because the normals grow with the square of the
+//!   distance.
 
 use super::bounds;
 use crate::aabb::Planes;
@@ -34,14 +34,14 @@ impl Kernel for EdgePlanes {
         tier: None,
         precision: Precision::F32,
         source: "Lensch, Basic Geometry, lecture, 2022",
-        summary: "No ray slips through an edge, some through vertices; bad for far origins.",
+        summary: "No ray slips through an edge, some through vertices; inaccurate for distant origins.",
         promises: Promises::PLAIN,
     };
     const IN_F64: KernelInfo = KernelInfo {
         name: "edge-planes-f64",
         title: "Edge planes, f64",
         precision: Precision::F64,
-        summary: "Accurate up to a million times the triangle's size away.",
+        summary: "Accurate up to a distance of a million times the triangle's size.",
         ..Self::IN_F32
     };
     const VALUES: usize = 9;
@@ -76,7 +76,7 @@ impl Kernel for EdgePlanes {
             minus(&triangles.three(6), &ray.origin),
         ];
 
-        // Sides of the planes over BC, CA and AB; each is a weight times det.
+        // Signed sides of the planes through BC, CA and AB; each is a weight times det.
         let w1 = dot(&ray.dir, &cross(&b, &c));
         let w2 = dot(&ray.dir, &cross(&c, &a));
         let w3 = dot(&ray.dir, &cross(&a, &b));
@@ -87,8 +87,8 @@ impl Kernel for EdgePlanes {
             return None;
         }
 
-        // The plane, by the triangle's own normal: that of the edges' sum cancels. A NaN or an
-        // infinity fails what follows.
+        // The plane, from the triangle's own normal: the sum of the edge planes' normals cancels. The
+        // comparison below rejects NaN and infinity.
         let normal = cross(&minus(&b, &a), &minus(&c, &a));
         let t = dot(&normal, &a) / dot(&normal, &ray.dir);
         let (u, v) = (w2 / det, w3 / det);

@@ -1,4 +1,4 @@
-//! Ray–triangle kernels, and the table of them.
+//! Ray–triangle kernels and their table.
 
 mod baldwin_weber;
 mod bounds;
@@ -32,9 +32,9 @@ use plane_projection::PlaneProjection;
 use std::sync::Arc;
 use watertight::Watertight;
 
-/// A row of the table: one kernel, behind functions that don't name its type.
+/// A row of the table: a kernel behind type-erased functions.
 pub struct TriangleKernel {
-    /// What the kernel says of itself.
+    /// The kernel's description.
     pub info: &'static KernelInfo,
     intersector: fn(&TriangleMesh, Arc<Bvh>, SimdLevel, Packing) -> Box<dyn Intersector>,
     one: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
@@ -52,7 +52,7 @@ impl TriangleKernel {
         }
     }
 
-    /// The same, and rays that go together are traced together.
+    /// As [`in_f32`](Self::in_f32), and traces coherent rays as packets.
     const fn in_f32_with_packets<K: Kernel>() -> Self {
         Self {
             intersector: |mesh, bvh, level, packing| {
@@ -84,7 +84,7 @@ impl TriangleKernel {
         }
     }
 
-    /// Packs a mesh for this kernel.
+    /// Packs a mesh for this kernel and returns its intersector.
     pub fn intersector(
         &self,
         mesh: &TriangleMesh,
@@ -95,14 +95,15 @@ impl TriangleKernel {
         (self.intersector)(mesh, bvh, level, packing)
     }
 
-    /// Tests one triangle in scalar arithmetic, with the bits that the SIMD lanes give. The hit's
-    /// `primitive` is 0; what the ray excludes is not excluded, and the triangle's box isn't asked.
+    /// Tests one triangle in scalar arithmetic, bit for bit as the SIMD lanes do.
+    ///
+    /// The hit's `primitive` is 0. The ray's `exclude` and the triangle's box are ignored.
     pub fn intersect(&self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
         (self.one)(ray, corners)
     }
 }
 
-/// Every triangle kernel, by algorithm, the tiers last.
+/// All triangle kernels, ordered by algorithm, the tiers last.
 pub static TRIANGLE_KERNELS: &[TriangleKernel] = &[
     TriangleKernel::in_f32::<PlaneProjection>(),
     TriangleKernel::in_f64::<PlaneProjection>(),
@@ -119,7 +120,7 @@ pub static TRIANGLE_KERNELS: &[TriangleKernel] = &[
     TriangleKernel::exact(),
 ];
 
-/// The kernel of this name, or the one that serves the tier of this name.
+/// The kernel with this name, or the one that serves the tier with this name.
 pub fn triangle_kernel(name: &str) -> Option<&'static TriangleKernel> {
     let by_tier = |kernel: &TriangleKernel| kernel.info.tier.is_some_and(|t| t.name() == name);
     let by_name = |kernel: &TriangleKernel| kernel.info.name == name;
@@ -128,12 +129,12 @@ pub fn triangle_kernel(name: &str) -> Option<&'static TriangleKernel> {
         .find(|kernel| by_name(kernel) || by_tier(kernel))
 }
 
-/// What is used where nobody chose: watertight.
+/// The default kernel: watertight.
 pub fn default_triangle_kernel() -> &'static TriangleKernel {
     triangle_kernel(Watertight::IN_F32.name).expect("the default is in the table")
 }
 
-/// The one whose decisions are those of exact arithmetic.
+/// The kernel whose decisions match exact arithmetic.
 pub fn exact_triangle_kernel() -> &'static TriangleKernel {
     triangle_kernel(exact::INFO.name).expect("the exact kernel is in the table")
 }

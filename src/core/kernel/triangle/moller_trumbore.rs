@@ -1,11 +1,11 @@
 //! Ray–triangle test with the least arithmetic, from the triangle's edges.
 //!
 //! Source: Möller, Trumbore, "Fast, Minimum Storage Ray/Triangle Intersection", JGT 2(1), 1997.
-//! Differs from it: no ε on the determinant, whose size follows the triangle's and the direction's:
-//!   only det = 0 is rejected; both sides hit; the divisions come last.
-//! Promises: nothing beyond the figures that are measured.
-//! Doesn't promise: an answer at shared edges and vertices (each neighbour rounds its own way, so
-//!   that both may miss), nor, in f32, for triangles whose edges are below some 1e-12 (det underflows).
+//! Differs from it: no ε on the determinant, because its magnitude scales with the triangle and the
+//!   direction: only det = 0 is rejected; both sides hit; the divisions come last.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: a hit at shared edges and vertices (each neighbour rounds differently, so both may miss);
+//!   in f32, hits of triangles with edges below about 1e-12 (det underflows).
 
 use super::bounds;
 use crate::aabb::Planes;
@@ -33,14 +33,14 @@ impl Kernel for MollerTrumbore {
         title: "Möller–Trumbore, f64",
         tier: None,
         precision: Precision::F64,
-        summary: "Accurate; a ray aimed exactly at a vertex may still slip through.",
+        summary: "Accurate; rays aimed exactly at a vertex may still slip through.",
         ..Self::IN_F32
     };
     const VALUES: usize = 9;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    /// A and the edges from it in f32; in f64, where f32 doesn't hold the edges exactly, the corners.
+    /// Packs A and two edges in f32; the corners in f64, as f32 can't hold the edges exactly.
     fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
         let [a, b, c] = corners;
         if N::HOLDS_PRODUCTS {
@@ -79,7 +79,7 @@ impl Kernel for MollerTrumbore {
             (b, c)
         };
 
-        // Cramer's rule for o − A = −t·d + u·e1 + v·e2; det = 0: the ray is parallel to the plane.
+        // Cramer's rule for o − A = −t·d + u·e1 + v·e2. det = 0 means that the ray is parallel to the plane.
         let p = cross(&ray.dir, &e2);
         let det = dot(&e1, &p);
         let s = minus(&ray.origin, &a);

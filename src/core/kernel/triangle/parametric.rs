@@ -1,10 +1,10 @@
-//! Ray–triangle test by the plane first, then the two parameters of the point on it.
+//! Ray–triangle test that intersects the plane first, then computes the point's two parameters.
 //!
 //! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (2).
-//! Differs from the lecture: P = A + α(B − A) + β(C − A), whose A its slide leaves out. How α and β are
-//!   solved for it doesn't say; here by areas: with n the normal, α = n·((P − A)×(C − A))/n·n.
-//! Promises: nothing beyond the figures that are measured.
-//! Doesn't promise: an answer at shared edges and vertices.
+//! Differs from the lecture: P = A + α(B − A) + β(C − A); its slide omits A. The lecture doesn't say how to
+//!   solve for α and β; here they are ratios of areas: with n the normal, α = n·((P − A)×(C − A))/n·n.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: a hit at shared edges and vertices.
 
 use super::bounds;
 use crate::aabb::Planes;
@@ -63,7 +63,7 @@ impl Kernel for Parametric {
         let (e1, e2) = (minus(&b, &a), minus(&c, &a));
         let normal = cross(&e1, &e2);
 
-        // The plane: (o + t·d − A)·n = 0. A NaN or an infinity fails what follows.
+        // The plane: (o + t·d − A)·n = 0. The comparisons below reject NaN and infinity.
         let to_a = minus(&a, &ray.origin);
         let det = dot(&normal, &ray.dir);
         let t = dot(&normal, &to_a) / det;
@@ -72,8 +72,8 @@ impl Kernel for Parametric {
             return None;
         }
 
-        // One of the two normals is scaled to about 1: n·n, the fourth power of a length, would leave
-        // f32's range at 1e±10.
+        // Scale one of the two normals to about 1: n·n, the fourth power of a length, would exceed the range
+        // of f32 at lengths of 1e±10.
         let longest = normal[0]
             .abs()
             .greater(normal[1].abs())

@@ -1,14 +1,14 @@
-//! Ray–triangle test by the plane first, then barycentric coordinates in 2D.
+//! Ray–triangle test that intersects the plane first, then computes barycentric coordinates in 2D.
 //!
-//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (1);
-//!   Badouel, "An Efficient Ray-Polygon Intersection", Graphics Gems, 1990. All that belongs to the
-//!   triangle alone is computed once.
-//! Differs from the lecture: the normal's sign and the weights of B and C are as its figures have them,
-//!   not as its program does; the plane's distance is measured from the corner A, not from the world's
-//!   origin, where it cancels; no ε on t; the coordinate that is left out is a 0 in a row.
-//! Promises: nothing beyond the figures that are measured.
-//! Doesn't promise: an answer at shared edges and vertices: the point on the plane is rounded for
-//!   each triangle anew.
+//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022, method (1); Badouel, "An
+//!   Efficient Ray-Polygon Intersection", Graphics Gems, 1990. Everything that depends on the triangle alone
+//!   is precomputed.
+//! Differs from the lecture: the sign of the normal and the weights of B and C follow its figures, not its
+//!   program; the plane's distance is measured from the corner A, because measured from the world's origin it
+//!   cancels; no ε on t; the omitted coordinate is a 0 in a row.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: a hit at shared edges and vertices, because the point on the plane is rounded separately
+//!   for each triangle.
 
 use super::bounds;
 use super::dominant_axis::{self, Rows};
@@ -17,7 +17,7 @@ use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, 
 use crate::lane::{Lane, LaneMask, Number, dot, minus, times};
 use glam::Vec3;
 
-/// Where the box is kept.
+/// Index of the box in the packed values.
 const BOX: usize = 12;
 
 /// See the [module](self).
@@ -30,7 +30,7 @@ impl Kernel for PlaneProjection {
         tier: None,
         precision: Precision::F32,
         source: "Badouel, An Efficient Ray-Polygon Intersection, Graphics Gems 1990",
-        summary: "Plane first, then 2D, twice the memory; rays slip through edges and vertices.",
+        summary: "Plane first, then 2D; twice the memory; rays slip through edges and vertices.",
         promises: Promises::PLAIN,
     };
     const IN_F64: KernelInfo = KernelInfo {
@@ -74,7 +74,7 @@ impl Kernel for PlaneProjection {
     ) -> Option<LaneHit<L>> {
         let (zero, one) = (L::of(t_min.token(), 0.0), L::of(t_min.token(), 1.0));
 
-        // The plane: (o + t·d − A)·n = 0. A NaN or an infinity fails what follows.
+        // The plane: (o + t·d − A)·n = 0. The comparisons below reject NaN and infinity.
         let to_a = minus(&triangles.three(0), &ray.origin);
         let normal = triangles.three(3);
         let det = dot(&normal, &ray.dir);
@@ -84,7 +84,7 @@ impl Kernel for PlaneProjection {
             return None;
         }
 
-        // The point on it, relative to A, in 2D.
+        // The point on the plane, relative to A, in 2D.
         let p = minus(&times(t, &ray.dir), &to_a);
         let u = dot(&triangles.three(6), &p);
         let v = dot(&triangles.three(9), &p);

@@ -1,4 +1,4 @@
-//! The ray moved to the z axis, and triangles with it, by a permutation and a shear.
+//! Permutation and shear that move the ray to the z axis and triangles with it.
 //!
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
@@ -6,24 +6,23 @@ use crate::kernel::{RayLanes, Values};
 use crate::lane::{Lane, Number};
 use crate::ray::Ray;
 
-/// A ray made ready to shear triangles.
+/// A ray prepared for shearing triangles.
 #[derive(Clone, Copy)]
 pub(crate) struct ShearedRay<L> {
-    /// Which coordinate becomes x, y and z; z is the direction's longest.
+    /// The coordinates used as x, y and z; z is the direction's longest component.
     axes: [usize; 3],
-    /// The origin, its coordinates permuted.
+    /// The origin with permuted coordinates.
     origin: [L; 3],
-    /// What x and y are multiplied by: d_z where products of f32 are exact, so that no slope is
-    /// rounded, else 1.
+    /// Factor of x and y: d_z if products of f32 are exact, so that no slope is rounded, else 1.
     unit: L,
-    /// d_x/d_z and d_y/d_z, times the unit.
+    /// d_x/d_z and d_y/d_z, times `unit`.
     slope: [L; 2],
-    /// The direction's longest coordinate.
+    /// The direction's longest component.
     dir_z: L,
 }
 
 impl<L: Lane> ShearedRay<L> {
-    /// One ray.
+    /// Prepares one ray.
     #[inline(always)]
     pub fn of(token: L::Token, ray: &Ray) -> Self {
         Self::new(&RayLanes::of(token, ray))
@@ -49,21 +48,21 @@ impl<L: Lane> ShearedRay<L> {
         }
     }
 
-    /// The direction's longest coordinate: a depth is t times this.
+    /// The direction's longest component; a depth is t times this.
     #[inline(always)]
     pub fn dir_z(&self) -> L {
         self.dir_z
     }
 
-    /// What x and y of sheared corners are multiplied by; depths aren't.
+    /// The factor of x and y of sheared corners; depths aren't scaled.
     #[inline(always)]
     pub fn unit(&self) -> L {
         self.unit
     }
 
-    /// The three corners, relative to the ray: x and y across it, z along its longest coordinate.
+    /// The three corners relative to the ray: x and y across it, z along its longest component.
     ///
-    /// A corner is moved by the same operations whichever triangle it belongs to.
+    /// The operations on a corner don't depend on the triangle that it belongs to.
     #[inline(always)]
     pub fn sheared(&self, triangles: &impl Values<L>) -> [[L; 3]; 3] {
         [

@@ -1,20 +1,21 @@
-//! Ray–triangle test whose hits and misses are those of exact arithmetic, so that no ray slips through a
-//! closed mesh. t and weights are those of f32, or of f64.
+//! Ray–triangle test whose hits and misses match exact arithmetic, so that no ray passes through a closed
+//! mesh. t and the weights have the accuracy of f32 or f64.
 //!
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
-//! Differs from it: no back-face culling; a triangle is tested again in f64, and in integers where that
-//!   leaves it open, if an edge function or t lies within its error bound of where the decision changes, or
-//!   if t's error bound exceeds [`Number::T_SLACK`]. The bounds are those of `exact::filter`.
-//! Promises: hit or miss and `t_min < t < t_max` as exact arithmetic says, for any finite ray and triangle;
-//!   the reported t lies in the interval, too. So it is watertight over shared edges and vertices. t errs by
-//!   at most 513u relatively in f32 (u = 2⁻²⁴; measured: a hundredth of that), and by 0.51 ulp of f32 in f64, a weight there by 1.02·2⁻²⁵.
+//! Differs from it: no back-face culling. A triangle is tested again in f64, and in integers if f64 can't
+//!   decide, if an edge function or t lies within its error bound of a change of the decision, or if t's
+//!   error bound exceeds [`Number::T_SLACK`]. The bounds are those of `exact::filter`.
+//! Promises: hit or miss and `t_min < t < t_max` as in exact arithmetic, for any finite ray and triangle; the
+//!   reported t also lies in the interval. So it is watertight over shared edges and vertices. In f32, the
+//!   relative error of t is at most 513u (u = 2⁻²⁴; measured: a hundredth of that). In f64, t errs by at most
+//!   0.51 ulp of f32 and a weight by at most 1.02·2⁻²⁵.
 //! Doesn't promise: the order of two hits whose t differ by less than that; the lowest of several triangles
-//!   at equal t; accurate weights in f32; anything through a tree whose boxes lie at distances that aren't
-//!   normal f32 numbers (see `bvh::slab`).
+//!   at equal t; accurate weights in f32; hits through a tree whose boxes lie at distances that aren't normal
+//!   f32 numbers (see `bvh::slab`).
 //!
-//! Why the paper's test alone isn't enough: neighbours agree about their common edge, but a wrong sign hands
-//! the ray to the neighbour. If that one lies behind the ray's origin by its t, or if the ray
-//! misses its box, both are missed.
+//! The paper's test alone isn't enough: neighbours agree about their common edge, but a wrong sign assigns
+//! the ray to the wrong neighbour. If the computed t places that neighbour behind the ray's origin, or if the
+//! ray misses its box, both triangles are missed.
 
 use super::bounds;
 use super::exact::{self, filter};
@@ -30,17 +31,17 @@ use glam::Vec3;
 /// See the [module](self).
 pub(super) struct Watertight;
 
-/// A ray made ready for many tests.
+/// A ray prepared for many tests.
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay<L> {
     sheared: ShearedRay<L>,
     /// |d_z|: a depth is t times this.
     depth_per_t: L,
-    /// Hits below this depth certainly lie before the interval,
+    /// Hits below this depth certainly lie before the interval.
     earliest: L,
-    /// those above this one certainly behind its start,
+    /// Hits above this depth certainly lie after the start of the interval.
     start: L,
-    /// and those below this one certainly before its end.
+    /// Hits below this depth certainly lie before the end of the interval.
     end: L,
 }
 
@@ -51,7 +52,7 @@ impl Kernel for Watertight {
         tier: Some(Tier::Watertight),
         precision: Precision::F32,
         source: "Woop, Benthin, Wald, Watertight Ray/Triangle Intersection, JCGT 2013",
-        summary: "Every hit and miss is right, so no ray slips through a closed mesh.",
+        summary: "Every hit and miss is correct, so no ray slips through a closed mesh.",
         promises: Promises {
             is_watertight: true,
             ..Promises::PLAIN
@@ -62,7 +63,7 @@ impl Kernel for Watertight {
         title: "Watertight, f64",
         tier: Some(Tier::Precise),
         precision: Precision::F64,
-        summary: "Watertight, and t and weights right to f32's last place.",
+        summary: "Watertight; t and barycentric coordinates correct to the last place of f32.",
         promises: Promises {
             is_accurate: true,
             ..Self::IN_F32.promises
@@ -109,7 +110,8 @@ impl Kernel for Watertight {
         let found = filter(&ray.sheared, triangles)?;
         let (near, far) = (found.near(), found.far());
 
-        // Before the interval, or behind the nearest hit so far: neither counts, whatever else is open.
+        // Hits before the interval, or behind the nearest hit so far, don't count even if other decisions are
+        // open.
         let deepest = -surely_below(-(limit * ray.depth_per_t));
         let is_outside = far.lt(ray.earliest) | deepest.lt(near);
         let is_possible = !(found.missed | is_outside);
@@ -117,7 +119,7 @@ impl Kernel for Watertight {
             return None;
         }
 
-        // Whether a lane is in doubt depends on ray and triangle alone, not on other hits.
+        // Whether a lane is doubtful depends only on ray and triangle, not on other hits.
         let is_within = ray.start.lt(near) & far.lt(ray.end);
         let is_known = found.certain & is_within & found.is_accurate();
         let t = found.depth / ray.depth_per_t;
@@ -132,13 +134,13 @@ impl Kernel for Watertight {
 
     fn decide<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[N; 3]> {
         let [t, u, v] = exact::answer_for::<N>(ray, corners)?.map(N::of_f64);
-        // The hit lies inside the interval; rounding may have moved it to an end.
+        // The hit lies inside the interval, but rounding may have moved it to an end.
         let [start, end] = ray.finite_interval().map(N::from);
         Some([t.greater(start.next_up()).lesser(end.next_down()), u, v])
     }
 }
 
-/// A number below the product of two f32 that was rounded to `x`. Infinite where that is.
+/// A lower bound of a product of two f32 that was rounded to `x`. Infinite if `x` is.
 #[inline(always)]
 fn surely_below<L: Lane>(x: L) -> L {
     let token = x.token();

@@ -1,13 +1,12 @@
-//! Edge functions and depths with bounds on their error, in f32 or f64.
+//! Edge functions and depths with error bounds, in f32 or f64.
 //!
-//! The rounding error of one operation is at most u relatively, 2⁻²⁴ in f32, 2⁻⁵³ in f64. O(u²) is
-//! paid for by the excess of the constants over what is derived here, as is the rounding of the bounds
-//! themselves; `LEAST_NORMAL` pays for underflow in f32. In f64 nothing derived from f32 numbers
-//! under- or overflows.
+//! The relative rounding error of one operation is at most u, 2⁻²⁴ in f32 and 2⁻⁵³ in f64. The constants
+//! exceed those derived here by enough to cover O(u²) and the rounding of the bounds themselves;
+//! `LEAST_NORMAL` covers underflow in f32. In f64 nothing derived from f32 numbers under- or overflows.
 //!
 //! **Shear.** With A relative to the origin, z = A_z, and |d_x| ≤ |d_z|: x = A_x − (d_x/d_z)·A_z in f32. The
-//! difference A_x errs by u|A_x|, the slope, A_z and their product by 3u|A_z|, the last difference by
-//! u|x|; |A_x| ≤ |x| + |A_z|. In f64 all is multiplied by d_z: x = A_x·d_z − d_x·A_z. The differences and
+//! difference A_x errs by u|A_x|; the slope, A_z and their product by 3u|A_z|; the last difference by u|x|;
+//! |A_x| ≤ |x| + |A_z|. In f64 everything is multiplied by d_z: x = A_x·d_z − d_x·A_z. The differences and
 //! products err by 2u(|A_x·d_z| + |d_x·A_z|), the last difference by u|x|. Both are within
 //!
 //! ```text
@@ -15,69 +14,69 @@
 //!                           Q = Z in f32, |d_z|·Z in f64
 //! ```
 //!
-//! **Edges.** E = x₁y₂ − x₂y₁ errs by that of its four factors and by three roundings of its own:
+//! **Edges.** The error of E = x₁y₂ − x₂y₁ comes from its four factors and from three roundings of its own:
 //!
 //! ```text
 //! |δE| ≤ 2(X·|δy| + Y·|δx|) + 2|δx||δy| + 4u·XY ≤ 8u·Q(X + Y) + 16u·XY + 32u²Q²
 //!      ≤ u(s + 4uQ)(8Q + 4s)                       s = X + Y, for XY ≤ s²/4
 //! ```
 //!
-//! The right side overflows before any edge product does, and a bound that isn't finite certifies
-//! nothing.
+//! The right side overflows before any edge product does, and a bound that isn't finite certifies nothing.
 //!
-//! **Depth.** ζ = t·d_z is the mean of the corners' depths, weighted by the edge functions E/S with
-//! S = ΣE. Computed with E + e, |e| ≤ err, it is off by Σe(z − ζ)/S, at most 3·err·R/|S| with R the
-//! corners' range of depths, both of the rounded depths, whose mean is off by u·Z. Its own roundings are
-//! seven of the differences from A's depth (two of S, its inverse, two products, a difference, a sum), and
-//! one of a depth; taking the bound off rounds once more.
+//! **Depth.** ζ = t·d_z is the mean of the corners' depths, weighted by the edge functions E/S with S = ΣE.
+//! Computed with E + e, |e| ≤ err, it is off by Σe(z − ζ)/S, at most 3·err·R/|S| with R the range of the
+//! corners' depths. Both refer to the rounded depths, whose mean is off by u·Z. The computation itself rounds
+//! the differences from A's depth seven times (S twice, its inverse, two products, a difference, a sum) and a
+//! depth once; subtracting the bound rounds once more.
 //!
 //! ```text
 //! |δζ| ≤ 3·err·R/|S| + 7u·R + 3u·Z
 //! ```
 //!
-//! The code has 4·err, which pays for R's rounding and is a weight's error besides.
+//! The code has 4·err, which covers the rounding of R and is also the error of a weight.
 //!
 //! **Weights.** E/S is off by (1 + 3)·err/|S| and by four roundings.
 //!
-//! Both hold for every triangle that is hit, also where the signs of E + e leave that open: S is then the
-//! computed sum, of which nothing is asked but that it isn't 0. Two of the computed edge functions may then
-//! have the wrong sign, by at most err each, so that roundings relative to Σ|E + e| ≤ |S| + 4·err are larger
-//! than those relative to S by no more than O(u)·err/|S|.
+//! Both bounds hold for every triangle that is hit, even if the signs of E + e leave the hit undecided: S is
+//! then the computed sum, which need only be nonzero. Two of the computed edge functions may then have the
+//! wrong sign, by at most err each, so roundings relative to Σ|E + e| ≤ |S| + 4·err exceed those relative to
+//! S by no more than O(u)·err/|S|.
 
 use super::super::shear::ShearedRay;
 use crate::kernel::Values;
 use crate::lane::{Lane, LaneMask, Number};
 
-/// What the filter knows of the triangles in the lanes. A lane in neither mask is a certain miss.
+/// The filter's result for the triangles in the lanes. A lane in neither mask is undecided.
 pub(crate) struct Filtered<L: Lane> {
-    /// The ray's line meets the triangle's inside, and it does so between `near` and `far`.
+    /// Certain hits of the ray's line: it meets the triangle's interior, at a depth between `near` and `far`.
     pub certain: L::Mask,
     /// Certain misses.
     pub missed: L::Mask,
-    /// |t·d_z|, with t's sign. This and what follows is for lanes whose triangle is hit, certain or not.
+    /// |t·d_z|, with t's sign. This and the following fields are valid in lanes whose triangle is hit, certainly or not.
     pub depth: L,
-    /// What the depth errs by at most.
+    /// Largest error of the depth.
     pub slack: L,
     /// Weights of the second and the third corner.
     pub weights: [L; 2],
-    /// What those err by at most, four roundings not counted.
+    /// Largest error of the weights, without their four roundings.
     pub weight_error: L,
 }
 
 impl<L: Lane> Filtered<L> {
-    /// The depth is at least this,
+    /// Lower bound of the depth.
     #[inline(always)]
     pub fn near(&self) -> L {
         self.depth - self.slack
     }
 
-    /// and at most that.
+    /// Upper bound of the depth.
     #[inline(always)]
     pub fn far(&self) -> L {
         self.depth + self.slack
     }
 
-    /// Where t errs by no more than `t_slack`, relatively, and the weights by no more than `weight_slack`.
+    /// The lanes in which t errs relatively by no more than `t_slack`, and the weights by no more than
+    /// `weight_slack`.
     #[inline(always)]
     pub fn is_within(&self, t_slack: L::Number, weight_slack: L::Number) -> L::Mask {
         let token = self.depth.token();
@@ -85,14 +84,14 @@ impl<L: Lane> Filtered<L> {
         self.slack.le(most) & self.weight_error.le(L::splat(token, weight_slack))
     }
 
-    /// The same for [`Number::T_SLACK`] and [`Number::WEIGHT_SLACK`].
+    /// [`is_within`](Self::is_within) for [`Number::T_SLACK`] and [`Number::WEIGHT_SLACK`].
     #[inline(always)]
     pub fn is_accurate(&self) -> L::Mask {
         self.is_within(L::Number::T_SLACK, L::Number::WEIGHT_SLACK)
     }
 }
 
-/// Tests the line of a ray against triangles whose corners are the values. `None`: all are certain
+/// Tests a ray's line against triangles whose values are their corners. Returns `None` if all are certain
 /// misses.
 #[inline(always)]
 pub(crate) fn filter<L: Lane>(
@@ -119,7 +118,7 @@ pub(crate) fn filter<L: Lane>(
     let error = (s + constant(4.0) * u * q) * (constant(8.0625) * q + constant(4.0625) * s) * u
         + least_normal;
 
-    // `lesser` and `greater` may lose a NaN; a NaN edge comes only with an error that is infinite or NaN.
+    // `lesser` and `greater` may drop a NaN; an edge is NaN only if the error is infinite or NaN.
     let missed = error.lt(most) & least.lt(-error);
     let certain = error.lt(least) | most.lt(-error);
     if missed.all() {
@@ -127,7 +126,7 @@ pub(crate) fn filter<L: Lane>(
     }
 
     let det = edge[0] + edge[1] + edge[2];
-    // Infinite where det is subnormal: then the bounds aren't numbers, and decide nothing.
+    // Infinite if det is subnormal: then the bounds are NaN or infinite, and decide nothing.
     let inverse = constant(1.0) / det;
     let weights = [edge[1] * inverse, edge[2] * inverse];
     let (to_b, to_c) = (b[2] - a[2], c[2] - a[2]);

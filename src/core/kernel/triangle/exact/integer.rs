@@ -1,4 +1,4 @@
-//! The same questions in integers: what is left when f64 can't decide.
+//! Exact ray–triangle predicates in integers, for decisions that f64 leaves open.
 //!
 //! Every f32 is an integer times a power of two. With A, B, C relative to the origin, and n = (B − A)×(C − A):
 //!
@@ -7,9 +7,9 @@
 //! det = W_a + W_b + W_c = d·n,  t = A·n/det,  u = W_b/det,  v = W_c/det
 //! ```
 //!
-//! In 128 bits where they suffice, as they do on grids and for numbers of similar size; else in
-//! integers of any size. Bits, where coordinates have L and directions D of them: |W| < 2^(D+2L+5),
-//! |A·n| < 2^(3L+8), |det| < 2^(D+2L+7).
+//! 128 bits suffice on grids and for numbers of similar magnitude; otherwise the integers have any size.
+//! Bits, if coordinates have L and directions D of them: |W| < 2^(D+2L+5), |A·n| < 2^(3L+8), |det| <
+//! 2^(D+2L+7).
 
 use crate::ray::Ray;
 use dashu_int::IBig;
@@ -18,12 +18,12 @@ use glam::Vec3;
 use std::cmp::Ordering;
 use std::ops::{Add, Mul, Neg, Shl, Sub};
 
-/// An integer type, wide enough for what it is used for.
+/// An integer type that is wide enough for its use.
 trait Integer: Clone + Ord + From<i32> + Neg<Output = Self> + Shl<usize, Output = Self> {}
 impl Integer for i128 {}
 impl Integer for IBig {}
 
-/// Whether the ray's line meets the closed triangle, which it isn't parallel to.
+/// Whether the ray's line meets the closed triangle. `false` if it is parallel to the triangle.
 pub(super) fn is_inside(ray: &Ray, corners: [Vec3; 3]) -> bool {
     let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
     let dirs = Span::of(&[ray.dir]);
@@ -34,7 +34,7 @@ pub(super) fn is_inside(ray: &Ray, corners: [Vec3; 3]) -> bool {
     }
 }
 
-/// Whether the ray's line goes through a point.
+/// Whether the ray's line passes through a point.
 pub(super) fn meets(ray: &Ray, point: Vec3) -> bool {
     let lengths = Span::of(&[ray.origin, point]);
     let dirs = Span::of(&[ray.dir]);
@@ -45,7 +45,7 @@ pub(super) fn meets(ray: &Ray, point: Vec3) -> bool {
     }
 }
 
-/// Of which of two triangles t is less; the ray is parallel to neither.
+/// Compares the t of two triangles. The ray must be parallel to neither.
 pub(super) fn compare(ray: &Ray, first: [Vec3; 3], second: [Vec3; 3]) -> Ordering {
     let [a, b, c] = first;
     let [d, e, f] = second;
@@ -58,7 +58,7 @@ pub(super) fn compare(ray: &Ray, first: [Vec3; 3], second: [Vec3; 3]) -> Orderin
     }
 }
 
-/// How t compares with a finite number; the ray isn't parallel to the triangle.
+/// Compares t with a finite number. The ray must not be parallel to the triangle.
 pub(super) fn compare_with(ray: &Ray, corners: [Vec3; 3], t: f32) -> Ordering {
     let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
     let dirs = Span::of(&[ray.dir]);
@@ -79,7 +79,7 @@ pub(super) fn compare_with(ray: &Ray, corners: [Vec3; 3], t: f32) -> Ordering {
     }
 }
 
-/// t, u and v to f64's last place but one.
+/// t, u and v to the second-to-last place of f64.
 pub(super) fn rounded(ray: &Ray, corners: [Vec3; 3]) -> [f64; 3] {
     let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
     let dirs = Span::of(&[ray.dir]);
@@ -93,7 +93,7 @@ pub(super) fn rounded(ray: &Ray, corners: [Vec3; 3]) -> [f64; 3] {
     ]
 }
 
-/// `numerator/denominator·2^exponent`, cut off after 62 digits and then rounded.
+/// `numerator/denominator·2^exponent`, truncated to 62 digits and then rounded.
 fn quotient(numerator: &IBig, denominator: &IBig, exponent: i32) -> f64 {
     let bits = |x: &IBig| x.unsigned_abs().bit_len() as i32;
     let shift = 62 - (bits(numerator) - bits(denominator));
@@ -103,7 +103,7 @@ fn quotient(numerator: &IBig, denominator: &IBig, exponent: i32) -> f64 {
         numerator / (denominator << shift.unsigned_abs() as usize)
     };
     let digits = i64::try_from(scaled).expect("63 digits at most");
-    // In two steps, so that neither power of two leaves f64's range.
+    // Two steps, so that neither power of two leaves the range of f64.
     let power = exponent - shift;
     digits as f64 * 2f64.powi(power / 2) * 2f64.powi(power - power / 2)
 }
@@ -164,7 +164,7 @@ where
     ]
 }
 
-/// A·n and det: t is their quotient, times 2^(lengths − dirs).
+/// A·n and det; t is their quotient times 2^(lengths − dirs).
 fn fraction<T: Integer>(ray: &Ray, corners: [Vec3; 3], lengths: Span, dirs: Span) -> (T, T)
 where
     for<'a> &'a T: Arithmetic<'a, T>,
@@ -182,12 +182,12 @@ where
     corners.map(|p| minus(&lengths.integers(p), &origin))
 }
 
-/// Powers of two between which all bits of some numbers lie.
+/// The range of powers of two that holds all bits of some numbers.
 #[derive(Clone, Copy)]
 struct Span {
-    /// The lowest bit's.
+    /// Exponent of the lowest bit.
     exponent: i32,
-    /// How many bits from there to the highest.
+    /// Number of bits from the lowest to the highest.
     bits: i32,
 }
 
@@ -216,14 +216,14 @@ impl Span {
             } else if shift >= 0 {
                 T::from(mantissa) << shift as usize
             } else {
-                // Those bits are zeros: none lies below the lowest.
+                // The bits shifted out are zeros: none lies below the lowest bit.
                 T::from(mantissa >> shift.unsigned_abs())
             }
         })
     }
 }
 
-/// `mantissa·2^exponent` of a finite number.
+/// Mantissa and exponent of a finite number, which is `mantissa·2^exponent`.
 fn decode(x: f32) -> (i32, i32) {
     let bits = x.to_bits();
     let exponent = (bits >> 23 & 0xff) as i32;
@@ -235,7 +235,7 @@ fn decode(x: f32) -> (i32, i32) {
     (if x < 0.0 { -size } else { size }, exponent)
 }
 
-/// What integers do by reference, so that large ones needn't be copied.
+/// Arithmetic on references, which avoids copies of large integers.
 trait Arithmetic<'a, T: 'a>:
     Add<&'a T, Output = T> + Sub<&'a T, Output = T> + Mul<&'a T, Output = T> + Sized
 {

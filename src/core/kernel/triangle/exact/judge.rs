@@ -1,5 +1,4 @@
-//! Decides about hits one by one: from their f32 depths if those don't overlap, else in f64, else in
-//! integers.
+//! Decides single hits: from their f32 depth bounds if those don't overlap, else in f64, else in integers.
 
 use super::super::shear::ShearedRay;
 use super::{Filtered, VALUES, filter, integer};
@@ -9,31 +8,31 @@ use crate::ray::{Hit, Ray};
 use glam::Vec3;
 use std::cmp::Ordering;
 
-/// How often f32 could not decide.
+/// Counts of decisions that f32 left open.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(crate) struct JudgeCounters {
-    /// Triangles whose bounds f32 left too wide for a decision.
+    /// Triangles whose f32 bounds were too wide for a decision.
     pub in_f64: u32,
     /// Decisions about hit, interval or order that f64 left open.
     pub in_integers: u32,
 }
 
-/// A triangle that the ray's line meets, and bounds on where.
+/// A triangle that the ray's line meets, with bounds of its depth.
 #[derive(Clone, Copy, Debug)]
 pub(crate) struct Candidate {
     pub primitive: u32,
-    /// Where its corners are found.
+    /// The slot whose corners it has.
     pub slot: usize,
-    /// |t·d_z| with t's sign is at least this,
+    /// Lower bound of |t·d_z| with t's sign.
     near: f64,
-    /// and at most that.
+    /// Upper bound of |t·d_z| with t's sign.
     far: f64,
-    /// Whether the bounds are as narrow as f64 makes them.
+    /// Whether the bounds have been narrowed in f64.
     is_narrow: bool,
 }
 
 impl Candidate {
-    /// With the f32 filter's bounds.
+    /// A candidate with the f32 filter's bounds.
     #[inline(always)]
     pub fn new(primitive: u32, slot: usize, near: f32, far: f32) -> Self {
         Self {
@@ -45,16 +44,16 @@ impl Candidate {
         }
     }
 
-    /// On |t·d_z|, with t's sign.
+    /// The bounds of |t·d_z|, with t's sign.
     #[inline(always)]
     pub fn bounds(&self) -> [f64; 2] {
         [self.near, self.far]
     }
 
-    /// The hit there, t, u and v rounded.
+    /// The candidate's hit, with t, u and v rounded to f32.
     pub fn hit(&self, [t, u, v]: [f64; 3]) -> Hit {
         Hit {
-            // Not quite f32's largest number may round to infinity.
+            // Slightly below the largest f32, t may round to infinity.
             t: (t as f32).min(f32::MAX),
             u: u as f32,
             v: v as f32,
@@ -62,7 +61,7 @@ impl Candidate {
         }
     }
 
-    /// The bounds in f32, no narrower than those in f64.
+    /// The bounds in f32, no narrower than in f64.
     pub fn bounds_f32(&self) -> [f32; 2] {
         let (near, far) = (self.near as f32, self.far as f32);
         [
@@ -80,12 +79,12 @@ impl Candidate {
     }
 }
 
-/// The questions about one ray. `corners` finds those of a slot.
+/// Decides about the hits of one ray. `corners` returns a slot's corners.
 pub(crate) struct Judge<'a, F> {
     ray: &'a Ray,
     corners: F,
     dir_z: f64,
-    /// The ends of [`Ray::finite_interval`] as depths, exactly: 24 digits by 24.
+    /// The ends of [`Ray::finite_interval`] as depths; products of 24 by 24 bits are exact.
     interval: [f64; 2],
     pub work: JudgeCounters,
 }
@@ -106,22 +105,23 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         self.ray
     }
 
-    /// The depths at which the ray's interval begins and ends.
+    /// The depths at which the ray's interval starts and ends.
     #[inline(always)]
     pub fn interval(&self) -> [f64; 2] {
         self.interval
     }
 
-    /// Depths below this are before the ray's interval: among them those of the triangle that it leaves.
+    /// A depth below which hits lie before the ray's interval, among them the hit of the triangle that the
+    /// ray leaves.
     #[inline(always)]
     pub fn earliest(&self) -> f32 {
         let start = self.interval[0] as f32;
-        // Rounding is off by half an ulp, or half of the least number.
+        // Rounding errs by half an ulp, or by half of the smallest positive number.
         start - start.abs() * f32::EPSILON - f32::from_bits(1)
     }
 
-    /// `candidate`, which isn't a certain miss, if its hit lies in the ray's interval. Its bounds are the
-    /// f32 filter's, and so is `is_certain`.
+    /// Returns `candidate` if its hit lies in the ray's interval. It must not be a certain miss. Its bounds
+    /// and `is_certain` come from the f32 filter.
     #[inline(always)]
     pub fn within(&mut self, candidate: Candidate, is_certain: bool) -> Option<Candidate> {
         let ([start, end], [near, far]) = (self.interval, candidate.bounds());
@@ -132,7 +132,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         }
     }
 
-    // Out of line: it is the rare path, and the common one is the better for it.
+    // Not inlined: this path is rare, and the common path is faster without it.
     #[inline(never)]
     fn doubtful(&mut self, mut candidate: Candidate, is_certain: bool) -> Option<Candidate> {
         if !is_certain && !self.narrow(&mut candidate) {
@@ -143,7 +143,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         (is_after && self.compare_with(&mut candidate, end) == Ordering::Less).then_some(candidate)
     }
 
-    /// Whether the first is nearer, or as near and of a lower index.
+    /// Whether `first` is nearer than `second`, or equally near with a lower index.
     #[inline(always)]
     pub fn is_before(&mut self, first: &mut Candidate, second: &mut Candidate) -> bool {
         if first.far < second.near {
@@ -156,7 +156,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         }
     }
 
-    /// Which is nearer, exactly.
+    /// Compares two hits by t, exactly.
     #[inline(never)]
     pub fn compare(&mut self, first: &mut Candidate, second: &mut Candidate) -> Ordering {
         let by_bounds = |first: &Candidate, second: &Candidate| {
@@ -179,7 +179,8 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         self.narrow(second);
         by_bounds(first, second).unwrap_or_else(|| {
             self.work.in_integers += 1;
-            // Through a shared corner: many triangles may share it, and this takes a fraction of the time.
+            // Hits through a shared corner: many triangles may share it, and this test is much cheaper than a
+            // comparison.
             let mut shared = a.iter().filter(|p| b.contains(p));
             if shared.any(|p| integer::meets(self.ray, *p)) {
                 return Ordering::Equal;
@@ -188,9 +189,9 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         })
     }
 
-    /// How a hit's t compares with a number, exactly.
+    /// Compares a hit's t with a number, exactly.
     fn compare_with(&mut self, candidate: &mut Candidate, t: f32) -> Ordering {
-        // Exact: 24 digits by 24.
+        // Exact: a product of 24 by 24 bits.
         let depth = f64::from(t) * self.dir_z;
         let by_bounds = |candidate: &Candidate| {
             if candidate.far < depth {
@@ -211,7 +212,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         })
     }
 
-    /// Narrows the bounds as far as f64 can. `false`: the triangle is missed.
+    /// Narrows the bounds in f64, or in integers where f64 fails. Returns `false` if the triangle is missed.
     pub fn narrow(&mut self, candidate: &mut Candidate) -> bool {
         if candidate.is_narrow {
             return true;
@@ -229,36 +230,37 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
             }
         }
         let (near, far) = (filtered.near(), filtered.far());
-        // Neither where the sum of the edge functions came out 0.
+        // The bounds fail both tests if the sum of the edge functions came out 0.
         if near <= far && far - near < f64::INFINITY {
             (candidate.near, candidate.far) = (near, far);
         } else {
             let [t, ..] = integer::rounded(self.ray, corners);
             let depth = t * self.dir_z;
-            // Three roundings, and the digits that were cut off.
+            // Three roundings, and the truncated digits.
             let slack = 4.0 * f64::EPSILON * depth.abs();
             (candidate.near, candidate.far) = (depth - slack, depth + slack);
         }
         true
     }
 
-    /// The hit, rounded.
+    /// The hit, rounded to f32.
     pub fn hit(&self, candidate: Candidate) -> Hit {
         candidate.hit(self.values(candidate))
     }
 
-    /// t, u and v of a hit: t off by at most 2⁻³² of it, weights by 2⁻³¹.
+    /// t, u and v of a hit. t errs by at most 2⁻³² relatively, the weights by at most 2⁻³¹.
     pub fn values(&self, candidate: Candidate) -> [f64; 3] {
         self.values_for::<f64>(candidate)
     }
 
-    /// t, u and v of a hit, t off by at most [`Number::T_SLACK`] of it, weights by [`Number::WEIGHT_SLACK`].
+    /// t, u and v of a hit. t errs by at most [`Number::T_SLACK`] relatively, the weights by at most
+    /// [`Number::WEIGHT_SLACK`].
     pub fn values_for<N: Number>(&self, candidate: Candidate) -> [f64; 3] {
         let corners = (self.corners)(candidate.slot);
         let (t_slack, weight_slack) = (N::T_SLACK.into(), N::WEIGHT_SLACK.into());
         match in_f64(self.ray, corners) {
             Some(filtered) if filtered.is_within(t_slack, weight_slack) => {
-                // What is hit has no weight below 0.
+                // A hit has no negative weight.
                 let [u, v] = filtered.weights.map(|weight| weight.max(0.0));
                 [filtered.depth / self.dir_z, u, v]
             }
@@ -267,8 +269,8 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
     }
 }
 
-/// What f64 knows of a triangle; `None`: it is missed.
-// Out of line: it is the rare path, and the common one is the better for it.
+/// The f64 filter's result for a triangle; `None` if it is missed.
+// Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
 fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Option<Filtered<f64>> {
     let mut values = [0.0; VALUES];

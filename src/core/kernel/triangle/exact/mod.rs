@@ -1,15 +1,15 @@
-//! Ray–triangle test whose decisions are those of exact arithmetic, at nearly the speed of f32.
+//! Ray–triangle test whose decisions match exact arithmetic, at nearly the speed of f32.
 //!
-//! Source: the edge functions of the watertight kernel (Woop, Benthin, Wald, JCGT 2(1), 2013) with
-//!   error bounds of their own, in the manner of Shewchuk's adaptive predicates (DCG 18, 1997): f32, f64
-//!   where that can't decide, integers where that can't either. Bounds: `filter`; integers: `integer`.
-//! Promises: hit or miss, `t_min < t < t_max`, and the order of two hits by t, exactly, for any finite
-//!   ray and triangle; triangles are closed, their boundary belongs to them; a ray in a triangle's plane
-//!   misses it, and so does any ray a triangle of zero area. t errs by at most 0.51 ulp of f32, a
-//!   weight by at most 1.02·2⁻²⁵. So it is watertight, and a ray through a shared edge or vertex meets all
-//!   triangles there at the same t: one crossing, told by the lowest of them.
-//! Doesn't promise: hits beyond f32's largest t, which are misses; anything through a tree whose boxes lie at
-//!   distances that aren't normal f32 numbers, some 1e-38 to 1e38 (see `bvh::slab`).
+//! Source: the edge functions of the watertight kernel (Woop, Benthin, Wald, JCGT 2(1), 2013) with error
+//!   bounds derived here, in the manner of Shewchuk's adaptive predicates (DCG 18, 1997): f32 first, then
+//!   f64, then integers, each only if the previous one can't decide. Bounds: `filter`; integers: `integer`.
+//! Promises: exact decisions about hit or miss, `t_min < t < t_max`, and the order of two hits by t, for any
+//!   finite ray and triangle. Triangles are closed: their boundary belongs to them. A ray in a triangle's
+//!   plane misses it, and every ray misses a triangle of zero area. t errs by at most 0.51 ulp of f32, a
+//!   weight by at most 1.02·2⁻²⁵. So the kernel is watertight, and a ray through a shared edge or vertex
+//!   meets all triangles there at the same t: one crossing, reported for the triangle with the lowest index.
+//! Doesn't promise: hits beyond the largest finite f32, which are misses; hits through a tree whose boxes lie
+//!   at distances that aren't normal f32 numbers, about 1e-38 to 1e38 (see `bvh::slab`).
 
 mod filter;
 mod integer;
@@ -25,14 +25,14 @@ use crate::lane::Number;
 use crate::ray::{Hit, Ray};
 use glam::Vec3;
 
-/// What the kernel says of itself.
+/// The kernel's description.
 pub(crate) static INFO: KernelInfo = KernelInfo {
     name: "exact",
     title: "Exact, adaptive",
     tier: Some(Tier::Exact),
     precision: Precision::Adaptive,
     source: "Shewchuk, Adaptive Precision Floating-Point Arithmetic, DCG 1997",
-    summary: "Every decision as exact arithmetic makes it; f64 and integers only where needed.",
+    summary: "Every decision matches exact arithmetic; uses f64 and integers only where needed.",
     promises: Promises {
         is_watertight: true,
         is_accurate: true,
@@ -41,30 +41,30 @@ pub(crate) static INFO: KernelInfo = KernelInfo {
     },
 };
 
-/// Numbers that are kept of a triangle: its corners.
+/// The number of values stored per triangle: its corners.
 pub(crate) const VALUES: usize = 9;
 
 /// Tests one triangle. The hit's `primitive` is 0.
 pub(super) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
-    ask(ray, corners, |judge, candidate| judge.hit(candidate))
+    evaluate(ray, corners, |judge, candidate| judge.hit(candidate))
 }
 
-/// t, u and v where a ray hits a triangle, t off by at most 2⁻³² of it, weights by 2⁻³¹; `None` for a
-/// miss. For views and tables that show how much a kernel errs.
+/// t, u and v of a ray's hit of a triangle, or `None` for a miss. For views and tables that show a kernel's
+/// errors.
 ///
-/// A NaN or an infinity in a corner is a miss.
+/// t errs by at most 2⁻³² relatively, u and v by at most 2⁻³¹. A NaN or an infinity in a corner is a miss.
 pub fn exact_answer(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
     answer_for::<f64>(ray, corners)
 }
 
-/// The same, t and weights as accurate as `N` asks for.
+/// As [`exact_answer`], with t and the weights as accurate as `N` requires.
 pub(super) fn answer_for<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
-    ask(ray, corners, |judge, candidate| {
+    evaluate(ray, corners, |judge, candidate| {
         judge.values_for::<N>(candidate)
     })
 }
 
-fn ask<T>(
+fn evaluate<T>(
     ray: &Ray,
     corners: [Vec3; 3],
     answer: impl Fn(&Judge<'_, &dyn Fn(usize) -> [Vec3; 3]>, Candidate) -> T,

@@ -1,4 +1,4 @@
-//! t, u and v of several hits at a time, a hit a lane, to within half an ulp of f32 and a little.
+//! t, u and v of several hits, one per lane, to little more than half an ulp of f32.
 
 use super::{VALUES, filter};
 use crate::kernel::{RayLanes, ShearedRay, Values, axes_of};
@@ -7,8 +7,8 @@ use crate::ray::Ray;
 use fearless_simd::{Simd, f64x8};
 use glam::Vec3;
 
-/// Rays and the triangles that they hit, side by side. Each ray's own axes come first, second and third, so
-/// that all lanes look along the third.
+/// Rays and the triangles that they hit, one pair per lane. Each ray's coordinates are permuted so that its
+/// dominant axis comes third in every lane.
 #[derive(Clone, Copy)]
 pub(crate) struct HitLanes {
     origin: [[f32; LANES]; 3],
@@ -16,23 +16,23 @@ pub(crate) struct HitLanes {
     corners: [[f32; LANES]; VALUES],
 }
 
-/// What [`HitLanes`] come to.
+/// The values computed from [`HitLanes`].
 pub(crate) struct RoundedLanes {
     t: [f64; LANES],
     u: [f64; LANES],
     v: [f64; LANES],
-    good: u32,
+    accurate: u32,
 }
 
 impl RoundedLanes {
-    /// t, u and v in a lane, if they are [accurate](super::Filtered::is_accurate).
+    /// t, u and v of a lane, if they are [accurate](super::Filtered::is_accurate).
     pub fn of(&self, lane: usize) -> Option<[f64; 3]> {
-        let is_good = self.good >> lane & 1 == 1;
-        is_good.then(|| [self.t[lane], self.u[lane], self.v[lane]])
+        let is_accurate = self.accurate >> lane & 1 == 1;
+        is_accurate.then(|| [self.t[lane], self.u[lane], self.v[lane]])
     }
 }
 
-/// The corners' coordinates as f64.
+/// The corners' coordinates widened to f64.
 struct Widened<'a, S> {
     token: S,
     rows: &'a [[f32; LANES]; VALUES],
@@ -46,14 +46,14 @@ impl<S: Simd> Values<f64x8<S>> for Widened<'_, S> {
 }
 
 impl HitLanes {
-    /// Without hits.
+    /// No hits.
     pub const EMPTY: Self = Self {
         origin: [[0.0; LANES]; 3],
         dir: [[0.0; LANES]; 3],
         corners: [[0.0; LANES]; VALUES],
     };
 
-    /// Puts a ray and the triangle that it hits into a lane.
+    /// Stores a ray and the triangle that it hits in a lane.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, ray: &Ray, corners: [Vec3; 3]) {
         let lane = lane % LANES;
@@ -72,7 +72,7 @@ impl HitLanes {
         put(&mut self.corners[6..], c);
     }
 
-    /// t, u and v in each lane.
+    /// Computes t, u and v in each lane.
     #[inline(always)]
     pub fn values<S: Simd>(&self, token: S) -> RoundedLanes {
         let row = |rows: &[[f32; LANES]; 3], k: usize| f64::load(token, &rows[k]);
@@ -96,17 +96,17 @@ impl HitLanes {
                 t: [0.0; LANES],
                 u: [0.0; LANES],
                 v: [0.0; LANES],
-                good: 0,
+                accurate: 0,
             };
         };
-        let is_good = filtered.certain & filtered.is_accurate();
+        let is_accurate = filtered.certain & filtered.is_accurate();
         let t = filtered.depth / sheared.dir_z().abs();
         let [u, v] = filtered.weights;
         RoundedLanes {
             t: f64::store(t),
             u: f64::store(u),
             v: f64::store(v),
-            good: is_good.bits(),
+            accurate: is_accurate.bits(),
         }
     }
 }
