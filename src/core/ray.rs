@@ -1,30 +1,31 @@
-//! What is asked, and what is answered: rays and hits.
+//! Rays and hits.
 
 use glam::Vec3;
 
-/// A half-line `origin + t·dir`, asked about for `t_min < t < t_max`.
+/// A ray `origin + t·dir` with the open interval `t_min < t < t_max`.
 ///
-/// `dir` needn't be unit length; `t` counts its lengths. Make one with [`Ray::new`], which refuses
-/// what has no answer, and rescales a direction of an unusual length.
+/// `dir` needn't be unit length; `t` is in units of its length. [`Ray::new`] rejects invalid rays and
+/// rescales directions of unusual length.
 #[derive(Clone, Copy, Debug, PartialEq)]
-// The first eight numbers in this order: packets load four at a time.
+// The first eight numbers are in this order because packets load four at a time.
 #[repr(C)]
 pub struct Ray {
-    /// Where it starts, in the mesh's coordinates (about [`TriangleMesh::origin`](crate::TriangleMesh)).
+    /// Start of the ray, in the mesh's coordinates (relative to
+    /// [`TriangleMesh::origin`](crate::TriangleMesh)).
     pub origin: Vec3,
-    /// Where it goes.
+    /// Direction of the ray.
     pub dir: Vec3,
-    /// Hits at or before this are not reported.
+    /// Start of the interval: hits at or before it are not reported.
     pub t_min: f32,
-    /// Hits at or behind this are not reported.
+    /// End of the interval: hits at or behind it are not reported.
     pub t_max: f32,
-    /// `dir` is the direction that was given times 2 to this power.
+    /// `dir` is the given direction times 2 to this power.
     pub scale: i32,
-    /// The triangle that it starts on, which it therefore can't hit.
+    /// The triangle that the ray starts on and therefore can't hit.
     pub exclude: Option<u32>,
 }
 
-/// Why a ray has no answer.
+/// Reason why a ray is invalid.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RayError {
     /// The origin holds a NaN or an infinity.
@@ -41,8 +42,8 @@ pub enum RayError {
     IntervalEmpty,
 }
 
-/// Powers of two of the directions that are taken as they are: lengths of 2⁻¹⁶ to 2¹⁶ leave
-/// products of a direction and two distances well inside f32's range.
+/// Exponents of directions that need no rescaling: with lengths of 2⁻¹⁶ to 2¹⁶ the products of a direction
+/// and two distances stay well inside the range of f32.
 const USUAL: std::ops::Range<i32> = -16..16;
 
 impl Ray {
@@ -54,12 +55,12 @@ impl Ray {
         Self::with_interval(origin, dir, 0.0, f32::INFINITY)
     }
 
-    /// A ray over `t_min < t < t_max`. `t_max` may be infinite, `t_min` negative, and minus infinity. A hit is
-    /// a miss if its |t|, in lengths of `dir`, is f32's largest number or more.
+    /// A ray over `t_min < t < t_max`. `t_max` may be infinite, `t_min` negative or minus infinity. A hit is
+    /// a miss if |t|, in units of the length of `dir`, is at least the largest finite f32.
     ///
-    /// A direction whose longest coordinate isn't between 2⁻¹⁶ and 2¹⁶ is brought to between 1 and 2 by a
-    /// power of two, where that rounds no coordinate, and the interval with it, whose ends may be rounded
-    /// where they leave f32's normal numbers. t then counts other lengths: see
+    /// A direction whose longest component isn't between 2⁻¹⁶ and 2¹⁶ is scaled by a power of two to between
+    /// 1 and 2, unless that would round a component. The interval is scaled with it; an end that leaves the
+    /// normal f32 range may be rounded. t is then in units of the scaled direction: see
     /// [`t_as_given`](Self::t_as_given).
     ///
     /// # Errors
@@ -98,7 +99,7 @@ impl Ray {
         }
     }
 
-    /// With a direction of a usual length; as it is where that would round one of its coordinates.
+    /// The ray with a direction of usual length, or unchanged if scaling would round a component.
     #[cold]
     fn rescaled(self) -> Self {
         let exponent = exponent_of(self.dir);
@@ -115,14 +116,14 @@ impl Ray {
         }
     }
 
-    /// The part of the interval in which a hit's t is a finite f32: what is as far as f32's largest number,
-    /// ahead or behind, is a miss.
+    /// The part of the interval in which t is a finite f32: hits at or beyond the largest finite f32, ahead
+    /// or behind, are misses.
     #[inline(always)]
     pub(crate) fn finite_interval(&self) -> [f32; 2] {
         [self.t_min.max(-f32::MAX), self.t_max.min(f32::MAX)]
     }
 
-    /// A distance in lengths of the direction that the ray was made with.
+    /// Converts a distance to units of the length of the direction that the ray was created with.
     pub fn t_as_given(&self, t: f32) -> f64 {
         f64::from(t) * 2f64.powi(self.scale)
     }
@@ -132,41 +133,41 @@ fn scaled(x: f32, power: i32) -> f32 {
     (f64::from(x) * 2f64.powi(power)) as f32
 }
 
-/// That of the longest coordinate.
+/// Exponent of the longest component.
 #[inline]
 fn exponent_of(dir: Vec3) -> i32 {
-    // An f64 holds f32's subnormals as normal numbers: its exponent is that of the size.
+    // f32 subnormals are normal numbers in f64, so its exponent is that of the magnitude.
     (f64::from(dir.abs().max_element()).to_bits() >> 52) as i32 - 1023
 }
 
-/// The distance from an f32 of this size to the next larger one: what errors of t are counted in.
+/// Distance from an f32 of magnitude `t` to the next larger one; the unit in which errors of t are measured.
 pub fn ulp_at(t: f64) -> f64 {
     let size = (t.abs() as f32).min(f32::MAX.next_down());
     f64::from(size.next_up()) - f64::from(size)
 }
 
-/// Where a ray meets a triangle: `P = (1 − u − v)·A + u·B + v·C`.
+/// A ray's hit of a triangle, at `P = (1 − u − v)·A + u·B + v·C`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Hit {
-    /// Distance in lengths of the ray's direction.
+    /// Distance in units of the length of the ray's direction.
     pub t: f32,
-    /// Weight of the triangle's second vertex.
+    /// Barycentric coordinate of the triangle's second vertex.
     pub u: f32,
-    /// Weight of the triangle's third vertex.
+    /// Barycentric coordinate of the triangle's third vertex.
     pub v: f32,
     /// Index of the triangle in the mesh.
     pub primitive: u32,
 }
 
 impl Hit {
-    /// The weights of the three vertices, in their order.
+    /// The barycentric coordinates of the three vertices, in order.
     pub fn barycentric(&self) -> [f32; 3] {
-        // Plus zero: no −0.
+        // Adding zero turns −0 into 0.
         [1.0 - self.u - self.v, self.u + 0.0, self.v + 0.0]
     }
 
-    /// The largest error of a weight against the exact ones. The first one's is taken in f64: the last
-    /// rounding of 1 − u − v isn't the kernel's.
+    /// The largest barycentric error against the exact coordinates. The first coordinate is computed in f64,
+    /// because the last rounding of 1 − u − v isn't the kernel's.
     pub fn weight_error(&self, exact: [f64; 3]) -> f64 {
         let (u, v) = (f64::from(self.u), f64::from(self.v));
         let errors = [1.0 - u - v, u, v].into_iter().zip(exact);
@@ -180,7 +181,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn rays_without_an_answer_are_refused_with_the_reason() {
+    fn invalid_rays_are_rejected_with_the_reason() {
         let (o, d) = (Vec3::ZERO, Vec3::X);
         assert!(Ray::new(o, d).is_ok());
         assert_eq!(Ray::new(o, -Vec3::ZERO), Err(RayError::DirectionZero));
@@ -225,12 +226,12 @@ mod tests {
         }
         let scale = |dir| Ray::new(Vec3::ZERO, dir).map(|ray| ray.scale);
         assert_eq!(scale(Vec3::X * 3.0), Ok(0));
-        // Scaled down, the second coordinate would vanish.
+        // Scaled down, the second component would underflow to 0.
         assert_eq!(scale(Vec3::new(1e30, 1e-20, 0.0)), Ok(0));
     }
 
     #[test]
-    fn the_weights_belong_to_the_vertices_in_order() {
+    fn barycentric_coordinates_are_in_the_order_of_the_vertices() {
         let hit = Hit {
             t: 1.0,
             u: 0.25,

@@ -1,8 +1,8 @@
-//! Spawn policies: where a ray that leaves a surface starts, so that it neither hits the surface again nor misses
-//! what touches it.
+//! Spawn policies: rules for the origin of a ray that leaves a surface, so that it neither hits that surface
+//! again nor misses surfaces that touch it.
 //!
 //! Hit points are rounded, and about half of them lie below their triangle: a ray that starts there hits the
-//! triangle again. The table of policies is [`SPAWN_POLICIES`]. `hitscope lab` measures how often each of them
+//! triangle again. [`SPAWN_POLICIES`] is the table of policies. `hitscope lab` measures how often each policy
 //! fails, and the height at which its rays start.
 
 use crate::mesh::unit_normal;
@@ -35,7 +35,7 @@ pub struct SpawnPolicy {
     begin: fn(&Departure<'_>) -> RayStart,
 }
 
-/// The origin of a spawned ray, and what it ignores.
+/// The origin of a spawned ray, the start of its interval and the triangle that it excludes.
 struct RayStart {
     origin: Vec3,
     t_min: f32,
@@ -64,7 +64,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "fixed-epsilon",
         title: "Fixed ε",
         source: "Lensch, Basic Geometry, lecture, 2022",
-        summary: "Hits with t < 1e-6 don't count, at any scale: fails in most scenes.",
+        summary: "Ignores hits with t < 1e-6 at any scale; fails in most scenes.",
         begin: |departure| RayStart {
             origin: departure.point_along_ray(),
             t_min: LECTURES_EPSILON,
@@ -75,7 +75,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "scaled-epsilon",
         title: "Scaled ε",
         source: "Jakob et al., Mitsuba 3, 2022",
-        summary: "Lifted by 1500 half ulps of the largest coordinate: far too high away from the origin.",
+        summary: "Lifted by 1500 half ulps of the largest coordinate; far too high at large coordinates.",
         begin: |departure| {
             let p = departure.point_by_weights();
             let height = (1.0 + p.abs().max_element()) * MITSUBAS_EPSILON;
@@ -86,7 +86,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "wachter-binder",
         title: "Wächter–Binder",
         source: "Wächter, Binder, A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing Gems 2019",
-        summary: "Lifted by up to 256 ulps of each coordinate: simple, and too high away from the origin.",
+        summary: "Lifted by up to 256 ulps of each coordinate; simple, but too high at large coordinates.",
         begin: |departure| {
             RayStart::at(wachter_binder(
                 departure.point_by_weights(),
@@ -98,7 +98,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "nvidia",
         title: "NVIDIA, object space",
         source: "NVIDIA, Self Intersection Avoidance, 2023",
-        summary: "Lifted by a bound on the error of A + u(B − A) + v(C − A): low, but the sum is rounded once more.",
+        summary: "Lifted by a bound on the error of A + u(B − A) + v(C − A); low, but the sum is rounded once more.",
         begin: |departure| RayStart::at(nvidia(departure)),
     },
     SpawnPolicy {
@@ -112,7 +112,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         name: "exclusion",
         title: "Exclusion",
         source: "Folklore",
-        summary: "Not lifted; the triangle that the ray leaves is ignored, its neighbours aren't.",
+        summary: "Not lifted; ignores the triangle that the ray leaves, but not its neighbours.",
         begin: |departure| RayStart {
             exclude: Some(departure.hit.primitive),
             ..RayStart::at(departure.point_by_weights())
@@ -121,7 +121,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
     SpawnPolicy {
         name: "combined",
         title: "Error-bounded and exclusion",
-        source: "Both of the above",
+        source: "Pharr et al., 2023, with exclusion",
         summary: "The bound avoids hits on neighbours, the exclusion hits on the triangle itself.",
         begin: |departure| RayStart {
             exclude: Some(departure.hit.primitive),
@@ -130,12 +130,12 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
     },
 ];
 
-/// The policy that is used unless another one is chosen.
+/// The default policy.
 pub fn default_spawn_policy() -> &'static SpawnPolicy {
     SPAWN_POLICIES.last().expect("the table isn't empty")
 }
 
-/// The lecture's epsilon, in lengths of the direction.
+/// The lecture's epsilon, in units of the direction's length.
 const LECTURES_EPSILON: f32 = 1e-6;
 /// Mitsuba's `RayEpsilon`, 1500 half ulps of 1.
 const MITSUBAS_EPSILON: f32 = 1500.0 * U;
@@ -153,12 +153,12 @@ impl RayStart {
 }
 
 impl Departure<'_> {
-    /// o + t·d. Its error is some ulps of t·d and of the point.
+    /// o + t·d. Its error is a few ulps of t·d and of the point.
     fn point_along_ray(&self) -> Vec3 {
         self.arrived_by.origin + self.hit.t * self.arrived_by.dir
     }
 
-    /// l1·A + l2·B + l3·C. Its error is some ulps of the corners.
+    /// l1·A + l2·B + l3·C. Its error is a few ulps of the corners.
     fn point_by_weights(&self) -> Vec3 {
         self.weighted_corners().into_iter().sum()
     }
@@ -177,7 +177,7 @@ impl Departure<'_> {
     }
 }
 
-/// Moves each coordinate by up to 256 ulps, or by the normal over 65536 near 0, where ulps are too small.
+/// Moves each coordinate by up to 256 ulps, or near 0, where ulps are too small, by 1/65536 of the normal.
 fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
     const ORIGIN: f32 = 1.0 / 32.0;
     const FLOAT_SCALE: f32 = 1.0 / 65536.0;
@@ -188,7 +188,7 @@ fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
             p + FLOAT_SCALE * n
         } else {
             let ulps = (INT_SCALE * n) as i32;
-            // Away from 0 the bits grow with the size, whatever the sign.
+            // The bit pattern grows with the magnitude, for either sign.
             let away = if p < 0.0 { -ulps } else { ulps };
             f32::from_bits(p.to_bits().wrapping_add_signed(away))
         }
@@ -196,8 +196,8 @@ fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
     Vec3::from_array(std::array::from_fn(coordinate))
 }
 
-/// The source's terms in object space: u for the corner and 3u for the edges. Its terms for the transform to the
-/// world and back are left out, as there is no transform.
+/// The source's terms in object space: u for the corner and 3u for the edges. Its terms for the transforms
+/// between object and world are omitted, as there is no transform.
 fn nvidia(departure: &Departure<'_>) -> Vec3 {
     let [a, b, c] = departure.corners;
     let (e1, e2) = (b - a, c - a);
@@ -209,27 +209,27 @@ fn nvidia(departure: &Departure<'_>) -> Vec3 {
     p + normal * error.dot(normal.abs())
 }
 
-/// The point lifted along the normal n by γ(7)·Σ|nᵢ|·(sᵢ + e), where s bounds the error of the point and e the
-/// error with which the next test sees the plane.
+/// The point lifted along the normal n by γ(7)·Σ|nᵢ|·(sᵢ + e), where s bounds the error of the point and e
+/// the error with which the next test sees the plane.
 ///
-/// s is the sum of the weighted corners' sizes. 1 − u − v is off by 1.5u, which moves the point along the
-/// normal by 1.5u·|n·P|, where |n·P| is at most Σ|lᵢPᵢ|·|n|; a product and two sums add 3u. The rest is the
-/// source's, whose weights err more.
+/// s is the sum of the magnitudes of the weighted corners. 1 − u − v is off by 1.5u, which moves the point
+/// along the normal by 1.5u·|n·P|, where |n·P| is at most Σ|lᵢPᵢ|·|n|; a product and two sums add 3u. The
+/// rest of 7u comes from the source, whose weights err more.
 ///
-/// e is the largest coordinate of a corner as seen from the point. A test in f32 moves the corners to the new
+/// e is the largest coordinate of a corner relative to the point. A test in f32 moves the corners to the new
 /// origin and shears them along the new ray, which moves each coordinate by up to 7u·e (see
-/// `kernel::triangle::exact::filter`): it sees a neighbour in the same plane, as large as this triangle, that
-/// much higher or lower. The source leaves e out, and so lifts a point by nothing where the weighted corners'
-/// coordinates are 0: on an edge that lies in an axis, or anywhere in a plane through two axes.
+/// `kernel::triangle::exact::filter`). It sees a neighbour in the same plane, as large as this triangle, that
+/// much higher or lower. The source omits e, so it doesn't lift a point at all if the weighted corners'
+/// coordinates are 0: on an edge that lies in an axis, or in a plane through two axes.
 ///
-/// Only a kernel that decides exactly whether t is positive doesn't meet neighbours that are many times as
-/// large or as narrow.
+/// Neighbours that are many times as large or as narrow are avoided only by kernels that decide exactly
+/// whether t is positive.
 fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     const GAMMA_7: f32 = 7.0 * U / (1.0 - 7.0 * U);
     let weighted = departure.weighted_corners();
     let size: Vec3 = weighted.iter().map(|p| p.abs()).sum();
     let p: Vec3 = weighted.into_iter().sum();
-    // Halves, as an extent may leave f32.
+    // Computed from halves, as an extent may overflow f32.
     let half_distances = departure
         .corners
         .map(|corner| (0.5 * corner - 0.5 * p).abs());
@@ -238,7 +238,7 @@ fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     let error = GAMMA_7 * size + Vec3::splat(2.0 * GAMMA_7 * half_extent);
     let normal = departure.facing_normal();
     let offset = normal * error.dot(normal.abs());
-    // The sum is rounded away from the surface.
+    // Round the sum away from the surface.
     let coordinate = |axis: usize| {
         let (x, offset) = (p[axis] + offset[axis], offset[axis]);
         if offset > 0.0 {

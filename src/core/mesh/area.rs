@@ -1,11 +1,11 @@
-//! Finds triangles whose area is exactly zero: they have no normal and no barycentric coordinates.
+//! Detects triangles whose area is exactly zero: they have no normal and no barycentric coordinates.
 
 use glam::Vec3;
 
-/// Whether the corners lie on one line, exactly. `false` if a corner isn't finite.
+/// Whether the corners are exactly collinear. `false` if a corner isn't finite.
 ///
-/// They do if and only if their three projections along the axes do; each projection is an
-/// orientation test, whose terms are products of two f32 and so exact in f64.
+/// They are if and only if their three projections along the axes are. Each projection is an orientation
+/// test, whose terms are products of two f32 and therefore exact in f64.
 pub fn has_zero_area(corners: [Vec3; 3]) -> bool {
     [(0, 1), (1, 2), (2, 0)]
         .into_iter()
@@ -22,8 +22,8 @@ fn is_flat([a, b, c]: [[f64; 2]; 3]) -> bool {
         c[0] * a[1],
         -(c[1] * a[0]),
     ];
-    // Six terms, five roundings: an error of at most 5·2⁻⁵³·Σ|term|; 8ε = 16·2⁻⁵³ also covers the
-    // rounding of the sum of sizes.
+    // Six terms and five roundings give an error of at most 5·2⁻⁵³·Σ|term|; 8ε = 16·2⁻⁵³ also covers the
+    // rounding of the sum of magnitudes.
     let sum: f64 = terms.iter().sum();
     let size: f64 = terms.iter().map(|x| x.abs()).sum();
     if sum.abs() > 8.0 * f64::EPSILON * size {
@@ -34,8 +34,8 @@ fn is_flat([a, b, c]: [[f64; 2]; 3]) -> bool {
 
 /// Whether the terms cancel exactly.
 ///
-/// Keeps the sum as an expansion, numbers that don't overlap, whose sum is exact; it is zero if and
-/// only if all of them are.
+/// Keeps the sum as an expansion: non-overlapping numbers whose sum is exact. It is zero if and only if all
+/// of them are.
 /// Source: Shewchuk, "Adaptive Precision Floating-Point Arithmetic", DCG 18, 1997 (Grow-Expansion).
 fn exact_sum_is_zero(terms: [f64; 6]) -> bool {
     let mut expansion = [0.0f64; 6];
@@ -49,7 +49,7 @@ fn exact_sum_is_zero(terms: [f64; 6]) -> bool {
     expansion.iter().all(|&part| part == 0.0)
 }
 
-/// a + b as its rounded value and what rounding lost.
+/// The rounded sum of a and b, and its rounding error.
 /// Source: Knuth, The Art of Computer Programming 2, 4.2.2.
 fn two_sum(a: f64, b: f64) -> (f64, f64) {
     let sum = a + b;
@@ -85,7 +85,7 @@ mod tests {
     }
 
     #[test]
-    fn a_corner_moved_by_less_than_f64_tells_gives_a_triangle_area() {
+    fn a_corner_moved_by_less_than_f64_resolves_gives_a_triangle_area() {
         // With an x of 0 the corners lie on one line; f64 rounds the six terms' sum to 0.
         let [a, b] = [Vec3::new(4.0, 3.0, 0.0), Vec3::new(2.0, 7.0, 4.0)];
         assert!(has_zero_area([a, b, Vec3::new(0.0, 11.0, 8.0)]));

@@ -1,6 +1,6 @@
 //! Long closed meshes of long triangles, and rays from inside them, for tests and measurements.
 //!
-//! A footprint in the plane, extruded along z and perhaps turned:
+//! Each is a footprint in the plane, extruded along z and optionally rotated:
 //!
 //! ```text
 //!   box       prism       strips          L-shaped, extruded by 2
@@ -15,14 +15,14 @@ use crate::random::Random;
 use crate::ray::Ray;
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
-/// Which footprint.
+/// Footprint of a corridor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Footprint {
     /// A square of 2 × 2.
     Square,
     /// A triangle.
     Triangle,
-    /// The square, its sides cut into many.
+    /// A square whose sides are divided into many strips.
     Strips,
     /// A square and two arms from it, as long as the corridor.
     L,
@@ -37,7 +37,7 @@ pub const FOOTPRINTS: [Footprint; 4] = [
 ];
 
 impl Footprint {
-    /// For names and tables.
+    /// The name in mesh names and tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Square => "box",
@@ -47,7 +47,7 @@ impl Footprint {
         }
     }
 
-    /// Its corners counterclockwise; each is seen from (0, 0).
+    /// Its corners, counterclockwise; every corner is visible from (0, 0).
     fn outline(self, length: f64) -> Vec<DVec2> {
         let p = DVec2::new;
         let square = [p(-1.0, -1.0), p(1.0, -1.0), p(1.0, 1.0), p(-1.0, 1.0)];
@@ -74,23 +74,23 @@ impl Footprint {
     }
 }
 
-/// Strips of one side. A power of two, so that their corners are exact.
+/// Strips per side. A power of two, so that their corners are exact.
 const STRIPS: u32 = 16;
 
-/// A long closed mesh.
+/// A long closed mesh and the geometry from which rays inside it are drawn.
 pub struct Corridor {
-    /// Wound to the outside.
+    /// The mesh; its normals point outwards.
     pub mesh: TriangleMesh,
     outline: Vec<DVec2>,
-    /// It is extruded from minus this to this.
+    /// It is extruded from minus this to plus this.
     half_height: f64,
     turn: DQuat,
-    /// How far inside a point must lie so that no rounding moves it out.
+    /// Distance from the walls beyond which rounding can't move a point out.
     margin: f64,
 }
 
 impl Corridor {
-    /// Twice as long as `length`, or with arms of that length.
+    /// A corridor twice as long as `length`, or with arms of that length.
     pub fn new(footprint: Footprint, length: f64, is_turned: bool) -> Self {
         let outline = footprint.outline(length);
         let half_height = match footprint {
@@ -102,7 +102,7 @@ impl Corridor {
         } else {
             DQuat::IDENTITY
         };
-        // The mesh's corners and the point itself are moved by up to √3·2⁻²⁴ of the largest coordinate each.
+        // The mesh's corners and the point itself are each moved by up to √3·2⁻²⁴ of the largest coordinate.
         let largest = if is_turned { 2.0 * length } else { 1.0 };
         let ends = [-half_height, half_height];
         let at = |p: DVec2, z: f64| (turn * p.extend(z)).as_vec3();
@@ -117,8 +117,8 @@ impl Corridor {
         }
     }
 
-    /// A ray from inside: half of the origins are near walls, edges or corners, and half of the directions
-    /// point to edges and corners, or just beside.
+    /// A random ray from inside. Half of the origins are near walls, edges or corners, and half of the
+    /// directions point at or just beside edges and corners.
     pub fn ray(&self, random: &mut Random) -> Ray {
         loop {
             let origin = self.origin(random);
@@ -149,7 +149,7 @@ impl Corridor {
         let p = point.truncate();
         let next = self.outline.iter().skip(1).chain(&self.outline[..1]);
         let mut edges = self.outline.iter().zip(next);
-        // No wall is nearer than the margin, and no end.
+        // Walls and ends are at least the margin away.
         self.half_height - point.z.abs() >= self.margin
             && edges.all(|(a, b)| {
                 let part = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
@@ -171,7 +171,7 @@ impl Corridor {
                 let corners = self.mesh.corners(triangle).map(Vec3::as_dvec3);
                 let start = random.index(3);
                 let (a, b) = (corners[start], corners[(start + 1) % 3]);
-                // Opposite the origin, so that much of the edge lies behind, or anywhere.
+                // Opposite the origin, so that much of the edge lies behind it, or anywhere along the edge.
                 let foot = (origin - a).dot(b - a) / (b - a).length_squared();
                 let away = random.signed() * near_zero(random);
                 let along = [foot + away, random.unit(), 0.0][random.index(3)];
@@ -187,17 +187,17 @@ impl Corridor {
     }
 }
 
-/// Between 0 and 1, half of them close to 0: down to 10⁻⁷.
+/// A number between 0 and 1; half of them are close to 0, down to 10⁻⁷.
 fn near_zero(random: &mut Random) -> f64 {
     if random.index(2) == 0 {
         random.unit()
     } else {
-        // A power of 2, as not every machine rounds others alike.
+        // A power of 2, because machines may round other powers differently.
         random.unit() * 2f64.powi(-(random.index(24) as i32))
     }
 }
 
-/// Of corners that lie alternately below and above, `count` of each, then the two middles.
+/// Triangles over corners that lie alternately below and above, `count` of each, followed by the two centres.
 fn triangles(count: u32) -> Vec<[u32; 3]> {
     let (low_middle, high_middle) = (2 * count, 2 * count + 1);
     let side = |i: u32| {

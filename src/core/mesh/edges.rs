@@ -1,27 +1,28 @@
-//! The triangles at each edge, and the corners at each vertex.
+//! Table of the triangles at each edge, and fans of corners around each vertex.
 
 use super::TriangleMesh;
 use rayon::prelude::*;
 
-/// One triangle at an edge.
+/// A triangle at an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct EdgeUse {
-    /// The edge's ends, the lower one first.
+    /// The edge's ends, the lower index first.
     pub ends: [u32; 2],
-    /// The triangle, and from which of its corners the edge goes to the next one.
+    /// The triangle, and the corner of it from which the edge goes to the next corner.
     pub triangle: u32,
     pub corner: u8,
-    /// Whether it goes from the lower to the higher end.
+    /// Whether the triangle traverses the edge from the lower to the higher index.
     pub is_forward: bool,
 }
 
-/// Every triangle at every edge, by edge.
+/// All triangles at all edges, sorted by edge.
 pub(crate) struct EdgeTable {
     uses: Vec<EdgeUse>,
 }
 
 impl EdgeTable {
-    /// `vertex` says which vertex stands for one, such as the first at its place.
+    /// Builds the table. `vertex` maps each vertex to its representative, such as the first one at its
+    /// position.
     pub(crate) fn of(mesh: &TriangleMesh, vertex: impl Fn(u32) -> u32 + Sync) -> Self {
         let of_triangle = |(triangle, corners): (usize, &[u32; 3])| {
             let ends = corners.map(&vertex);
@@ -48,7 +49,7 @@ impl EdgeTable {
 }
 
 impl EdgeUse {
-    /// The triangle's corners at the lower and the higher end, as [`VertexFans`] counts them.
+    /// The triangle's corners at the lower and the higher end, numbered as in [`VertexFans`].
     fn corners(&self) -> [u32; 2] {
         let k = u32::from(self.corner);
         let [from, to] = [k, (k + 1) % 3].map(|k| 3 * self.triangle + k);
@@ -60,7 +61,7 @@ impl EdgeUse {
     }
 }
 
-/// Sets of corners around a vertex that hang together by edges. Corner k of triangle t is number 3·t + k.
+/// Sets of corners around a vertex that are connected by edges. Corner k of triangle t is number 3·t + k.
 ///
 /// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", JACM 22(2), 1975.
 pub(crate) struct VertexFans {
@@ -68,7 +69,7 @@ pub(crate) struct VertexFans {
 }
 
 impl VertexFans {
-    /// Triangles hang together at an edge where `is_joined` says so of two that follow each other there.
+    /// Connects triangles at an edge if `is_joined` holds for two consecutive uses of it.
     pub(crate) fn of(
         mesh: &TriangleMesh,
         edges: &EdgeTable,
@@ -90,7 +91,7 @@ impl VertexFans {
         fans
     }
 
-    /// The corner that stands for a corner's set.
+    /// The corner that represents a corner's set.
     pub(crate) fn find(&mut self, mut corner: u32) -> u32 {
         while self.parent[corner as usize] != corner {
             let above = self.parent[self.parent[corner as usize] as usize];

@@ -6,50 +6,50 @@ use glam::{Vec2, Vec3};
 /// A material. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// As the file calls it.
+    /// The name in the file.
     pub name: String,
-    /// Diffuse reflectance (`Kd`), where the material library gives one.
+    /// Diffuse reflectance (`Kd`), if the material library has one.
     pub diffuse: Option<Vec3>,
     /// Reflectance of highlights (`Ks`).
     pub specular: Vec3,
-    /// Exponent of the highlights (`Ns`): the larger it is, the smaller they are.
+    /// Exponent of the highlights (`Ns`): larger values give smaller highlights.
     pub shininess: f32,
     /// Emitted light (`Ke`).
     pub emission: Vec3,
-    /// 1 hides what is behind, 0 is invisible (`d`, or 1 − `Tr`).
+    /// 1 is opaque, 0 is invisible (`d`, or 1 − `Tr`).
     pub opacity: f32,
-    /// Which lights count (`illum`).
+    /// The shading terms in use (`illum`).
     pub illumination: Illumination,
-    /// A picture that the diffuse reflectance is multiplied by (`map_Kd`).
+    /// Texture that the diffuse reflectance is multiplied by (`map_Kd`).
     pub diffuse_map: Option<TextureMap>,
 }
 
-/// The parts of shading that a material has.
+/// The shading terms of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Illumination {
-    /// None: its diffuse colour as it is.
+    /// The diffuse colour without shading.
     Constant,
-    /// Diffuse reflection alone.
+    /// Diffuse reflection only.
     Diffuse,
-    /// Highlights, too.
+    /// Diffuse reflection and highlights.
     #[default]
     Highlights,
 }
 
-/// A texture, and how it lies on the surface: at `scale`·(u, v) + `offset`.
+/// A texture and its mapping: it is sampled at `scale`·(u, v) + `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureMap {
     /// Index into the mesh's textures.
     pub texture: u32,
-    /// How often it repeats.
+    /// Number of repetitions per unit.
     pub scale: Vec2,
-    /// Where it begins.
+    /// Offset of the texture coordinates.
     pub offset: Vec2,
 }
 
 impl TextureMap {
-    /// The colour at a surface's texture coordinates, in linear RGB; white if there is no such texture. A
-    /// coordinate that isn't finite counts as 0.
+    /// The colour at texture coordinates `uv`, in linear RGB; white if there is no such texture. A coordinate
+    /// that isn't finite counts as 0.
     pub fn colour(&self, textures: &[Texture], uv: Vec2) -> Vec3 {
         let texture = textures.get(self.texture as usize);
         texture.map_or(Vec3::ONE, |texture| {
@@ -59,7 +59,7 @@ impl TextureMap {
 }
 
 impl Material {
-    /// Of which nothing is known but its name.
+    /// A material with default properties.
     pub fn named(name: &str) -> Self {
         Self {
             name: name.to_owned(),
@@ -74,7 +74,7 @@ impl Default for Material {
             name: String::new(),
             diffuse: None,
             specular: Vec3::ZERO,
-            // Without a highlight it doesn't matter; 10 is a soft one.
+            // Without highlights the value doesn't matter; 10 gives soft ones.
             shininess: 10.0,
             emission: Vec3::ZERO,
             opacity: 1.0,

@@ -1,7 +1,7 @@
 //! Triangle meshes.
 //!
-//! An indexed mesh as the file gave it: each vertex once, triangles as three indices, and for each
-//! triangle the polygon that it came from, so that a wireframe can hide triangulation diagonals.
+//! An indexed mesh as given by the file: each vertex once, triangles as three indices, and for each triangle
+//! the polygon that it came from, so that a wireframe can hide triangulation diagonals.
 
 mod area;
 pub mod corridors;
@@ -28,54 +28,53 @@ use crate::aabb::Aabb;
 use glam::{DVec3, Vec2, Vec3};
 use rayon::prelude::*;
 
-/// Sizes of a mesh for which f32 kernels are at their best: seen from ten times as far, the products of
-/// two lengths then stay well inside f32's range.
+/// Mesh sizes at which f32 kernels work best: from a distance of ten times the size, products of two lengths
+/// stay well inside the range of f32.
 pub const SAFE_SIZE: std::ops::RangeInclusive<f64> = 1e-15..=1e16;
 
-/// The unit normal by the right-hand rule over A, B, C; zero for a triangle of zero area, and for one so thin
-/// that f64 finds none.
+/// The unit normal by the right-hand rule over A, B, C; zero for a triangle of zero area, and for one too
+/// thin for f64.
 ///
-/// In f64, where neither a product nor a length of f32 numbers under- or overflows.
+/// Computed in f64, where neither products nor lengths of f32 numbers under- or overflow.
 pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Marks a corner without a normal, or without texture coordinates, in lists that go by corner.
+/// Marks a corner without a normal or texture coordinates in per-corner lists.
 pub const NO_INDEX: u32 = u32::MAX;
 
-/// Why triangles are missing that the file has.
+/// Counts of the file's triangles and other elements that were dropped, by reason.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Dropped {
-    /// Their area is exactly zero, once their corners are rounded to f32.
+    /// Triangles whose area is exactly zero after rounding their corners to f32.
     pub zero_area: usize,
-    /// A corner is NaN or infinite, or too large for f32.
+    /// Triangles with a corner that is NaN, infinite or too large for f32.
     pub non_finite: usize,
-    /// Faces, not triangles: an index names nothing, or there are fewer than three corners.
+    /// Faces (not triangles) with an invalid index or fewer than three corners.
     pub bad_index: usize,
-    /// Lines and points, for any of these reasons.
+    /// Lines and points, dropped for any of these reasons.
     pub elements: usize,
 }
 
-/// Smoothing groups: triangles of one group are smooth where they meet, others have an edge there.
+/// Smoothing groups: edges between triangles of the same group are smooth, all others are creases.
 #[derive(Clone, Debug, Default)]
 pub struct Smoothing {
-    /// Whether the file says anything of them; else all triangles are smooth.
+    /// Whether the file has smoothing groups; without them all triangles are smooth.
     pub has_groups: bool,
     /// The group of each triangle; 0 is flat.
     pub groups: Runs,
 }
 
-/// An indexed triangle mesh. Its positions are f32 about an f64 origin: that is what rays are asked
-/// against, exactly.
+/// An indexed triangle mesh. Its positions are f32 relative to an f64 origin; kernels test exactly these
+/// positions.
 ///
-/// A list is empty where the file has nothing that it would hold. Those that go by triangle have else the same
-/// length.
+/// A list is empty if the file has no content for it. All other per-triangle lists have the same length.
 #[derive(Clone, Debug, Default)]
 pub struct TriangleMesh {
-    /// Where (0, 0, 0) of the positions lies in the file's coordinates.
+    /// The file's coordinates of the positions' origin (0, 0, 0).
     pub origin: DVec3,
-    /// The vertices that something uses, relative to [`origin`](Self::origin), in the file's order.
+    /// The vertices in use, relative to [`origin`](Self::origin), in the file's order.
     pub positions: Vec<Vec3>,
     /// Three indices into the positions; no triangle has zero area or a non-finite corner.
     pub triangles: Vec<[u32; 3]>,
@@ -83,35 +82,35 @@ pub struct TriangleMesh {
     pub faces: Vec<u32>,
     /// See [`outline_of`](Self::outline_of). Empty if all faces are triangles.
     pub outline: Vec<u8>,
-    /// Index of each triangle into [`materials`](Self::materials).
+    /// Per triangle, the index into [`materials`](Self::materials).
     pub material: Runs,
-    /// Index of each triangle into [`groups`](Self::groups).
+    /// Per triangle, the index into [`groups`](Self::groups).
     pub group: Runs,
-    /// Which triangles are smooth where they meet.
+    /// The smoothing groups.
     pub smoothing: Smoothing,
-    /// Colours of the vertices, sRGB from 0 to 1. As many as positions, or none.
+    /// Vertex colours, sRGB from 0 to 1. As many as positions, or none.
     pub colours: Vec<Vec3>,
-    /// The file's normals, as given: not always unit length.
+    /// The file's normals, unchanged: not always unit length.
     pub normals: Vec<Vec3>,
-    /// Indices of each triangle's corners into the normals, or [`NO_INDEX`].
+    /// Per triangle, the indices of its corners into the normals, or [`NO_INDEX`].
     pub corner_normals: Vec<[u32; 3]>,
-    /// Places in textures. Empty if no material has a texture.
+    /// Texture coordinates. Empty if no material has a texture.
     pub texture_coordinates: Vec<Vec2>,
-    /// Indices of each triangle's corners into the texture coordinates; [`NO_INDEX`] where there are none.
+    /// Per triangle, the indices of its corners into the texture coordinates, or [`NO_INDEX`].
     pub corner_textures: Vec<[u32; 3]>,
-    /// The ends of straight lines that are no edges.
+    /// The ends of line elements, which aren't edges of faces.
     pub lines: Vec<[u32; 2]>,
-    /// Vertices that stand alone.
+    /// Vertices of point elements.
     pub points: Vec<u32>,
-    /// The materials that faces name; the first one is for faces that name none.
+    /// The materials that faces use; the first one is for faces without a material.
     pub materials: Vec<Material>,
-    /// The pictures of materials.
+    /// The materials' textures.
     pub textures: Vec<Texture>,
-    /// The groups and objects that faces lie in; the first one is for faces outside any.
+    /// The groups and objects that contain faces; the first one is for faces outside any.
     pub groups: Vec<String>,
-    /// How many polygons the triangles come from, those that were dropped not counted.
+    /// Number of polygons that the triangles come from, without dropped ones.
     pub face_count: usize,
-    /// What is missing.
+    /// Counts of dropped elements.
     pub dropped: Dropped,
 }
 
@@ -121,7 +120,7 @@ impl TriangleMesh {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
     }
 
-    /// The file's face (counted from 0) that a triangle is part of.
+    /// The file's face (counted from 0) that contains a triangle.
     pub fn face_of(&self, triangle: u32) -> u32 {
         self.faces
             .get(triangle as usize)
@@ -129,7 +128,7 @@ impl TriangleMesh {
             .unwrap_or(triangle)
     }
 
-    /// Bit k: the edge from corner k to the next one is an edge of the polygon, no diagonal.
+    /// Bit k is set if the edge from corner k to the next corner is an edge of the polygon, not a diagonal.
     pub fn outline_of(&self, triangle: u32) -> u8 {
         self.outline
             .get(triangle as usize)
@@ -137,17 +136,17 @@ impl TriangleMesh {
             .unwrap_or(0b111)
     }
 
-    /// What a triangle looks like, where that is known.
+    /// A triangle's material, if it is known.
     pub fn material_of(&self, triangle: u32) -> Option<&Material> {
         self.materials.get(self.material.of(triangle) as usize)
     }
 
-    /// Appends a triangle of a face, with the edges that are edges of the face; see
+    /// Appends a triangle of a face. `outline` marks the edges that are edges of the face; see
     /// [`outline_of`](Self::outline_of).
     pub(crate) fn add_triangle(&mut self, corners: [u32; 3], face: u32, outline: u8) {
         let index = self.triangles.len();
         self.triangles.push(corners);
-        // Lists begin when they have something to say.
+        // A list starts at the first triangle that differs from its default.
         if !self.faces.is_empty() || face as usize != index {
             self.faces.extend(self.faces.len() as u32..index as u32);
             self.faces.push(face);
@@ -184,12 +183,12 @@ impl TriangleMesh {
         p + self.origin
     }
 
-    /// Whether all positions are f32 numbers in the file's coordinates, too: with the origin at (0, 0, 0) they
-    /// would be the same points.
+    /// Whether all positions are also f32 numbers in the file's coordinates: with the origin at (0, 0, 0)
+    /// they would be the same points.
     pub fn are_f32_in_file(&self) -> bool {
         let is_f32 = |own: f32, origin: f64| {
             let (own, in_file) = (f64::from(own), f64::from(own) + origin);
-            // Both differences give back the terms only if the sum isn't rounded.
+            // Both differences equal the terms only if the sum isn't rounded.
             let is_exact = in_file - origin == own && in_file - own == origin;
             is_exact && f64::from(in_file as f32) == in_file
         };
@@ -197,13 +196,13 @@ impl TriangleMesh {
         self.positions.par_iter().all(is_good)
     }
 
-    /// A vertex as the file spells it: of all coordinates that would have been loaded as these, those with
-    /// the fewest digits.
+    /// A vertex as written in the file: of all coordinates that would have been loaded as this vertex, those
+    /// with the fewest digits.
     pub fn vertex_in_file(&self, p: Vec3) -> DVec3 {
         let shortest = |axis: usize| {
             let (origin, own) = (self.origin[axis], p[axis]);
             let exact = f64::from(own) + origin;
-            // 17 digits tell each f64 from all others.
+            // 17 digits distinguish every f64.
             let rounded = (0..17).filter_map(|digits| format!("{exact:.digits$e}").parse().ok());
             rounded
                 .into_iter()
@@ -223,17 +222,17 @@ impl TriangleMesh {
         !self.lines.is_empty() || !self.points.is_empty()
     }
 
-    /// How many materials faces name.
+    /// Number of materials that faces name.
     pub fn named_material_count(&self) -> usize {
         self.materials.len().saturating_sub(1)
     }
 
-    /// How many groups and objects faces lie in.
+    /// Number of groups and objects that contain faces.
     pub fn named_group_count(&self) -> usize {
         self.groups.len().saturating_sub(1)
     }
 
-    /// Bytes taken by each part: name and size.
+    /// Name and size in bytes of each part.
     pub fn bytes(&self) -> [(&'static str, usize); 6] {
         [
             ("positions", size_of_val(&self.positions[..])),
@@ -270,13 +269,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_vertex_is_spelt_as_in_the_file_far_from_the_origin_and_near_it() {
+    fn a_vertex_is_printed_as_in_the_file_far_from_the_origin_and_near_it() {
         for (origin, written) in [
             (500_000.0, 500_000.001),
             (4_649_776.0, 4_649_776.25),
             (0.0, 0.1),
             (0.0, -1.234_567e-20),
-            // 14 and 16 digits: with fewer another vertex, and what f64 holds exactly is another number.
+            // These have 14 and 16 digits: fewer digits give another vertex, and the exact f64 is another
+            // number.
             (4_649_776.0, 4_649_776.123_456_7),
             (1.0, 1.000_000_012_345_679),
         ] {
@@ -300,12 +300,12 @@ mod tests {
             mesh.are_f32_in_file()
         };
         assert!(are_f32(0.0, 0.1) && are_f32(1000.0, 0.25) && are_f32(-3.0, 4.0));
-        // 1000.1 isn't, nor is a sum that only rounding makes one.
+        // 1000.1 isn't an f32, nor is a sum that only rounding makes one.
         assert!(!are_f32(1000.0, 0.1) && !are_f32(1000.0, 1e-20));
     }
 
     #[test]
-    fn lists_by_triangle_begin_when_they_have_something_to_say() {
+    fn per_triangle_lists_start_at_the_first_value_that_differs_from_the_default() {
         let mut mesh = TriangleMesh::default();
         mesh.add_triangle([0, 1, 2], 0, 0b111);
         mesh.add_triangle([0, 1, 2], 1, 0b111);

@@ -1,43 +1,43 @@
-//! Vertex normals of smooth surfaces.
+//! Vertex normals for smooth shading.
 
 use super::edges::{EdgeTable, EdgeUse, VertexFans};
 use super::{NO_INDEX, TriangleMesh, Welded, unit_normal};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// Where smooth shading has edges.
+/// Source of the creases in smooth shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Crease {
-    /// Where the file says so, by its normals and smoothing groups; where it says nothing, nowhere.
+    /// The file's normals and smoothing groups; without them there are no creases.
     #[default]
     FromFile,
-    /// Where two triangles' normals are more than so many radians apart; what the file says doesn't count. NaN is
-    /// less than any angle: everything is flat.
+    /// Edges at which the triangles' normals differ by more than this angle in radians, regardless of the
+    /// file. NaN is less than any angle: everything is flat.
     Above(f32),
 }
 
-/// A unit normal for each corner; zero where the faces around cancel out.
+/// A unit normal per corner; zero if the normals of the faces around it cancel.
 #[derive(Clone, Debug)]
 pub struct VertexNormals {
     normals: Vec<Vec3>,
     indices: Indices,
 }
 
-/// Which corner has which normal.
+/// Maps corners to normals.
 #[derive(Clone, Debug)]
 enum Indices {
-    /// The one of its vertex.
+    /// By the corner's vertex.
     OfVertices,
-    /// The one that the file says.
+    /// By the file's indices.
     OfFile,
     Own(Vec<[u32; 3]>),
 }
 
 impl VertexNormals {
-    /// Takes the file's normals; computes those that are missing from the faces around a vertex,
-    /// each weighted by its angle there.
+    /// Uses the file's normals. Missing normals are the sum of the normals of the faces around a vertex, each
+    /// weighted by its angle there.
     ///
-    /// Vertices at the same place count as one, so that a seam doesn't show.
+    /// Vertices at the same position count as one, so that seams don't show.
     /// Source: Thürmer, Wüthrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998.
     pub fn of(mesh: &TriangleMesh, crease: Crease) -> Self {
         if let Crease::Above(radians) = crease {
@@ -56,7 +56,7 @@ impl VertexNormals {
         mixed(mesh)
     }
 
-    /// The normals at a triangle's corners; `mesh` is the one that they were computed for.
+    /// The normals at a triangle's corners. `mesh` must be the mesh that they were computed for.
     pub fn of_triangle(&self, mesh: &TriangleMesh, triangle: u32) -> [Vec3; 3] {
         let lists = match &self.indices {
             Indices::OfVertices => &mesh.triangles,
@@ -73,15 +73,14 @@ fn has_normals(mesh: &TriangleMesh, triangle: u32) -> bool {
     corners.is_some_and(|corners| !corners.contains(&NO_INDEX))
 }
 
-/// The file's normals at unit length. In f64, where the length of an f32 vector neither under- nor
-/// overflows.
+/// The file's normals, normalized. In f64, where the length of an f32 vector neither under- nor overflows.
 fn from_file(mesh: &TriangleMesh) -> impl Iterator<Item = DVec3> {
     mesh.normals
         .iter()
         .map(|normal| normal.as_dvec3().normalize_or_zero())
 }
 
-/// A triangle's normal, weighted by the angle at each corner.
+/// A triangle's normal weighted by the angle at each corner.
 fn weighted(mesh: &TriangleMesh, triangle: u32) -> [DVec3; 3] {
     let corners = mesh.corners(triangle);
     let (normal, p) = (unit_normal(corners), corners.map(Vec3::as_dvec3));
@@ -96,7 +95,7 @@ fn normalized(sums: Vec<DVec3>) -> Vec<Vec3> {
     sums.into_iter().map(normal).collect()
 }
 
-/// One normal for each vertex.
+/// Computes one normal per vertex.
 fn of_vertices(mesh: &TriangleMesh) -> VertexNormals {
     let welded = Welded::of(mesh);
     let mut sums = vec![DVec3::ZERO; mesh.positions.len()];
@@ -114,8 +113,8 @@ fn of_vertices(mesh: &TriangleMesh) -> VertexNormals {
     }
 }
 
-/// The file's normal where a corner has one. Else one for each vertex and smoothing group; that of
-/// its triangle for what is in no group.
+/// Takes the file's normal for a corner that has one. Other corners get one normal per vertex and smoothing
+/// group, or their triangle's normal if it is in no group.
 fn mixed(mesh: &TriangleMesh) -> VertexNormals {
     let welded = Welded::of(mesh);
     let mut sums: Vec<DVec3> = from_file(mesh).collect();
@@ -144,7 +143,7 @@ fn mixed(mesh: &TriangleMesh) -> VertexNormals {
             })
         }));
     }
-    // Faces that have normals of their own shape those of their neighbours, too.
+    // Faces with normals in the file also contribute to their neighbours' normals.
     for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
         if is_flat(triangle) {
             continue;
@@ -162,7 +161,7 @@ fn mixed(mesh: &TriangleMesh) -> VertexNormals {
     }
 }
 
-/// One normal for each fan of triangles around a vertex with no crease between them.
+/// Computes one normal per fan of triangles around a vertex without creases between them.
 fn creased(mesh: &TriangleMesh, radians: f32) -> VertexNormals {
     let welded = Welded::of(mesh);
     let normal_of = |triangle| unit_normal(mesh.corners(triangle));
@@ -200,7 +199,7 @@ mod tests {
     use super::*;
     use std::f32::consts::PI;
 
-    /// Two sides of a roof that meet in the ridge from (0, 0, 1) to (0, 1, 1).
+    /// Two sides of a roof that share the ridge from (0, 0, 1) to (0, 1, 1).
     fn roof() -> TriangleMesh {
         TriangleMesh {
             positions: vec![
@@ -220,8 +219,8 @@ mod tests {
         [0, 1].map(|triangle| normals.of_triangle(mesh, triangle))
     }
 
-    /// Whether `a` is the direction of `b`, rounded. Its coordinates, at most 1, are off by 2⁻²⁵ at most: √3 of
-    /// that in length.
+    /// Whether `a` is the direction of `b`, rounded. Its components, at most 1, are off by at most 2⁻²⁵, so
+    /// its length is off by at most √3 of that.
     fn is_near(a: Vec3, b: Vec3) -> bool {
         (a.as_dvec3() - b.as_dvec3().normalize()).length() < 2f64.powi(-24)
     }
@@ -235,15 +234,15 @@ mod tests {
     }
 
     #[test]
-    fn the_files_normals_win_corner_by_corner() {
+    fn the_files_normals_take_precedence_per_corner() {
         let mut mesh = roof();
         mesh.normals = vec![Vec3::Y * 2.0];
         mesh.corner_normals = vec![[0; 3], [NO_INDEX; 3]];
         let [left, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(left, [Vec3::Y; 3]);
-        // Computed, with the other face's part.
+        // Computed, including the other face's contribution.
         assert!(is_near(right[0], Vec3::Z), "{right:?}");
-        // Corner by corner.
+        // Per corner.
         mesh.corner_normals[1] = [NO_INDEX, 0, NO_INDEX];
         let [_, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(right[1], Vec3::Y);
@@ -253,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn smoothing_groups_are_smooth_inside_and_creased_between() {
+    fn edges_are_smooth_within_and_creased_between_smoothing_groups() {
         let (left, right) = (Vec3::new(-1.0, 0.0, 1.0), Vec3::new(1.0, 0.0, 1.0));
         for (groups, ridge) in [
             ([2, 2], [Vec3::Z, Vec3::Z]),
@@ -273,7 +272,7 @@ mod tests {
     }
 
     #[test]
-    fn an_edge_is_a_crease_above_its_angle_whatever_the_file_says() {
+    fn an_edge_is_a_crease_above_its_angle_regardless_of_the_file() {
         let mut mesh = roof();
         mesh.normals = vec![Vec3::Y];
         mesh.corner_normals = vec![[0; 3]; 2];
@@ -287,7 +286,7 @@ mod tests {
     }
 
     #[test]
-    fn faces_that_cancel_out_leave_a_zero_normal() {
+    fn normals_that_cancel_leave_a_zero_normal() {
         let mut mesh = roof();
         mesh.triangles = vec![[0, 1, 2], [0, 2, 1]];
         assert_eq!(normals(&mesh, Crease::FromFile)[0][0], Vec3::ZERO);

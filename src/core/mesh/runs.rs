@@ -1,14 +1,14 @@
-//! A number for each triangle, stored as runs of equal numbers.
+//! A number per triangle, stored as runs of equal numbers.
 
-/// Numbers of triangles, kept as runs of equal ones; 0 before the first run.
+/// Numbers per triangle, stored as runs of equal numbers; 0 before the first run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Runs {
-    /// The first triangle of each run, ascending, and its number.
+    /// The first triangle of each run, in ascending order, and the run's number.
     runs: Vec<(u32, u32)>,
 }
 
 impl Runs {
-    /// From this triangle on, which is beyond all runs so far.
+    /// Starts a run at `triangle`, which must not lie before the start of the last run.
     pub fn begin(&mut self, triangle: u32, number: u32) {
         // A run without triangles is removed.
         if self
@@ -30,7 +30,7 @@ impl Runs {
         run.checked_sub(1).map_or(0, |run| self.runs[run].1)
     }
 
-    /// Bytes taken.
+    /// Size in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.runs[..])
     }

@@ -1,28 +1,28 @@
-//! Meshes by formula, for tests and measurements; the same bits on every machine: only sums, products,
-//! quotients and roots.
+//! Procedural meshes for tests and measurements. They have the same bits on every machine, as only sums,
+//! products, quotients and roots are used.
 
 use super::{TriangleMesh, has_zero_area};
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Where a shape of size 1 about the origin is put.
+/// Placement of a shape of size 1 about the origin.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
-    /// What it is multiplied by first.
+    /// Scale factor, applied first.
     pub scale: f64,
-    /// What is added then.
+    /// Offset, added after scaling.
     pub offset: DVec3,
 }
 
 impl Placement {
-    /// As it is.
+    /// Unchanged.
     pub const UNIT: Self = Self {
         scale: 1.0,
         offset: DVec3::ZERO,
     };
 
-    /// Scaled, then moved by so many times the scale, another way in each axis.
+    /// Scales, then moves by `offset_in_scales` times the scale, differently along each axis.
     pub fn new(scale: f64, offset_in_scales: f64) -> Self {
         Self {
             scale,
@@ -30,20 +30,20 @@ impl Placement {
         }
     }
 
-    /// Where a point of the shape lies, rounded to f32.
+    /// The position of a point of the shape, rounded to f32.
     pub fn of(&self, point: DVec3) -> Vec3 {
         (self.scale * point + self.offset).as_vec3()
     }
 }
 
-/// Radius of the torus's middle line.
+/// Radius of the torus's centre line.
 pub const TORUS_RADIUS: f64 = 0.75;
 /// Radius of the torus's tube.
 pub const TUBE_RADIUS: f64 = 0.3;
 
-/// A point on the unit circle; `turn` 0…1 goes once around, not quite evenly.
+/// A point on the unit circle; `turn` from 0 to 1 goes once around, not quite uniformly.
 ///
-/// Source: the rational parametrisation ((1 − s²)/(1 + s²), 2s/(1 + s²)), a quarter at a time.
+/// Source: the rational parametrisation ((1 − s²)/(1 + s²), 2s/(1 + s²)), one quarter at a time.
 pub fn circle(turn: f64) -> DVec2 {
     let quarters = 4.0 * turn;
     let s = quarters - quarters.floor();
@@ -56,13 +56,13 @@ pub fn circle(turn: f64) -> DVec2 {
     }
 }
 
-/// A point of the torus about the z axis, at `depth` times the tube's radius from its middle line.
+/// A point of the torus about the z axis, at `depth` tube radii from its centre line.
 pub fn in_torus(around: f64, across: f64, depth: f64) -> DVec3 {
     let (ring, tube) = (circle(around), circle(across) * (TUBE_RADIUS * depth));
     (ring * (TORUS_RADIUS + tube.x)).extend(tube.y)
 }
 
-/// A closed torus of `around` × `across` quads, two triangles each, wound to the outside.
+/// A closed torus of `around` × `across` quads, two triangles each, with normals pointing outwards.
 pub fn torus(around: u32, across: u32, place: Placement) -> TriangleMesh {
     let turn = |k: u32, n: u32| f64::from(k) / f64::from(n);
     let points = (0..around).flat_map(|i| {
@@ -78,7 +78,7 @@ pub fn torus(around: u32, across: u32, place: Placement) -> TriangleMesh {
     mesh(points.collect(), triangles.collect())
 }
 
-/// A closed sphere of radius 1: a cube of `cells` × `cells` quads a side, blown up.
+/// A closed sphere of radius 1: a cube of `cells` × `cells` quads per side, projected onto the sphere.
 pub fn sphere(cells: u32, place: Placement) -> TriangleMesh {
     surface_of_cube(cells, |corner| {
         let p = 2.0 * corner.as_dvec3() / f64::from(cells) - 1.0;
@@ -86,12 +86,12 @@ pub fn sphere(cells: u32, place: Placement) -> TriangleMesh {
     })
 }
 
-/// A closed cube from (0, 0, 0) to `cells` in each axis, every face a grid of unit squares.
+/// A closed cube from (0, 0, 0) to `cells` along each axis; every face is a grid of unit squares.
 pub fn cube(cells: u32, place: Placement) -> TriangleMesh {
     surface_of_cube(cells, |corner| place.of(corner.as_dvec3()))
 }
 
-/// The grid z = 0 from (0, 0) to (`cells`, `cells`), an open mesh of unit squares.
+/// An open mesh of unit squares: the grid z = 0 from (0, 0) to (`cells`, `cells`).
 pub fn flat_grid(cells: u32, place: Placement) -> TriangleMesh {
     let row = cells + 1;
     let points = (0..row)
@@ -101,7 +101,7 @@ pub fn flat_grid(cells: u32, place: Placement) -> TriangleMesh {
     mesh(points.collect(), triangles.collect())
 }
 
-/// The six sides of a cube of cells; sides have their own vertices, at the same places.
+/// The six sides of a cube of cells; each side has its own vertices, at the same positions.
 fn surface_of_cube(cells: u32, place: impl Fn(glam::UVec3) -> Vec3) -> TriangleMesh {
     let row = cells + 1;
     let (mut points, mut triangles) = (Vec::new(), Vec::new());
@@ -126,7 +126,7 @@ fn surface_of_cube(cells: u32, place: impl Fn(glam::UVec3) -> Vec3) -> TriangleM
     mesh(points, triangles)
 }
 
-/// A mesh of these triangles without those of zero area, each a face of its own.
+/// A mesh of these triangles without those of zero area; each triangle is a face.
 pub fn mesh(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> TriangleMesh {
     triangles.retain(|corner| !has_zero_area(corner.map(|v| positions[v as usize])));
     TriangleMesh {
@@ -137,16 +137,16 @@ pub fn mesh(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> TriangleMesh 
     }
 }
 
-/// A mesh of one triangle after the other, no vertex shared.
+/// A mesh of separate triangles without shared vertices.
 pub fn soup(corners: &[[Vec3; 3]]) -> TriangleMesh {
     let triangle = |k: u32| [3 * k, 3 * k + 1, 3 * k + 2];
     let triangles = (0..corners.len() as u32).map(triangle).collect();
     mesh(corners.as_flattened().to_vec(), triangles)
 }
 
-/// The mesh with its tree.
+/// A scene of the mesh with its tree.
 pub fn scene(mesh: TriangleMesh) -> Scene {
-    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+    Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
 
 #[cfg(test)]
@@ -155,7 +155,7 @@ mod tests {
     use crate::mesh::{Flaw, Health};
 
     #[test]
-    fn closed_shapes_are_closed_and_wound_to_the_outside() {
+    fn closed_shapes_are_closed_and_face_outwards() {
         for mesh in [
             torus(16, 8, Placement::UNIT),
             sphere(6, Placement::UNIT),
@@ -164,7 +164,7 @@ mod tests {
             let health = Health::of(&mesh);
             assert!(health.is_closed());
             assert_eq!(health.places(Flaw::FlippedEdge).count(), Some(0));
-            // Six times the volume, positive where normals point to the outside.
+            // Six times the volume, positive if normals point outwards.
             let six_volumes: f64 = (0..mesh.triangles.len() as u32)
                 .map(|k| mesh.corners(k).map(Vec3::as_dvec3))
                 .map(|[a, b, c]| a.dot(b.cross(c)))

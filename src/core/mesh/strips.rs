@@ -1,4 +1,4 @@
-//! Writes a surface with few indices.
+//! Triangle strips of a mesh, and the size of a mesh in several formats.
 //!
 //! ```text
 //!   b───d───f     a strip a b c d e f: each index after the second makes a triangle with the two
@@ -6,22 +6,22 @@
 //! a───c───e
 //! ```
 //!
-//! Source: Akeley, Haeberli, Burns, tomesh.c, Silicon Graphics, 1990: a strip begins at the triangle with the
-//! fewest neighbours that are left, so that none are left alone.
-//! Differs from it: of the three ways to go from there, the longest is taken.
+//! Source: Akeley, Haeberli, Burns, tomesh.c, Silicon Graphics, 1990: a strip starts at the triangle with the
+//!   fewest remaining neighbours, to avoid isolated triangles.
+//! Differs from it: the longest of the three possible strips from there is taken.
 //!
-//! The overlay draws indexed triangles all the same: with software Vulkan strips took 0.7 times as long on 69 thousand
-//! triangles, but 1.05 to 1.25 times on 1.1 million, and making them 0.2 s (2026-11).
+//! The overlay nevertheless draws indexed triangles: with software Vulkan strips took 0.7 times as long on 69
+//! thousand triangles, but 1.05 to 1.25 times as long on 1.1 million, and building them took 0.2 s (2026-11).
 
 use super::edges::EdgeTable;
 use super::{NO_INDEX, TriangleMesh};
 use glam::Vec3;
 
-/// Ends a strip in a list of indices; what GPUs take for that, too.
+/// Ends a strip in a list of indices; the primitive restart index of GPUs.
 const RESTART: u32 = u32::MAX;
 
-/// The mesh's triangles as strips of vertices, with [`RESTART`] between two of them. Each triangle is there once,
-/// wound as it was.
+/// The mesh's triangles as strips of vertices, separated by [`RESTART`]. Each triangle occurs once, with its
+/// winding preserved.
 fn strips(mesh: &TriangleMesh) -> Vec<u32> {
     let mut stripper = Stripper::new(mesh);
     let mut indices = Vec::with_capacity(mesh.triangles.len() * 3 / 2);
@@ -45,8 +45,8 @@ fn strips(mesh: &TriangleMesh) -> Vec<u32> {
     indices
 }
 
-/// What the mesh's surface takes, by the ways of writing it that a lecture teaches: each corner of each triangle by
-/// itself; each vertex once, and three indices a triangle; each vertex once, and strips.
+/// Size in bytes of the mesh's surface in the formats that a lecture teaches: a triangle list; vertices and
+/// three indices per triangle; vertices and strips.
 pub fn bytes_as(mesh: &TriangleMesh) -> [(&'static str, usize); 3] {
     let positions = size_of_val(&mesh.positions[..]);
     let list = mesh.triangles.len() * size_of::<[Vec3; 3]>();
@@ -64,13 +64,13 @@ enum Step {
 
 struct Stripper<'m> {
     triangles: &'m [[u32; 3]],
-    /// The triangle beyond each edge from corner k to the next one.
+    /// The triangle across each edge from corner k to the next one.
     neighbours: Vec<[u32; 3]>,
     is_taken: Vec<bool>,
-    /// In which walk a triangle was last met.
+    /// The last walk that met each triangle.
     met_in: Vec<u32>,
     walk: u32,
-    /// Triangles that had so many neighbours left when they were put there.
+    /// Triangles by their number of remaining neighbours when they were added.
     waiting: [Vec<u32>; 4],
 }
 
@@ -94,14 +94,14 @@ impl<'m> Stripper<'m> {
             walk: 0,
             waiting: Default::default(),
         };
-        // The last ones in are the first ones out.
+        // Reversed, because the last one pushed is the first one popped.
         for triangle in (0..count as u32).rev() {
             stripper.waiting[stripper.degree(triangle)].push(triangle);
         }
         stripper
     }
 
-    /// How many of a triangle's neighbours are left.
+    /// Number of a triangle's remaining neighbours.
     fn degree(&self, triangle: u32) -> usize {
         let is_left = |&&n: &&u32| n != NO_INDEX && !self.is_taken[n as usize];
         self.neighbours[triangle as usize]
@@ -110,11 +110,11 @@ impl<'m> Stripper<'m> {
             .count()
     }
 
-    /// A triangle with the fewest neighbours left.
+    /// A triangle with the fewest remaining neighbours.
     fn next_start(&mut self) -> Option<u32> {
         for degree in 0..4 {
             while let Some(triangle) = self.waiting[degree].pop() {
-                // Those that lost neighbours were put elsewhere meanwhile.
+                // Triangles that lost neighbours have since been added to another list.
                 if !self.is_taken[triangle as usize] && self.degree(triangle) == degree {
                     return Some(triangle);
                 }
@@ -123,8 +123,7 @@ impl<'m> Stripper<'m> {
         None
     }
 
-    /// Goes from a triangle as far as a strip can, which begins at one of its corners; how many triangles
-    /// there were.
+    /// Walks the longest strip from a corner of a triangle, and returns its number of triangles.
     fn walk(&mut self, start: u32, corner: usize, mut each: impl FnMut(Step)) -> usize {
         self.walk += 1;
         let vertices = self.triangles[start as usize];
@@ -174,7 +173,7 @@ mod tests {
     use super::*;
     use crate::mesh::shapes::{Placement, flat_grid, soup, sphere, torus};
 
-    /// The triangles that a GPU makes of strips, each beginning at its lowest vertex.
+    /// The triangles that a GPU draws for strips, each starting at its lowest vertex.
     fn drawn(indices: &[u32]) -> Vec<[u32; 3]> {
         let of_strip = |strip: &[u32]| -> Vec<[u32; 3]> {
             let triangle = |(k, t): (usize, &[u32])| match k % 2 {
@@ -197,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn each_triangle_is_drawn_once_and_as_it_was_wound() {
+    fn each_triangle_is_drawn_once_with_its_winding() {
         let mut flipped = sphere(6, Placement::UNIT);
         (0..flipped.triangles.len())
             .step_by(3)
@@ -216,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_regular_surface_takes_little_more_than_an_index_a_triangle() {
+    fn a_regular_surface_takes_little_more_than_one_index_per_triangle() {
         let mesh = torus(64, 32, Placement::UNIT);
         let per_triangle = strips(&mesh).len() as f64 / mesh.triangles.len() as f64;
         assert!(per_triangle < 1.2, "{per_triangle}");

@@ -1,21 +1,22 @@
-//! Textures: pictures on surfaces.
+//! Textures: images mapped onto surfaces.
 
 use crate::srgb::from_texel;
 use glam::{UVec2, Vec2, Vec3};
 
-/// A picture that repeats over the plane, its lower left corner at (0, 0), its upper right one at (1, 1).
+/// An image that repeats over the plane, with its lower left corner at (0, 0) and its upper right corner at
+/// (1, 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// As the file calls it; the checker has none.
+    /// The name in the file; empty for the checkerboard.
     pub name: String,
     size: UVec2,
-    /// sRGB, three bytes each, row by row from the top.
+    /// sRGB, three bytes per texel, row by row from the top.
     texels: Vec<u8>,
 }
 
 impl Texture {
-    /// A picture of sRGB texels of three bytes, row by row from the top; `None` if there aren't as many as `size`
-    /// says, or none at all.
+    /// Makes a texture from sRGB texels of three bytes, row by row from the top; `None` if their number
+    /// doesn't match `size` or is 0.
     pub fn new(name: &str, size: UVec2, texels: Vec<u8>) -> Option<Self> {
         let count = 3 * size.x as usize * size.y as usize;
         (count > 0 && texels.len() == count).then(|| Self {
@@ -25,9 +26,9 @@ impl Texture {
         })
     }
 
-    /// The checkerboard that stands in for a missing picture.
+    /// The checkerboard that replaces a missing image.
     pub fn checker() -> Self {
-        // Eight fields a side; several texels each, so that their edges are sharp.
+        // Eight fields per side; several texels per field, so that their edges are sharp.
         const SIDE: u32 = 64;
         const FIELD: u32 = 8;
         let texel = |k: u32| {
@@ -45,11 +46,11 @@ impl Texture {
         }
     }
 
-    /// The colour at a place, in linear RGB, between the four texels around it. A coordinate that isn't
-    /// finite counts as 0.
+    /// The colour at `uv` in linear RGB, interpolated between the four nearest texels. A coordinate that
+    /// isn't finite counts as 0.
     pub fn colour(&self, uv: Vec2) -> Vec3 {
         let size = self.size.as_vec2();
-        // The middle of a texel has its colour; rows count from the top.
+        // Texel centres have the texel's colour; rows are counted from the top.
         let uv = uv.map(|x| if x.is_finite() { x } else { 0.0 });
         let at = Vec2::new(uv.x, 1.0 - uv.y);
         let at = (at - at.floor()) * size - 0.5;
@@ -65,7 +66,7 @@ impl Texture {
         above.lerp(below, part.y)
     }
 
-    /// Bytes taken.
+    /// Size in bytes.
     pub fn bytes(&self) -> usize {
         size_of_val(&self.texels[..])
     }
@@ -82,7 +83,7 @@ mod tests {
     }
 
     #[test]
-    fn the_origin_is_the_lower_left_and_the_picture_repeats() {
+    fn the_origin_is_the_lower_left_and_the_image_repeats() {
         let texture = texture();
         for (uv, colour) in [
             ([0.25, 0.25], Vec3::Z),
@@ -99,7 +100,7 @@ mod tests {
     }
 
     #[test]
-    fn a_picture_has_as_many_texels_as_its_size_says() {
+    fn the_number_of_texels_must_match_the_size() {
         assert_eq!(Texture::new("t", UVec2::new(2, 1), vec![0; 3]), None);
         assert_eq!(Texture::new("t", UVec2::ZERO, Vec::new()), None);
     }

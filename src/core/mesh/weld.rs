@@ -1,18 +1,18 @@
-//! Welds vertices that are at the same place.
+//! Welds vertices at the same position.
 
 use super::TriangleMesh;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Vertices at exactly the same place, taken as one: the same surface, whatever seams it was cut along.
+/// Maps vertices at exactly the same position to one vertex, so that seams don't divide the surface.
 #[derive(Clone, Debug)]
 pub(super) struct Welded {
-    /// For each vertex the first one at its place.
+    /// For each vertex, the first one at its position.
     first: Vec<u32>,
 }
 
 impl Welded {
-    /// Compares positions bit by bit, but −0 with 0.
+    /// Compares positions bit by bit, except that −0 equals 0.
     pub(super) fn of(mesh: &TriangleMesh) -> Self {
         let place = |(vertex, &p): (usize, &Vec3)| (bits(p), vertex as u32);
         let mut order: Vec<([u32; 3], u32)> =
@@ -27,18 +27,18 @@ impl Welded {
         Self { first }
     }
 
-    /// The vertex that stands for all at the place of this one.
+    /// The vertex that represents all vertices at this one's position.
     pub(super) fn vertex(&self, vertex: u32) -> u32 {
         self.first[vertex as usize]
     }
 
-    /// A triangle's corners.
+    /// A triangle's corners as representative vertices.
     pub(super) fn corners(&self, triangle: [u32; 3]) -> [u32; 3] {
         triangle.map(|vertex| self.vertex(vertex))
     }
 }
 
-/// A place as bits that can be compared.
+/// A position as comparable bits.
 fn bits(p: Vec3) -> [u32; 3] {
     (p + Vec3::ZERO).to_array().map(f32::to_bits)
 }
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn vertices_at_one_place_are_one_and_a_bit_is_a_difference() {
+    fn vertices_at_equal_positions_are_welded_and_one_bit_keeps_them_apart() {
         let next = f32::from_bits(1.0f32.to_bits() + 1);
         let points = [0.0, 1.0, -0.0, next, 1.0];
         let mesh = TriangleMesh {

@@ -1,4 +1,5 @@
-//! Finds the flaws of a mesh: borders, edges of three triangles, flipped triangles, slivers and others.
+//! Finds the flaws of a mesh: borders, edges with more than two triangles, flipped triangles, slivers and
+//! others.
 
 mod t_junctions;
 mod triangles;
@@ -10,20 +11,20 @@ use super::{TriangleMesh, Welded};
 use crate::aabb::Aabb;
 use rayon::prelude::*;
 
-/// Something unusual that a mesh can have.
+/// A kind of flaw of a mesh.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Flaw {
     /// An edge with one triangle: the mesh has a border there.
     OpenEdge,
     /// An edge with more than two triangles.
     NonManifoldEdge,
-    /// An edge whose two triangles run along it in the same direction: one of them is flipped.
+    /// An edge whose two triangles traverse it in the same direction: one of them is flipped.
     FlippedEdge,
-    /// A vertex of a border that lies inside another border's edge: the mesh looks closed there, but isn't.
+    /// A border vertex inside another border edge: the mesh looks closed there, but isn't.
     TJunction,
-    /// A vertex in which parts of the surface touch that have no edge in common there.
+    /// A vertex where parts of the surface touch without a common edge.
     TouchingVertex,
-    /// A triangle with the same corners as one before.
+    /// A triangle with the same corners as an earlier one.
     Duplicate,
     /// A triangle more than [`SLIVER_ASPECT`] times longer than high.
     Sliver,
@@ -60,25 +61,25 @@ pub static FLAWS: [FlawInfo; 7] = [
         flaw: Flaw::FlippedEdge,
         name: "flipped_edges",
         title: "Flipped edges",
-        about: "Edges between two triangles of which one shows its back.",
+        about: "Edges between two triangles with opposite winding.",
     },
     FlawInfo {
         flaw: Flaw::TJunction,
         name: "t_junctions",
         title: "T-junctions",
-        about: "Vertices of a border that lie inside another edge of a border.",
+        about: "Border vertices that lie inside another border edge.",
     },
     FlawInfo {
         flaw: Flaw::TouchingVertex,
         name: "touching_vertices",
         title: "Touching vertices",
-        about: "Vertices where parts of the surface touch without an edge in common.",
+        about: "Vertices where parts of the surface touch without a common edge.",
     },
     FlawInfo {
         flaw: Flaw::Duplicate,
         name: "duplicates",
         title: "Duplicates",
-        about: "Triangles with the same corners as one before.",
+        about: "Triangles with the same corners as an earlier one.",
     },
     FlawInfo {
         flaw: Flaw::Sliver,
@@ -91,18 +92,18 @@ pub static FLAWS: [FlawInfo; 7] = [
 /// The places of a kind of flaw.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlawLocations {
-    /// Between these vertices.
+    /// Edges, by their end vertices.
     Edges(Vec<[u32; 2]>),
-    /// In these triangles.
+    /// Triangles.
     Triangles(Vec<u32>),
-    /// At these vertices.
+    /// Vertices.
     Vertices(Vec<u32>),
-    /// Not checked, as that would have taken too long.
+    /// Not checked, because it would take too long.
     Unknown,
 }
 
 impl FlawLocations {
-    /// How many there are, if that was checked.
+    /// The number of places, or `None` if they weren't checked.
     pub fn count(&self) -> Option<usize> {
         match self {
             Self::Edges(edges) => Some(edges.len()),
@@ -116,16 +117,16 @@ impl FlawLocations {
 /// The flaws of a mesh.
 #[derive(Clone, Debug)]
 pub struct Health {
-    /// By [`Flaw`], in the order of [`FLAWS`].
+    /// The places of each [`Flaw`], in the order of [`FLAWS`].
     places: [FlawLocations; 7],
-    /// Around the triangles at these places.
+    /// The box around the triangles at each flaw's places.
     bounds: [Aabb; 7],
     /// The largest ratio of longest edge to height.
     pub max_aspect: f64,
 }
 
 impl Health {
-    /// Looks at every triangle and every edge. Vertices at the same place count as one.
+    /// Checks every triangle and every edge. Vertices at the same position count as one.
     pub fn of(mesh: &TriangleMesh) -> Self {
         let welded = Welded::of(mesh);
         let edges = EdgeTable::of(mesh, |vertex| welded.vertex(vertex));
@@ -161,7 +162,7 @@ impl Health {
         &self.places[flaw as usize]
     }
 
-    /// The box around the triangles where flaws of a kind are, and those beside; `None` if there are none.
+    /// The box around all triangles with a vertex at a place of this flaw; `None` if there are none.
     pub fn bounds(&self, flaw: Flaw) -> Option<Aabb> {
         let bounds = self.bounds[flaw as usize];
         (!bounds.is_empty()).then_some(bounds)
@@ -195,7 +196,7 @@ fn bounds(mesh: &TriangleMesh, places: &FlawLocations) -> Aabb {
         .reduce(|| Aabb::EMPTY, Aabb::union)
 }
 
-/// Vertices whose corners hang together in more than one set.
+/// Vertices whose corners form more than one fan.
 fn touching_vertices(mesh: &TriangleMesh, welded: &Welded, edges: &EdgeTable) -> Vec<u32> {
     let mut fans = VertexFans::of(mesh, edges, |_, _| true);
     let mut fan_count = vec![0u8; mesh.positions.len()];
@@ -229,7 +230,7 @@ mod tests {
 
     fn counts(mesh: &TriangleMesh) -> [usize; 7] {
         let health = Health::of(mesh);
-        FLAWS.map(|info| health.places(info.flaw).count().expect("somebody looked"))
+        FLAWS.map(|info| health.places(info.flaw).count().expect("checked"))
     }
 
     #[test]
@@ -245,7 +246,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_wrong_with_edges_is_counted() {
+    fn flaws_of_edges_are_counted() {
         let mut mesh = tetrahedron();
         mesh.triangles.truncate(3);
         assert_eq!(counts(&mesh), [3, 0, 0, 0, 0, 0, 0]);

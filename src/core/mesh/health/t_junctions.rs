@@ -1,18 +1,18 @@
-//! Finds vertices of a border that lie inside another edge of a border.
+//! Finds border vertices that lie inside another border edge.
 
 use crate::mesh::TriangleMesh;
 use glam::DVec3;
 
-/// Pairs of edge and vertex that are looked at, at most: some 0.2 s (2026-11).
+/// Largest number of edge–vertex pairs to check: about 0.2 s (2026-11).
 const MOST_PAIRS: usize = 20_000_000;
 
-/// The vertices of open edges that lie inside another open edge, as far as f32 can tell; `None` if there
-/// are too many pairs to look at.
+/// The vertices of open edges that lie inside another open edge, within f32 accuracy; `None` if there are too
+/// many pairs to check.
 pub(super) fn find(mesh: &TriangleMesh, open: &[[u32; 2]]) -> Option<Vec<u32>> {
     let at = |vertex: u32| mesh.positions[vertex as usize].as_dvec3();
     let axis = longest_axis(open.iter().flatten().map(|&vertex| at(vertex)));
 
-    // Vertices in the order of the axis along which they lie farthest apart.
+    // Sort vertices along the axis of their largest extent.
     let mut vertices: Vec<u32> = open.as_flattened().to_vec();
     let along = |vertex: &u32| at(*vertex)[axis];
     vertices.sort_unstable_by(|a, b| along(a).total_cmp(&along(b)).then(a.cmp(b)));
@@ -44,8 +44,8 @@ pub(super) fn find(mesh: &TriangleMesh, open: &[[u32; 2]]) -> Option<Vec<u32>> {
     Some(found)
 }
 
-/// How far a vertex that was meant to lie on an edge can be beside it: its coordinates, and those of the
-/// edge's ends, are each off by half an ulp, 2⁻²⁴ of the largest one; twice √3 of that is less than 2⁻²².
+/// Largest distance from an edge of a vertex that was meant to lie on it. Its coordinates and those of the
+/// edge's ends are each off by half an ulp, 2⁻²⁴ of the largest one; twice √3 of that is less than 2⁻²².
 fn slack(a: DVec3, b: DVec3) -> f64 {
     a.abs().max(b.abs()).max_element() * 2f64.powi(-22)
 }

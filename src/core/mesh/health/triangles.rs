@@ -4,8 +4,8 @@ use crate::mesh::{TriangleMesh, Welded};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 
-/// A triangle whose longest edge is more than this many times its height is counted as a sliver: from
-/// there on f32 kernels decide some rays wrongly, so the count is a warning.
+/// Ratio of longest edge to height above which a triangle counts as a sliver. From there on f32 kernels
+/// decide some rays wrongly, so the count is a warning.
 pub const SLIVER_ASPECT: f64 = 1e3;
 
 /// The slivers, and the largest aspect of any triangle.
@@ -18,7 +18,7 @@ pub(super) fn slivers(mesh: &TriangleMesh) -> (Vec<u32>, f64) {
     (slivers.map(|(triangle, _)| triangle).collect(), max_aspect)
 }
 
-/// Longest edge over the height on it; infinite where f64 finds no height.
+/// Longest edge divided by the height on it; infinite if the height is 0 in f64.
 fn aspect(corners: [Vec3; 3]) -> f64 {
     let [a, b, c] = corners.map(Vec3::as_dvec3);
     let longest = [b - a, c - b, a - c]
@@ -28,7 +28,7 @@ fn aspect(corners: [Vec3; 3]) -> f64 {
     longest / (b - a).cross(c - a).length()
 }
 
-/// Triangles at the same three places as one before, wound either way.
+/// Triangles with the same three vertices as an earlier one, with either winding.
 pub(super) fn duplicates(mesh: &TriangleMesh, welded: &Welded) -> Vec<u32> {
     let key = |(triangle, &corners): (usize, &[u32; 3])| {
         let mut places = welded.corners(corners);
