@@ -67,7 +67,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         summary: "Ignores hits with t < 1e-6 at any scale; fails in most scenes.",
         begin: |departure| RayStart {
             origin: departure.point_along_ray(),
-            t_min: LECTURES_EPSILON,
+            t_min: LECTURE_EPSILON,
             exclude: None,
         },
     },
@@ -78,7 +78,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         summary: "Lifted by 1500 half ulps of the largest coordinate; far too high at large coordinates.",
         begin: |departure| {
             let p = departure.point_by_weights();
-            let height = (1.0 + p.abs().max_element()) * MITSUBAS_EPSILON;
+            let height = (1.0 + p.abs().max_element()) * MITSUBA_EPSILON;
             RayStart::at(p + height * departure.facing_normal())
         },
     },
@@ -136,9 +136,9 @@ pub fn default_spawn_policy() -> &'static SpawnPolicy {
 }
 
 /// The lecture's epsilon, in units of the direction's length.
-const LECTURES_EPSILON: f32 = 1e-6;
+const LECTURE_EPSILON: f32 = 1e-6;
 /// Mitsuba's `RayEpsilon`, 1500 half ulps of 1.
-const MITSUBAS_EPSILON: f32 = 1500.0 * U;
+const MITSUBA_EPSILON: f32 = 1500.0 * U;
 /// Half an ulp of 1.
 const U: f32 = f32::EPSILON / 2.0;
 

@@ -10,7 +10,7 @@
 //! distances, and rounding is monotone, so no box that a ray meets is omitted. A hit counts if the ray meets
 //! the triangle's own box, in a packet or alone.
 
-use super::slab::{AHEAD, MOST_INVERSE, at_least, at_most};
+use super::slab::{AHEAD, MAX_INVERSE, at_least, at_most};
 use super::walk::{
     NOTHING, Stack, child_of, end_slackened, entry_of, insert, key, start_slackened,
 };
@@ -72,7 +72,7 @@ impl<S: Simd> RayPacket<S> {
             is_down[axis] = down.all_true();
             is_plain &= is_down[axis] || !down.any_true();
             // A mix of 0·∞ and numbers would make the interval's bounds arbitrary.
-            let most = f32x16::splat(token, MOST_INVERSE);
+            let most = f32x16::splat(token, MAX_INVERSE);
             let is_finite = inverse[axis].abs().simd_le(most).all_true();
             is_plain &= is_finite || dir[axis].simd_eq(zero).all_true();
             axis += 1;

@@ -139,14 +139,14 @@ pub(super) fn at_most<S: Simd, V: SimdFloat<S>>(bound: V, x: V) -> V {
 }
 
 /// Half of the largest f32, so that the padded value doesn't overflow either.
-pub(super) const MOST_INVERSE: f32 = 0.5 * f32::MAX;
+pub(super) const MAX_INVERSE: f32 = 0.5 * f32::MAX;
 
 /// 1/d, or NaN if it overflows; comparisons ignore the NaN. The axis then doesn't constrain the ray: any
 /// number instead would be wrong on one side of the origin.
 #[inline(always)]
 pub(super) fn inverse_of(d: f32) -> f32 {
     let inverse = 1.0 / d;
-    if d != 0.0 && inverse.abs() > MOST_INVERSE {
+    if d != 0.0 && inverse.abs() > MAX_INVERSE {
         f32::NAN
     } else {
         inverse

@@ -115,8 +115,8 @@ impl Bvh {
                     current = a;
                     continue;
                 }
-                // All this is inlined: a separate function, which would take the depth by reference, costs 3
-                // % (bunny, 2026-11).
+                // All this is inlined: a separate function, which would take the depth by reference, costs
+                // 3 % (bunny, 2026-11).
                 let first = depth;
                 let b = self.next(token, &mut met, &node.child, &entries, visitor);
                 let (mut nearest, mut farther) = (a.min(b), a.max(b));

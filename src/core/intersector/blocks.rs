@@ -4,7 +4,7 @@ use super::compact::{BLOCKS_AT_ONCE, EmptyLanes, Packing, SharedCorners};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
 use crate::kernel::exact::VALUES as CORNERS;
-use crate::kernel::{Kernel, MOST_VALUES, Values};
+use crate::kernel::{Kernel, MAX_VALUES, Values};
 use crate::lane::{Number, Stored};
 use crate::mesh::TriangleMesh;
 use crate::ray::Ray;
@@ -31,12 +31,12 @@ pub(super) struct Blocks<T> {
 }
 
 /// Buffer for rows packed on demand. Reused for many rays: zeroing it takes as long as a test.
-pub(super) struct Scratch<T>([Row<T>; MOST_VALUES]);
+pub(super) struct Scratch<T>([Row<T>; MAX_VALUES]);
 
 impl<T: Copy + Default> Scratch<T> {
     #[inline(always)]
     pub fn new() -> Self {
-        Self([Row([T::default(); BLOCK_SIZE]); MOST_VALUES])
+        Self([Row([T::default(); BLOCK_SIZE]); MAX_VALUES])
     }
 
     fn fill(
@@ -46,7 +46,7 @@ impl<T: Copy + Default> Scratch<T> {
         count: usize,
         pack: impl Fn([Vec3; 3], &mut [T]),
     ) {
-        let mut one = [T::default(); MOST_VALUES];
+        let mut one = [T::default(); MAX_VALUES];
         for lane in 0..BLOCK_SIZE {
             pack(shared.corners(block, lane), &mut one[..count]);
             for (row, value) in self.0[..count].iter_mut().zip(one) {
@@ -127,8 +127,8 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         self.shared.is_some()
     }
 
-    /// The rows of a block; `count` is their number, known at compile time. `MAYBE_COMPACT` skips the check
-    /// for compact packing if it is false: the check slows a walk by 2 to 5 % (bunny, 2026-11).
+    /// The rows of a block; `count` is their number, known at compile time. If `MAYBE_COMPACT` is
+    /// false, the check for compact packing is omitted, which slows a walk by 2 to 5 % (bunny, 2026-11).
     #[inline(always)]
     pub fn rows<'a, const MAYBE_COMPACT: bool>(
         &'a self,

@@ -120,21 +120,21 @@ impl<K: Kernel> MeshIntersector<K, f32> {
             let (packets, rest) = rays.as_chunks::<PACKET>();
             let (hits_of_packets, hits_of_rest) = hits.as_chunks_mut::<PACKET>();
             let mut scratch = Scratch::new();
-            let mut alone = with_stack(|stack| {
+            let mut incoherent = with_stack(|stack| {
                 dispatch!(self.level.level(), token => {
-                    let mut alone = 0u64;
+                    let mut incoherent = 0u64;
                     for (i, (rays, hits)) in packets.iter().zip(&mut *hits_of_packets).enumerate() {
                         // Tracing a packet takes less time than loading its rays from memory: without the
-                        // prefetch a quarter less is traced (bunny, 2026-11).
+                        // prefetch throughput is a quarter lower (bunny, 2026-11).
                         prefetch(token, packets, i + 1, size_of_val(rays));
-                        alone |= u64::from(!self.packet(token, rays, hits, stack, &mut scratch)) << i;
+                        incoherent |= u64::from(!self.packet(token, rays, hits, stack, &mut scratch)) << i;
                     }
-                    alone
+                    incoherent
                 })
             });
-            while alone != 0 {
-                let i = alone.trailing_zeros() as usize;
-                alone &= alone - 1;
+            while incoherent != 0 {
+                let i = incoherent.trailing_zeros() as usize;
+                incoherent &= incoherent - 1;
                 self.closest_hits(&packets[i], &mut hits_of_packets[i]);
             }
             self.closest_hits(rest, hits_of_rest);

@@ -27,7 +27,7 @@ pub enum Tier {
     /// Hits and misses match exact arithmetic, so there are no gaps between triangles that share an edge or a
     /// vertex.
     Watertight,
-    /// As watertight, with t correct to the last place of f32.
+    /// As [`Watertight`](Self::Watertight), with t correct to the last place of f32.
     Precise,
     /// Hits, misses and the order of hits match exact arithmetic.
     Exact,
@@ -220,7 +220,7 @@ pub(crate) trait Kernel: Send + Sync + 'static {
 }
 
 /// The largest number of values that any kernel stores per triangle.
-pub(crate) const MOST_VALUES: usize = 18;
+pub(crate) const MAX_VALUES: usize = 18;
 
 /// Packs the corners unchanged: x, y and z of A, then of B, then of C.
 pub(crate) fn pack_corners(corners: [Vec3; 3], values: &mut [f32]) {

@@ -117,7 +117,7 @@ impl Corridor {
         }
     }
 
-    /// A random ray from inside. Half of the origins are near walls, edges or corners, and half of the
+    /// A random ray from inside the mesh. Half of the origins are near walls, edges or corners, and half of the
     /// directions point at or just beside edges and corners.
     pub fn ray(&self, random: &mut Random) -> Ray {
         loop {
@@ -171,16 +171,17 @@ impl Corridor {
                 let corners = self.mesh.corners(triangle).map(Vec3::as_dvec3);
                 let start = random.index(3);
                 let (a, b) = (corners[start], corners[(start + 1) % 3]);
-                // Opposite the origin, so that much of the edge lies behind it, or anywhere along the edge.
+                // Near the foot of the perpendicular from the origin, so that much of the edge lies behind it,
+                // anywhere along the edge, or at a corner.
                 let foot = (origin - a).dot(b - a) / (b - a).length_squared();
                 let away = random.signed() * near_zero(random);
                 let along = [foot + away, random.unit(), 0.0][random.index(3)];
-                let beside = if kind == 2 {
+                let spread = if kind == 2 {
                     0.0
                 } else {
                     1e-5 * near_zero(random)
                 };
-                let target = a.lerp(b, along.clamp(0.0, 1.0)) + beside * random.in_cube();
+                let target = a.lerp(b, along.clamp(0.0, 1.0)) + spread * random.in_cube();
                 (target - origin).as_vec3()
             }
         }

@@ -59,7 +59,7 @@ impl TextureMap {
 }
 
 impl Material {
-    /// A material with default properties.
+    /// A material with this name and default properties.
     pub fn named(name: &str) -> Self {
         Self {
             name: name.to_owned(),

@@ -192,8 +192,8 @@ impl TriangleMesh {
             let is_exact = in_file - origin == own && in_file - own == origin;
             is_exact && f64::from(in_file as f32) == in_file
         };
-        let is_good = |p: &Vec3| (0..3).all(|axis| is_f32(p[axis], self.origin[axis]));
-        self.positions.par_iter().all(is_good)
+        let are_f32_coordinates = |p: &Vec3| (0..3).all(|axis| is_f32(p[axis], self.origin[axis]));
+        self.positions.par_iter().all(are_f32_coordinates)
     }
 
     /// A vertex as written in the file: of all coordinates that would have been loaded as this vertex, those

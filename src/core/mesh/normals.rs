@@ -34,8 +34,8 @@ enum Indices {
 }
 
 impl VertexNormals {
-    /// Uses the file's normals. Missing normals are the sum of the normals of the faces around a vertex, each
-    /// weighted by its angle there.
+    /// Uses the file's normals. A missing normal is the normalized sum of the normals of the faces around the
+    /// vertex, each weighted by its angle there.
     ///
     /// Vertices at the same position count as one, so that seams don't show.
     /// Source: Thürmer, Wüthrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998.
@@ -220,7 +220,7 @@ mod tests {
     }
 
     /// Whether `a` is the direction of `b`, rounded. Its components, at most 1, are off by at most 2⁻²⁵, so
-    /// its length is off by at most √3 of that.
+    /// the vector is off by at most √3 of that.
     fn is_near(a: Vec3, b: Vec3) -> bool {
         (a.as_dvec3() - b.as_dvec3().normalize()).length() < 2f64.powi(-24)
     }

@@ -18,11 +18,11 @@ use rayon::prelude::*;
 use split::{Scale, Splitter};
 
 /// Subtrees with fewer primitives are built by one thread.
-const LEAST_JOB: usize = 4096;
+const MIN_JOB_SIZE: usize = 4096;
 /// Smallest number of subtrees that the threads share.
-const JOBS: usize = 64;
+const MIN_JOB_COUNT: usize = 64;
 /// Ranges with fewer primitives are built without a check for cancellation.
-const ASK_FROM: usize = 1024;
+const CANCELLABLE_FROM: usize = 1024;
 
 /// A primitive during the build: its box and its index.
 ///
@@ -60,8 +60,8 @@ impl Item {
 fn items_of(count: usize, bounds_of: impl Fn(u32) -> Aabb + Sync) -> Vec<Item> {
     let item = |index| {
         let bounds = bounds_of(index);
-        let is_good = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
-        is_good.then(|| Item::new(bounds, index))
+        let is_valid = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
+        is_valid.then(|| Item::new(bounds, index))
     };
     (0..count as u32).into_par_iter().filter_map(item).collect()
 }
@@ -152,7 +152,7 @@ impl Bvh {
         let mut builder = Builder {
             splitter: Splitter::new(scale),
             keep_going,
-            job_size: (count / JOBS).max(LEAST_JOB),
+            job_size: (count / MIN_JOB_COUNT).max(MIN_JOB_SIZE),
             tree: Subtree::default(),
             jobs: Vec::new(),
         };
@@ -243,7 +243,7 @@ impl<'a> Builder<'a, '_> {
 
     /// Builds a node above the two ranges.
     fn node(&mut self, [first, second]: [Range<'a>; 2], depth: usize) -> Result<Child, Cancelled> {
-        if first.items.len() + second.items.len() >= ASK_FROM {
+        if first.items.len() + second.items.len() >= CANCELLABLE_FROM {
             (self.keep_going)()?;
         }
         let mut ranges: [Option<Range<'a>>; WIDTH] = [const { None }; WIDTH];

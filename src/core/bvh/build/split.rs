@@ -8,7 +8,7 @@ use rayon::prelude::*;
 /// Largest number of bins per axis; a power of two.
 const BINS: usize = 32;
 /// Larger ranges are binned and partitioned by several threads together.
-const TOGETHER_FROM: usize = 1 << 16;
+const PARALLEL_FROM: usize = 1 << 16;
 /// Primitives per chunk that one thread bins.
 const CHUNK: usize = 1 << 14;
 
@@ -225,7 +225,7 @@ impl Splitter {
 
     fn fill(&mut self, grid: &Grid, items: &[Item]) {
         self.filled.clear(grid.bins);
-        if items.len() < TOGETHER_FROM {
+        if items.len() < PARALLEL_FROM {
             self.filled.fill(grid, items);
             return;
         }
@@ -327,8 +327,8 @@ fn partition(
     scale: Scale,
     is_below: &(impl Fn(Bounds) -> bool + Sync),
 ) -> (usize, [SideBoxes; 2]) {
-    if items.len() < TOGETHER_FROM {
-        return partition_alone(items, scale, is_below);
+    if items.len() < PARALLEL_FROM {
+        return partition_sequentially(items, scale, is_below);
     }
     let half = items.len() / 2;
     let (first, second) = items.split_at_mut(half);
@@ -343,7 +343,7 @@ fn partition(
     (low + low_too, [a.union(c), b.union(d)])
 }
 
-fn partition_alone(
+fn partition_sequentially(
     items: &mut [Item],
     scale: Scale,
     is_below: &impl Fn(Bounds) -> bool,

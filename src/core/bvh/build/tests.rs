@@ -110,7 +110,7 @@ fn the_tree_does_not_depend_on_the_scenes_size() {
 
 #[test]
 fn boxes_that_no_ray_can_meet_are_omitted() {
-    let good = Aabb::around([Vec3::ZERO, Vec3::ONE]);
+    let valid = Aabb::around([Vec3::ZERO, Vec3::ONE]);
     let nan = Aabb {
         min: Vec3::splat(f32::NAN),
         max: Vec3::ONE,
@@ -119,7 +119,7 @@ fn boxes_that_no_ray_can_meet_are_omitted() {
         min: Vec3::ZERO,
         max: Vec3::INFINITY,
     };
-    let boxes = [nan, good, Aabb::EMPTY, infinite];
+    let boxes = [nan, valid, Aabb::EMPTY, infinite];
     for build in BUILDERS {
         assert_sound(&build(&boxes), &boxes, 1);
     }

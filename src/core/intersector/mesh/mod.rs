@@ -6,7 +6,7 @@ use super::blocks::{BlockValues, Blocks, Scratch, candidates, corners};
 use super::compact::{EmptyLanes, Packing};
 use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
 use crate::bvh::{Bvh, Stack, with_stack};
-use crate::kernel::{Kernel, KernelInfo, MOST_VALUES, RayLanes};
+use crate::kernel::{Kernel, KernelInfo, MAX_VALUES, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, PACKET};
 use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
@@ -35,7 +35,7 @@ impl<K: Kernel, N: Number> MeshIntersector<K, N> {
         level: SimdLevel,
         packing: Packing,
     ) -> Self {
-        const { assert!(K::VALUES <= MOST_VALUES) };
+        const { assert!(K::VALUES <= MAX_VALUES) };
         let empty = if K::IS_ADAPTIVE {
             EmptyLanes::First
         } else {

@@ -21,7 +21,7 @@ pub(super) struct Found<N> {
 }
 
 impl<N: Number> Found<N> {
-    /// No hit; every hit before `end` precedes it.
+    /// No hit; only hits ranked before `end` precede it.
     #[inline(always)]
     pub fn nothing(end: N) -> Self {
         Self {

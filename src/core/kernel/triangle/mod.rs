@@ -14,7 +14,7 @@ mod watertight;
 pub use bounds::{bounds_in, triangle_bounds};
 pub(crate) use shear::ShearedRay;
 
-use super::{Kernel, KernelInfo, MOST_VALUES, OneTriangle, RayLanes};
+use super::{Kernel, KernelInfo, MAX_VALUES, OneTriangle, RayLanes};
 use crate::bvh::Bvh;
 use crate::intersector::exact::ExactIntersector;
 use crate::intersector::mesh::MeshIntersector;
@@ -140,7 +140,7 @@ pub fn exact_triangle_kernel() -> &'static TriangleKernel {
 }
 
 fn intersect_one<K: Kernel, N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
-    let mut values = [K::Stored::<N>::default(); MOST_VALUES];
+    let mut values = [K::Stored::<N>::default(); MAX_VALUES];
     K::pack::<N>(corners, &mut values[..K::VALUES]);
     let prepared = K::prepare::<N>(&RayLanes::of((), ray));
     let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);

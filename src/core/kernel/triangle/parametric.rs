@@ -72,7 +72,7 @@ impl Kernel for Parametric {
             return None;
         }
 
-        // Scale one of the two normals to about 1: n·n, the fourth power of a length, would exceed the range
+        // Scale one of the two normals to about 1: n·n, the fourth power of a length, would leave the range
         // of f32 at lengths of 1e±10.
         let longest = normal[0]
             .abs()

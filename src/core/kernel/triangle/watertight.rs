@@ -9,9 +9,9 @@
 //!   reported t also lies in the interval. So it is watertight over shared edges and vertices. In f32, the
 //!   relative error of t is at most 513u (u = 2⁻²⁴; measured: a hundredth of that). In f64, t errs by at most
 //!   0.51 ulp of f32 and a weight by at most 1.02·2⁻²⁵.
-//! Doesn't promise: the order of two hits whose t differ by less than that; the lowest of several triangles
-//!   at equal t; accurate weights in f32; hits through a tree whose boxes lie at distances that aren't normal
-//!   f32 numbers (see `bvh::slab`).
+//! Doesn't promise: the order of two hits whose t differ by less than these errors; the lowest of several
+//!   triangles at equal t; accurate weights in f32; hits through a tree whose boxes lie at distances that
+//!   aren't normal f32 numbers (see `bvh::slab`).
 //!
 //! The paper's test alone isn't enough: neighbours agree about their common edge, but a wrong sign assigns
 //! the ray to the wrong neighbour. If the computed t places that neighbour behind the ray's origin, or if the

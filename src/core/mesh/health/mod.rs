@@ -234,7 +234,7 @@ mod tests {
     }
 
     #[test]
-    fn flaws_are_listed_in_their_order() {
+    fn flaws_are_listed_in_the_order_of_the_enum() {
         for (index, info) in FLAWS.iter().enumerate() {
             assert_eq!(info.flaw as usize, index, "{}", info.name);
         }
@@ -299,7 +299,7 @@ mod tests {
     ///   5───────6
     /// ```
     #[test]
-    fn a_vertex_inside_a_borders_edge_is_a_t_junction() {
+    fn a_vertex_inside_a_border_edge_is_a_t_junction() {
         let flat = |x: f32, y: f32| Vec3::new(x, y, 0.3 * x + 0.1 * y);
         let mesh = TriangleMesh {
             positions: [(0, 0), (3, 0), (3, 1), (0, 1), (1, 0), (0, -1), (3, -1)]

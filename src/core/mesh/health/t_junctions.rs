@@ -4,7 +4,7 @@ use crate::mesh::TriangleMesh;
 use glam::DVec3;
 
 /// Largest number of edge–vertex pairs to check: about 0.2 s (2026-11).
-const MOST_PAIRS: usize = 20_000_000;
+const MAX_PAIRS: usize = 20_000_000;
 
 /// The vertices of open edges that lie inside another open edge, within f32 accuracy; `None` if there are too
 /// many pairs to check.
@@ -26,12 +26,12 @@ pub(super) fn find(mesh: &TriangleMesh, open: &[[u32; 2]]) -> Option<Vec<u32>> {
         let low = a[axis].min(b[axis]) - slack;
         let high = a[axis].max(b[axis]) + slack;
         let first = vertices.partition_point(|vertex| along(vertex) < low);
-        let beside = vertices[first..]
+        let nearby = vertices[first..]
             .iter()
             .take_while(|vertex| along(vertex) <= high);
-        for &vertex in beside {
+        for &vertex in nearby {
             pairs += 1;
-            if pairs > MOST_PAIRS {
+            if pairs > MAX_PAIRS {
                 return None;
             }
             if !edge.contains(&vertex) && is_inside(at(vertex), a, b, slack) {
@@ -53,9 +53,9 @@ fn slack(a: DVec3, b: DVec3) -> f64 {
 fn is_inside(p: DVec3, a: DVec3, b: DVec3, slack: f64) -> bool {
     let (edge, to_p) = (b - a, p - a);
     let along = to_p.dot(edge) / edge.length_squared();
-    let beside = (to_p - along * edge).length();
+    let distance = (to_p - along * edge).length();
     let length = edge.length();
-    beside <= slack && along * length > slack && (1.0 - along) * length > slack
+    distance <= slack && along * length > slack && (1.0 - along) * length > slack
 }
 
 fn longest_axis(points: impl Iterator<Item = DVec3>) -> usize {

@@ -52,7 +52,8 @@ pub(crate) struct Filtered<L: Lane> {
     pub certain: L::Mask,
     /// Certain misses.
     pub missed: L::Mask,
-    /// |t·d_z|, with t's sign. This and the following fields are valid in lanes whose triangle is hit, certainly or not.
+    /// The depth |t·d_z|, with t's sign. This and the following fields are valid in lanes whose triangle is
+    /// hit, certainly or not.
     pub depth: L,
     /// Largest error of the depth.
     pub slack: L,

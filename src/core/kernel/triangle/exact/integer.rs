@@ -1,6 +1,6 @@
 //! Exact ray–triangle predicates in integers, for decisions that f64 leaves open.
 //!
-//! Every f32 is an integer times a power of two. With A, B, C relative to the origin, and n = (B − A)×(C − A):
+//! Every f32 is an integer times a power of two. With A, B, C relative to the origin and n = (B − A)×(C − A):
 //!
 //! ```text
 //! W_a = d·(B×C), W_b = d·(C×A), W_c = d·(A×B)    inside: none has the sign opposite to det
@@ -8,8 +8,8 @@
 //! ```
 //!
 //! 128 bits suffice on grids and for numbers of similar magnitude; otherwise the integers have any size.
-//! Bits, if coordinates have L and directions D of them: |W| < 2^(D+2L+5), |A·n| < 2^(3L+8), |det| <
-//! 2^(D+2L+7).
+//! Bits, if coordinates have L and directions D of them: |W| < 2^(D+2L+5), |A·n| < 2^(3L+8), and
+//! |det| < 2^(D+2L+7).
 
 use crate::ray::Ray;
 use dashu_int::IBig;
@@ -58,12 +58,12 @@ pub(super) fn compare(ray: &Ray, first: [Vec3; 3], second: [Vec3; 3]) -> Orderin
     }
 }
 
-/// Compares t with a finite number. The ray must not be parallel to the triangle.
+/// Compares t with a finite number, exactly. The ray must not be parallel to the triangle.
 pub(super) fn compare_with(ray: &Ray, corners: [Vec3; 3], t: f32) -> Ordering {
     let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
     let dirs = Span::of(&[ray.dir]);
     let (numerator, det) = fraction::<IBig>(ray, corners, lengths, dirs);
-    // numerator/det·2^(l − d) against m·2^e.
+    // Compare numerator/det·2^(l − d) with m·2^e.
     let (mantissa, exponent) = decode(t);
     let shift = lengths.exponent - dirs.exponent - exponent;
     let (left, right) = (numerator, IBig::from(mantissa) * &det);
@@ -150,7 +150,7 @@ where
     (&left * &right_det).cmp(&(&right * &left_det))
 }
 
-/// W_a, W_b, W_c.
+/// The edge functions W_a, W_b, W_c.
 fn weights<T: Integer>(ray: &Ray, corners: [Vec3; 3], lengths: Span, dirs: Span) -> [T; 3]
 where
     for<'a> &'a T: Arithmetic<'a, T>,

@@ -1,4 +1,5 @@
-//! Decides single hits: from their f32 depth bounds if those don't overlap, else in f64, else in integers.
+//! Decides about hits and their order: from f32 depth bounds if those don't overlap, else in f64, else in
+//! integers.
 
 use super::super::shear::ShearedRay;
 use super::{Filtered, VALUES, filter, integer};

@@ -14,7 +14,7 @@ fn ray(origin: [f32; 3], dir: [f32; 3]) -> Ray {
 }
 
 #[test]
-fn t_u_and_v_of_a_known_hit_are_right_on_either_side() {
+fn t_u_and_v_of_a_known_hit_are_correct_from_both_sides() {
     for z in [3.0, -3.0] {
         let ray = ray([1.0, 2.0, z], [0.0, 0.0, -z]);
         assert!(is_inside(&ray, TRIANGLE));
@@ -30,8 +30,8 @@ fn t_u_and_v_of_a_known_hit_are_right_on_either_side() {
         is_inside(&ray([2.0, 2.0, 1.0], [0.0, 0.0, -1.0]), TRIANGLE),
         "on BC"
     );
-    let beside = ray([2.0, 2.0f32.next_up(), 1.0], [0.0, 0.0, -1.0]);
-    assert!(!is_inside(&beside, TRIANGLE));
+    let outside = ray([2.0, 2.0f32.next_up(), 1.0], [0.0, 0.0, -1.0]);
+    assert!(!is_inside(&outside, TRIANGLE));
     assert!(
         !is_inside(&ray([-1.0, 1.0, 0.0], [1.0, 0.0, 0.0]), TRIANGLE),
         "in its plane"
@@ -52,7 +52,7 @@ fn quotients_keep_sign_and_exponent_at_the_ends_of_the_range() {
 }
 
 #[test]
-fn numbers_are_taken_apart_and_put_together_again() {
+fn mantissa_and_exponent_recover_the_number() {
     for x in [
         0.0,
         -0.0,
@@ -69,11 +69,11 @@ fn numbers_are_taken_apart_and_put_together_again() {
 }
 
 #[test]
-fn the_integers_of_128_bits_say_what_the_others_say() {
+fn integers_of_128_bits_decide_like_those_of_any_size() {
     let mut random = Random::new(1);
     let (mut narrow, mut inside) = (0, 0);
     for _ in 0..20_000 {
-        // Mantissas of up to 24 bits, exponents apart by as much as just fits.
+        // Mantissas of up to 24 bits; exponents as far apart as just fits.
         let spread = random.index(18) as i32;
         let mut point = || {
             let number = |random: &mut Random| {
@@ -100,7 +100,7 @@ fn the_integers_of_128_bits_say_what_the_others_say() {
     assert!(narrow > 5_000 && inside > 1_000, "{narrow} {inside}");
 }
 
-/// A point whose coordinates are whole, of up to so many bits, the last of them set now and then.
+/// A point with whole coordinates of up to `bits` bits, with the last bit set now and then.
 fn whole_point(random: &mut Random, bits: usize) -> Vec3 {
     Vec3::from_array([(); 3].map(|()| {
         let exponent = [bits - 24, random.index(bits - 23), 0][random.index(3)];
@@ -109,8 +109,8 @@ fn whole_point(random: &mut Random, bits: usize) -> Vec3 {
 }
 
 #[test]
-fn numbers_of_any_length_are_decided_as_integers_of_any_size_decide_them() {
-    // Lengths on both sides of what 128 bits hold; an overflow would panic here, or turn a sign.
+fn the_choice_of_integer_size_changes_no_decision() {
+    // Bit lengths on both sides of what 128 bits hold; an overflow would panic or flip a sign.
     let mut random = Random::new(2);
     let (mut near_limit, mut nearly_compared) = (0, 0);
     for _ in 0..20_000 {
