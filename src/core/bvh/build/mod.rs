@@ -122,8 +122,8 @@ type KeepGoing<'a> = &'a (dyn Fn() -> Result<(), Cancelled> + Sync);
 impl Bvh {
     /// Builds a tree over `count` primitives; `bounds_of` gives the box of each.
     ///
-    /// Primitives whose boxes are empty or hold a NaN or an infinity are left out: no ray can hit them.
-    /// `keep_going` is called now and then. The result doesn't depend on the number of threads.
+    /// Primitives whose boxes are empty or hold a NaN or an infinity are omitted: no ray can hit them.
+    /// `keep_going` is called periodically. The result doesn't depend on the number of threads.
     ///
     /// # Errors
     /// [`Cancelled`] if `keep_going` returned it.
@@ -205,7 +205,7 @@ struct Builder<'a, 'k> {
 }
 
 impl<'a> Builder<'a, '_> {
-    /// The root is a node even if the tree has one leaf, so that its box is tested.
+    /// Builds the root. It is a node even if the tree has one leaf, so that its box is tested.
     fn root(&mut self, range: Range<'a>) -> Result<(), Cancelled> {
         match self.split(range, 0) {
             Ok(halves) => self.node(halves, 0)?,
@@ -234,7 +234,7 @@ impl<'a> Builder<'a, '_> {
         if count <= BLOCK_SIZE {
             return Err(range);
         }
-        // Halving by index keeps depth + log₂(n) ≤ MAX_DEPTH, whatever the input.
+        // Halving by index keeps depth + log₂(n) ≤ MAX_DEPTH for any input.
         if depth + count.ilog2() as usize + 2 > MAX_DEPTH {
             return Ok(self.splitter.halve(range));
         }
