@@ -1,6 +1,7 @@
-//! Benches of the core: `cargo bench -p hitscope-core`, `-- NAME` for those with a name in it.
+//! Microbenchmarks of the core: `cargo bench -p hitscope-core`; `-- NAME` runs those whose name contains
+//! NAME.
 //!
-//! For changes of one part, on one machine. Whole scenes against each other: `hitscope bench`.
+//! For judging a change of one part on one machine. `hitscope bench` compares kernels on whole scenes.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -97,7 +98,7 @@ fn trace_coherent_alone(bencher: Bencher<'_, '_>, name: &str) {
     });
 }
 
-/// Rays without an order.
+/// Closest hits of incoherent rays.
 #[divan::bench(args = KERNELS)]
 fn trace_random(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &random(), |x, rays, hits| {
@@ -105,7 +106,7 @@ fn trace_random(bencher: Bencher<'_, '_>, name: &str) {
     });
 }
 
-/// Whether anything is hit.
+/// Any-hit queries.
 #[divan::bench(args = KERNELS)]
 fn trace_any(bencher: Bencher<'_, '_>, name: &str) {
     let rays = random();
@@ -119,7 +120,7 @@ fn trace_any(bencher: Bencher<'_, '_>, name: &str) {
         });
 }
 
-/// A kernel's test alone, no tree: triangles a second.
+/// A kernel's triangle test without a tree: triangles per second.
 #[divan::bench(args = KERNELS)]
 fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
     let mut random = Random::new(2);
@@ -132,7 +133,7 @@ fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
         .bench_local(|| intersector.count_hits(black_box(&ray)));
 }
 
-/// The tree that rays take the least time with: triangles a second, on all cores.
+/// High-quality tree construction on all cores: triangles per second.
 #[divan::bench]
 fn build(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
@@ -140,7 +141,7 @@ fn build(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The tree that is there soon.
+/// Fast tree construction.
 #[divan::bench]
 fn build_quickly(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
@@ -155,7 +156,7 @@ fn build_with<E>(bencher: Bencher<'_, '_>, build: impl Fn(&TriangleMesh) -> Resu
         .bench_local(|| build(black_box(mesh)).is_ok());
 }
 
-/// Triangles made ready for a kernel, block by block.
+/// Packing a mesh's triangles into a kernel's blocks.
 #[divan::bench(args = KERNELS)]
 fn pack(bencher: Bencher<'_, '_>, name: &str) {
     let (mesh, bvh) = (TORUS.mesh(), TORUS.bvh());
