@@ -28,7 +28,7 @@ const KERNELS: [&str; 8] = [
     "baldwin-weber",
 ];
 
-/// Rays of a batch: more than fit into the caches with what they meet.
+/// Rays per batch: together with the data they touch, more than the caches hold.
 const RAYS: usize = 16 * 1024;
 
 /// 2·400·250 triangles.
@@ -42,7 +42,7 @@ fn kernel(name: &str) -> &'static TriangleKernel {
     triangle_kernel(name).expect("in the table")
 }
 
-/// Rays from a point, in squares of 4 × 4, as a camera's.
+/// Rays from one point, in squares of 4 × 4, like a camera's.
 fn coherent() -> Vec<Ray> {
     let eye = Vec3::new(0.3, 1.2, 2.8);
     let ray = |i: usize| {
@@ -55,7 +55,7 @@ fn coherent() -> Vec<Ray> {
     (0..RAYS).map(ray).collect()
 }
 
-/// Rays between any two points around the mesh.
+/// Rays between random points around the mesh.
 fn random() -> Vec<Ray> {
     let mut random = Random::new(1);
     let mut point = || 1.5 * random.direction().as_vec3();
@@ -82,7 +82,7 @@ fn trace(
         });
 }
 
-/// Rays that go together.
+/// Closest hits of camera rays, in packets.
 #[divan::bench(args = KERNELS)]
 fn trace_coherent(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &coherent(), |x, rays, hits| {
@@ -90,7 +90,7 @@ fn trace_coherent(bencher: Bencher<'_, '_>, name: &str) {
     });
 }
 
-/// The same, one by one.
+/// The same, ray by ray.
 #[divan::bench(args = KERNELS)]
 fn trace_coherent_alone(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &coherent(), |x, rays, hits| {
