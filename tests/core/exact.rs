@@ -3,12 +3,12 @@
 //!
 //! No test can distinguish the following from the variant named:
 //! - half the filter's bounds on edge functions and depths: they are derived for the worst case. Over 10⁷
-//! steps of hill climbing towards the largest error, no edge function whose sign was at stake erred by more
-//! than 0.27 of its bound, and no depth by more than 0.46 (2026-11);
+//!   steps of hill climbing towards the largest error, no edge function whose sign was at stake erred by more
+//!   than 0.27 of its bound, and no depth by more than 0.46 (2026-11);
 //! - no allowance in `Judge::earliest`: rounding is monotone, so that a depth before the rounded start of the
-//! interval is also before the exact start;
+//!   interval is also before the exact start;
 //! - no cap of a hit's t at f32's largest number: t errs by at most 2⁻³² and rounds to infinity only from
-//! 2⁻²⁵ beyond that number.
+//!   2⁻²⁵ beyond that number.
 
 use glam::Vec3;
 use hitscope_core::kernel::{exact_answer, exact_triangle_kernel};

@@ -88,12 +88,12 @@ enum Kernels {
 }
 
 impl Kernels {
-    fn kernels(self) -> impl Iterator<Item = &'static TriangleKernel> {
-        let is_asked = move |kernel: &&TriangleKernel| match self {
+    fn iter(self) -> impl Iterator<Item = &'static TriangleKernel> {
+        let applies = move |kernel: &&TriangleKernel| match self {
             Self::Every => true,
             Self::Watertight => kernel.info.promises.is_watertight,
         };
-        TRIANGLE_KERNELS.iter().filter(is_asked)
+        TRIANGLE_KERNELS.iter().filter(applies)
     }
 }
 
@@ -105,7 +105,7 @@ fn assert_same_for_rays(
     mut next_ray: impl FnMut() -> Option<Ray>,
 ) {
     let corners = scene.mesh().corner_list();
-    for kernel in kernels.kernels() {
+    for kernel in kernels.iter() {
         let intersector = scene.intersector(kernel);
         let mut hits = 0;
         for _ in 0..count {

@@ -51,7 +51,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(!is_good))
 }
 
-/// Loads a file and prints the process's peak; nothing if the file is refused for its memory.
+/// Loads a file and prints the process's peak memory; prints nothing if the memory limit refuses the file.
 fn load(path: &Path, max_memory: u64) {
     let options = LoadOptions {
         max_memory,
@@ -64,14 +64,14 @@ fn load(path: &Path, max_memory: u64) {
     }
 }
 
-/// The peak of a process that loads a file; `None` if it refuses to.
+/// Peak memory of a process that loads a file; `None` if it refuses the file.
 fn loaded(path: &Path, max_memory: u64) -> Option<u64> {
     let program = std::env::current_exe().expect("this program");
     let output = Command::new(program)
         .arg("load")
         .arg(path)
         .arg(max_memory.to_string())
-        // Allocators keep memory for each thread.
+        // Allocators keep memory per thread.
         .env("RAYON_NUM_THREADS", "2")
         .output()
         .expect("started");
@@ -83,7 +83,7 @@ fn loaded(path: &Path, max_memory: u64) -> Option<u64> {
         .ok()
 }
 
-/// Bytes that this process had in use at most.
+/// This process's peak memory in bytes.
 fn peak() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
@@ -91,7 +91,7 @@ fn peak() -> Option<u64> {
     Some(kilobytes * 1024)
 }
 
-/// Meshes of some hundred thousand triangles, each with other lists.
+/// Meshes of several hundred thousand triangles, each with different lists.
 fn meshes() -> Vec<(&'static str, String)> {
     vec![
         (
@@ -152,7 +152,7 @@ fn star(corners: usize) -> String {
 
 #[expect(
     clippy::print_stdout,
-    reason = "how this program answers the one that started it"
+    reason = "the parent process reads this program's output"
 )]
 fn out(line: &str) {
     println!("{line}");

@@ -1,8 +1,8 @@
-//! Recognises files that are no OBJ by their first bytes.
+//! Recognises other file formats by their first bytes.
 
 use memchr::memchr;
 
-/// The first bytes of a kind of file, and its name.
+/// The first bytes of a file format, and its name.
 const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"<!doctype", "an HTML page"),
     (b"<html", "an HTML page"),
@@ -25,7 +25,7 @@ const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"BZh", "packed with bzip2"),
 ];
 
-/// A message that says what a file is, if its first bytes show that it is no OBJ.
+/// A message with the file's format, if its first bytes show that it isn't an OBJ.
 pub(super) fn not_an_obj(first_bytes: &[u8]) -> Option<String> {
     if first_bytes.is_empty() {
         return Some("the file is empty".to_owned());
@@ -45,7 +45,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn other_files_are_called_by_their_names() {
+    fn other_formats_are_recognised() {
         for (bytes, what) in [
             (&b"\n  <HTML><body>"[..], "an HTML page"),
             (b"ply\nformat ascii 1.0", "a PLY file"),
