@@ -279,7 +279,7 @@ mod tests {
     use std::io;
 
     #[test]
-    fn a_mesh_too_large_or_too_small_for_f32_kernels_has_a_warning() {
+    fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {
         let library = |_: &str| Err(io::ErrorKind::NotFound.into());
         let (path, progress) = (Path::new("x.obj"), Progress::default());
         for (scale, is_warned) in [
