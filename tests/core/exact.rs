@@ -142,8 +142,7 @@ fn at_equal_t_the_lowest_primitive_is_hit_even_if_the_fractions_of_t_round_diffe
 }
 
 #[test]
-fn t_u_and_v_are_more_accurate_than_f32_even_if_lengths_differ_by_a_factor_of_100_000()
- {
+fn t_u_and_v_are_more_accurate_than_f32_even_if_lengths_differ_by_a_factor_of_100_000() {
     // The rays hit the planes z = 1 + ax + by at t = 1; all coordinates are exact. Barycentric coordinates
     // are fractions of integers below 2⁵³.
     for size in [1.0f32, 1024.0, 16_384.0, 131_072.0] {

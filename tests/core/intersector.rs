@@ -310,7 +310,9 @@ fn a_hit_whose_t_rounds_to_before_its_box_is_found() {
     let scene = scene(soup(&triangles));
     let origin = Vec3::new(-0.274_436_77, 0.293_592_54, 0.288_934_6);
     let dir = Vec3::new(0.088_818_06, -0.016_551_644, 0.086_065_41);
-    assert_same_for_rays(Kernels::Watertight, &scene, 1, || Ray::new(origin, dir).ok());
+    assert_same_for_rays(Kernels::Watertight, &scene, 1, || {
+        Ray::new(origin, dir).ok()
+    });
 }
 
 #[test]

@@ -188,7 +188,10 @@ mod tests {
         };
         let page = to_page(&to_json(&about, &Measurements::default()));
         assert!(page.contains(STYLE.1) && page.contains(SCRIPT.1));
-        assert!(page.contains("<\\/script>"), "data must not end its script element");
+        assert!(
+            page.contains("<\\/script>"),
+            "data must not end its script element"
+        );
         for (placeholder, n) in [(STYLE.0, 0), (SCRIPT.0, 0), (JSON, 0)] {
             assert_eq!(page.matches(placeholder).count(), n, "{placeholder}");
         }
