@@ -92,7 +92,7 @@ fn trace_coherent(bencher: Bencher<'_, '_>, name: &str) {
 
 /// The same, ray by ray.
 #[divan::bench(args = KERNELS)]
-fn trace_coherent_alone(bencher: Bencher<'_, '_>, name: &str) {
+fn trace_coherent_singly(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &coherent(), |x, rays, hits| {
         x.closest_hits(rays, hits);
     });

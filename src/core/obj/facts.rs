@@ -84,7 +84,7 @@ pub(super) struct Facts {
     pub dropped_others: Tally,
     /// Corners whose texture coordinates or normal don't exist.
     pub bare: Tally,
-    /// Line of the first texture index in a file without texture coordinates.
+    /// Line of the element with the highest texture index, in a file without texture coordinates.
     idle_textures_line: Option<usize>,
     /// Whether a vertex coordinate may have more than 15 digits.
     pub has_long_numbers: bool,

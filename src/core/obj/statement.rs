@@ -348,7 +348,7 @@ impl StatementRouter {
     }
 }
 
-/// The number of a smoothing group; 0 (no group) for `off` and anything else that isn't a number.
+/// The number of a smoothing group: 1 for `on`; 0 (no group) for `off` and anything else that isn't a number.
 fn smoothing_group(word: &str) -> u32 {
     match word {
         "on" => 1,

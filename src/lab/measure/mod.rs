@@ -109,7 +109,7 @@ impl Sizes {
     }
 }
 
-/// All results.
+/// Results of all measurements.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurements {
     /// Single triangles.

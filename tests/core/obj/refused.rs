@@ -74,7 +74,7 @@ fn a_word_in_place_of_a_number_is_reported_with_its_position() {
 }
 
 #[test]
-fn a_file_that_is_not_an_obj_is_reported_as_what_it_is() {
+fn errors_name_the_format_of_files_that_are_not_obj() {
     let nothing = "no vertices and no faces: this is not an OBJ file";
     for (name, message) in [
         ("empty.obj", "the file is empty"),
