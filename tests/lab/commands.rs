@@ -28,7 +28,7 @@ fn trace_answers_each_ray_in_order() {
     let miss = serde_json::json!({ "hit": false, "line": 4, "ray_rounding": 0.0 });
     assert_eq!(answers[1], miss);
     assert_eq!(answers[2]["error"], "the direction is zero in f32");
-    assert_eq!(answers[3]["error"], "a ray has 6 or 8 numbers, here are 3");
+    assert_eq!(answers[3]["error"], "expected 6 or 8 numbers, found 3");
     assert_eq!(answers[4]["error"], "“x” is not a number");
 }
 
