@@ -44,7 +44,7 @@ fn impossible_arguments_are_refused_before_the_mesh_is_loaded() {
             "eye and target are the same",
         ),
         ("trace - --rays -", "can't both come from standard input"),
-        ("info - --lenient", "which standard input doesn't allow"),
+        ("info - --lenient", "possible from standard input"),
         ("-", "the window can't show standard input"),
     ];
     for (line, message) in cases {
