@@ -1,6 +1,6 @@
-//! The table in `docs/accuracy.md` is what the laboratory measures.
+//! Test that the table in `docs/accuracy.md` matches a new measurement.
 //!
-//! To write it anew: `HITSCOPE_ACCURACY=write cargo test -p hitscope-lab accuracy`. Look at the difference.
+//! To update it: `HITSCOPE_ACCURACY=write cargo test -p hitscope-lab accuracy`. Look at the difference.
 
 use hitscope_core::progress::Progress;
 use hitscope_lab::measure::{self, Sizes};
@@ -11,7 +11,7 @@ const START: &str = "<!-- accuracy: written by a test -->\n";
 const END: &str = "<!-- end of accuracy -->";
 
 #[test]
-fn the_table_of_accuracy_is_up_to_date() {
+fn the_accuracy_table_is_up_to_date() {
     let sizes = Sizes {
         speed_rays: 0,
         ..Sizes::FULL
@@ -31,6 +31,6 @@ fn the_table_of_accuracy_is_up_to_date() {
         let text = format!("{before}{START}{table}{END}{after}");
         std::fs::write(DOCUMENT, text).expect("the document can be written");
     } else {
-        assert_eq!(shown, table, "HITSCOPE_ACCURACY=write writes it anew");
+        assert_eq!(shown, table, "HITSCOPE_ACCURACY=write updates it");
     }
 }

@@ -14,7 +14,10 @@ fn impossible_arguments_are_refused_before_the_mesh_is_loaded() {
         (&format!("{render} --samples -1"), "-1 is not in 1..=4096"),
         (&format!("{render} --threads 0"), "0 is not in 1..=1024"),
         (&format!("{render} --size 1x16385"), "from 1 to 16384"),
-        (&format!("{render} --eye 1,2"), "three numbers separated by commas"),
+        (
+            &format!("{render} --eye 1,2"),
+            "three numbers separated by commas",
+        ),
         (
             &format!("{render} --eye 1,1,1 --target 1,1,1"),
             "eye and target are the same",

@@ -216,18 +216,18 @@ impl Oddities {
         let elements = self.not_finite_elements;
         let of_elements = (elements > 0).then(|| {
             let message = format!(
-                "{elements} line(s) or point(s) dropped: a vertex is not finite, or too large"
+                "{elements} line(s) or point(s) dropped: a vertex is not finite or too large"
             );
             Warning::of_file(message)
         });
         [
             self.non_finite
-                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite, or too large")),
+                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite or too large")),
             self.zero_area
                 .warning(|_| format!("{zero_area} triangle(s) dropped: their area is zero")),
             self.fan.warning(|fans| {
                 format!(
-                    "{fans} polygon(s) cross themselves, have no plane or too many corners: cut as a fan"
+                    "{fans} polygon(s) triangulated as fans: they intersect themselves, have no plane or have too many corners"
                 )
             }),
             of_elements,
@@ -259,17 +259,17 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
     } = mesh.dropped;
     let message = if zero_area + non_finite > 0 {
         let message = format!(
-            "no triangle is left: {zero_area} have zero area, {non_finite} a corner that is NaN, infinite or too large for f32"
+            "no triangles left: {zero_area} have zero area, {non_finite} have a corner that is NaN, infinite or too large for f32"
         );
         return Err(Problem::line(facts.face_line(0), message));
     } else if bad_index > 0 {
         let message = format!(
-            "no face is left: {bad_index} have an index that is out of range, or fewer than three corners"
+            "no faces left: {bad_index} have an index that is out of range or fewer than three corners"
         );
         return Err(Problem::line(facts.dropped_faces.first_line, message));
     } else if facts.element_count > 0 {
         format!(
-            "there are lines or points ({}), but no faces: nothing that a ray could hit",
+            "there are lines or points ({}), but no faces: nothing to trace",
             facts.element_count
         )
     } else if facts.counts[0] > 0 {

@@ -82,7 +82,10 @@ impl Iterator for Corners<'_> {
             }
         }
         let word = self.word(offset);
-        let message = format!("“{}” has more than vertex/texture/normal", shortened(&word));
+        let message = format!(
+            "“{}” has more parts than vertex/texture/normal",
+            shortened(&word)
+        );
         self.at = self.line.len();
         Some(Err(Malformed { offset, message }))
     }
@@ -160,7 +163,10 @@ mod tests {
     #[test]
     fn a_malformed_corner_is_reported() {
         for (line, message) in [
-            ("1/1/1/1 2", "“1/1/1/1” has more than vertex/texture/normal"),
+            (
+                "1/1/1/1 2",
+                "“1/1/1/1” has more parts than vertex/texture/normal",
+            ),
             ("1.0", "“1.0” is not an index"),
             ("1/x/2", "“x” in “1/x/2” is not an index"),
             ("/1", "“” in “/1” is not an index"),

@@ -23,7 +23,7 @@ impl Element {
         match self {
             Self::Face => (3, "a face needs three corners"),
             Self::Line => (2, "a line needs two corners"),
-            Self::Points => (1, "a list of points needs one"),
+            Self::Points => (1, "a list of points needs one point"),
         }
     }
 }
@@ -222,12 +222,13 @@ impl Facts {
                     .warning(|count| format!("{count} line(s) or point(s) {why}")),
             )
             .chain(self.bare.warning(|count| {
-                format!("{count} texture or normal indices ignored: there are no such")
+                format!("{count} texture or normal indices ignored: they are out of range")
             }))
             .chain(self.idle_textures_line.map(|line| {
                 Warning::at(
                     line,
-                    "texture coordinates are named, but there are none".to_owned(),
+                    "faces have texture indices, but the file has no texture coordinates"
+                        .to_owned(),
                 )
             }))
             .chain(uncoloured)
@@ -235,11 +236,12 @@ impl Facts {
                 Warning::of_file("bytes after the end of the gzip data ignored".to_owned())
             }))
             .chain(self.has_byte_colours.then(|| {
-                Warning::of_file("colours of vertices go beyond 1: taken as bytes".to_owned())
+                Warning::of_file("vertex colours above 1: interpreted as bytes".to_owned())
             }))
             .chain((self.useless_normals > 0).then(|| {
                 let count = self.useless_normals;
-                let message = format!("{count} normal(s) are zero or not finite: computed instead");
+                let message =
+                    format!("{count} normal(s) computed: those in the file are zero or not finite");
                 Warning::of_file(message)
             }))
             .collect();

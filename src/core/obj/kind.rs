@@ -9,7 +9,7 @@ const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"<?xml", "an XML file"),
     (
         b"version https://git-lfs",
-        "a pointer of git-lfs to a file that wasn't fetched",
+        "a Git LFS pointer to a file that wasn't fetched",
     ),
     (b"solid ", "an STL file"),
     (b"ply\n", "a PLY file"),
@@ -22,7 +22,7 @@ const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"glTF", "a glTF file"),
     (b"Kaydara FBX", "an FBX file"),
     (b"PK\x03\x04", "a ZIP archive"),
-    (b"BZh", "packed with bzip2"),
+    (b"BZh", "a bzip2 file"),
 ];
 
 /// A message with the file's format, if its first bytes show that it isn't an OBJ.
@@ -52,7 +52,7 @@ mod tests {
             (b"solid cube\nfacet", "an STL file"),
             (b"{\"asset\":{}}", "a JSON file"),
             (b"\x7fELF\0\0", "a binary file"),
-            (b"BZh91AY", "packed with bzip2"),
+            (b"BZh91AY", "a bzip2 file"),
         ] {
             let expected = format!("this is {what}, not an OBJ file");
             assert_eq!(

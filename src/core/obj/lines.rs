@@ -221,7 +221,10 @@ fn before_backslash(line: &[u8]) -> Option<&[u8]> {
 }
 
 fn too_long(line: usize, longest: usize) -> Problem {
-    Problem::line(line, format!("a line of more than {} MB", longest >> 20))
+    Problem::line(
+        line,
+        format!("the line is longer than {} MB", longest >> 20),
+    )
 }
 
 /// Counts the bytes read, and returns an error once the load is cancelled.

@@ -169,7 +169,7 @@ fn is_device(info: &Metadata) -> bool {
     }
 }
 
-const CHANGED: &str = "the file changed while it was read; load it again";
+const CHANGED: &str = "the file changed while it was being read; load it again";
 
 fn is_changed(before: &Metadata, after: &Metadata) -> bool {
     before.is_file()

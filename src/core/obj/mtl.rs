@@ -122,11 +122,11 @@ pub(super) fn parse(
     let about = format!("material library “{}”", shortened(library));
     let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
         let Tally { count, first_line } = tally;
-        format!("{about}: {count} “{keyword}” statement(s) skipped, line {first_line} first")
+        format!("{about}: {count} “{keyword}” statement(s) skipped, the first on line {first_line}")
     });
     let unknown = (parser.unknown.count > 0).then(|| {
         let Tally { count, first_line } = parser.unknown;
-        format!("{about}: {count} unknown statement(s) skipped, line {first_line} first")
+        format!("{about}: {count} unknown statement(s) skipped, the first on line {first_line}")
     });
     let warnings = skipped.chain(unknown).chain(failure);
     Ok(Some(MaterialLibrary {
@@ -168,7 +168,9 @@ impl Parser {
             count += 1;
             length += statement.bytes.len() + 1;
             if length > LARGEST {
-                return Err(statement.problem(format!("more than {} MB", LARGEST >> 20)));
+                return Err(
+                    statement.problem(format!("the library is larger than {} MB", LARGEST >> 20))
+                );
             }
             self.take(statement, &is_wanted);
         }

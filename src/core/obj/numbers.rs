@@ -78,7 +78,7 @@ impl Numbers {
             elements += count;
         }
         if (first, elements) != (vertices.len(), facts.element_count) {
-            let message = "reading failed unexpectedly: faces went missing".to_owned();
+            let message = "reading failed unexpectedly: faces are missing".to_owned();
             return Err(Problem::Content(message));
         }
         progress.check()?;

@@ -27,7 +27,7 @@ pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Pictur
     let size = UVec2::new(picture.width(), picture.height());
     let texture = Texture::new(name, size, picture.into_raw());
     Ok(Picture {
-        texture: texture.ok_or("an empty picture")?,
+        texture: texture.ok_or("the picture is empty")?,
         is_cut_short: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
     })
 }
@@ -48,7 +48,7 @@ fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
     let needed = needed_bytes(&decoder, format, bytes.len() as u64);
     if needed > max_bytes {
         return Err(format!(
-            "decoding takes {} MB of memory, {} MB are left (--max-memory)",
+            "decoding needs {} MB of memory, {} MB are left (--max-memory)",
             needed.div_ceil(1 << 20),
             max_bytes >> 20
         ));

@@ -116,12 +116,12 @@ impl<'p> NormalisingReader<'p> {
         let facts = &mut self.router.facts;
         if facts.triangle_count() > MOST_TRIANGLES || facts.counts.iter().any(|&n| n > MOST_ENTRIES)
         {
-            let message = "more vertices or triangles than 32 bits can number".to_owned();
+            let message = "more vertices or triangles than 32-bit indices allow".to_owned();
             return Err(Problem::Content(message));
         }
         if facts.bytes() as u64 > self.max_memory {
             return Err(Problem::Content(format!(
-                "loading takes more than the {} MB of memory that it may use (--max-memory)",
+                "loading needs more than the {} MB of memory allowed (--max-memory)",
                 self.max_memory >> 20
             )));
         }

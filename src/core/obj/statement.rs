@@ -104,7 +104,7 @@ impl StatementRouter {
         };
         if count < least {
             return Err(statement.problem(format!(
-                "“{keyword}” needs {least} number(s), here are {count}"
+                "“{keyword}” needs {least} number(s), found {count}"
             )));
         }
         if is_plain && count == used {

@@ -19,14 +19,14 @@ pub(super) fn read(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     let info = file.metadata()?;
     require_regular(&info)?;
     if is_in_system_folder(path)? || is_of_kernel(&file) {
-        return Err(io::Error::other("a file of the system, not a stored one"));
+        return Err(io::Error::other("a system file, not a stored one"));
     }
     let size = info.len().min(most_bytes);
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     file.take(most_bytes.saturating_add(1))
         .read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most_bytes {
-        let message = format!("larger than the {} MB that may be read", most_bytes >> 20);
+        let message = format!("larger than the limit of {} MB", most_bytes >> 20);
         return Err(io::Error::other(message));
     }
     Ok(bytes)
@@ -99,7 +99,7 @@ mod tests {
         std::fs::write(&path, "12345").expect("written");
         assert_eq!(read(&path, 5).expect("small enough"), b"12345");
         let error = read(&path, 4).expect_err("too large").to_string();
-        assert_eq!(error, "larger than the 0 MB that may be read");
+        assert_eq!(error, "larger than the limit of 0 MB");
     }
 
     #[cfg(target_os = "linux")]
@@ -116,18 +116,15 @@ mod tests {
         rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, mode, 0)
             .expect("a pipe");
         for (path, why) in [
-            (at("maps"), "a file of the system, not a stored one"),
-            (
-                at("self").join("maps"),
-                "a file of the system, not a stored one",
-            ),
+            (at("maps"), "a system file, not a stored one"),
+            (at("self").join("maps"), "a system file, not a stored one"),
             (
                 "/proc/self/pagemap".into(),
-                "a file of the system, not a stored one",
+                "a system file, not a stored one",
             ),
             (
                 "/sys/kernel/notes".into(),
-                "a file of the system, not a stored one",
+                "a system file, not a stored one",
             ),
             (at("zero"), "not a regular file"),
             (at("pipe"), "not a regular file"),

@@ -51,7 +51,7 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1/1/1/1 2 3",
-            "x.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
+            "x.obj:4:3: “1/1/1/1” has more parts than vertex/texture/normal",
         ),
         ("f 1.0 2 3", "x.obj:4:3: “1.0” is not an index"),
         ("f 1/x 2 3", "x.obj:4:3: “x” in “1/x” is not an index"),
@@ -60,10 +60,7 @@ fn errors_name_the_line_and_the_word() {
             "x.obj:4: a face needs three corners, this one has 2",
         ),
         ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5:5: “1,5” is not a number"),
-        (
-            "v 0 1\nf 1 2 3",
-            "x.obj:4: “v” needs 3 number(s), here are 2",
-        ),
+        ("v 0 1\nf 1 2 3", "x.obj:4: “v” needs 3 number(s), found 2"),
         ("vn a b c", "x.obj:4:4: “a” is not a number"),
         (
             " v 0 1.2.3 0\nf 1 2 3",
@@ -73,7 +70,7 @@ fn errors_name_the_line_and_the_word() {
         ("vn 0 1 1e\nf 1 2 3", "x.obj:4:8: “1e” is not a number"),
         (
             "l 1 2",
-            "x.obj: there are lines or points (1), but no faces: nothing that a ray could hit",
+            "x.obj: there are lines or points (1), but no faces: nothing to trace",
         ),
         (
             "",
@@ -81,11 +78,11 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1 1 2",
-            "x.obj:4: no triangle is left: 1 have zero area, 0 a corner that is NaN, infinite or too large for f32",
+            "x.obj:4: no triangles left: 1 have zero area, 0 have a corner that is NaN, infinite or too large for f32",
         ),
         (
             "v nan 0 0\nf 1 2 4",
-            "x.obj:5: no triangle is left: 0 have zero area, 1 a corner that is NaN, infinite or too large for f32",
+            "x.obj:5: no triangles left: 0 have zero area, 1 have a corner that is NaN, infinite or too large for f32",
         ),
     ];
     for (statement, expected) in cases {
@@ -159,7 +156,7 @@ fn faces_get_their_names_normals_and_materials() {
     assert!(warnings[1].starts_with("line 2: material library “missing.mtl”: "));
     assert_eq!(
         warnings[2],
-        "1 material(s) without a definition, “blue” first"
+        "1 material(s) without a definition, the first is “blue”"
     );
 }
 
@@ -191,7 +188,7 @@ fn an_endless_line_is_refused() {
     );
     let error = result.expect_err("endless").to_string();
     assert!(
-        error.starts_with("x.obj:1: a line of more than "),
+        error.starts_with("x.obj:1: the line is longer than "),
         "{error}"
     );
     let zeros = parse(

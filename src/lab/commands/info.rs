@@ -168,11 +168,7 @@ impl Info {
                 None => writeln!(out, "{title:<20}not checked: too many border edges")?,
             }
         }
-        writeln!(
-            out,
-            "max aspect ratio    {:.1}",
-            self.health.max_aspect
-        )?;
+        writeln!(out, "max aspect ratio    {:.1}", self.health.max_aspect)?;
         writeln!(
             out,
             "load, build         {:.1} ms, {:.1} ms",

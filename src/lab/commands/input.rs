@@ -53,7 +53,8 @@ fn load_stdin(
     options: SceneOptions,
 ) -> Result<LoadedScene, CommandError> {
     if load_options.faults == FaultPolicy::Lenient {
-        let message = "--lenient may need to read the mesh twice, which isn't possible from standard input";
+        let message =
+            "--lenient may need to read the mesh twice, which isn't possible from standard input";
         return Err(CommandError::Usage(message.to_owned()));
     }
     let (start, progress) = (Instant::now(), Progress::default());

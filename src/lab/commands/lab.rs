@@ -110,7 +110,9 @@ impl LabArgs {
         ));
         let show = |run: RunProgress| {
             let (percent, left) = (100.0 * run.done, duration_text(run.left));
-            progress.update(format_args!("{percent:3.0} %, {left} left, not counting speed"));
+            progress.update(format_args!(
+                "{percent:3.0} %, {left} left, not counting speed"
+            ));
         };
         let never_cancelled = Progress::default();
         let measured = measure::run(sizes, self.seed, &is_wanted, &never_cancelled, &show);

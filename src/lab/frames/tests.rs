@@ -71,7 +71,10 @@ fn rays_from_anywhere_are_rounded_as_finely_as_the_mesh_and_at_most_by_the_repor
         for t in [entry + inset, (entry + exit) / 2.0, exit - inset] {
             let t = rounded(t, 20).max(0.0);
             let found = distance(&given, &placed, origin, t);
-            assert!(found <= reported, "{given:?} {placed:?} at {t}: {found} {reported}");
+            assert!(
+                found <= reported,
+                "{given:?} {placed:?} at {t}: {found} {reported}"
+            );
         }
         // In and near the ball, coordinates relative to the mesh's origin are below 4: the start is rounded by
         // 2⁻²³, the direction by 2⁻²⁵ over at most 2 lengths. `WORTHWHILE` allows four times as much.

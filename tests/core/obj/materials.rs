@@ -77,7 +77,7 @@ fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
     );
     assert_eq!(
         warnings[2],
-        "1 material(s) without a definition, “nobody” first"
+        "1 material(s) without a definition, the first is “nobody”"
     );
     // Missing files are listed, so that they can be watched.
     let looked_for = |name: &str| loaded.files.iter().any(|path| path.ends_with(name));
@@ -142,9 +142,9 @@ fn quirks_of_programs_are_understood() {
     assert_eq!(
         warnings,
         [
-            "colours of vertices go beyond 1: taken as bytes",
-            "1 normal(s) are zero or not finite: computed instead",
-            "material library “a.mtl”: 1 unknown statement(s) skipped, line 5 first",
+            "vertex colours above 1: interpreted as bytes",
+            "1 normal(s) computed: those in the file are zero or not finite",
+            "material library “a.mtl”: 1 unknown statement(s) skipped, the first on line 5",
         ]
     );
 }

@@ -77,7 +77,9 @@ fn non_planar_polygons_are_triangulated_the_same_way_each_time() {
     let first = load("not_flat.obj");
     assert_eq!(
         warnings(&first),
-        ["line 11: 1 polygon(s) cross themselves, have no plane or too many corners: cut as a fan"]
+        [
+            "line 11: 1 polygon(s) triangulated as fans: they intersect themselves, have no plane or have too many corners"
+        ]
     );
     assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(load("not_flat.obj").mesh.triangles, first.mesh.triangles);
@@ -145,7 +147,7 @@ fn faces_with_a_non_finite_vertex_are_dropped_and_counted() {
     assert_eq!(loaded.mesh.dropped.non_finite, 4);
     assert_eq!(
         warnings(&loaded),
-        ["line 8: 4 triangle(s) dropped: a corner is not finite, or too large"]
+        ["line 8: 4 triangle(s) dropped: a corner is not finite or too large"]
     );
 }
 

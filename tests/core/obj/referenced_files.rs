@@ -57,8 +57,8 @@ fn a_file_that_is_no_library_or_picture_is_named_but_not_quoted() {
     assert_eq!(
         warnings,
         [
-            "material library “m.mtl”: 1 “Kd” statement(s) skipped, line 3 first",
-            "material library “m.mtl”: 1 unknown statement(s) skipped, line 2 first",
+            "material library “m.mtl”: 1 “Kd” statement(s) skipped, the first on line 3",
+            "material library “m.mtl”: 1 unknown statement(s) skipped, the first on line 2",
         ]
     );
 }
@@ -79,7 +79,7 @@ fn devices_pipes_and_kernel_files_are_rejected_as_libraries_and_textures() {
     ] {
         std::os::unix::fs::symlink(to, at(link)).expect("linked");
     }
-    let of_system = "a file of the system, not a stored one";
+    let of_system = "a system file, not a stored one";
     for (name, why) in [
         ("/proc/self/pagemap", of_system),
         ("/proc/self/environ", of_system),
@@ -134,7 +134,7 @@ fn a_library_with_several_spellings_of_its_path_is_read_once() {
         &[library],
         STRICT,
     );
-    let expected = "material library “m.mtl”: 1 unknown statement(s) skipped, line 2 first";
+    let expected = "material library “m.mtl”: 1 unknown statement(s) skipped, the first on line 2";
     assert_eq!(warnings(&loaded), [expected]);
 }
 
@@ -200,7 +200,7 @@ fn a_picture_beyond_the_memory_limit_is_refused_before_decoding() {
     };
     // One byte per pixel while decoding, and three when stored: 1526 MB.
     let refused = warnings(&load(20_000, 1200 * MB));
-    let expected = "texture “p.png”: decoding takes 1526 MB of memory, 1199 MB are left (--max-memory); shown as a checker";
+    let expected = "texture “p.png”: decoding needs 1526 MB of memory, 1199 MB are left (--max-memory); shown as a checker";
     assert_eq!(refused, [expected]);
     // 15.3 MB.
     assert_eq!(load(2000, 14 * MB).warnings.len(), 1);

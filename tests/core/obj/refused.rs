@@ -58,7 +58,7 @@ fn a_word_in_place_of_a_number_is_reported_with_its_position() {
     for (name, message) in [
         (
             "four_parts.obj",
-            "four_parts.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
+            "four_parts.obj:4:3: “1/1/1/1” has more parts than vertex/texture/normal",
         ),
         ("comma.obj", "comma.obj:2:3: “0,5” is not a number"),
         ("word.obj", "word.obj:3:5: “one” is not a number"),
