@@ -24,7 +24,7 @@ fn written(value: &impl Serialize, layout: impl Formatter) -> String {
     let mut serializer = Serializer::with_formatter(&mut text, ExactNumbers(layout));
     value
         .serialize(&mut serializer)
-        .expect("results are plain data, and memory takes all bytes");
+        .expect("results are plain data, and writing to memory can't fail");
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 

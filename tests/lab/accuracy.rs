@@ -23,7 +23,7 @@ fn the_accuracy_table_is_up_to_date() {
         &Progress::default(),
         &|_| (),
     );
-    let table = accuracy_table(&all.expect("nobody cancels"));
+    let table = accuracy_table(&all.expect("never cancelled"));
     let text = std::fs::read_to_string(DOCUMENT).expect("the document exists");
     let (before, rest) = text.split_once(START).expect("the table's start");
     let (shown, after) = rest.split_once(END).expect("the table's end");

@@ -26,7 +26,7 @@ fn square() -> Scene {
         face_count: 1,
         ..TriangleMesh::default()
     };
-    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+    Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
 
 fn inspect(at: DVec3) -> Inspection {

@@ -99,15 +99,15 @@ fn the_lectures_edge_planes_cull_one_side_and_yield_nan_on_an_edges_line_and_our
 #[test]
 fn the_lectures_box_test_of_single_pairs_never_misses_and_ours_does() {
     let bounds = Aabb::around([Vec3::ZERO, Vec3::ONE]);
-    let beside = Ray::new(Vec3::new(-1.0, 3.0, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
+    let passing = Ray::new(Vec3::new(-1.0, 3.0, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
     assert!(
-        lecture::meets_box(&beside, &bounds),
-        "each pair by itself has near ≤ far"
+        lecture::meets_box(&passing, &bounds),
+        "each pair of planes alone has near ≤ far"
     );
     let triangle = [Vec3::ZERO, Vec3::ONE, Vec3::new(0.0, 1.0, 1.0)];
     let scene = scene(soup(&[triangle]));
     let kernel = triangle_kernel("watertight").expect("in the table");
-    assert!(scene.intersector(kernel).candidates(&beside).is_empty());
+    assert!(scene.intersector(kernel).candidates(&passing).is_empty());
 }
 
 #[test]

@@ -117,7 +117,7 @@ pub struct KernelArg {
 impl KernelArg {
     /// The kernel's row in the table.
     pub fn kernel(&self) -> &'static TriangleKernel {
-        triangle_kernel(&self.kernel).expect("clap takes names from the table only")
+        triangle_kernel(&self.kernel).expect("clap accepts only names in the table")
     }
 }
 
@@ -219,7 +219,7 @@ pub struct ViewArg {
 impl ViewArg {
     /// The view's row in the table.
     pub fn view(&self) -> &'static Integrator {
-        integrator(&self.view).expect("clap takes names from the table only")
+        integrator(&self.view).expect("clap accepts only names in the table")
     }
 }
 

@@ -160,7 +160,8 @@ impl BenchArgs {
         } else {
             &self.kernels
         };
-        let named = |name: &String| triangle_kernel(name).expect("names are from the table only");
+        let named =
+            |name: &String| triangle_kernel(name).expect("clap accepts only names in the table");
         names.iter().map(named).collect()
     }
 

@@ -67,5 +67,5 @@ fn load_stdin(
     };
     let no_folder = |_: &str| Err(io::Error::other("standard input has no folder to look in"));
     let loaded = obj::parse(open, name, load_options, &no_folder, &progress)?;
-    Ok(LoadedScene::of(loaded, start, options, &progress).expect("nobody cancels"))
+    Ok(LoadedScene::of(loaded, start, options, &progress).expect("never cancelled"))
 }

@@ -116,7 +116,7 @@ impl LabArgs {
         };
         let never_cancelled = Progress::default();
         let measured = measure::run(sizes, self.seed, &is_wanted, &never_cancelled, &show);
-        let all = measured.expect("nobody cancels");
+        let all = measured.expect("never cancelled");
         progress.end();
         let about = RunInfo {
             version: env!("CARGO_PKG_VERSION"),
@@ -187,7 +187,7 @@ impl LabArgs {
             progress.update(format_args!("{done} of {all} kernels"));
             rows.push(row);
         });
-        measured.expect("nobody cancels");
+        measured.expect("never cancelled");
         progress.end();
         if self.json {
             let json = json!({

@@ -112,7 +112,7 @@ impl PictureArgs {
         let intersector: Arc<dyn Intersector> =
             Arc::from(loaded.scene.intersector(self.kernel.kernel()));
         let against = self.against.as_deref().unwrap_or("exact");
-        let chosen = triangle_kernel(against).expect("clap takes names from the table only");
+        let chosen = triangle_kernel(against).expect("clap accepts only names in the table");
         let view = self.view.view();
         let second = view.second(&loaded.scene, &intersector, chosen);
         self.require_memory(&loaded, &[&intersector, &second])?;

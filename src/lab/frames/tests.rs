@@ -13,7 +13,7 @@ fn scene(origin: DVec3) -> Scene {
         triangles: vec![[0, 1, 2]],
         ..TriangleMesh::default()
     };
-    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+    Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
 
 fn given(origin: DVec3, dir: DVec3) -> GivenRay {
@@ -138,7 +138,7 @@ fn invalid_rays_are_refused() {
 
 #[test]
 fn a_mesh_without_triangles_is_missed_wherever_the_ray_starts() {
-    let scene = Scene::new(TriangleMesh::default(), &Progress::default()).expect("nobody cancels");
+    let scene = Scene::new(TriangleMesh::default(), &Progress::default()).expect("never cancelled");
     let frames = Frames::new(&scene, default_triangle_kernel(), u64::MAX);
     for origin in [DVec3::ZERO, DVec3::splat(0.1), DVec3::splat(1e30)] {
         let placed = frames
