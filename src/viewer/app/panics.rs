@@ -52,14 +52,20 @@ fn lines_that_panic_are_told_and_switched_off_and_can_be_switched_on_again() {
 fn a_kernel_whose_packing_panics_is_told_and_the_one_before_stays() {
     let Some(mut window) = app(None) else { return };
     sabotage::next("pack");
-    window.state_mut().settings.kernel = "moller-trumbore".to_owned();
+    window
+        .state_mut()
+        .settings
+        .use_for_session("moller-trumbore");
     wait_for_message(&mut window);
     assert_eq!(window.state().settings().kernel().info.name, "watertight");
     assert_eq!(
         window.state().document().intersector().kernel().name,
         "watertight"
     );
-    window.state_mut().settings.kernel = "moller-trumbore".to_owned();
+    window
+        .state_mut()
+        .settings
+        .use_for_session("moller-trumbore");
     wait(&mut window, "the kernel", |app| {
         app.document().intersector().kernel().name == "moller-trumbore"
     });
