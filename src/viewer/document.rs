@@ -168,7 +168,7 @@ impl Document {
         match self.path.as_deref().and_then(Path::file_name) {
             Some(name) => name.to_string_lossy().into_owned(),
             None if self.is_blank => "No file".to_owned(),
-            None => "Default scene".to_owned(),
+            None => "Built-in scene".to_owned(),
         }
     }
 
@@ -295,7 +295,7 @@ pub fn embedded_scene() -> LoadedScene {
         _ => Err(io::ErrorKind::NotFound.into()),
     };
     let (start, progress) = (Instant::now(), Progress::default());
-    let path = Path::new("the embedded scene");
+    let path = Path::new("the built-in scene");
     let loaded = obj::parse(
         || Ok(DEFAULT_OBJ.as_bytes()),
         path,
@@ -303,7 +303,7 @@ pub fn embedded_scene() -> LoadedScene {
         &library,
         &progress,
     );
-    let loaded = loaded.expect("a test opens the embedded scene");
+    let loaded = loaded.expect("a test opens the built-in scene");
     LoadedScene::of(loaded, start, SceneOptions::default(), &progress).expect("nobody cancels")
 }
 

@@ -32,7 +32,7 @@ impl FaceInFile {
         line: usize,
         progress: &Progress,
     ) -> Self {
-        let shown = path.unwrap_or(Path::new("the embedded scene"));
+        let shown = path.unwrap_or(Path::new("the built-in scene"));
         match face_source(|| open(path), shown, line, progress) {
             Ok(source) => source
                 .and_then(|source| Self::matched(source, mesh, triangle))

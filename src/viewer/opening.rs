@@ -92,10 +92,10 @@ impl OpenDialog {
             self.field = None;
         } else if !choice.was_shown {
             self.field = Some(PathField::because(if cfg!(target_os = "linux") {
-                "This system shows no file dialog: xdg-desktop-portal or zenity would provide one. \
-                 Type a path, or drop a file on the window."
+                "This system has no file dialog; xdg-desktop-portal or zenity provides one. \
+                 Type a path or drop a file on the window."
             } else {
-                "The system's file dialog couldn't be shown. Type a path, or drop a file on the window."
+                "The system's file dialog couldn't be shown. Type a path or drop a file on the window."
             }));
         }
         choice.path

@@ -7,7 +7,7 @@ pub struct Task<T>(Receiver<T>);
 
 /// The thread ended without a result: it panicked.
 #[derive(Clone, Copy, Debug, thiserror::Error)]
-#[error("an internal error ended the work; the terminal has the details")]
+#[error("internal error; see the terminal for details")]
 pub struct TaskPanicked;
 
 impl<T: Send + 'static> Task<T> {

@@ -211,7 +211,7 @@ fn every_tab_can_be_read() {
     let Some(mut window) = app(None) else { return };
     for (tab, sign) in [
         ("Mesh", "Flaws"),
-        ("Inspect", "Click a pixel to see what its ray hits."),
+        ("Inspect", "Click a pixel to inspect its ray."),
         ("Display", "Theme"),
     ] {
         window.get_by_label(tab).click();

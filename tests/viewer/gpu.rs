@@ -223,7 +223,7 @@ fn a_mesh_too_large_for_the_gpu_is_traced_and_the_window_says_why_it_has_no_line
         app.document().name() == "grid.obj"
     });
     press(&mut window, Key::W);
-    let refusal = "the overlay needs a buffer of 2126892 bytes; this GPU grants 2097152";
+    let refusal = "the overlay needs a buffer of 2126892 bytes; this GPU allows 2097152";
     wait(&mut window, "the refusal", |app| {
         app.notice() == Some(refusal)
     });

@@ -43,7 +43,7 @@ fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
             .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
         for _ in 0..10_000 {
             let app = window.state();
-            assert_ne!(app.document().name(), "Default scene");
+            assert_ne!(app.document().name(), "Built-in scene");
             if app.notice().is_some() || app.document().name() == file {
                 break;
             }
@@ -53,7 +53,7 @@ fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
         assert_eq!(window.state().document().is_blank, !is_good, "{file}");
         if !is_good {
             window.run_steps(2);
-            window.get_by_label("No file is open. Drop one here, or press Ctrl+O.");
+            window.get_by_label("No file is open. Drop a file here or press Ctrl+O.");
         }
     }
 }
@@ -122,13 +122,13 @@ fn a_picture_without_the_mesh_says_so_and_home_brings_the_mesh_back() {
     press(&mut window, Key::Num1);
     wait(&mut window, "an empty picture", App::shows_nothing);
     window.run_steps(2);
-    window.get_by_label("Nothing of the mesh is in view.");
+    window.get_by_label("The mesh isn't visible.");
     press(&mut window, Key::Home);
     wait(&mut window, "the mesh", |app| !app.shows_nothing());
     window.run_steps(2);
     assert!(
         window
-            .query_by_label("Nothing of the mesh is in view.")
+            .query_by_label("The mesh isn't visible.")
             .is_none()
     );
 }

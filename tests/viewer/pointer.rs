@@ -355,7 +355,7 @@ fn the_face_of_a_pick_is_read_from_the_file() {
     let normal = found.hit.as_ref().expect("a hit").geometric_normal;
     let is_behind = Vec3::from_array(normal).dot(Vec3::from_array(found.ray.direction)) > 0.0;
     window.get_by_label(if is_behind {
-        "back: hit from behind"
+        "back"
     } else {
         "front"
     });

@@ -19,7 +19,7 @@ impl App {
                     self.load(path, ctx);
                 }
             }
-            // From its direction the mesh can't be seen: a flat one edge-on.
+            // The mesh can't be seen from this direction, such as a flat mesh edge-on.
             Action::Frame if self.shows_nothing() => self.use_default_view(),
             Action::Frame => {
                 let bounds = self.document.loaded.scene.bounds_with_elements();
@@ -58,7 +58,7 @@ impl App {
         }
     }
 
-    /// Cancels loading, or closes the topmost thing that can be closed.
+    /// Cancels loading, or else closes the topmost message or window, or else clears the pick.
     fn dismiss(&mut self) {
         if let Some(loading) = &self.loading {
             loading.cancel();

@@ -8,7 +8,7 @@ use crate::trade::{Axis, Trade, TradeState};
 use egui::Key;
 use glam::UVec2;
 
-const MESSAGE: &str = "an internal error ended the work; the terminal has the details";
+const MESSAGE: &str = "internal error; see the terminal for details";
 
 fn wait_for_message(window: &mut Window) {
     wait(window, "the message", |app| app.notice() == Some(MESSAGE));

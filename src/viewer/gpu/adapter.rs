@@ -59,13 +59,13 @@ impl BackendOrder {
         order.warning = is_bad.then(|| {
             let what = match unknown.as_slice() {
                 [] => "it names no graphics backend".to_owned(),
-                [word] => format!("“{}” is no graphics backend", word.escape_debug()),
+                [word] => format!("“{}” isn't a graphics backend", word.escape_debug()),
                 [word, ..] => format!(
-                    "“{}” and others are no graphics backends",
+                    "“{}” and others aren't graphics backends",
                     word.escape_debug()
                 ),
             };
-            format!("{VARIABLE} is ignored in part or whole: {what} (vulkan, metal, dx12 or gl)")
+            format!("{VARIABLE} is partly or wholly ignored: {what} (expected vulkan, metal, dx12 or gl)")
         });
         order
     }

@@ -24,7 +24,7 @@ pub enum GpuError {
     #[error("no graphics adapter was found: {0}")]
     NoAdapter(String),
     /// The mesh needs a larger buffer than the GPU grants.
-    #[error("the overlay needs a buffer of {needed} bytes; this GPU grants {granted}")]
+    #[error("the overlay needs a buffer of {needed} bytes; this GPU allows {granted}")]
     TooLarge {
         /// Bytes needed.
         needed: u64,
@@ -33,7 +33,7 @@ pub enum GpuError {
     },
     /// The picture is larger than the GPU's textures or buffers.
     #[error(
-        "a picture of {width}x{height} is too large to be drawn over: this GPU grants {side} pixels a side and {bytes} bytes"
+        "a picture of {width}x{height} is too large for the overlay: this GPU allows {side} pixels per side and {bytes} bytes"
     )]
     PictureTooLarge {
         /// Of the picture.
