@@ -46,7 +46,7 @@ impl App {
         ctx.request_repaint();
     }
 
-    /// Marks the flaws of a kind and frames the triangles around one of them.
+    /// Marks the flaws of a kind and frames the triangles around one of them; `None` clears the mark.
     fn show_flaw(&mut self, shown: Option<(Flaw, usize)>) {
         let findings = self.document.known_findings();
         self.flaw = shown.zip(findings).and_then(|((flaw, index), findings)| {
@@ -58,7 +58,8 @@ impl App {
         }
     }
 
-    /// Cancels loading, or else closes the topmost message or window, or else clears the pick.
+    /// Cancels loading, closes the topmost message or window, clears the marked flaw, or clears the pick: the first
+    /// of these that applies.
     fn dismiss(&mut self) {
         if let Some(loading) = &self.loading {
             loading.cancel();
