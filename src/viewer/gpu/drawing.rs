@@ -51,7 +51,7 @@ impl Drawing {
         self.view == other.view && Arc::ptr_eq(&self.mesh, &other.mesh)
     }
 
-    /// Whether more of its lines are missing in `other` than `other` has.
+    /// Whether most of its lines aren't in `other`.
     pub fn is_mostly_new_to(&self, other: &Self) -> bool {
         let is_old = |set: &DrawnLines| {
             let lines = other.sets.iter().map(|set| &set.lines);
