@@ -151,11 +151,7 @@ pub static KEYS: &[Binding] = &[
         Action::ToggleWatch,
         "Toggle automatic reloading",
     ),
-    binding(
-        &[key(Key::I)],
-        Action::TogglePanel,
-        "Toggle the side panel",
-    ),
+    binding(&[key(Key::I)], Action::TogglePanel, "Toggle the side panel"),
     binding(
         &[key(Key::H), key(Key::Questionmark)],
         Action::ToggleHelp,

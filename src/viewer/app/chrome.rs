@@ -20,7 +20,9 @@ impl App {
                 ui.spacing_mut().item_spacing.x = 4.0;
                 self.tools_ui(ui, actions);
                 self.switches_ui(ui, actions);
-                let help = ui.button("Help").on_hover_text("Keyboard and mouse controls (H)");
+                let help = ui
+                    .button("Help")
+                    .on_hover_text("Keyboard and mouse controls (H)");
                 if help.clicked() {
                     actions.push(Action::ToggleHelp);
                 }

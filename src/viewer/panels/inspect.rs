@@ -94,11 +94,7 @@ fn side(inspection: &Inspection, hit: &HitReport) -> &'static str {
     let direction = inspection.ray.direction.map(f64::from);
     let normal = hit.geometric_normal.map(f64::from);
     let along: f64 = direction.iter().zip(normal).map(|(d, n)| d * n).sum();
-    if along > 0.0 {
-        "back"
-    } else {
-        "front"
-    }
+    if along > 0.0 { "back" } else { "front" }
 }
 
 /// Shows the triangle and its face in the file.
@@ -239,18 +235,24 @@ fn kernel_distance(kernel: &KernelRow) -> [String; 5] {
 }
 
 fn exact_barycentric(exact: Option<&ExactReport>) -> [String; 4] {
-    let weight = |k: usize| exact.map_or_else(dash, |exact| significant(exact.barycentric[k], 9));
-    ["exact answer".to_owned(), weight(0), weight(1), weight(2)]
+    let coordinate =
+        |k: usize| exact.map_or_else(dash, |exact| significant(exact.barycentric[k], 9));
+    [
+        "exact answer".to_owned(),
+        coordinate(0),
+        coordinate(1),
+        coordinate(2),
+    ]
 }
 
 fn kernel_barycentric(kernel: &KernelRow) -> [String; 4] {
-    let weights = kernel.barycentric;
-    let weight = |k: usize| weights.map_or_else(dash, |l| significant(l[k].into(), 9));
+    let barycentric = kernel.barycentric;
+    let coordinate = |k: usize| barycentric.map_or_else(dash, |l| significant(l[k].into(), 9));
     [
         kernel_name(kernel.name).to_owned(),
-        weight(0),
-        weight(1),
-        weight(2),
+        coordinate(0),
+        coordinate(1),
+        coordinate(2),
     ]
 }
 

@@ -178,7 +178,11 @@ fn a_new_scene_is_shown_in_parts_and_a_new_camera_after_a_complete_pass() {
     assert_eq!(tracer.shown().map(|(_, camera)| camera.eye().x), Some(0.0));
     collect_until(&mut tracer, |tracer| {
         let is_done = tracer.film().passes_done() > 0;
-        assert_eq!(tracer.take_changes().is_some(), is_done, "an incomplete pass");
+        assert_eq!(
+            tracer.take_changes().is_some(),
+            is_done,
+            "an incomplete pass"
+        );
         is_done
     });
     assert_eq!(tracer.shown().map(|(_, camera)| camera.eye().x), Some(1.0));
