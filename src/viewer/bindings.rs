@@ -4,7 +4,7 @@ use egui::{Key, KeyboardShortcut, Modifiers};
 use hitscope_core::camera::{StandardView, UpAxis};
 use hitscope_core::mesh::Flaw;
 
-/// What keys, buttons and menu entries do.
+/// The action of a key, button or menu entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Show the dialog that opens a file.

@@ -56,7 +56,7 @@ fn an_unusable_backend_gives_a_warning_and_the_next_one_is_used() {
     assert!(usual.status.success(), "{}", stderr(&usual));
     assert!(!stderr(&usual).contains("WGPU_BACKEND"));
     let expected = picture(&folder);
-    for (value, told) in [
+    for (value, warning) in [
         ("", "it names no graphics backend"),
         ("glide", "“glide” isn't a graphics backend"),
         (FOREIGN_BACKEND, "WGPU_BACKEND can't be used"),
@@ -64,7 +64,7 @@ fn an_unusable_backend_gives_a_warning_and_the_next_one_is_used() {
         let output = render_wireframe(&folder, &[("WGPU_BACKEND", value)]);
         assert!(output.status.success(), "{value:?}: {}", stderr(&output));
         assert!(
-            stderr(&output).contains(told),
+            stderr(&output).contains(warning),
             "{value:?}: {}",
             stderr(&output)
         );

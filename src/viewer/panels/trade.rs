@@ -95,7 +95,7 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
     let height = |row: &SceneRow| axis.value(row).max(axis.floor()).log10();
     let label = match axis {
         Axis::ErrorOfT => "error of t in ulps, p99",
-        Axis::Wrong => "wrong decisions per million rays",
+        Axis::Wrong => "wrong per million rays",
     };
     let floor = axis.floor().log10();
     let fastest = rows.iter().map(speed).fold(0.0, f64::max);
