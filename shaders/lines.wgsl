@@ -1,13 +1,13 @@
-// Lines of constant width in pixels, anti-aliased by their distance from the middle.
+// Lines of constant width in pixels, anti-aliased by the distance from their centre line.
 
 // Twin of `StyleUniform` in src/viewer/gpu/lines.rs.
 struct Style {
-    // sRGB, alpha not multiplied in.
+    // sRGB, not premultiplied.
     colour: vec4f,
     half_width_px: f32,
-    // The second end is moved to this many times its distance from the first.
+    // The end is moved to this many times its distance from the start.
     stretch: f32,
-    // 1: lines fade where they would lie closer together than a few pixels. 0: they don't.
+    // 1: lines fade where the gap between them would be less than a few pixels. 0: they don't.
     fade: f32,
 };
 
@@ -16,27 +16,26 @@ struct Style {
 struct Line {
     @location(0) start: vec3f,
     @location(1) end: vec3f,
-    // From the line to where the next one is to be expected.
+    // From the line to the expected position of its neighbour.
     @location(2) gap: vec3f,
 };
 
 struct Fragment {
     @builtin(position) position: vec4f,
-    // Pixels from the middle of the line.
+    // Pixels from the centre line.
     @location(0) @interpolate(linear) across_px: f32,
     @location(1) @interpolate(flat) alpha: f32,
 };
 
-// Outside of every picture.
+// A vertex outside the clip volume.
 const NOWHERE = Fragment(vec4f(2.0, 2.0, 0.0, 1.0), 0.0, 0.0);
 
 fn pixel_from_clip(clip: vec4f) -> vec2f {
     return 0.5 * view.viewport * clip.xy / clip.w;
 }
 
-// How much of a line shows whose neighbour is this far away. Below the first number of pixels lines
-// merge into a veil, whose strength doesn't grow as they get denser; above the second they stand
-// alone.
+// Opacity of a line whose neighbour is this many pixels away. Below MERGED_PX lines merge into a veil, whose
+// opacity doesn't increase with density; above ALONE_PX they are separate.
 fn visible_part(gap_px: f32) -> f32 {
     const MERGED_PX = 1.5;
     const ALONE_PX = 9.0;
@@ -53,7 +52,7 @@ fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
     var start = clip_from_position(line.start);
     var end = clip_from_position(mix(line.start, line.end, style.stretch));
 
-    // Cut off what lies behind the eye, where a projection has no meaning.
+    // Clip at the near plane: behind the eye a projection is undefined.
     if start.w < view.near_w && end.w < view.near_w {
         return NOWHERE;
     }
@@ -86,13 +85,13 @@ fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
     let side = select(-1.0, 1.0, (corner & 1u) == 1u);
     let at = select(start, end, corner >= 2u);
     let normal = vec2f(-along_px.y, along_px.x) / length_px;
-    // Half a pixel more than the line's half width, for the soft edge.
+    // Half a pixel more than the line's half width, for anti-aliasing.
     let across_px = side * (style.half_width_px + 0.5);
     let offset = 2.0 * normal * across_px / view.viewport;
     return Fragment(vec4f(at.xy + offset * at.w, at.zw), across_px, alpha);
 }
 
-// Colour with alpha multiplied in, sRGB-encoded as the picture below.
+// Premultiplied colour, sRGB-encoded like the picture below.
 @fragment
 fn fs_main(fragment: Fragment) -> @location(0) vec4f {
     let coverage = clamp(style.half_width_px + 0.5 - abs(fragment.across_px), 0.0, 1.0);

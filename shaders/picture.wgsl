@@ -1,7 +1,7 @@
-// The traced picture with the overlay on it, pixel for pixel.
+// Draws the traced picture and the overlay, pixel for pixel.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
-// Of the picture's size with alpha multiplied in. Not read without HAS_OVERLAY.
+// Premultiplied, of the picture's size. Not read without HAS_OVERLAY.
 @group(0) @binding(1) var overlay: texture_2d<f32>;
 
 override HAS_OVERLAY: bool;
@@ -19,13 +19,13 @@ fn vs_main(@builtin(vertex_index) vertex: u32) -> Fragment {
     return Fragment(vec4f(2.0 * at.x - 1.0, 1.0 - 2.0 * at.y, 0.0, 1.0), at);
 }
 
-// The nearest pixel: while the window is resized, the old picture is stretched.
+// Nearest-neighbour sampling: while the window is resized, the previous picture is stretched.
 fn pixel(texture: texture_2d<f32>, at: vec2f) -> vec4f {
     let size = vec2i(textureDimensions(texture));
     return textureLoad(texture, min(vec2i(at * vec2f(size)), size - 1), 0);
 }
 
-// Both textures hold sRGB-encoded bytes, and so does the window.
+// Both textures and the window are sRGB-encoded.
 @fragment
 fn fs_main(fragment: Fragment) -> @location(0) vec4f {
     let under = pixel(picture, fragment.at);

@@ -1,18 +1,17 @@
 #!/usr/bin/env python3
-"""Prints what `hitscope bench` measures as a table for each binary and number of threads.
+"""Prints the results of `hitscope bench` as a table per binary and number of threads.
 
     tests/bench_table.py [--binary HITSCOPE]... [--threads N]... MESH.obj [camera options]...
 
-Several binaries (say, one built for any CPU and one with RUSTFLAGS=-Ctarget-cpu=native) and several thread
-counts are measured in turn. Rates are million rays a second of all threads, by their CPU time, medians;
-the ratios are of kernels measured in the same run, rays one by one. Camera options are those of
-`hitscope bench --help`.
+Several binaries (for example, one built for any CPU and one with RUSTFLAGS=-Ctarget-cpu=native) and several
+thread counts are measured in turn. Rates are million rays per second of all threads by CPU time, medians over
+all rounds. Ratios compare kernels in the same run. Camera options are those of `hitscope bench --help`.
 """
 import argparse
 import json
 import subprocess
 
-# Kernel, the one it is held against, and how much of its rate hitscope wants it to reach.
+# Kernel, baseline kernel, and target ratio of their rates.
 RATIOS = [("precise", "fast", 0.70), ("exact", "watertight", 0.87), ("watertight", "fast", 1 / 1.15)]
 
 
@@ -26,14 +25,14 @@ def megabytes(count):
 
 
 def workload(row):
-    """The rays' name; those that go through the tree together are another workload."""
+    """The workload's title; rays traced together are a workload of their own."""
     return row["name"] if row["rays_together"] == 1 else f"{row['name']} × {row['rays_together']}"
 
 
 def print_report(title, report):
     print(f"\n## {title}: {report['triangles']} triangles, SIMD {report['simd']}\n")
     print(f"load {report['load_ms']:.0f} ms, tree {report['build_ms']:.1f} ms, quick tree "
-          f"{report['quick_build_ms']:.1f} ms; {report['bytes_per_triangle']:.1f} bytes a triangle; "
+          f"{report['quick_build_ms']:.1f} ms; {report['bytes_per_triangle']:.1f} bytes per triangle; "
           f"peak {megabytes(report['peak_rss_bytes'])}\n")
     names = list(dict.fromkeys(workload(row) for row in report["workloads"]))
     kernels = list(dict.fromkeys(row["kernel"] for row in report["workloads"]))
@@ -47,11 +46,11 @@ def print_report(title, report):
     for kernel, base, bar in RATIOS:
         if kernel in kernels and base in kernels:
             ratios = (ratio_text((kernel, name), (base, name)) for name in names)
-            print(f"| {kernel} / {base}, to reach {bar:.2f} | " + " | ".join(ratios) + " |")
+            print(f"| {kernel} / {base}, target {bar:.2f} | " + " | ".join(ratios) + " |")
 
 
 def print_scaling(first, other, threads):
-    print(f"\n{threads[1]} threads against {threads[0]}, all together:", end=" ")
+    print(f"\n{threads[1]} threads relative to {threads[0]}, by wall clock:", end=" ")
     for a, b in zip(first["workloads"], other["workloads"]):
         ratio = b["mrays_per_s_wall"] / a["mrays_per_s_wall"]
         print(f"{a['kernel']} {workload(a)} {ratio:.2f}", end="; ")

@@ -71,7 +71,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_empty_box_is_neutral() {
+    fn the_empty_box_is_the_identity_of_the_union() {
         let b = Aabb::around([Vec3::ZERO, Vec3::ONE]);
         assert_eq!(Aabb::EMPTY.union(b), b);
         assert!(Aabb::EMPTY.is_empty() && !b.is_empty());
@@ -80,7 +80,7 @@ mod tests {
     }
 
     #[test]
-    fn a_box_of_one_point_holds_it() {
+    fn a_box_of_one_point_is_not_empty() {
         let b = Aabb::around([Vec3::splat(3.0)]);
         assert!(!b.is_empty());
         assert_eq!(b.centre(), Vec3::splat(3.0));

@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_that_is_not_finite_is_rejected_and_others_are_clamped() {
+    fn non_finite_samples_are_rejected_and_others_are_clamped() {
         assert_eq!(fixed(Vec3::new(0.0, f32::NAN, 0.0)), None);
         assert_eq!(fixed(Vec3::splat(-1.0)), Some([0; 3]));
         assert_eq!(fixed(Vec3::splat(1e9)), fixed(Vec3::splat(BRIGHTEST)));
@@ -285,7 +285,7 @@ mod tests {
     }
 
     #[test]
-    fn a_film_that_restarts_keeps_its_colours_where_its_size_stays() {
+    fn a_restarted_film_of_the_same_size_keeps_its_colours() {
         let size = UVec2::new(50, 2);
         let mut film = Film::new(Plan::new(size, 1, 1), Vec3::ZERO);
         let white = |film: &mut Film| {
@@ -319,7 +319,7 @@ mod tests {
     }
 
     #[test]
-    fn the_union_of_rectangles_holds_both() {
+    fn the_union_of_rectangles_contains_both() {
         let rect = |a, b, c, d| PixelRect {
             min: UVec2::new(a, b),
             max: UVec2::new(c, d),

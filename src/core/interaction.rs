@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn the_normal_of_the_nearest_corner_weighs_most_and_faces_the_viewer() {
+    fn the_nearest_corners_normal_dominates_and_faces_the_viewer() {
         let scene = scene();
         let hit = Hit {
             t: 1.0,
@@ -112,7 +112,7 @@ mod tests {
     }
 
     #[test]
-    fn the_weights_go_to_the_right_corners() {
+    fn barycentric_coordinates_weight_the_right_corners() {
         let corners = [Vec3::X, Vec3::Y, Vec3::Z];
         assert_eq!(weighted([0.2, 0.3, 0.5], corners), Vec3::new(0.2, 0.3, 0.5));
     }

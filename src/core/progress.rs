@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_cancelled_wait_ends_while_the_work_goes_on() {
+    fn a_cancelled_wait_returns_while_the_work_continues() {
         let progress = Progress::default();
         assert!(matches!(progress.run_in_background("two", || 2), Ok(2)));
         let (_keep, endless) = sync_channel::<()>(0);
@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn each_phase_has_its_own_part() {
+    fn each_phase_has_its_share_of_the_progress() {
         let progress = Progress::default();
         assert_eq!(progress.part_of_phase(), None);
         progress.set_total(200);
@@ -204,7 +204,7 @@ mod tests {
 
     #[test]
     #[should_panic(expected = "on purpose")]
-    fn a_panic_of_the_work_is_a_panic_of_the_caller() {
+    fn a_panic_in_the_work_is_propagated_to_the_caller() {
         _ = Progress::default().run_in_background("panicking", || panic!("on purpose"));
     }
 }

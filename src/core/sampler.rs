@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_sample_is_the_centre() {
+    fn the_first_sample_is_at_the_pixels_centre() {
         assert_eq!(sample_position(UVec2::new(7, 9), 0), Vec2::splat(0.5));
     }
 
@@ -57,7 +57,7 @@ mod tests {
     }
 
     #[test]
-    fn the_steps_are_the_plastic_numbers_powers() {
+    fn the_steps_are_powers_of_the_plastic_number() {
         let plastic = 1.324_717_957_244_746_f64;
         for (step, power) in STEP.into_iter().zip([1, 2]) {
             let fraction = step as f64 / 2f64.powi(64);

@@ -156,7 +156,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn every_machine_has_plain_code_and_a_level_is_found_by_its_name() {
+    fn every_machine_has_the_fallback_and_levels_are_found_by_name() {
         let available = SimdLevel::available();
         assert_eq!(available[0].name(), "fallback");
         for level in available {

@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_transfer_functions_are_inverse() {
+    fn the_transfer_functions_are_inverses_of_each_other() {
         for i in 0..=255 {
             let s = i as f32 / 255.0;
             let back = to_display(from_display(Vec3::splat(s)).x);

@@ -20,15 +20,15 @@ pub struct Inspection {
     pub pixel: [u32; 2],
     /// The ray through its centre.
     pub ray: RayReport,
-    /// The kernel that answered.
+    /// The kernel.
     pub kernel: &'static str,
-    /// Its answer; `None` for a miss.
+    /// The kernel's hit; `None` for a miss.
     pub hit: Option<HitReport>,
     /// The exact answer; `None` for a miss.
     pub exact: Option<ExactReport>,
     /// The answers of all kernels in the table.
     pub kernels: Vec<KernelRow>,
-    /// The tests done for the ray.
+    /// The number of tests done for the ray.
     pub cost: CostReport,
 }
 
@@ -37,25 +37,25 @@ pub struct Inspection {
 pub struct RayReport {
     /// The origin.
     pub origin: [f64; 3],
-    /// The direction; t counts its lengths.
+    /// The direction; t is in units of its length.
     pub direction: [f32; 3],
-    /// The largest distance, in one coordinate and in the file's units, between this ray and the one in f64 that the
-    /// camera asks for, where they may meet the mesh. Large for a camera that is far away.
+    /// The largest distance per coordinate, in the file's units, between this ray and the camera's ray in f64, where
+    /// they may meet the mesh. Large for a distant camera.
     pub ray_rounding: f64,
 }
 
 /// A hit, and the mesh at this point. Positions are in the file's coordinates.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct HitReport {
-    /// Distance in lengths of the direction.
+    /// Distance in units of the direction's length.
     pub t: f32,
-    /// Weights of the three corners.
+    /// Barycentric coordinates for the three corners.
     pub barycentric: [f32; 3],
     /// Index of the triangle, counted from 0.
     pub triangle: u32,
     /// Index of the face in the file, counted from 0.
     pub face: u32,
-    /// l1·A + l2·B + l3·C.
+    /// The position l1·A + l2·B + l3·C.
     pub position: [f64; 3],
     /// Unit length, by the right-hand rule.
     pub geometric_normal: [f32; 3],
@@ -72,17 +72,17 @@ pub struct HitReport {
 /// The exact answer, correctly rounded to f64 and as fractions.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExactReport {
-    /// The nearest triangle; of several at the same t the lowest.
+    /// The nearest triangle; the lowest index of several at the same t.
     pub triangle: u32,
     /// Other triangles at exactly the same t.
     pub also: Vec<u32>,
-    /// Distance in lengths of the direction.
+    /// Distance in units of the direction's length.
     pub t: f64,
-    /// Weights of the three corners.
+    /// Barycentric coordinates for the three corners.
     pub barycentric: [f64; 3],
     /// t as numerator/denominator.
     pub t_fraction: String,
-    /// The weights likewise.
+    /// The barycentric coordinates likewise.
     pub barycentric_fractions: [String; 3],
     /// Whether the hit lies on an edge or at a corner.
     pub is_on_boundary: bool,
@@ -97,14 +97,14 @@ pub struct KernelRow {
     pub hit: bool,
     /// The triangle, counted from 0.
     pub triangle: Option<u32>,
-    /// Distance in lengths of the direction.
+    /// Distance in units of the direction's length.
     pub t: Option<f32>,
-    /// Weights of the three corners.
+    /// Barycentric coordinates for the three corners.
     pub barycentric: Option<[f32; 3]>,
-    /// |t − exact t| in units in the last place of f32, against the same triangle's exact answer;
-    /// `None` if exact arithmetic says that the ray misses it.
+    /// |t − exact t| in ulps of f32, relative to the exact answer for the same triangle; `None` if the ray misses it
+    /// in exact arithmetic.
     pub t_error_ulps: Option<f64>,
-    /// The largest error of a weight, likewise.
+    /// The largest error of a barycentric coordinate, likewise.
     pub barycentric_error: Option<f64>,
 }
 
@@ -115,9 +115,9 @@ pub struct CostReport {
     pub boxes: u32,
     /// Triangles tested.
     pub triangles: u32,
-    /// Decisions that the exact kernel took in f64; 0 for the others.
+    /// Triangles whose bounds the exact kernel narrowed in f64; 0 for other kernels.
     pub in_f64: u32,
-    /// Of these, those that it took in integers.
+    /// Decisions that the exact kernel took in integers.
     pub in_integers: u32,
 }
 
@@ -145,10 +145,10 @@ impl Inspection {
         let ray = camera.ray_through(at);
         let (hit, cost) = intersector.closest_hit_with_cost(&ray);
         let mesh = scene.mesh();
-        // Sorted, so that the first of equals is the lowest.
+        // Sorted, so that the first of several at the same t is the lowest.
         let mut candidates = intersector.candidates(&ray);
         candidates.sort_unstable();
-        let asked = Scene::of_triangles(mesh, &candidates);
+        let subset = Scene::of_triangles(mesh, &candidates);
         Self {
             pixel: pixel.to_array(),
             ray: RayReport {
@@ -161,7 +161,7 @@ impl Inspection {
             exact: ExactReport::nearest(mesh, &ray, &candidates),
             kernels: TRIANGLE_KERNELS
                 .iter()
-                .map(|kernel| KernelRow::new(kernel, &asked, &ray, &candidates))
+                .map(|kernel| KernelRow::new(kernel, &subset, &ray, &candidates))
                 .collect(),
             cost: cost.into(),
         }
@@ -217,10 +217,10 @@ impl ExactReport {
 }
 
 impl KernelRow {
-    /// Asks the kernel about the candidates, which are the scene's triangles.
-    fn new(kernel: &'static TriangleKernel, asked: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
-        let nearest = asked.intersector(kernel).closest_hit(ray);
-        let corners = |hit: Hit| asked.mesh().corners(hit.primitive);
+    /// Traces the ray with a kernel through the candidates, which are the triangles of `subset`.
+    fn new(kernel: &'static TriangleKernel, subset: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
+        let nearest = subset.intersector(kernel).closest_hit(ray);
+        let corners = |hit: Hit| subset.mesh().corners(hit.primitive);
         let exact = nearest.and_then(|hit| oracle::intersect(ray, corners(hit)));
         let errors = nearest.zip(exact).map(|(hit, exact)| errors(&hit, &exact));
         Self {
@@ -235,7 +235,7 @@ impl KernelRow {
     }
 }
 
-/// The error of t in ulps of f32, and the largest error of a weight.
+/// The error of t in ulps of f32, and the largest error of a barycentric coordinate.
 fn errors(hit: &Hit, exact: &ExactHit) -> (f64, f64) {
     let t = Fraction::from_f64(hit.t.into()).expect("a hit is finite");
     let error = t.minus(&exact.t).to_f64().abs();
@@ -243,8 +243,8 @@ fn errors(hit: &Hit, exact: &ExactHit) -> (f64, f64) {
     (error / ulp_at(exact.t.to_f64()), hit.weight_error(weights))
 }
 
-/// The weights of the corners at a hit. None is below 0: the hit counts as inside, and 1 − u − v, or what the kernel
-/// computed, may fall short of 0 by rounding only.
+/// The barycentric coordinates of a hit, none below 0. The hit counts as inside, so values of the kernel, and
+/// 1 − u − v, are below 0 by rounding only.
 pub fn weights(hit: &Hit) -> [f32; 3] {
     hit.barycentric()
         .map(|weight| if weight < 0.0 { 0.0 } else { weight })
@@ -255,7 +255,7 @@ fn in_file(mesh: &TriangleMesh, p: Vec3) -> [f64; 3] {
     mesh.in_file(p.as_dvec3()).to_array()
 }
 
-/// Where a hit lies, in the file's coordinates, from its weights in f64.
+/// The position of a hit in the file's coordinates, computed in f64 from its barycentric coordinates.
 pub fn position_in_file(mesh: &TriangleMesh, hit: &Hit) -> [f64; 3] {
     let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
@@ -267,7 +267,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn errors_are_counted_in_units_of_the_exact_values_last_place() {
+    fn errors_are_in_ulps_of_the_exact_value() {
         let corners = [
             Vec3::ZERO,
             Vec3::new(4.0, 0.0, 0.0),
@@ -284,7 +284,7 @@ mod tests {
         assert_eq!(errors(&hit(3.0, 0.25), &exact), (0.0, 0.0));
         let off = errors(&hit(3.0f32.next_up().next_up(), 0.25), &exact);
         assert_eq!(off, (2.0, 0.0));
-        // u a little too large makes the first weight as much too small.
+        // An error of u makes the opposite error of the first coordinate.
         let (t, weights) = errors(&hit(3.0, 0.25 + 0.03125), &exact);
         assert_eq!((t, weights), (0.0, 0.03125));
     }

@@ -1,8 +1,8 @@
-//! JSON whose numbers read back, as doubles, to the values that were written.
+//! JSON output whose numbers, parsed as doubles, are exactly the values that were written.
 //!
-//! serde_json writes an f32 with the digits that tell it from other f32 numbers: `1.0000029` for
-//! 1.00000286102294921875. A reader of doubles takes that for another number. Here an f32 is written as the f64
-//! of the same value. Minus zero is written as zero.
+//! serde_json writes an f32 with just enough digits to distinguish it from other f32 numbers: `1.0000029` for
+//! 1.00000286102294921875. Parsed as a double, that is another number. This module writes an f32 as the f64 of the
+//! same value, and minus zero as zero.
 
 use serde::Serialize;
 use serde_json::Serializer;
@@ -24,14 +24,14 @@ fn written(value: &impl Serialize, layout: impl Formatter) -> String {
     let mut serializer = Serializer::with_formatter(&mut text, ExactNumbers(layout));
     value
         .serialize(&mut serializer)
-        .expect("results are plain data, and memory takes all bytes");
+        .expect("results are plain data, and writing to memory can't fail");
     String::from_utf8(text).expect("JSON is UTF-8")
 }
 
-/// A layout, with numbers as the [module](self) says.
+/// A formatter that writes numbers as described in the [module](self).
 struct ExactNumbers<F>(F);
 
-/// Methods that the layout answers.
+/// Forwards methods to the inner formatter.
 macro_rules! delegate {
     ($($method:ident($($argument:ident: $type:ty),*);)*) => {$(
         fn $method<W: ?Sized + Write>(&mut self, out: &mut W $(, $argument: $type)*) -> io::Result<()> {
@@ -82,13 +82,13 @@ mod tests {
     }
 
     #[test]
-    fn no_number_is_minus_zero_and_none_that_is_infinite_breaks_the_json() {
+    fn minus_zero_is_written_as_zero_and_non_finite_numbers_as_null() {
         assert_eq!(to_line(&(-0.0f32, -0.0f64, json!(-0.0))), "[0.0,0.0,0.0]");
         assert_eq!(to_line(&(f32::NAN, f64::INFINITY)), "[null,null]");
     }
 
     #[test]
-    fn the_layouts_are_those_of_serde_json() {
+    fn the_layouts_equal_those_of_serde_json() {
         let value = json!({ "a": [1, 2.5, []], "b": {}, "c": [{ "d": null }] });
         assert_eq!(to_line(&value), value.to_string());
         assert_eq!(to_pretty(&value), format!("{value:#}"));

@@ -1,8 +1,7 @@
-//! Which tier a scene requires, and why.
+//! The tier that a scene requires, with reasons.
 //!
-//! `watertight` and the tiers above decide every ray rightly. The thresholds are where the laboratory's matrix
-//! shows that `fast` decides more than one ray in a thousand wrongly:
-//! `hitscope lab --case sliver --case far --case scale`.
+//! `watertight` and the tiers above it decide every ray correctly. Beyond the thresholds, `fast` decides more than
+//! one ray in a thousand wrongly, as measured by `hitscope lab --case sliver --case far --case scale`.
 
 use glam::UVec2;
 use hitscope_core::Scene;
@@ -12,22 +11,22 @@ use hitscope_core::mesh::{Flaw, Health, SAFE_SIZE, SLIVER_ASPECT};
 use serde::Serialize;
 use std::cmp::Reverse;
 
-/// Distance over a triangle's size from which f32 decides more than one ray in a thousand wrongly.
+/// Ratio of distance to triangle size above which `fast` decides more than one ray in a thousand wrongly.
 const FAR_FOR_F32: f64 = 1e4;
-/// Distance from (0, 0, 0) over size that is worth mentioning.
+/// Ratio of distance from (0, 0, 0) to size above which the distance is reported.
 const FAR_OUT: f64 = 100.0;
 
-/// The tier, and what speaks for it.
+/// A tier, and the reasons for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Requirement {
-    /// As `--kernel` takes it.
+    /// The tier's name for `--kernel`.
     #[serde(rename = "name")]
     pub tier: &'static str,
-    /// Sentences.
+    /// One sentence per reason.
     pub reasons: Vec<String>,
 }
 
-/// Looks at extent, slivers, offset, and how far away the starting view is.
+/// Determines the tier from shared edges, size, slivers, offset and the distance of the starting view.
 pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     let mesh = scene.mesh();
     let mut found = TierReasons::default();
@@ -38,12 +37,12 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
         let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
         found.add(Tier::Precise, format!(
-            "it is {size:.1e} units large: outside of {least:e} to {most:e} products of lengths leave f32's range, so that `watertight` tests nearly every triangle again in f64, one by one"
+            "the mesh is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and `watertight` tests nearly every triangle again in f64, one by one"
         ));
     }
     if health.max_aspect > SLIVER_ASPECT {
         found.add(Tier::Watertight, format!(
-            "{} sliver(s), up to {:.0e} times longer than high: `fast` decides some of their rays wrongly",
+            "{} sliver(s) with aspect ratios up to {:.0e}: `fast` decides some of their rays wrongly",
             health.places(Flaw::Sliver).count().unwrap_or(0), health.max_aspect
         ));
     }
@@ -51,17 +50,17 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
         && distance > FAR_FOR_F32
     {
         found.add(Tier::Watertight, format!(
-            "the starting view is {distance:.0e} times as far away as half of the triangles are large: `fast` decides some rays wrongly"
+            "the distance of the starting view is {distance:.0e} times the median triangle size: `fast` decides some rays wrongly"
         ));
     }
     let offset = mesh.origin.length();
     if size > 0.0 && offset > FAR_OUT * size {
-        found.say(None, format!(
-            "the file's coordinates lie {:.0e} sizes from (0, 0, 0): they are traced about an origin near the mesh, where no kernel minds",
+        found.push(None, format!(
+            "the mesh lies {:.0e} times its size from (0, 0, 0): it is traced relative to an origin nearby, which costs no kernel accuracy",
             offset / size
         ));
     }
-    // What asks for the most comes first.
+    // The highest tier comes first.
     found.reasons.sort_by_key(|(tier, _)| Reverse(*tier));
     let tier = found.reasons.first().and_then(|(tier, _)| *tier);
     Requirement {
@@ -76,7 +75,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
 
 #[derive(Default)]
 struct TierReasons {
-    /// Which tier each asks for, if any.
+    /// Each reason, with the tier that it requires, if any.
     reasons: Vec<(Option<Tier>, String)>,
 }
 
@@ -86,7 +85,7 @@ impl TierReasons {
             if triangles > 0 && health.places(Flaw::OpenEdge).count() == Some(3 * triangles) {
                 (
                     Tier::Fast,
-                    "no two triangles share an edge: there are no gaps to be seen",
+                    "no two triangles share an edge: gaps can't show",
                 )
             } else if health.is_closed() {
                 (
@@ -103,15 +102,15 @@ impl TierReasons {
     }
 
     fn add(&mut self, tier: Tier, reason: impl Into<String>) {
-        self.say(Some(tier), reason);
+        self.push(Some(tier), reason);
     }
 
-    fn say(&mut self, tier: Option<Tier>, reason: impl Into<String>) {
+    fn push(&mut self, tier: Option<Tier>, reason: impl Into<String>) {
         self.reasons.push((tier, reason.into()));
     }
 }
 
-/// The starting view's distance over the middle triangle's longest edge.
+/// The starting view's distance divided by the median of the triangles' longest edges.
 fn distance_in_triangles(scene: &Scene) -> Option<f64> {
     let mesh = scene.mesh();
     let mut sizes: Vec<f64> = mesh.corner_list().into_iter().map(longest_edge).collect();
@@ -143,7 +142,7 @@ mod tests {
     }
 
     #[test]
-    fn each_extreme_asks_for_its_tier_and_says_why() {
+    fn each_extreme_requires_its_tier_for_a_reason() {
         let corners = [Vec3::ZERO, Vec3::X, Vec3::Y];
         assert_eq!(required(soup(&[corners])).tier, "fast");
         assert_eq!(required(sphere(4, Placement::UNIT)).tier, "watertight");
@@ -156,7 +155,7 @@ mod tests {
             assert_eq!(sliver.tier, "watertight");
             assert!(sliver.reasons[0].contains("sliver"), "{sliver:?}");
         }
-        // Small triangles far apart: the view that shows them all is far away from each.
+        // Small triangles far apart: a view of all of them is far from each.
         let dust = |p: Vec3| corners.map(|c| p + c * 1e-6);
         let spread = required(soup(&[dust(Vec3::ZERO), dust(Vec3::X), dust(Vec3::Y)]));
         assert_eq!(spread.tier, "watertight", "{spread:?}");
@@ -171,7 +170,7 @@ mod tests {
     }
 
     #[test]
-    fn an_offset_is_told_but_asks_for_nothing() {
+    fn an_offset_is_reported_but_requires_no_tier() {
         let mut mesh = sphere(4, Placement::UNIT);
         mesh.origin = DVec3::splat(1e6);
         let found = required(mesh);

@@ -1,6 +1,7 @@
-//! Benches of the core: `cargo bench -p hitscope-core`, `-- NAME` for those with a name in it.
+//! Microbenchmarks of the core: `cargo bench -p hitscope-core`; `-- NAME` runs those whose name contains
+//! NAME.
 //!
-//! For changes of one part, on one machine. Whole scenes against each other: `hitscope bench`.
+//! For judging a change of one part on one machine. `hitscope bench` compares kernels on whole scenes.
 
 use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
@@ -27,7 +28,7 @@ const KERNELS: [&str; 8] = [
     "baldwin-weber",
 ];
 
-/// Rays of a batch: more than fit into the caches with what they meet.
+/// Rays per batch: together with the data they touch, more than the caches hold.
 const RAYS: usize = 16 * 1024;
 
 /// 2·400·250 triangles.
@@ -41,7 +42,7 @@ fn kernel(name: &str) -> &'static TriangleKernel {
     triangle_kernel(name).expect("in the table")
 }
 
-/// Rays from a point, in squares of 4 × 4, as a camera's.
+/// Rays from one point, in squares of 4 × 4, like a camera's.
 fn coherent() -> Vec<Ray> {
     let eye = Vec3::new(0.3, 1.2, 2.8);
     let ray = |i: usize| {
@@ -54,7 +55,7 @@ fn coherent() -> Vec<Ray> {
     (0..RAYS).map(ray).collect()
 }
 
-/// Rays between any two points around the mesh.
+/// Rays between random points around the mesh.
 fn random() -> Vec<Ray> {
     let mut random = Random::new(1);
     let mut point = || 1.5 * random.direction().as_vec3();
@@ -81,7 +82,7 @@ fn trace(
         });
 }
 
-/// Rays that go together.
+/// Closest hits of camera rays, in packets.
 #[divan::bench(args = KERNELS)]
 fn trace_coherent(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &coherent(), |x, rays, hits| {
@@ -89,15 +90,15 @@ fn trace_coherent(bencher: Bencher<'_, '_>, name: &str) {
     });
 }
 
-/// The same, one by one.
+/// The same, ray by ray.
 #[divan::bench(args = KERNELS)]
-fn trace_coherent_alone(bencher: Bencher<'_, '_>, name: &str) {
+fn trace_coherent_singly(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &coherent(), |x, rays, hits| {
         x.closest_hits(rays, hits);
     });
 }
 
-/// Rays without an order.
+/// Closest hits of incoherent rays.
 #[divan::bench(args = KERNELS)]
 fn trace_random(bencher: Bencher<'_, '_>, name: &str) {
     trace(bencher, name, &random(), |x, rays, hits| {
@@ -105,7 +106,7 @@ fn trace_random(bencher: Bencher<'_, '_>, name: &str) {
     });
 }
 
-/// Whether anything is hit.
+/// Any-hit queries.
 #[divan::bench(args = KERNELS)]
 fn trace_any(bencher: Bencher<'_, '_>, name: &str) {
     let rays = random();
@@ -119,7 +120,7 @@ fn trace_any(bencher: Bencher<'_, '_>, name: &str) {
         });
 }
 
-/// A kernel's test alone, no tree: triangles a second.
+/// A kernel's triangle test without a tree: triangles per second.
 #[divan::bench(args = KERNELS)]
 fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
     let mut random = Random::new(2);
@@ -132,7 +133,7 @@ fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
         .bench_local(|| intersector.count_hits(black_box(&ray)));
 }
 
-/// The tree that rays take the least time with: triangles a second, on all cores.
+/// High-quality tree construction on all cores: triangles per second.
 #[divan::bench]
 fn build(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
@@ -140,7 +141,7 @@ fn build(bencher: Bencher<'_, '_>) {
     });
 }
 
-/// The tree that is there soon.
+/// Fast tree construction.
 #[divan::bench]
 fn build_quickly(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
@@ -155,7 +156,7 @@ fn build_with<E>(bencher: Bencher<'_, '_>, build: impl Fn(&TriangleMesh) -> Resu
         .bench_local(|| build(black_box(mesh)).is_ok());
 }
 
-/// Triangles made ready for a kernel, block by block.
+/// Packing a mesh's triangles into a kernel's blocks.
 #[divan::bench(args = KERNELS)]
 fn pack(bencher: Bencher<'_, '_>, name: &str) {
     let (mesh, bvh) = (TORUS.mesh(), TORUS.bvh());

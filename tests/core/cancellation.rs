@@ -1,6 +1,6 @@
 //! Stopping: stale jobs, dropped renderers, pauses, cancelled loads, panics.
 //!
-//! Whatever could wait for ever runs on a thread of its own, and is given up after ten seconds.
+//! Anything that could block for ever runs in a thread of its own and fails after ten seconds.
 
 use crate::golden::job;
 use glam::UVec2;
@@ -21,10 +21,10 @@ use std::sync::mpsc::{Sender, channel};
 use std::thread;
 use std::time::Duration;
 
-/// How long a test may wait: far longer than a pixel takes.
+/// The longest that a test waits: much longer than rendering a pixel takes.
 const PATIENCE: Duration = Duration::from_secs(10);
 
-/// Runs `f` on another thread, and fails if it isn't done in time.
+/// Runs `f` on another thread, and panics if it takes too long.
 fn in_time<T: Send + 'static>(what: &str, f: impl FnOnce() -> T + Send + 'static) -> T {
     let (done, result) = channel();
     thread::spawn(move || _ = done.send(f()));
@@ -39,7 +39,7 @@ fn picture(view: &str, plan: Plan) -> Job {
     job(view, Shading::Flat, projection, plan)
 }
 
-/// Answers as another one does, after `before` has had its way with the ray.
+/// Calls `before` with each ray, then forwards to `inner`.
 struct Before<F> {
     inner: Arc<dyn Intersector>,
     before: F,
@@ -82,7 +82,7 @@ fn with_before(mut job: Job, before: impl Fn(&Ray) + Send + Sync + 'static) -> J
     job
 }
 
-/// A job that takes 8 ms a pixel and 18 s a tile, and says when it has begun.
+/// A job that takes 8 ms per pixel and 18 s per tile, and sends a message per ray.
 fn slow_picture(started: Sender<()>) -> Job {
     with_before(
         picture("shaded", Plan::new(UVec2::splat(480), 1, 1)),
@@ -93,8 +93,8 @@ fn slow_picture(started: Sender<()>) -> Job {
     )
 }
 
-/// Takes messages until the picture is complete; each piece of work must come once, and fit. Polls
-/// first, then waits.
+/// Collects messages until the picture is complete, first polling, then blocking. Asserts that each work unit
+/// arrives once and has the right size.
 fn complete(renderer: &Renderer, job: &Job) -> Film {
     let mut film = Film::new(job.plan.clone(), job.context.background);
     let mut seen: Vec<WorkUnit> = Vec::new();
@@ -114,7 +114,7 @@ fn complete(renderer: &Renderer, job: &Job) -> Film {
 }
 
 #[test]
-fn after_a_cancel_nothing_arrives_until_another_job_is_posted() {
+fn after_a_cancel_no_tile_arrives_until_another_job_is_posted() {
     let job = picture("normal", Plan::new(UVec2::new(97, 61), 4, 4));
     in_time("the job after the cancel", move || {
         let mut renderer = Renderer::new(2, || ());
@@ -129,13 +129,13 @@ fn after_a_cancel_nothing_arrives_until_another_job_is_posted() {
 }
 
 #[test]
-fn after_a_new_job_is_posted_nothing_of_the_old_one_arrives() {
+fn after_a_new_job_is_posted_no_tile_of_the_old_one_arrives() {
     let old = picture("normal", Plan::new(UVec2::new(400, 300), 8, 16));
     let new = picture("shaded", Plan::new(UVec2::new(97, 61), 4, 2));
     let expected = render(new.clone(), 1).expect("no panic");
     let pictures = in_time("the newest job", move || {
         let mut renderer = Renderer::new(3, || ());
-        // After none, some and many tiles of the old job.
+        // After no, some and many tiles of the old job.
         [0, 1, 5, 60].map(|taken| {
             renderer.post(old.clone());
             (0..taken).for_each(|_| _ = renderer.wait_next());
@@ -149,7 +149,7 @@ fn after_a_new_job_is_posted_nothing_of_the_old_one_arrives() {
 }
 
 #[test]
-fn a_stale_job_is_left_within_a_row_not_a_tile() {
+fn a_stale_job_is_abandoned_within_a_row_of_pixels() {
     let (started, has_started) = channel();
     in_time("a new job after a slow one", move || {
         let mut renderer = Renderer::new(1, || ());
@@ -173,29 +173,29 @@ fn a_renderer_dropped_in_the_middle_of_a_tile_ends_its_threads() {
 }
 
 #[test]
-fn a_renderer_dropped_while_nobody_takes_its_tiles_ends_its_threads() {
+fn a_renderer_dropped_while_its_channel_is_full_ends_its_threads() {
     let (wake, woken) = channel();
     in_time("dropping", move || {
         let mut renderer = Renderer::new(2, move || _ = wake.send(()));
         renderer.post(picture("triangle", Plan::new(UVec2::splat(1500), 16, 4096)));
-        // When nothing has been sent for a while, the channel is full and both threads wait.
+        // Once no tile has been sent for a while, the channel is full and both threads are blocked.
         woken.recv().expect("a first tile");
         let sent =
             1 + std::iter::from_fn(|| woken.recv_timeout(Duration::from_millis(300)).ok()).count();
         assert!(
             sent < 961,
-            "the channel took all of a pass of 32 × 32 tiles: {sent}"
+            "the channel holds a whole pass of 32 × 32 tiles: {sent}"
         );
         drop(renderer);
     });
 }
 
 #[test]
-fn a_pause_lets_the_first_pass_through_and_holds_the_rest_until_resumed() {
+fn a_pause_renders_the_first_pass_and_holds_the_rest_until_resumed() {
     let job = picture("shaded", Plan::new(UVec2::new(150, 100), 8, 4));
     let expected = render(job.clone(), 1).expect("no panic");
     let film = in_time("pause and resume", move || {
-        // One thread: with several, each might have begun a tile of the next pass.
+        // One thread: each of several might have started a tile of the next pass.
         let mut renderer = Renderer::new(1, || ());
         renderer.pause();
         renderer.post(job.clone());
@@ -207,7 +207,7 @@ fn a_pause_lets_the_first_pass_through_and_holds_the_rest_until_resumed() {
             assert_eq!(tile.samples.unit.pass, 0);
             film.add(&tile.samples);
         }
-        // The whole picture takes some 20 ms.
+        // The whole picture takes about 20 ms.
         thread::sleep(Duration::from_millis(200));
         assert!(renderer.try_next().is_none(), "a later pass while paused");
         assert_eq!(film.passes_done(), 1);
@@ -224,7 +224,7 @@ fn a_pause_lets_the_first_pass_through_and_holds_the_rest_until_resumed() {
 }
 
 #[test]
-fn a_panic_is_reported_with_its_sample_and_the_other_tiles_arrive() {
+fn a_panic_is_reported_with_its_pixel_and_sample_and_the_other_tiles_arrive() {
     // The last sample of a pixel in the second row of tiles.
     let (pixel, sample) = (UVec2::new(70, 60), 3);
     let job = picture("shaded", Plan::new(UVec2::new(131, 101), 4, 4));
@@ -243,7 +243,7 @@ fn a_panic_is_reported_with_its_sample_and_the_other_tiles_arrive() {
                 Message::Panicked(_, panic) => panics.push(panic),
             }
         }
-        // The threads have survived it.
+        // The threads are still alive.
         let good = picture("shaded", Plan::new(UVec2::new(60, 50), 1, 1));
         renderer.post(good.clone());
         complete(&renderer, &good);
@@ -265,7 +265,7 @@ fn a_panic_is_reported_with_its_sample_and_the_other_tiles_arrive() {
     let command = format!("--pixel 70,60 --kernel {kernel}");
     assert!(panic.to_string().contains(&command), "{panic}");
 
-    // Missing: the tile with that pixel, in the pass with that sample, and nothing else.
+    // Only the tile with that pixel, in the pass with that sample, is missing.
     let units = (0..job.plan.unit_count()).map(|k| job.plan.unit(k));
     let missing: Vec<WorkUnit> = units.filter(|unit| !tiles.contains(unit)).collect();
     let [missing] = missing[..] else {
@@ -279,7 +279,7 @@ fn a_panic_is_reported_with_its_sample_and_the_other_tiles_arrive() {
 }
 
 #[test]
-fn a_picture_that_panics_is_an_error() {
+fn rendering_returns_a_panic_as_an_error() {
     let job = picture("shaded", Plan::new(UVec2::splat(30), 1, 1));
     let bad = with_before(job, |_| panic!("no ray works"));
     let error = in_time("a picture that panics", move || render(bad, 2).err());
@@ -289,7 +289,7 @@ fn a_picture_that_panics_is_an_error() {
     assert_eq!(panic.message, "no ray works");
 }
 
-/// A file without end, whose reader cancels the load after a megabyte.
+/// An endless file whose reader cancels the load after a megabyte.
 struct Endless {
     progress: Arc<Progress>,
     given: usize,
@@ -324,7 +324,7 @@ fn parse<R: Read>(
 }
 
 #[test]
-fn a_cancelled_load_ends_and_says_so_even_if_the_file_does_not_end() {
+fn cancelling_the_load_of_an_endless_file_returns_an_error() {
     let result = in_time("a cancelled load", || {
         let progress = Arc::new(Progress::default());
         let open = || {
@@ -341,7 +341,7 @@ fn a_cancelled_load_ends_and_says_so_even_if_the_file_does_not_end() {
 }
 
 #[test]
-fn a_load_cancelled_before_it_began_gives_no_mesh() {
+fn a_load_cancelled_before_its_start_returns_an_error() {
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
     let progress = Progress::default();
     assert!(parse(|| Ok(text.as_bytes()), &progress).is_ok());
@@ -354,7 +354,7 @@ fn a_load_cancelled_before_it_began_gives_no_mesh() {
 }
 
 #[test]
-fn a_tree_whose_load_was_cancelled_is_not_built() {
+fn cancelling_before_tree_construction_returns_an_error() {
     let progress = Progress::default();
     progress.cancel();
     assert!(Scene::new(torus(8, 8, Placement::UNIT), &progress).is_err());

@@ -1,6 +1,6 @@
-//! Every kernel in the table: the cases that any algorithm must answer, one triangle at a time.
+//! Cases that every kernel must answer correctly, one triangle at a time.
 //!
-//! What only some kernels promise is tested elsewhere, by their `INFO`.
+//! Properties that only some kernels promise in `INFO` have tests of their own.
 
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel, exact_triangle_kernel};
@@ -12,10 +12,10 @@ use hitscope_core::ray::RayError;
 use hitscope_core::{Hit, Ray};
 use std::path::Path;
 
-/// Half an ulp of 1, by which a rounding to f32 errs.
+/// Half an ulp of 1 in f32: the relative error of one rounding.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
-/// Not symmetric in any way: a weight on the wrong corner shows.
+/// Asymmetric in every way, so that barycentric coordinates on the wrong corner are noticed.
 const CORNERS: [Vec3; 3] = [
     Vec3::new(-1.0, -0.5, 2.0),
     Vec3::new(1.5, -1.0, 2.5),
@@ -31,8 +31,8 @@ fn blend(weights: [f64; 3], corners: [Vec3; 3]) -> DVec3 {
     weights[0] * a + weights[1] * b + weights[2] * c
 }
 
-/// Calls `check` with every kernel, weight by weight, and with the axes swapped, mirrored and the
-/// winding reversed: which of a kernel's branches is taken must not matter.
+/// Calls `check` with every kernel and several barycentric coordinates, with the axes permuted and mirrored,
+/// and with both windings, so that every branch of a kernel is taken.
 fn in_every_pose(check: impl Fn(&TriangleKernel, [Vec3; 3], [f64; 3])) {
     const WEIGHTS: [[f64; 3]; 4] = [
         [0.25, 0.25, 0.5],
@@ -65,14 +65,14 @@ fn posed(p: Vec3, pose: usize) -> Vec3 {
     turned * Vec3::new(sign(0), sign(1), sign(2))
 }
 
-/// Asserts t, u, v and the point, for a ray from `origin` whose direction is the rounded way to the
-/// point with these weights, `lengths` times as long.
+/// Asserts t, u, v and the hit point for a ray from `origin`. Its direction is `lengths` times the vector to
+/// the point with these barycentric coordinates, rounded.
 ///
-/// Cramer's rule: each numerator and the determinant is a sum of six products of three differences,
-/// each product with three roundings of the differences, two of the products and three of the sum:
-/// 8u of the product of the lengths. Such a product over det is at most 10 here, where det is
-/// 2·area·cos of the ray with the normal; the rounded direction adds u. Numerator and determinant, 6
-/// products each: 2·6·8·10·u ≈ 1000u, relative to the coordinates.
+/// By Cramer's rule, each numerator and the determinant are sums of six products of three differences. Each
+/// product has three roundings of the differences, two of the products and three of the sum: 8u of the
+/// product of the lengths. Such a product over det is at most 10 here, where det is 2·area·cos of the angle
+/// between ray and normal; rounding the direction adds u. Numerator and determinant have 6 products each:
+/// 2·6·8·10·u ≈ 1000u, relative to the coordinates.
 fn assert_hit_at(
     kernel: &TriangleKernel,
     corners: [Vec3; 3],
@@ -106,7 +106,7 @@ fn assert_hit_at(
 }
 
 #[test]
-fn a_hit_inside_has_its_weights_on_the_right_corners_from_both_sides() {
+fn an_interior_hit_from_either_side_has_its_barycentric_coordinates_on_the_right_corners() {
     in_every_pose(|kernel, corners, weights| {
         let point = blend(weights, corners).as_vec3();
         let [a, b, c] = corners;
@@ -119,7 +119,7 @@ fn a_hit_inside_has_its_weights_on_the_right_corners_from_both_sides() {
 }
 
 #[test]
-fn a_longer_direction_counts_fewer_of_its_lengths() {
+fn t_is_inversely_proportional_to_the_length_of_the_direction() {
     in_every_pose(|kernel, corners, weights| {
         for lengths in [1e-10, 1e-3, 0.25, 7.0, 1e10] {
             assert_hit_at(kernel, corners, weights, Vec3::splat(0.125), lengths);
@@ -140,12 +140,12 @@ fn easy_hits_are_found_at_any_usual_scale() {
 }
 
 #[test]
-fn an_offset_that_leaves_the_numbers_exact_changes_no_bit() {
+fn an_offset_without_rounding_changes_no_bit() {
     in_every_pose(|kernel, corners, weights| {
         if !kernel.info.promises.is_translation_invariant {
             return;
         }
-        // CORNERS are multiples of 1/4, so that up to 2²¹ nothing is rounded away.
+        // CORNERS are multiples of 1/4, so that offsets up to 2²¹ cause no rounding.
         let origin = Vec3::splat(0.25);
         let dir = (blend(weights, corners) - origin.as_dvec3()).as_vec3();
         let here = kernel.intersect(&ray(origin, dir), corners);
@@ -157,8 +157,8 @@ fn an_offset_that_leaves_the_numbers_exact_changes_no_bit() {
 }
 
 #[test]
-fn a_ray_beside_any_edge_or_corner_is_a_miss() {
-    // Beyond an edge one weight is negative, beyond a corner two are.
+fn a_ray_past_any_edge_or_corner_is_a_miss() {
+    // Beyond an edge one coordinate is negative, beyond a corner two are.
     const OUTSIDE: [[f64; 3]; 6] = [
         [-0.125, 0.5, 0.625],
         [0.5, -0.125, 0.625],
@@ -187,7 +187,7 @@ fn a_triangle_behind_the_origin_is_a_miss() {
 
 #[test]
 fn a_ray_parallel_to_the_plane_is_a_miss() {
-    // In an axis-aligned plane the determinant is 0 whatever the order of operations.
+    // In an axis-aligned plane the determinant is 0 in any order of operations.
     let flat = [
         Vec3::ZERO,
         Vec3::new(2.0, 0.0, 0.0),
@@ -211,7 +211,7 @@ fn a_ray_parallel_to_the_plane_is_a_miss() {
 fn the_interval_is_open_at_both_ends() {
     in_every_pose(|kernel, corners, weights| {
         let dir = blend(weights, corners).as_vec3();
-        // What decides in as many digits as it takes compares the exact t, before it is rounded.
+        // Watertight kernels compare the exact t with the interval, before rounding.
         let is_right = kernel.info.promises.is_watertight;
         let measure = if is_right {
             exact_triangle_kernel()
@@ -226,7 +226,7 @@ fn the_interval_is_open_at_both_ends() {
             let ray = Ray::with_interval(Vec3::ZERO, dir, t_min, t_max).expect("a ray");
             kernel.intersect(&ray, corners).map(|hit| hit.t)
         };
-        // What computes in f64 compares that before it rounds.
+        // f64 kernels compare t before rounding it to f32.
         if kernel.info.precision == Precision::F32 && !is_right {
             assert_eq!(hit(t, 9.0), None);
             assert_eq!(hit(0.0, t), None);
@@ -240,7 +240,7 @@ fn the_interval_is_open_at_both_ends() {
 }
 
 #[test]
-fn a_negative_interval_finds_what_lies_behind() {
+fn an_interval_with_negative_t_finds_hits_behind_the_origin() {
     in_every_pose(|kernel, corners, weights| {
         let dir = -blend(weights, corners).as_vec3();
         let ray = Ray::with_interval(Vec3::ZERO, dir, -2.0, 2.0).expect("a ray");
@@ -267,7 +267,7 @@ fn a_triangle_with_a_nan_is_a_miss() {
 }
 
 #[test]
-fn triangles_that_no_ray_can_hit_are_dropped_at_load() {
+fn degenerate_and_non_finite_triangles_are_dropped_at_load() {
     let text =
         "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 2 0 0\nv nan 0 0\nf 1 2 4\nf 1 2 2\nf 1 2 5\nf 1 2 3\n";
     let no_library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
@@ -296,7 +296,7 @@ fn triangles_that_no_ray_can_hit_are_dropped_at_load() {
 }
 
 #[test]
-fn rays_that_are_not_finite_are_refused_in_every_slot() {
+fn rays_with_a_non_finite_component_or_a_zero_direction_are_rejected() {
     for bad in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
         for slot in 0..3 {
             let mut v = Vec3::ONE;
@@ -311,7 +311,7 @@ fn rays_that_are_not_finite_are_refused_in_every_slot() {
 }
 
 #[test]
-fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
+fn every_hit_is_finite_and_in_range_even_for_extreme_numbers() {
     const EXTREMES: [f32; 10] = [
         0.0,
         -0.0,
@@ -334,7 +334,7 @@ fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
         };
         for (kernel, hits) in TRIANGLE_KERNELS.iter().zip(&mut hits) {
             if let Some(Hit { t, u, v, .. }) = kernel.intersect(&ray, corners) {
-                // More digits than f32's may have been above 0.
+                // t was positive before it was rounded to f32.
                 let is_ahead = t > 0.0 || kernel.info.precision != Precision::F32 && t == 0.0;
                 let is_good =
                     is_ahead && t < f32::INFINITY && u >= 0.0 && v >= 0.0 && u <= 1.0 && v <= 1.0;
@@ -348,7 +348,7 @@ fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
         }
     }
     assert!(hits.iter().all(|&n| n > 0), "{hits:?}");
-    // The same through the tree: nothing panics, nothing hangs.
+    // The same numbers through the tree: no panic, no endless loop.
     let triangles: Vec<[Vec3; 3]> = (0..200).map(|_| [any(), any(), any()]).collect();
     let scene = scene(soup(&triangles));
     for intersector in TRIANGLE_KERNELS
@@ -366,7 +366,7 @@ fn whatever_the_numbers_an_answer_is_finite_and_within_its_bounds() {
 
 /// Source: the BadCases test of M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed.
 #[test]
-fn a_triangle_without_area_is_missed_by_kernels_that_promise_accuracy() {
+fn accurate_and_exact_kernels_miss_a_triangle_of_zero_area() {
     let corners = [-79.049614, -87.09227, -79.209015].map(|y| Vec3::new(-1113.4546, y, -56.24319));
     let ray = ray(
         Vec3::new(-1081.4792, 99.999954, 87.77011),

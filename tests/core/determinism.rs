@@ -1,4 +1,4 @@
-//! One thread or many, coarse first or not, whatever was rendered before: the same picture.
+//! The picture depends neither on the number of threads, nor on coarse passes, nor on earlier jobs.
 
 use crate::golden::job;
 use glam::UVec2;
@@ -14,7 +14,7 @@ use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use hitscope_core::{Intersector, Scene};
 use std::sync::Arc;
 
-/// Several tiles, the last ones cut off.
+/// Several tiles, the last of them cropped.
 const SIZE: UVec2 = UVec2::new(131, 101);
 
 fn picture(view: &str, first_step: u32) -> Job {
@@ -33,7 +33,7 @@ fn rendered(job: Job, threads: usize) -> Vec<[u8; 4]> {
     render(job, threads).expect("no panic").pixels().to_vec()
 }
 
-/// Posts a job and takes its tiles until the picture is complete.
+/// Posts a job and collects its tiles until the picture is complete.
 fn posted(renderer: &mut Renderer, job: Job) -> Vec<[u8; 4]> {
     let mut film = Film::new(job.plan.clone(), job.context.background);
     renderer.post(job);
@@ -47,7 +47,7 @@ fn posted(renderer: &mut Renderer, job: Job) -> Vec<[u8; 4]> {
 }
 
 #[test]
-fn any_number_of_threads_renders_the_same_picture() {
+fn every_number_of_threads_renders_the_same_picture() {
     for view in INTEGRATORS {
         let alone = rendered(picture(view.name, 4), 1);
         for threads in [2, 5] {
@@ -62,7 +62,7 @@ fn any_number_of_threads_renders_the_same_picture() {
 }
 
 #[test]
-fn however_coarse_the_first_pass_the_picture_ends_the_same() {
+fn the_final_picture_does_not_depend_on_the_first_passes_step() {
     let at_once = rendered(picture("shaded", 1), 2);
     assert!(at_once.iter().any(|pixel| *pixel != at_once[0]));
     for step in STEPS {
@@ -75,7 +75,7 @@ fn however_coarse_the_first_pass_the_picture_ends_the_same() {
 }
 
 #[test]
-fn what_was_rendered_before_leaves_no_trace() {
+fn earlier_jobs_do_not_affect_a_picture() {
     let mut renderer = Renderer::new(3, || ());
     let views = ["shaded", "depth", "cost"];
     let forwards = views.map(|view| posted(&mut renderer, picture(view, 8)));
@@ -88,14 +88,14 @@ fn what_was_rendered_before_leaves_no_trace() {
     assert_eq!(forwards, alone);
 }
 
-/// A picture of a large mesh, which begins with one tree or another.
+/// A picture of a large mesh, started with the given kind of tree.
 fn large_picture(first_tree: FirstTree) -> Job {
     let options = SceneOptions {
         first_tree,
         ..SceneOptions::default()
     };
     let mesh = sphere(150, Placement::UNIT);
-    let scene = Scene::with_options(mesh, options, &Progress::default()).expect("nobody cancels");
+    let scene = Scene::with_options(mesh, options, &Progress::default()).expect("not cancelled");
     let scene = Arc::new(scene);
     let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
     let mut picture = picture("shaded", 4);
@@ -106,7 +106,7 @@ fn large_picture(first_tree: FirstTree) -> Job {
 }
 
 #[test]
-fn a_better_tree_takes_the_first_ones_place_under_a_running_picture() {
+fn replacing_the_tree_during_rendering_does_not_change_the_picture() {
     let expected = rendered(large_picture(FirstTree::Best), 2);
     assert!(expected.iter().any(|pixel| *pixel != expected[0]));
     let job = large_picture(FirstTree::Quick);

@@ -1,13 +1,14 @@
-//! The exact kernel in edge cases: the interval's ends, f32's largest number, equal t, the smallest triangles.
+//! Edge cases of the exact kernel: the interval's ends, f32's largest number, equal t, the smallest
+//! triangles.
 //!
-//! What no test tells apart, and why:
-//! - the filter's bounds on edge functions and depths, and half of them: they are derived for the worst case. Of
-//!   triangles that climb towards the largest error, 10⁷ steps each, no edge function erred by more than 0.27 of
-//!   its bound where its sign was at stake, and no depth by more than 0.46 (2026-11);
-//! - the allowance in `Judge::earliest`, and none: rounding is monotone, so that a depth before the rounded start
-//!   of the interval is one before the exact start;
-//! - the cap of a hit's t at f32's largest number, and none: t errs by 2⁻³² at most, and rounds to infinity only
-//!   from 2⁻²⁵ beyond that number on.
+//! No test can distinguish the following from the variant named:
+//! - half the filter's bounds on edge functions and depths: they are derived for the worst case. Over 10⁷
+//!   steps of hill climbing towards the largest error, no edge function whose sign was at stake erred by more
+//!   than 0.27 of its bound, and no depth by more than 0.46 (2026-11);
+//! - no allowance in `Judge::earliest`: rounding is monotone, so that a depth before the rounded start of the
+//!   interval is also before the exact start;
+//! - no cap of a hit's t at f32's largest number: t errs by at most 2⁻³² and rounds to infinity only from
+//!   2⁻²⁵ beyond that number.
 
 use glam::Vec3;
 use hitscope_core::kernel::{exact_answer, exact_triangle_kernel};
@@ -17,7 +18,7 @@ use hitscope_core::{Hit, Ray};
 
 const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
 
-/// What the kernel finds alone, which it must find through a tree, too.
+/// The kernel's hit of a single triangle, after checking that a tree gives the same.
 fn closest(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     let alone = exact_triangle_kernel().intersect(ray, corners);
     let intersector = scene(soup(&[corners])).intersector(exact_triangle_kernel());
@@ -44,8 +45,8 @@ fn a_hit_at_either_end_of_the_interval_is_a_miss() {
 }
 
 #[test]
-fn a_hit_farther_than_the_largest_f32_is_a_miss() {
-    // t is the distance times 2¹⁶.
+fn a_hit_beyond_the_largest_f32_is_a_miss() {
+    // t is 2¹⁶ times the distance.
     let far = |z: f32| {
         let ray = Ray::new(Vec3::new(0.0, 0.0, -z), Vec3::Z * 2f32.powi(-16)).expect("a ray");
         assert_eq!(ray.scale, 0);
@@ -71,9 +72,10 @@ fn a_hit_farther_than_the_largest_f32_is_a_miss() {
 }
 
 #[test]
-fn of_triangles_at_equal_t_the_lowest_is_hit_though_their_fractions_round_apart() {
-    // The rays meet the corner that both triangles share at t = p/q. Their integers give fractions of t that
-    // aren't reduced alike, and f64 rounds one up and the other down, as t lies near the middle of two f64.
+fn at_equal_t_the_lowest_primitive_is_hit_even_if_the_fractions_of_t_round_differently() {
+    // The rays hit the corner that both triangles share at t = p/q. Each triangle's integers give t as a
+    // different unreduced fraction. f64 rounds one up and the other down, as t lies near the middle of two
+    // f64 numbers.
     let cases: [(f32, f32, [[f32; 6]; 2]); 6] = [
         (
             16_632_947.0,
@@ -140,9 +142,9 @@ fn of_triangles_at_equal_t_the_lowest_is_hit_though_their_fractions_round_apart(
 }
 
 #[test]
-fn t_and_weights_are_right_to_more_digits_than_f32_has_where_lengths_differ_a_hundred_thousand_times()
- {
-    // The planes z = 1 + ax + by are met at t = 1; all coordinates are exact. The weights are fractions of whole numbers below 2⁵³.
+fn t_u_and_v_are_more_accurate_than_f32_even_if_lengths_differ_by_a_factor_of_100_000() {
+    // The rays hit the planes z = 1 + ax + by at t = 1; all coordinates are exact. Barycentric coordinates
+    // are fractions of integers below 2⁵³.
     for size in [1.0f32, 1024.0, 16_384.0, 131_072.0] {
         for slope in [1.0f32 / 64.0, 3.0, -5.0 / 16.0] {
             let (a, b) = (slope, 0.25 * slope);
@@ -151,7 +153,7 @@ fn t_and_weights_are_right_to_more_digits_than_f32_has_where_lengths_differ_a_hu
             let corners = [corner(-3.0, -1.0), corner(2.0, -2.0), corner(1.0, 5.0)];
             let ray = Ray::new(Vec3::ZERO, Vec3::Z).expect("a ray");
             let [t, u, v] = exact_answer(&ray, corners).expect("a hit");
-            // As the edge functions of (−3, −1), (2, −2), (1, 5) say.
+            // From the edge functions of (−3, −1), (2, −2), (1, 5).
             let det = 8.0 + 12.0 + 14.0;
             let expected = [1.0, 14.0 / det, 8.0 / det];
             let errors = [t - expected[0], u - expected[1], v - expected[2]];
@@ -164,9 +166,9 @@ fn t_and_weights_are_right_to_more_digits_than_f32_has_where_lengths_differ_a_hu
 }
 
 #[test]
-fn tiny_triangles_are_decided_as_the_same_ones_enlarged() {
-    // Of products of such lengths f32 holds a few digits, or none: what is lost there is no larger than f32's
-    // least normal number, which the filter's bounds allow for.
+fn tiny_triangles_give_the_same_decisions_as_enlarged_ones() {
+    // f32 holds only a few digits of products of such lengths, or none. The loss is at most f32's smallest
+    // normal number, which the filter's bounds include.
     let count = |ray: &Ray, corners: [Vec3; 3]| {
         let intersector = scene(soup(&[corners])).intersector(exact_triangle_kernel());
         intersector.count_hits(ray)

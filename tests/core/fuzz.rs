@@ -1,8 +1,9 @@
-//! Any bytes are a mesh or a clear error: no panic, no endless work, no more memory than the file's size allows.
+//! Fuzzes the OBJ reader: any bytes give a mesh or a clear error, without a panic, a hang, or more memory
+//! than the file's size allows.
 //!
-//! `cargo test -p hitscope-core --test fuzz` tries some thousand inputs;
-//! `cargo test --release -p hitscope-core --test fuzz -- 10000000 SEED` as many as asked for. A program of its
-//! own, as the memory of all threads is counted.
+//! `cargo test -p hitscope-core --test fuzz` tries 30 000 inputs;
+//! `cargo test --release -p hitscope-core --test fuzz -- 10000000 SEED` tries as many as given. It is a
+//! program of its own because it counts the memory of all threads.
 
 use cpu_time::ProcessTime;
 use glam::Vec3;
@@ -18,20 +19,20 @@ use std::time::Duration;
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
 
-/// Inputs where the command line says nothing.
+/// Number of inputs unless the command line sets it.
 const INPUTS: u64 = 30_000;
-/// What loading may take for each byte of the file, and whatever the size is: buffers, and the machinery of
-/// gzip. The hungriest bytes are short faces: `f 1 1 1` and its line end are 8, and 104 in tobj's list, which
-/// may have room for twice as many: 26 for each, and half as much again for our lists.
+/// Memory that loading may use per byte of the file, and independent of its size (buffers and gzip's state).
+/// Short faces use most: `f 1 1 1` and its line end are 8 bytes, and 104 in tobj's list, whose capacity may
+/// be twice that: 26 per byte, and half as much again for our lists.
 const BYTES_PER_BYTE: usize = 64;
 const BYTES_ANYHOW: usize = 2 << 20;
-/// One input in so many is a large one.
+/// One input in this many is large.
 const LARGE_EVERY: u64 = 1000;
 const LARGE_BYTES: usize = 1 << 20;
-/// Of a processor's time; longer is a hang.
+/// CPU time; anything longer counts as a hang.
 const LONGEST: Duration = Duration::from_secs(1);
 
-/// Words that OBJ and MTL files are made of, legal and not.
+/// Words found in OBJ and MTL files, valid and invalid.
 const WORDS: [&[u8]; 64] = [
     b"v",
     b"vn",
@@ -116,7 +117,7 @@ fn main() {
         totals.try_one(&case, name);
     }
     for input in 0..inputs {
-        // Each has its own seed, to be tried again alone.
+        // Each input has its own seed, so that it can be repeated alone.
         let mut fuzzer = Fuzzer(Random::new(seed.wrapping_mul(1 << 32) + input));
         let mut case = fuzzer.case();
         if input % LARGE_EVERY == LARGE_EVERY - 1 {
@@ -129,7 +130,7 @@ fn main() {
     std::process::exit(i32::from(!is_good));
 }
 
-/// Polygons that took an ear clipper the cube of their corners.
+/// Polygons for which ear clipping takes time cubic in the number of corners.
 fn hard_polygons() -> [(&'static str, Case); 3] {
     const COUNT: usize = 30_000;
     let mut random = Random::new(9);
@@ -155,7 +156,7 @@ fn hard_polygons() -> [(&'static str, Case); 3] {
     ]
 }
 
-/// A file of one polygon.
+/// A file with a single polygon.
 fn polygon(corners: impl Iterator<Item = [f64; 2]>) -> Case {
     let (mut mesh, mut face) = (String::new(), String::from("f"));
     for (k, [x, y]) in corners.enumerate() {
@@ -173,7 +174,7 @@ fn polygon(corners: impl Iterator<Item = [f64; 2]>) -> Case {
     }
 }
 
-/// A mesh's file, and those beside it.
+/// A mesh file, its library and its texture.
 #[derive(Clone)]
 struct Case {
     mesh: Vec<u8>,
@@ -213,7 +214,8 @@ impl Fuzzer {
         case
     }
 
-    /// One change: a byte, a word more, a piece less or twice, an end.
+    /// Makes one change: replaces a byte, flips a bit, deletes or copies a piece, inserts a word, or
+    /// truncates.
     fn change(&mut self, bytes: &mut Vec<u8>) {
         if bytes.is_empty() {
             bytes.extend(MESH);
@@ -244,7 +246,7 @@ struct Totals {
     errors: u64,
     failures: u64,
     slowest: Duration,
-    /// Memory beyond [`BYTES_ANYHOW`], for each byte of the file, at most.
+    /// Largest memory beyond [`BYTES_ANYHOW`] per byte of the file.
     most_bytes_per_byte: usize,
 }
 
@@ -263,7 +265,7 @@ impl Totals {
         self.slowest = self.slowest.max(took);
         let size = case.mesh.len() + case.library.len();
         let per_byte = peak.saturating_sub(BYTES_ANYHOW) / size.max(1);
-        // What a picture takes is bounded by the limit on memory alone.
+        // A texture's memory is bounded by the memory limit alone.
         if case.texture == TEXTURE {
             self.most_bytes_per_byte = self.most_bytes_per_byte.max(per_byte);
             if per_byte > BYTES_PER_BYTE {
@@ -302,7 +304,7 @@ impl Totals {
     }
 }
 
-/// What a mesh must not be.
+/// Describes a defect of the mesh, or `None`.
 fn fault_of(loaded: &obj::Loaded) -> Option<String> {
     let mesh = &loaded.mesh;
     if mesh.triangles.is_empty() {
@@ -312,7 +314,7 @@ fn fault_of(loaded: &obj::Loaded) -> Option<String> {
         if !mesh.corners(triangle).iter().all(|p| p.is_finite()) {
             return Some(format!("triangle {triangle} isn't finite"));
         }
-        // It may be zero: of the thinnest triangles f64 finds no area.
+        // Zero is allowed: f64 finds no area in the thinnest triangles.
         let normal = mesh.geometric_normal(triangle);
         if !normal.is_normalized() && normal != Vec3::ZERO {
             return Some(format!("triangle {triangle} has the normal {normal}"));
@@ -328,7 +330,7 @@ fn fault_of(loaded: &obj::Loaded) -> Option<String> {
     {
         return Some("a list isn't as long as that of the triangles".to_owned());
     }
-    // They may not panic, either.
+    // Normals and health checks mustn't panic, either.
     for crease in [Crease::FromFile, Crease::Above(0.5)] {
         let normals = VertexNormals::of(mesh, crease);
         if !normals.of_triangle(mesh, 0).iter().all(|n| n.is_finite()) {

@@ -1,13 +1,13 @@
 //! 64×64 pictures of a torus in every view, compared exactly.
 //!
-//! To write them anew, look at the difference first, then:
+//! To regenerate them, look at the differences first, then run:
 //!
 //! ```sh
 //! HITSCOPE_GOLDEN=write cargo test -p hitscope-core --test core golden
 //! ```
 //!
-//! On a difference the actual picture is kept in the system's temporary folder, and the message says
-//! where. Pixels are flat shaded unless a name says smooth.
+//! If a picture differs, the actual one is saved in the system's temporary folder, and the message gives its
+//! path. Shading is flat unless the name says smooth.
 
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
@@ -28,7 +28,7 @@ const PERSPECTIVE: Projection = Projection::Perspective {
 };
 const ORTHOGRAPHIC: Projection = Projection::Orthographic { height: 2.5 };
 
-/// A torus from above, in the view of this name.
+/// A job that draws a torus from above in the named view.
 pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
     let scene = Arc::new(scene(torus(24, 12, Placement::UNIT)));
     let view = integrator(view).expect("a view");
@@ -50,7 +50,7 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
 }
 
 #[test]
-fn every_view_shows_what_it_showed() {
+fn every_view_matches_its_golden_picture() {
     let mut different = Vec::new();
     let mut check = |name: &str, view: &str, shading, projection, samples| {
         let job = job(view, shading, projection, Plan::new(SIZE, 4, samples));
@@ -69,7 +69,7 @@ fn every_view_shows_what_it_showed() {
             1,
         );
     }
-    // More than one sample, too: the places in the pixel are part of the picture.
+    // Several samples, too: the sample positions in a pixel affect the picture.
     check(
         "shaded-orthographic",
         "shaded",
@@ -91,12 +91,13 @@ fn golden_pictures_differ_from_each_other() {
     for (k, picture) in pictures.iter().enumerate() {
         assert!(
             !pictures[..k].contains(picture),
-            "picture {k} is there twice"
+            "picture {k} equals an earlier one"
         );
     }
 }
 
-/// What is different, if anything is; or writes the golden picture, if that is what was asked for.
+/// Describes the difference from the golden picture, or `None`. With HITSCOPE_GOLDEN=write, writes the
+/// picture instead.
 fn compare(name: &str, film: &Film) -> Option<String> {
     let actual: Vec<u8> = film.pixels().iter().flat_map(|p| p[..3].to_vec()).collect();
     if is_writing() {
@@ -133,7 +134,7 @@ fn golden_path(name: &str) -> PathBuf {
     folder.join(format!("{name}.ppm"))
 }
 
-/// A PPM's header, the only one that is read back.
+/// The header of a PPM file of this size; no other header can be read back.
 fn header() -> String {
     format!("P6\n{} {}\n255\n", SIZE.x, SIZE.y)
 }

@@ -1,7 +1,7 @@
-//! The tree with its SIMD lanes against each triangle asked alone: the same bits.
+//! The tree with its SIMD lanes against testing every triangle on its own: bit-identical results.
 //!
-//! For rays at edges, corners and flat boxes only of kernels that promise to be watertight: the
-//! others' t may err by more than boxes are padded, so that the tree leaves such a hit out.
+//! Rays at edges, corners and flat boxes are checked only for watertight kernels. Other kernels' errors in t
+//! may exceed the padding of boxes, so that the tree misses such a hit.
 
 use glam::Vec3;
 use hitscope_core::intersector::Crossing;
@@ -10,12 +10,12 @@ use hitscope_core::mesh::shapes::{Placement, flat_grid, in_torus, scene, soup, s
 use hitscope_core::random::Random;
 use hitscope_core::{Hit, Intersector, Ray, Scene};
 
-/// The bits of an answer: equal floats may differ in them, NaN may not.
+/// A hit's bits, which distinguish −0 from 0 and compare NaN equal to itself.
 fn bits(hit: Option<Hit>) -> Option<(u32, u32, u32, u32)> {
     hit.map(|h| (h.primitive, h.t.to_bits(), h.u.to_bits(), h.v.to_bits()))
 }
 
-/// Every triangle asked alone, in scalar arithmetic; sorted as `all_hits` promises.
+/// Tests every triangle on its own in scalar arithmetic; sorted as `all_hits` promises.
 fn one_by_one(kernel: &TriangleKernel, corners: &[[Vec3; 3]], ray: &Ray) -> Vec<Hit> {
     let asked = corners.iter().enumerate().filter_map(|(k, &corners)| {
         let hit = kernel.intersect(ray, corners)?;
@@ -29,8 +29,7 @@ fn one_by_one(kernel: &TriangleKernel, corners: &[[Vec3; 3]], ray: &Ray) -> Vec<
     hits
 }
 
-/// Asserts that every question about a ray gets the answer that asking one by one gives. Returns
-/// whether anything was hit.
+/// Asserts that all queries agree with [`one_by_one`]. Returns whether the ray hits anything.
 fn assert_same(
     kernel: &TriangleKernel,
     intersector: &dyn Intersector,
@@ -42,7 +41,7 @@ fn assert_same(
     let all = intersector.all_hits(ray);
     let mut met: Vec<u32> = all.iter().flat_map(in_crossing).collect();
     if kernel.info.precision != Precision::F32 {
-        // Ordered by more digits than a hit's t has: what f32 can't tell apart may stand either way.
+        // Sorted by a more accurate t than a hit's: hits of equal f32 t may be in either order.
         met.sort_unstable();
         expected.sort_by_key(|hit| hit.primitive);
         assert!(
@@ -74,39 +73,39 @@ fn assert_same(
     closest.is_some()
 }
 
-/// The triangles that meet at a crossing.
+/// The triangles of a crossing.
 fn in_crossing(crossing: &Crossing) -> impl Iterator<Item = u32> {
     [crossing.hit.primitive]
         .into_iter()
         .chain(crossing.also.clone())
 }
 
-/// Which kernels a case is for.
+/// Kernels that a case applies to.
 #[derive(Clone, Copy)]
-enum Ask {
+enum Kernels {
     Every,
     Watertight,
 }
 
-impl Ask {
-    fn kernels(self) -> impl Iterator<Item = &'static TriangleKernel> {
-        let is_asked = move |kernel: &&TriangleKernel| match self {
+impl Kernels {
+    fn iter(self) -> impl Iterator<Item = &'static TriangleKernel> {
+        let applies = move |kernel: &&TriangleKernel| match self {
             Self::Every => true,
             Self::Watertight => kernel.info.promises.is_watertight,
         };
-        TRIANGLE_KERNELS.iter().filter(is_asked)
+        TRIANGLE_KERNELS.iter().filter(applies)
     }
 }
 
-/// Asserts it for many rays of each kernel, of which enough must hit.
+/// Calls [`assert_same`] with many rays for each kernel, and asserts that enough of them hit.
 fn assert_same_for_rays(
-    ask: Ask,
+    kernels: Kernels,
     scene: &Scene,
     count: usize,
     mut next_ray: impl FnMut() -> Option<Ray>,
 ) {
     let corners = scene.mesh().corner_list();
-    for kernel in ask.kernels() {
+    for kernel in kernels.iter() {
         let intersector = scene.intersector(kernel);
         let mut hits = 0;
         for _ in 0..count {
@@ -128,8 +127,8 @@ fn assert_closest_is_the_first(intersector: &dyn Intersector, ray: &Ray) {
 }
 
 #[test]
-fn simd_lanes_give_the_bits_of_the_scalar_kernel() {
-    // One triangle a scene: the tree is one box, and a lane of the block is all there is.
+fn simd_lanes_give_the_scalar_kernels_bits() {
+    // One triangle per scene: the tree is a single box, and the block has one lane in use.
     let mut random = Random::new(2);
     for kernel in TRIANGLE_KERNELS {
         let mut hits = 0;
@@ -159,7 +158,7 @@ fn simd_lanes_give_the_bits_of_the_scalar_kernel() {
 }
 
 #[test]
-fn the_tree_answers_like_every_triangle_asked_alone() {
+fn the_tree_finds_the_same_hits_as_testing_every_triangle() {
     let mut random = Random::new(3);
     for place in [
         Placement::UNIT,
@@ -168,7 +167,7 @@ fn the_tree_answers_like_every_triangle_asked_alone() {
     ] {
         for mesh in [torus(24, 12, place), sphere(7, place)] {
             let scene = scene(mesh);
-            assert_same_for_rays(Ask::Every, &scene, 2500, || {
+            assert_same_for_rays(Kernels::Every, &scene, 2500, || {
                 let origin = place.of(2.0 * random.in_cube());
                 let target = place.of(0.8 * random.in_cube());
                 Ray::new(origin, target - origin).ok()
@@ -178,12 +177,12 @@ fn the_tree_answers_like_every_triangle_asked_alone() {
 }
 
 #[test]
-fn the_tree_answers_like_every_triangle_asked_alone_at_edges_and_corners() {
+fn the_tree_finds_the_same_hits_as_testing_every_triangle_at_edges_and_corners() {
     let mut random = Random::new(4);
     let place = Placement::new(1.0, 3.0);
     let scene = scene(torus(16, 8, place));
     let corners = scene.mesh().corner_list();
-    assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
+    assert_same_for_rays(Kernels::Watertight, &scene, 8000, || {
         let [a, b, _] = corners[random.index(corners.len())];
         let target = a + (b - a) * [0.0, 0.25, random.unit() as f32][random.index(3)];
         let origin = place.of(3.0 * random.in_cube());
@@ -192,10 +191,10 @@ fn the_tree_answers_like_every_triangle_asked_alone_at_edges_and_corners() {
 }
 
 #[test]
-fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
+fn the_tree_finds_the_same_hits_as_testing_every_triangle_within_an_interval() {
     let mut random = Random::new(5);
     let scene = scene(torus(24, 12, Placement::UNIT));
-    assert_same_for_rays(Ask::Every, &scene, 4000, || {
+    assert_same_for_rays(Kernels::Every, &scene, 4000, || {
         let origin = in_torus(random.unit(), random.unit(), 0.3).as_vec3();
         let dir = random.in_cube_f32();
         let [a, b] = [random.signed() as f32, 2.0 * random.signed() as f32];
@@ -204,10 +203,10 @@ fn the_tree_answers_like_every_triangle_asked_alone_within_an_interval() {
 }
 
 #[test]
-fn an_interval_that_ends_at_a_hit_leaves_it_out() {
+fn an_interval_that_ends_at_a_hit_excludes_it() {
     let mut random = Random::new(12);
     let scene = scene(sphere(6, Placement::UNIT));
-    // What decides in more digits than it reports compares t before it is rounded.
+    // Kernels that decide with more digits than they report compare t before rounding it.
     let as_reported = |kernel: &&TriangleKernel| {
         kernel.info.precision == Precision::F32 && !kernel.info.promises.is_watertight
     };
@@ -232,13 +231,13 @@ fn an_interval_that_ends_at_a_hit_leaves_it_out() {
 }
 
 #[test]
-fn a_flat_grid_behind_the_origin_is_found_by_a_negative_interval() {
-    // Boxes without thickness: nothing but the padding keeps a ray that is aimed at their border.
+fn a_flat_grid_behind_the_origin_is_hit_within_an_interval_of_negative_t() {
+    // Flat boxes: only their padding keeps rays that are aimed at their border.
     let mut random = Random::new(6);
     let grid = flat_grid(8, Placement::new(0.25, 0.1));
     let scene = scene(grid);
     let corners = scene.mesh().corner_list();
-    assert_same_for_rays(Ask::Watertight, &scene, 8000, || {
+    assert_same_for_rays(Kernels::Watertight, &scene, 8000, || {
         let target = corners[random.index(corners.len())][random.index(3)];
         let dir = random.in_cube_f32();
         Ray::with_interval(target + dir, dir, -10.0, 10.0).ok()
@@ -246,17 +245,17 @@ fn a_flat_grid_behind_the_origin_is_found_by_a_negative_interval() {
 }
 
 #[test]
-fn of_equal_distances_the_lowest_triangle_counts() {
+fn at_equal_t_the_lowest_triangle_is_hit() {
     let mut random = Random::new(7);
     let corners = [
         Vec3::new(-1.0, -1.0, 0.0),
         Vec3::new(1.0, -0.875, 0.0),
         Vec3::new(0.125, 1.0, 0.0),
     ];
-    // The same triangle again and again: every leaf holds hits at the same distance.
+    // Copies of one triangle: every leaf contains hits at the same t.
     let copies = scene(soup(&[corners; 40]));
     assert_eq!(copies.mesh().triangles.len(), 40);
-    assert_same_for_rays(Ask::Every, &copies, 8000, || {
+    assert_same_for_rays(Kernels::Every, &copies, 8000, || {
         let target = 0.4 * random.in_cube_f32() * Vec3::new(1.0, 1.0, 0.0);
         let origin = 3.0 * random.in_cube_f32();
         Ray::new(origin, target - origin).ok()
@@ -268,15 +267,15 @@ fn of_equal_distances_the_lowest_triangle_counts() {
 }
 
 #[test]
-fn of_equal_distances_the_lowest_triangle_counts_in_overlapping_coplanar_ones() {
+fn at_equal_t_the_lowest_of_overlapping_coplanar_triangles_is_hit() {
     let mut random = Random::new(8);
-    // In one plane, of different sizes and places, so that they lie in different leaves.
+    // Coplanar, of different sizes and positions, so that they are in different leaves.
     let on_plane = |p: Vec3| Vec3::new(p.x, p.y, 0.375);
     let triangles: Vec<[Vec3; 3]> = (0..60)
         .map(|_| [(); 3].map(|()| on_plane(random.in_cube_f32())))
         .collect();
     let scene = scene(soup(&triangles));
-    assert_same_for_rays(Ask::Watertight, &scene, 20_000, || {
+    assert_same_for_rays(Kernels::Watertight, &scene, 20_000, || {
         let target = on_plane(0.5 * random.in_cube_f32());
         let origin = 3.0 * random.in_cube_f32();
         Ray::new(origin, target - origin).ok()
@@ -284,7 +283,7 @@ fn of_equal_distances_the_lowest_triangle_counts_in_overlapping_coplanar_ones() 
 }
 
 #[test]
-fn of_equal_distances_behind_the_origin_the_lowest_triangle_counts() {
+fn at_equal_negative_t_the_lowest_triangle_is_hit() {
     let corners = [
         Vec3::new(-1.0, -1.0, 0.0),
         Vec3::new(1.0, -1.0, 0.0),
@@ -303,19 +302,21 @@ fn of_equal_distances_behind_the_origin_the_lowest_triangle_counts() {
 }
 
 #[test]
-fn a_hit_whose_t_rounds_to_before_its_box_is_not_left_out() {
-    // A plane across an axis: the kernel's t errs by more half-ulps than the box's.
+fn a_hit_whose_t_rounds_to_before_its_box_is_found() {
+    // A plane perpendicular to an axis: the kernel's t errs by more half-ulps than the box's.
     let mut random = Random::new(9);
     let mut corner = || random.in_cube_f32().with_z(0.375);
     let triangles: Vec<[Vec3; 3]> = (0..60).map(|_| [(); 3].map(|()| corner())).collect();
     let scene = scene(soup(&triangles));
     let origin = Vec3::new(-0.274_436_77, 0.293_592_54, 0.288_934_6);
     let dir = Vec3::new(0.088_818_06, -0.016_551_644, 0.086_065_41);
-    assert_same_for_rays(Ask::Watertight, &scene, 1, || Ray::new(origin, dir).ok());
+    assert_same_for_rays(Kernels::Watertight, &scene, 1, || {
+        Ray::new(origin, dir).ok()
+    });
 }
 
 #[test]
-fn the_candidates_hold_every_triangle_that_is_hit() {
+fn candidates_include_every_triangle_that_is_hit() {
     let mut random = Random::new(9);
     let scene = scene(torus(24, 12, Placement::UNIT));
     let corners = scene.mesh().corner_list();
@@ -336,7 +337,7 @@ fn the_candidates_hold_every_triangle_that_is_hit() {
             }
             candidates += found.len();
         }
-        // Not simply all of them: the tree has left most out.
+        // Fewer than all triangles: the tree excluded most.
         assert!(
             hits > 1000 && candidates < 3000 * corners.len() / 4,
             "{hits} {candidates}"
@@ -345,7 +346,7 @@ fn the_candidates_hold_every_triangle_that_is_hit() {
 }
 
 #[test]
-fn counting_the_cost_changes_no_answer() {
+fn counting_the_cost_does_not_change_hits() {
     let mut random = Random::new(10);
     let scene = scene(sphere(8, Placement::UNIT));
     for kernel in TRIANGLE_KERNELS {

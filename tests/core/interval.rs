@@ -1,5 +1,4 @@
-//! A hit counts if its t is a finite f32 inside the ray's interval, at either end, whatever the kernel and the
-//! tree.
+//! For every kernel and tree, a hit counts if its t is a finite f32 inside the ray's interval, at either end.
 
 use glam::Vec3;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
@@ -7,7 +6,7 @@ use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{scene, soup};
 use hitscope_core::{Hit, Ray};
 
-/// Asserts that every kernel, alone and through a tree, says the same; what, if anything, each hit.
+/// Each kernel's hit, after checking that the kernel alone and every query through a tree agree.
 fn hits(mesh: &TriangleMesh, ray: &Ray) -> Vec<Option<Hit>> {
     let scene = scene(mesh.clone());
     let answer = |kernel: &'static TriangleKernel| {
@@ -28,7 +27,7 @@ fn hits(mesh: &TriangleMesh, ray: &Ray) -> Vec<Option<Hit>> {
 }
 
 #[test]
-fn a_hit_beyond_the_largest_number_is_a_miss_ahead_and_behind() {
+fn a_hit_beyond_the_largest_f32_is_a_miss_in_either_direction() {
     let corners = [[-1.0, -1.0], [2.0, -1.0], [-1.0, 2.0]];
     for z in [1e36, -1e36] {
         let mesh = soup(&[corners.map(|[x, y]| Vec3::new(1e36 * x, 1e36 * y, z))]);
@@ -37,10 +36,10 @@ fn a_hit_beyond_the_largest_number_is_a_miss_ahead_and_behind() {
             let ray = Ray::with_interval(Vec3::ZERO, dir, f32::NEG_INFINITY, f32::INFINITY);
             ray.expect("a ray")
         };
-        // At |t| = 10⁴⁰, and at 10³⁸.
+        // At |t| = 10⁴⁰ and at 10³⁸.
         assert!(hits(&mesh, &ray(-1e-4)).iter().all(Option::is_none));
         for (kernel, hit) in TRIANGLE_KERNELS.iter().zip(hits(&mesh, &ray(-1e-2))) {
-            // The others multiply lengths of 10³⁶ in f32, or square them in f64.
+            // Other kernels multiply lengths of 10³⁶ in f32, or square them in f64.
             if kernel.info.promises.is_watertight {
                 let t = hit.expect("a hit").t;
                 assert!(
@@ -54,7 +53,7 @@ fn a_hit_beyond_the_largest_number_is_a_miss_ahead_and_behind() {
 }
 
 #[test]
-fn t_counts_lengths_of_the_direction_as_given_when_it_is_beyond_the_largest_number() {
+fn whether_t_exceeds_the_largest_f32_depends_on_the_direction_as_given() {
     let at = |z: f32| {
         soup(&[[
             Vec3::new(-1.0, -1.0, z),
@@ -62,7 +61,7 @@ fn t_counts_lengths_of_the_direction_as_given_when_it_is_beyond_the_largest_numb
             Vec3::new(-1.0, 2.0, z),
         ]])
     };
-    // t is 10⁴² z.
+    // t is 10⁴²·z.
     for (z, is_hit) in [
         (-1.0, false),
         (-1e-3, false),
@@ -79,8 +78,8 @@ fn t_counts_lengths_of_the_direction_as_given_when_it_is_beyond_the_largest_numb
 }
 
 #[test]
-fn a_hit_lies_in_the_interval_also_where_rounding_would_move_it_to_an_end() {
-    // t is 1 − 2⁻²⁵ exactly, which f32 rounds to 1.
+fn a_hit_stays_inside_the_interval_even_if_t_rounds_to_an_end() {
+    // t is exactly 1 − 2⁻²⁵, which f32 rounds to 1.
     let z = 1.0 - 1.0 / f64::from(1 << 25);
     let kernel = triangle_kernel("watertight").expect("the default");
     let half = (z / 2.0) as f32;

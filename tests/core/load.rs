@@ -1,8 +1,9 @@
-//! What loading an OBJ file takes, beside what tobj takes that hitscope's reader stands on.
+//! Measures loading an OBJ file with hitscope and with tobj, on which hitscope's reader is built.
 //!
 //! `cargo run --release -p hitscope-core --example load -- [hitscope|tobj|cancel] FILE.obj`
-//! prints JSON: seconds, and the most memory that the process had, for one of them; so that each has a
-//! process of its own. `cancel` prints how long a load goes on after it was cancelled, at several times, the tree's
+//! prints JSON with the seconds and the peak memory of one of them, so that each runs in its own process.
+//! `cancel` cancels loading at several times, the tree's construction included, and prints how long it took
+//! to stop.
 //! building among them.
 
 use hitscope_core::obj::{self, LoadOptions};
@@ -25,7 +26,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             .len(),
         "tobj" => bare_tobj(path)?,
         "cancel" => return cancel(path),
-        other => return Err(format!("nobody is called {other}").into()),
+        other => return Err(format!("unknown mode {other}").into()),
     };
     let secs = start.elapsed().as_secs_f64();
     let peak = peak_rss_bytes().map_or("null".to_owned(), |bytes| bytes.to_string());
@@ -45,7 +46,7 @@ fn bare_tobj(path: &Path) -> Result<usize, tobj::LoadError> {
     Ok(corners.sum::<usize>() / 3)
 }
 
-/// Cancels at ten places between the beginning and the end of a load.
+/// Cancels at ten times, spread evenly over the duration of a load.
 fn cancel(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     let options = SceneOptions {
         first_tree: FirstTree::Quick,
@@ -76,12 +77,12 @@ fn cancel(path: &Path) -> Result<(), Box<dyn std::error::Error>> {
     Ok(())
 }
 
-#[expect(clippy::print_stdout, reason = "that is what this program is for")]
+#[expect(clippy::print_stdout, reason = "printing is this program's purpose")]
 fn out(line: &str) {
     println!("{line}");
 }
 
-/// The most memory that the process had in use; only Linux tells.
+/// Peak resident memory of the process; `None` except on Linux.
 fn peak_rss_bytes() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM"))?;

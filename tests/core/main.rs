@@ -1,47 +1,47 @@
-//! The core's integration tests: what a user of the crate may rely on.
+//! Integration tests of the core's public API.
 //!
-//! Every kernel in the table is tested here without being named, by what its `INFO` promises.
+//! Tests loop over the table of kernels and check what each kernel's `INFO` promises; they name no kernel.
 
-// Every kernel: the easy cases, one triangle at a time.
+// Easy cases for every kernel, one triangle at a time.
 mod conformance;
 
-// The tree with its SIMD lanes against each triangle asked alone.
+// The tree with its SIMD lanes against testing every triangle on its own.
 mod intersector;
 mod interval;
 
-// Every SIMD level, rays one by one and together: the same bits.
+// Every SIMD level, single rays and packets: bit-identical results.
 mod simd;
 
 // Kernels that round t past a triangle's box, at the start of an interval.
 mod rounded_t;
 
-// Rays together: the same bits.
+// Packets and single rays: bit-identical results.
 mod packets;
 
-// Every tree: the same bits.
+// Every tree: bit-identical results.
 mod trees;
 
-// Kernels that promise it: no ray leaves a closed mesh.
+// Watertight kernels: no ray leaves a closed mesh.
 mod watertight;
 
-// The exact kernel in edge cases.
+// Edge cases of the exact kernel.
 mod exact;
 
-// A ray that leaves a surface doesn't meet it again.
+// A spawned ray doesn't hit the surface that it leaves.
 mod reintersect;
 
-// Where each policy starts such a ray.
+// Where each spawn policy puts the ray's origin.
 mod spawn_policies;
 
-// What holds for any triangle and ray: scaling, permuting, reversing.
+// Properties of any triangle and ray: scaling, permuting vertices, reversing the ray.
 mod properties;
-// Any file that people have is a mesh or a clear error.
+// Every OBJ file gives a mesh or a clear error.
 mod obj;
 
 // 64×64 pictures, compared exactly.
 mod golden;
 
-// One thread or many, coarse first or not: the same picture.
+// The picture depends neither on the number of threads nor on coarse passes.
 mod determinism;
 
 // Stopping: stale jobs, dropped renderers, pauses, cancelled loads, panics.

@@ -1,6 +1,8 @@
-//! The limit on memory holds, and doesn't refuse what fits: loads in processes of their own, whose peaks Linux tells.
+//! The memory limit holds, and loads that fit are accepted. Each load runs in a process of its own, whose
+//! peak memory Linux reports.
 //!
-//! `cargo test -p hitscope-core --test memory`. A program of its own, as it starts itself for each load.
+//! `cargo test -p hitscope-core --test memory`. It is a program of its own because it starts itself for each
+//! load.
 
 use hitscope_core::obj::LoadOptions;
 use hitscope_core::progress::Progress;
@@ -10,11 +12,11 @@ use std::path::Path;
 use std::process::{Command, ExitCode};
 
 const MB: u64 = 1 << 20;
-/// A load within so many times its peak is accepted. The bound counts the largest list twice, as growing may copy it.
-/// Of the 56 bytes that reading a soup takes for each vertex, tobj's positions are 24, which makes 1.43; the rest is
-/// for lists of names and line numbers, counted with all their room.
+/// A load is accepted if the limit is this multiple of its peak. The estimate counts the largest list twice,
+/// as growing may copy it. Reading a triangle soup takes 56 bytes per vertex, 24 of them for tobj's
+/// positions, which gives 1.43; the rest is for lists of names and line numbers, counted by capacity.
 const ACCEPTED_FROM: f64 = 1.5;
-/// A load that takes so much more than its limit is refused. The allocator keeps some freed memory.
+/// A load is refused if the limit is this fraction of its peak. The allocator keeps some freed memory.
 const REFUSED_BELOW: f64 = 0.9;
 
 fn main() -> ExitCode {
@@ -26,7 +28,7 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     if peak().is_none() {
-        eprintln!("skipped: only Linux tells a process's peak");
+        eprintln!("skipped: only Linux reports a process's peak memory");
         return ExitCode::SUCCESS;
     }
     let folder = tempfile::tempdir().expect("a folder");
@@ -49,7 +51,7 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(!is_good))
 }
 
-/// Loads a file and prints the process's peak; nothing if the file is refused for its memory.
+/// Loads a file and prints the process's peak memory; prints nothing if the memory limit refuses the file.
 fn load(path: &Path, max_memory: u64) {
     let options = LoadOptions {
         max_memory,
@@ -62,14 +64,14 @@ fn load(path: &Path, max_memory: u64) {
     }
 }
 
-/// The peak of a process that loads a file; `None` if it refuses to.
+/// Peak memory of a process that loads a file; `None` if it refuses the file.
 fn loaded(path: &Path, max_memory: u64) -> Option<u64> {
     let program = std::env::current_exe().expect("this program");
     let output = Command::new(program)
         .arg("load")
         .arg(path)
         .arg(max_memory.to_string())
-        // Allocators keep memory for each thread.
+        // Allocators keep memory per thread.
         .env("RAYON_NUM_THREADS", "2")
         .output()
         .expect("started");
@@ -81,7 +83,7 @@ fn loaded(path: &Path, max_memory: u64) -> Option<u64> {
         .ok()
 }
 
-/// Bytes that this process had in use at most.
+/// This process's peak memory in bytes.
 fn peak() -> Option<u64> {
     let status = std::fs::read_to_string("/proc/self/status").ok()?;
     let line = status.lines().find(|line| line.starts_with("VmHWM"))?;
@@ -89,7 +91,7 @@ fn peak() -> Option<u64> {
     Some(kilobytes * 1024)
 }
 
-/// Meshes of some hundred thousand triangles, each with other lists.
+/// Meshes of several hundred thousand triangles, each with different lists.
 fn meshes() -> Vec<(&'static str, String)> {
     vec![
         (
@@ -150,7 +152,7 @@ fn star(corners: usize) -> String {
 
 #[expect(
     clippy::print_stdout,
-    reason = "how this program answers the one that started it"
+    reason = "the parent process reads this program's output"
 )]
 fn out(line: &str) {
     println!("{line}");

@@ -1,4 +1,4 @@
-//! Rays that are traced together get the bits that they get alone.
+//! A ray in a packet gets the same bits as a single ray.
 
 use crate::simd::bits;
 use glam::{DVec3, Vec3};
@@ -7,12 +7,12 @@ use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::mesh::shapes::{Placement, cube, scene};
 use hitscope_core::random::Random;
 
-/// Rays of a packet.
+/// Rays per packet.
 const TOGETHER: usize = 16;
 
-/// Sixteen rays inside a cube from 0 to `cells`, some of which run along planes between its cells, so that 1/d
-/// is infinite and the distance to a plane 0; the others go the same way, at slopes down to 1e-42. They start
-/// together or apart.
+/// Sixteen rays inside a cube from 0 to `cells`. Some run in planes between the cells, so that 1/d is
+/// infinite and the distance to a plane 0; the others deviate by slopes down to 1e-42. Their origins are
+/// equal or differ.
 fn along_planes(cells: usize, random: &mut Random) -> [Ray; TOGETHER] {
     let mut lattice = || 0.5 * (1 + random.index(2 * cells - 1)) as f32;
     let start = Vec3::new(lattice(), lattice(), lattice());
@@ -35,7 +35,7 @@ fn along_planes(cells: usize, random: &mut Random) -> [Ray; TOGETHER] {
 }
 
 #[test]
-fn rays_along_planes_of_boxes_get_together_what_they_get_alone() {
+fn packets_along_box_planes_give_the_same_hits_as_single_rays() {
     const CELLS: usize = 6;
     let place = Placement {
         scale: 1.0,

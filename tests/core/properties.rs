@@ -1,8 +1,9 @@
-//! What holds for any triangle and ray: scaling, permuting, reversing; and the two ways to the point.
+//! Properties of any triangle and ray: scaling, permuting vertices, reversing the ray, and o + t·d against
+//! the point from barycentric coordinates.
 //!
-//! Each run tries other cases. A failure prints the case, shrunk, and the seed; PROPTEST_RNG_SEED=… tries the same
-//! cases again, PROPTEST_CASES=… as many as asked for. Cases that failed once are kept in `properties.txt`, and
-//! tried first from then on: commit them with the mend.
+//! Each run tries new cases. A failure prints the shrunk case and the seed. PROPTEST_RNG_SEED=… repeats a
+//! run, PROPTEST_CASES=… sets the number of cases. Failed cases are stored in `properties.txt` and tried
+//! first in later runs; commit that file with the fix.
 
 use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
@@ -11,11 +12,11 @@ use proptest::prelude::*;
 use proptest::test_runner::{FileFailurePersistence, RngSeed};
 use std::hash::{BuildHasher, RandomState};
 
-/// Half an ulp of 1, by which a rounding to f32 errs.
+/// Half an ulp of 1 in f32: the relative error of one rounding.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
 fn config() -> ProptestConfig {
-    /// Beside this file.
+    /// In this file's folder.
     const FAILED: &str = concat!(
         env!("CARGO_MANIFEST_DIR"),
         "/../../tests/core/properties.txt"
@@ -25,7 +26,7 @@ fn config() -> ProptestConfig {
         RngSeed::Fixed(seed) => seed,
         RngSeed::Random => RandomState::new().hash_one("seed"),
     };
-    // Shown where the test fails.
+    // Shown only if the test fails.
     eprintln!("PROPTEST_RNG_SEED={seed}");
     ProptestConfig {
         cases: match std::env::var_os("PROPTEST_CASES") {
@@ -43,8 +44,8 @@ fn point(size: f32) -> impl Strategy<Value = Vec3> {
     (coordinate(), coordinate(), coordinate()).prop_map(Vec3::from)
 }
 
-/// A triangle of any shape, in front of an origin at 4…8 along z, and a ray that is aimed at its
-/// inside or a little beside it.
+/// A triangle of any shape, an origin in front of it at z = 4…8, and a ray aimed at its interior or slightly
+/// past it.
 fn aimed() -> impl Strategy<Value = ([Vec3; 3], Ray)> {
     let corners = [point(1.0), point(1.0), point(1.0)];
     let origin = (-2.0f32..2.0, -2.0f32..2.0, 4.0f32..8.0).prop_map(Vec3::from);
@@ -61,22 +62,21 @@ fn bits(hit: Option<hitscope_core::Hit>) -> Option<[u32; 3]> {
     hit.map(|hit| [hit.t, hit.u, hit.v].map(f32::to_bits))
 }
 
-/// The hit's place by its weights, but for the rounding of the weights themselves.
+/// The hit point by barycentric coordinates, exact but for the rounding of u and v.
 fn place([a, b, c]: [Vec3; 3], hit: hitscope_core::Hit) -> DVec3 {
     let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
     a + f64::from(hit.u) * (b - a) + f64::from(hit.v) * (c - a)
 }
 
-/// How far o + t·d may be off the place by weights, in any coordinate, for edge functions of corners
-/// sheared along the ray.
+/// Bound on the difference in any coordinate between o + t·d and the point by barycentric coordinates, for
+/// edge functions of corners sheared along the ray.
 ///
-/// With M the largest coordinate of a corner from the origin, L the longest edge, and det twice the
-/// triangle's area as the ray sees it: moving and shearing the corners errs by 6uM (one rounding of
-/// the difference, its error sheared, of the shear, of the product, and of a difference of at most
-/// 2M). An edge function of sheared corners, which lie within 2L of the ray, errs by
-/// 3u·(2L)²; three of them, over det, times the corners' distance of 2L from the ray: 9·8·u·L³/det.
-/// Normalising the weights errs by 3u each, over edges: 6uL ≤ 12uM. t has, besides those weights,
-/// 9 roundings, of at most M.
+/// M is the largest coordinate of a corner relative to the origin, L the longest edge, and det twice the
+/// triangle's area seen along the ray. Translating and shearing the corners errs by 6uM (one rounding each of
+/// the difference, of its sheared error, of the shear, of the product, and of a difference of at most 2M). An
+/// edge function of sheared corners, which lie within 2L of the ray, errs by 3u·(2L)²; three of them, over
+/// det, times the corners' distance of 2L from the ray: 9·8·u·L³/det. Normalising the weights errs by 3u
+/// each, over edges: 6uL ≤ 12uM. t has 9 more roundings, each of at most M.
 fn place_bound([a, b, c]: [Vec3; 3], ray: &Ray) -> f64 {
     let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
     let (origin, dir) = (ray.origin.as_dvec3(), ray.dir.as_dvec3());
@@ -92,7 +92,7 @@ proptest! {
     #![proptest_config(config())]
 
     #[test]
-    fn scaling_by_a_power_of_two_scales_t_and_changes_no_other_bit(
+    fn scaling_by_a_power_of_two_scales_t_exactly_and_keeps_u_and_v(
         (corners, ray) in aimed(),
         exponent in -16i32..16,
     ) {
@@ -108,7 +108,7 @@ proptest! {
     }
 
     #[test]
-    fn a_direction_longer_by_a_power_of_two_divides_t_and_changes_no_other_bit(
+    fn scaling_the_direction_by_a_power_of_two_divides_t_exactly_and_keeps_u_and_v(
         (corners, ray) in aimed(),
         exponent in -16i32..16,
     ) {
@@ -126,10 +126,10 @@ proptest! {
     }
 
     #[test]
-    fn the_order_of_corners_permutes_the_weights_and_nothing_else((corners, ray) in aimed()) {
+    fn permuting_the_corners_permutes_the_barycentric_coordinates((corners, ray) in aimed()) {
         const ORDERS: [[usize; 3]; 6] = [[0, 1, 2], [1, 2, 0], [2, 0, 1], [0, 2, 1], [2, 1, 0], [1, 0, 2]];
-        // Edge functions are the same but for their sign. Their sum rounds twice and the quotient
-        // once: u and v err by 3u of themselves. 1 − u − v rounds twice more: 5u. Two hits: 10u.
+        // Edge functions differ only in sign. Their sum rounds twice and the quotient once: u and v have a
+        // relative error of 3u. 1 − u − v rounds twice more: 5u. Two hits: 10u.
         let tolerance = (10.0 * U) as f32;
         for kernel in TRIANGLE_KERNELS.iter().filter(|kernel| kernel.info.promises.is_watertight) {
             let hit = kernel.intersect(&ray, corners);

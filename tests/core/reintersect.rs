@@ -1,4 +1,4 @@
-//! A ray that leaves a surface by the default policy doesn't begin in or below it, nor meet it again.
+//! A ray spawned by the default policy starts above its surface and doesn't hit it again.
 
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, exact_triangle_kernel};
@@ -17,7 +17,7 @@ fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
         .filter(|kernel| kernel.info.promises.is_watertight)
 }
 
-/// The ray that leaves a triangle where the exact kernel's ray from `origin` to `target` hits it.
+/// The ray spawned where the exact kernel's ray from `origin` to `target` hits the triangle, and that hit.
 fn leaving(corners: [Vec3; 3], origin: Vec3, target: Vec3, dir: Vec3) -> Option<(Ray, Hit)> {
     let arrived_by = Ray::new(origin, target - origin).ok()?;
     let hit = exact_triangle_kernel().intersect(&arrived_by, corners)?;
@@ -32,8 +32,8 @@ fn leaving(corners: [Vec3; 3], origin: Vec3, target: Vec3, dir: Vec3) -> Option<
 }
 
 #[test]
-fn a_coplanar_neighbour_is_not_hit_from_an_edge_where_coordinates_are_zero() {
-    // Both lie in the plane x = y, and the ray begins on their common edge, where x = y = 0.
+fn a_spawned_ray_misses_the_coplanar_neighbour_at_an_edge_with_zero_coordinates() {
+    // Both lie in the plane x = y, and the spawned ray starts on their common edge, where x = y = 0.
     let left = [
         Vec3::splat(-1024.0),
         Vec3::ZERO,
@@ -57,8 +57,7 @@ fn a_coplanar_neighbour_is_not_hit_from_an_edge_where_coordinates_are_zero() {
     }
 }
 
-/// A triangle of whole numbers times a power of two, some of whose coordinates are 0, often one in all
-/// corners.
+/// A triangle of integers times a power of two. Some coordinates are 0, often one in all three corners.
 fn with_zeros(random: &mut Random) -> [Vec3; 3] {
     let zero_axis = random.index(4);
     let scale = 2f32.powi(random.index(41) as i32 - 20);
@@ -74,7 +73,7 @@ fn with_zeros(random: &mut Random) -> [Vec3; 3] {
 }
 
 #[test]
-fn a_ray_begins_above_the_computed_point_by_the_bound_that_the_policy_derives() {
+fn the_spawned_origin_lies_above_the_computed_point_by_the_policys_derived_bound() {
     let mut random = Random::new(7);
     let mut count = 0;
     while count < 20_000 {
@@ -84,7 +83,7 @@ fn a_ray_begins_above_the_computed_point_by_the_bound_that_the_policy_derives() 
             [(); 3].map(|()| random.in_cube_f32() + random.in_cube_f32() * 100.0)
         };
         let normal = unit_normal(corners);
-        // Inside, on an edge, in a corner.
+        // In the interior, on an edge, or at a corner.
         let mut weights = [random.unit(), random.unit(), random.unit()];
         weights[random.index(3)] *= random.index(2) as f64;
         weights[random.index(3)] *= random.index(2) as f64;
@@ -122,14 +121,14 @@ fn a_ray_begins_above_the_computed_point_by_the_bound_that_the_policy_derives() 
             .into_iter()
             .fold(0.0, f64::max);
         let height = side.dot(ray.origin.as_dvec3() - p.as_dvec3());
-        // The lift itself takes some ten operations in f32, which change it by 10u of it at most.
+        // Computing the lift takes about ten f32 operations, which change it by at most 10u of itself.
         let lift = 7.0 * U * (size.as_dvec3() + extent).dot(normal.abs());
         let least = lift * (1.0 - 10.0 * U);
         assert!(
             height >= least && least > 0.0,
             "{height:e} {least:e} {corners:?} {hit:?} {dir}"
         );
-        // Each coordinate is then rounded and moved on, by three half-ulps in all.
+        // Each coordinate is then rounded and moved by three half-ulps in all.
         let ulps = ray.origin.as_dvec3().abs().max(p.as_dvec3().abs());
         let most = lift * (1.0 + 20.0 * U) + 3.0 * U * ulps.dot(normal.abs());
         assert!(
@@ -140,11 +139,11 @@ fn a_ray_begins_above_the_computed_point_by_the_bound_that_the_policy_derives() 
     }
 }
 
-/// Two triangles of a plane, one on each side of an edge in an axis; two coordinates are equal in the plane, or
-/// one is 0.
+/// Two triangles in one plane, on either side of an edge that lies on a coordinate axis. In the plane two
+/// coordinates are equal, or one is 0.
 struct AroundAxis {
     axes: [usize; 3],
-    /// y = slope·x in the plane, where z is the axis.
+    /// The plane is y = slope·x, where z is the axis of the edge.
     slope: f32,
     triangles: [[Vec3; 3]; 2],
 }
@@ -165,14 +164,14 @@ impl AroundAxis {
         }
     }
 
-    /// Along the plane, but for so much across it.
+    /// A direction in the plane plus `across` perpendicular to it.
     fn dir(&self, x: f32, z: f32, across: f32) -> Vec3 {
         let y = self.slope * x + across;
         turned(self.axes, [x - self.slope * across, y, z])
     }
 }
 
-/// A point whose coordinates are those along these axes.
+/// The point with these coordinates along these axes.
 fn turned(axes: [usize; 3], coordinates: [f32; 3]) -> Vec3 {
     let mut p = Vec3::ZERO;
     for (axis, coordinate) in axes.into_iter().zip(coordinates) {
@@ -182,7 +181,7 @@ fn turned(axes: [usize; 3], coordinates: [f32; 3]) -> Vec3 {
 }
 
 #[test]
-fn rays_almost_along_a_plane_do_not_meet_it_again_from_an_edge_in_an_axis() {
+fn nearly_coplanar_rays_spawned_at_an_edge_on_an_axis_do_not_hit_the_plane_again() {
     let mut random = Random::new(3);
     let mut count = 0;
     while count < 4000 {

@@ -1,4 +1,4 @@
-//! Kernels that round t to beyond the triangle's box, where the interval begins in between.
+//! Kernels that round t past the triangle's box, with an interval that starts between the box and that t.
 
 use glam::Vec3;
 use hitscope_core::Ray;
@@ -9,7 +9,8 @@ use hitscope_core::random::Random;
 /// Half an ulp of 1 in f32.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
-/// A triangle some ten times longer than high in the plane z = 0, whose box is flat, and a ray to its inside.
+/// A triangle about ten times as long as high in the plane z = 0, whose box is flat, and a ray to its
+/// interior.
 fn flat_sliver(random: &mut Random) -> ([Vec3; 3], Ray) {
     let mut flat = || Vec3::new(random.signed() as f32, random.signed() as f32, 0.0);
     let (a, long, across) = (flat(), flat(), flat());
@@ -20,9 +21,9 @@ fn flat_sliver(random: &mut Random) -> ([Vec3; 3], Ray) {
 }
 
 #[test]
-fn a_hit_counts_that_is_rounded_past_its_box_where_the_interval_begins_in_between() {
-    // A box is padded by 12u; from 16u on t lies behind it for certain. Up to 24 ulp, 48u, before the
-    // interval boxes are visited.
+fn a_hit_rounded_past_its_box_is_found_if_the_interval_starts_in_between() {
+    // Boxes are padded by 12u; from an error of 16u on, t certainly lies behind the box. Boxes up to 24 ulp
+    // (48u) before the interval are visited.
     let mut random = Random::new(4);
     let mut found = 0;
     for _ in 0..3000 {
@@ -42,7 +43,7 @@ fn a_hit_counts_that_is_rounded_past_its_box_where_the_interval_begins_in_betwee
             let t_min = hit.t.next_down();
             let ray = Ray::with_interval(ray.origin, ray.dir, t_min, ray.t_max).expect("a ray");
             if kernel.intersect(&ray, corners).is_none() {
-                // The kernel knows better where the interval begins.
+                // The kernel excludes the hit because it compares a more accurate t.
                 continue;
             }
             let intersector = scene.intersector(kernel);

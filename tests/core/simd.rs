@@ -1,4 +1,4 @@
-//! Every SIMD level, rays one by one and rays together: the same bits.
+//! Every SIMD level, single rays and packets: bit-identical results.
 
 use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::camera::Projection;
@@ -9,12 +9,12 @@ use hitscope_core::random::Random;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Camera, Hit, Ray, Scene};
 
-/// A hit's bits, so that a −0 isn't a 0 and a NaN is one.
+/// A hit's bits, which distinguish −0 from 0 and compare NaN equal to itself.
 pub fn bits(hit: &Option<Hit>) -> Option<[u32; 4]> {
     hit.map(|h| [h.t.to_bits(), h.u.to_bits(), h.v.to_bits(), h.primitive])
 }
 
-/// A camera's rays, 4 × 4 pixels after another.
+/// A camera's rays, in blocks of 4 × 4 pixels.
 fn camera_rays(eye: DVec3, projection: Projection) -> Vec<Ray> {
     let size = UVec2::splat(64);
     let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
@@ -27,7 +27,7 @@ fn camera_rays(eye: DVec3, projection: Projection) -> Vec<Ray> {
         .collect()
 }
 
-/// From all sides to vertices, and from vertices to vertices: rays without an order, many along edges.
+/// Incoherent rays, many along edges: from all sides to vertices, and from vertices to vertices.
 fn scattered_rays(scene: &Scene) -> Vec<Ray> {
     let mut random = Random::new(7);
     let positions = &scene.mesh().positions;
@@ -48,13 +48,13 @@ fn workloads(scene: &Scene) -> Vec<Vec<Ray>> {
     let parallel = Projection::Orthographic { height: 3.0 };
     let mut ended = camera_rays(DVec3::new(1.5, 2.0, 2.5), perspective);
     for (k, ray) in ended.iter_mut().enumerate() {
-        // Some end before the mesh, some within it, some begin there, one leaves a triangle.
+        // Intervals end before the mesh or in it, or start in it; a few rays exclude a triangle.
         (ray.t_min, ray.t_max) = ([0.0, 0.0, 2.0][k % 3], [1.0, 3.0, 9.0][k / 3 % 3]);
         ray.exclude = (k % 1000 == 0).then_some(3);
     }
     vec![
         camera_rays(DVec3::new(1.5, 2.0, 2.5), perspective),
-        // Inside a closed mesh, and along an axis, where directions hold zeros of either sign.
+        // Inside a closed mesh, and along an axis, where directions contain zeros of either sign.
         camera_rays(DVec3::new(0.1, -0.2, 0.9), perspective),
         camera_rays(DVec3::Z * 4.0, parallel),
         scattered_rays(scene),
@@ -63,7 +63,7 @@ fn workloads(scene: &Scene) -> Vec<Vec<Ray>> {
 }
 
 #[test]
-fn every_level_gives_the_bits_of_plain_code_one_by_one_and_together() {
+fn every_level_gives_the_scalar_levels_bits_for_single_rays_and_packets() {
     for scene in [
         scene(torus(48, 24, Placement::UNIT)),
         scene(sphere(12, Placement::UNIT)),
@@ -101,7 +101,7 @@ fn every_level_gives_the_bits_of_plain_code_one_by_one_and_together() {
 }
 
 #[test]
-fn rays_that_go_together_are_traced_together() {
+fn two_kernels_trace_coherent_rays_in_packets_of_16() {
     let scene = scene(torus(48, 24, Placement::UNIT));
     let together = TRIANGLE_KERNELS
         .iter()

@@ -1,4 +1,4 @@
-//! Where each policy starts a ray that leaves a surface.
+//! Where each spawn policy puts the ray's origin.
 
 use glam::Vec3;
 use hitscope_core::spawn::{Departure, SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
@@ -7,7 +7,7 @@ use hitscope_core::{Hit, Ray, ray::ulp_at};
 /// Half an ulp of 1 in f32.
 const U: f64 = 1.0 / (1 << 24) as f64;
 
-/// The ray that leaves a triangle in the plane at `z`, up or down, from (6, 3, z).
+/// The ray spawned at (6, 3, z) on a triangle in the plane at `z`, upwards or downwards.
 fn leave(policy: &SpawnPolicy, z: f32, side: f32) -> Ray {
     let arrived_by = Ray::new(Vec3::new(6.0, 3.0, z + 4.0), -Vec3::Z).expect("a ray");
     let hit = Hit {
@@ -30,7 +30,7 @@ fn leave(policy: &SpawnPolicy, z: f32, side: f32) -> Ray {
 }
 
 #[test]
-fn every_policy_lifts_a_ray_by_what_its_source_says() {
+fn every_policy_lifts_the_origin_by_its_sources_formula() {
     for policy in SPAWN_POLICIES {
         for (z, side) in [0.003_906_25f32, -0.003_906_25, 300.0, -300.0]
             .into_iter()
@@ -44,14 +44,14 @@ fn every_policy_lifts_a_ray_by_what_its_source_says() {
                 "wachter-binder" => 256.0 * ulp_at(size),
                 // The edges are (8, 0), (6, 2) and (2, −2).
                 "nvidia" => U * size + 3.0 * U * 16.0,
-                // The corner that is farthest from (6, 3) lies 5 away along x.
+                // The corner farthest from (6, 3) is 5 away along x.
                 "error-bounded" | "combined" => 7.0 * U * (size + 5.0),
-                other => panic!("{other} has a height, too"),
+                other => panic!("no expected height for {other}"),
             };
             let ray = leave(policy, z, side);
             let height = f64::from(side) * (f64::from(ray.origin.z) - f64::from(z));
             // A coordinate is rounded by half an ulp and may then be moved by one; the height itself is
-            // rounded some ten times.
+            // rounded about ten times.
             let most = 1.5 * ulp_at(size + expected) + 10.0 * U * expected;
             let error = (height - expected).abs();
             assert!(
@@ -84,7 +84,7 @@ fn every_policy_lifts_a_ray_by_what_its_source_says() {
 }
 
 #[test]
-fn the_fixed_epsilon_starts_where_the_ray_says_and_the_others_where_the_weights_say() {
+fn the_fixed_epsilon_starts_at_o_plus_t_d_and_the_others_at_the_barycentric_point() {
     for policy in SPAWN_POLICIES {
         let arrived_by = Ray::new(Vec3::new(3.0, -5.0, 4.0), Vec3::new(0.25, 2.0, -1.0));
         let hit = Hit {

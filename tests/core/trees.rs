@@ -1,7 +1,8 @@
-//! No box of a tree loses what a kernel hits, however the kernel rounds: whatever the tree, the same bits; and
-//! whatever the triangles' packing.
+//! Tree construction and packing don't affect results: every tree and packing gives bit-identical hits,
+//! however a kernel rounds.
 //!
-//! The yardstick is a tree whose boxes all hold everything, so that every triangle is asked about every ray.
+//! The reference is a tree in which every box holds the whole mesh, so that every ray is tested against every
+//! triangle.
 
 use crate::simd::bits;
 use glam::Vec3;
@@ -15,7 +16,7 @@ use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Aabb, Ray};
 use std::sync::Arc;
 
-/// Long thin triangles across each other, at all angles and of all sizes: what f32 kernels are worst at.
+/// Intersecting needles at all angles and of all sizes: the worst case for f32 kernels.
 fn needles(random: &mut Random) -> TriangleMesh {
     let needle = |random: &mut Random| {
         let size = 10f64.powf(3.0 * random.unit() - 3.0);
@@ -28,7 +29,7 @@ fn needles(random: &mut Random) -> TriangleMesh {
     soup(&corners)
 }
 
-/// Triangles that overlap in one plane: many hits at nearly the same t.
+/// Overlapping triangles in one plane: many hits at nearly the same t.
 fn layers(random: &mut Random) -> TriangleMesh {
     let corner = |random: &mut Random| {
         let p = random.in_cube_f32();
@@ -40,15 +41,15 @@ fn layers(random: &mut Random) -> TriangleMesh {
     soup(&corners)
 }
 
-/// Rays to points on edges, some of which start on a triangle's plane, some behind their origins; a few in a
-/// row go together.
+/// Rays towards points on edges, in groups of nearly parallel ones. Some start in a triangle's plane, some
+/// have intervals with negative t.
 fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
     let corner_list = mesh.corner_list();
     let aimed = (0..500).flat_map(|k| {
         let triangle = random.index(corner_list.len()) as u32;
         let [a, b, c] = corner_list[triangle as usize];
         let on_edge = a.lerp(b, random.unit() as f32);
-        // Every other one grazes the triangle.
+        // Every second group grazes the triangle.
         let beside = on_edge + 3.0 * (c - a) + 2.0 * (b - a);
         let origin = if k % 2 == 0 {
             beside + 1e-4 * random.in_cube_f32()
@@ -59,7 +60,7 @@ fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
         let targets: Vec<Vec3> = near.collect();
         let t_min = if k % 8 < 2 { -2.0 } else { 0.0 };
         targets.into_iter().map(move |target| {
-            // One in eight ends near its target, and one in eight leaves a triangle.
+            // One group in eight ends near its target, and one excludes a triangle.
             let t_max = if k % 8 == 3 { 1.0 } else { f32::INFINITY };
             let ray = Ray::with_interval(origin, target - origin, t_min, t_max).ok()?;
             let exclude = (k % 8 == 5).then_some(triangle);
@@ -69,7 +70,7 @@ fn rays(mesh: &TriangleMesh, random: &mut Random) -> Vec<Ray> {
     aimed.flatten().collect()
 }
 
-/// What a tree gives: the nearest hits, one by one and together, and whether there are any.
+/// A tree's results: the closest hits, equal for single rays and packets, and the any-hit results.
 fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)> {
     let (mut hits, mut together) = (vec![None; rays.len()], vec![None; rays.len()]);
     let mut any = vec![false; rays.len()];
@@ -85,7 +86,7 @@ fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)
 }
 
 #[test]
-fn every_tree_and_packing_give_every_kernel_the_same_bits() {
+fn every_tree_and_packing_gives_bit_identical_hits_for_every_kernel() {
     let mut random = Random::new(11);
     let far_ring = torus(24, 12, Placement::new(1.0, 1e4));
     let meshes = [needles(&mut random), layers(&mut random), far_ring];
@@ -99,7 +100,7 @@ fn every_tree_and_packing_give_every_kernel_the_same_bits() {
             Bvh::build(count, bounds_in(mesh), &|| Ok(())),
             Bvh::build_quickly(count, bounds_in(mesh), &|| Ok(())),
         ];
-        let trees = built.map(|tree| Arc::new(tree.expect("nobody cancels")));
+        let trees = built.map(|tree| Arc::new(tree.expect("not cancelled")));
         for kernel in TRIANGLE_KERNELS {
             let of_tree = |tree: &Arc<Bvh>, packing| {
                 kernel.intersector(mesh, Arc::clone(tree), SimdLevel::current(), packing)
@@ -121,7 +122,7 @@ fn every_tree_and_packing_give_every_kernel_the_same_bits() {
 }
 
 #[test]
-fn a_corner_found_again_from_its_edge_lies_in_the_triangles_box() {
+fn a_corner_recomputed_from_an_edge_lies_in_the_triangles_box() {
     let mut random = Random::new(3);
     let mut beside = 0;
     for _ in 0..10_000 {

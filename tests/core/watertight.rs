@@ -1,6 +1,7 @@
-//! Kernels that promise it: no ray leaves a closed mesh, wherever on an edge or corner it is aimed.
+//! Watertight kernels: no ray leaves a closed mesh, not even one aimed at an edge or a corner.
 //!
-//! More than a million rays for each kernel, 0 may leave; with 0 of n the rate is below 3/n at 95 %.
+//! More than a million rays per kernel, of which none may leave; 0 of n means a rate below 3/n at 95 %
+//! confidence.
 
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
@@ -17,23 +18,23 @@ fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
         .filter(|kernel| kernel.info.promises.is_watertight)
 }
 
-/// Where the rays start and end: somewhere inside, and on the mesh's edges and corners.
+/// A closed mesh, and how to choose origins inside it. Rays are aimed at the mesh's edges and corners.
 struct Case {
     name: String,
     mesh: TriangleMesh,
     place: Placement,
-    /// A point inside, before it is placed.
+    /// A random point inside the mesh, before placement.
     inside: fn(&mut Random) -> DVec3,
     rays: usize,
 }
 
-/// The torus's tube: the middle line and half the way to the inscribed polygon around it.
+/// A point within half the tube's radius of its centre line.
 fn inside_torus(random: &mut Random) -> DVec3 {
     in_torus(random.unit(), random.unit(), 0.5 * random.unit())
 }
 
-/// How many times as long as wide.
-const DRAWN_OUT: f64 = 1e5;
+/// Stretch factor along x.
+const STRETCH: f64 = 1e5;
 
 fn inside_sphere(random: &mut Random) -> DVec3 {
     0.4 * random.in_cube()
@@ -44,10 +45,10 @@ fn cases() -> Vec<Case> {
     for scale in [1e-18, 1e-12, 1e-6, 1.0, 1e6, 1e12, 1e17] {
         for offset in [0.0, 1e3, 1.5e5, 1e6] {
             let place = Placement::new(scale, offset);
-            // The farther away, the fewer triangles f32 can tell apart.
+            // Farther from the origin, f32 can distinguish fewer triangles.
             let around = if offset > 1e3 { 12 } else { 32 };
             cases.push(Case {
-                name: format!("torus of scale {scale:e} at {offset:e} times that"),
+                name: format!("torus of scale {scale:e} offset by {offset:e} times that"),
                 mesh: torus(around, around / 2, place),
                 place,
                 inside: inside_torus,
@@ -63,19 +64,19 @@ fn cases() -> Vec<Case> {
             rays: 40_000,
         });
     }
-    // A ring drawn out to needles, which many of the rays see along their length.
-    let mut drawn_out = torus(32, 16, Placement::UNIT);
-    for position in &mut drawn_out.positions {
-        position.x *= DRAWN_OUT as f32;
+    // A torus stretched to needles; many of the rays are nearly parallel to them.
+    let mut stretched = torus(32, 16, Placement::UNIT);
+    for position in &mut stretched.positions {
+        position.x *= STRETCH as f32;
     }
     cases.push(Case {
-        name: "torus drawn out to needles".to_owned(),
-        mesh: drawn_out,
+        name: "torus stretched to needles".to_owned(),
+        mesh: stretched,
         place: Placement::UNIT,
-        inside: |random| DVec3::new(DRAWN_OUT, 1.0, 1.0) * inside_torus(random),
+        inside: |random| DVec3::new(STRETCH, 1.0, 1.0) * inside_torus(random),
         rays: 60_000,
     });
-    // A place where fixed epsilons are known to fail.
+    // A position where fixed epsilons are known to fail.
     let place = Placement {
         scale: 2.0,
         offset: DVec3::new(148_376.0, 1234.0, -223_423.0),
@@ -90,7 +91,7 @@ fn cases() -> Vec<Case> {
     cases
 }
 
-/// A ray from inside to a corner, or to a point on an edge, as exactly as f32 aims.
+/// A ray from the inside to a corner, or to a point on an edge, aimed as exactly as f32 allows.
 fn aimed_ray(case: &Case, random: &mut Random) -> Ray {
     let origin = case.place.of((case.inside)(random));
     let corners = case
@@ -104,7 +105,7 @@ fn aimed_ray(case: &Case, random: &mut Random) -> Ray {
     Ray::new(origin, dir).expect("the origin isn't on the surface")
 }
 
-/// Rays that leave the mesh, and the first of them.
+/// Number of rays that leave the mesh, and the first of them.
 fn leaks(case: &Case, intersector: &dyn Intersector, seed: u64) -> (usize, Option<Ray>) {
     let mut random = Random::new(seed);
     let rays = (0..case.rays).map(|_| aimed_ray(case, &mut random));
@@ -155,7 +156,7 @@ fn no_ray_leaves_a_closed_mesh_through_an_edge_or_a_corner() {
     }
 }
 
-/// Rays for each corridor and kernel; `HITSCOPE_LEAK_RAYS` asks for more.
+/// Rays per corridor and kernel; `HITSCOPE_LEAK_RAYS` overrides the default.
 fn rays_per_corridor() -> usize {
     let asked = std::env::var("HITSCOPE_LEAK_RAYS").ok();
     asked.map_or(1_500, |n| n.parse().expect("a number of rays"))
@@ -200,10 +201,10 @@ fn no_ray_leaves_a_long_box_prism_or_corridor() {
 
 /// Rays that left the mesh before edges and t were decided exactly.
 #[test]
-fn rays_that_once_left_a_box_meet_the_wall_that_they_cross() {
+fn rays_that_once_left_a_box_hit_its_wall() {
     let cube = Corridor::new(Footprint::Square, 1.0, false).mesh;
     let mut long = Corridor::new(Footprint::Square, 30.0, false).mesh;
-    // Along x, as the ray was found.
+    // Along x, as when the ray was found.
     long.positions.iter_mut().for_each(|p| *p = p.zxy());
     for (mesh, origin, dir, t) in [
         (
@@ -224,7 +225,7 @@ fn rays_that_once_left_a_box_meet_the_wall_that_they_cross() {
             let ray = Ray::new(origin, dir).expect("a ray");
             let hit = scene.intersector(kernel).closest_hit(&ray);
             let found = f64::from(hit.unwrap_or_else(|| panic!("{}", kernel.info.name)).t);
-            // What t may err by: 513u.
+            // Error bound of t: 513u.
             let most = 513.0 * t / f64::from(1 << 24);
             assert!((found - t).abs() <= most, "{} {found}", kernel.info.name);
         }
@@ -232,8 +233,8 @@ fn rays_that_once_left_a_box_meet_the_wall_that_they_cross() {
 }
 
 #[test]
-fn no_ray_between_points_of_a_lattice_leaves_a_cube_on_it() {
-    // All numbers are exact: the ray goes through edges and corners, not only near them.
+fn no_ray_between_lattice_points_leaves_a_cube_on_the_lattice() {
+    // All numbers are exact: the rays pass exactly through edges and corners, not only near them.
     const CELLS: u32 = 8;
     let mut random = Random::new(11);
     for kernel in watertight_kernels() {
@@ -255,9 +256,9 @@ fn no_ray_between_points_of_a_lattice_leaves_a_cube_on_it() {
                 let t = hit
                     .unwrap_or_else(|| panic!("{} {ray:?}", kernel.info.name))
                     .t;
-                // t is 1, all coordinates are exact. Roundings: two in each edge function, which
-                // count once as they are normalised; two in det; a product, two sums and 1/d_z in
-                // the depth, and its product; the quotient: 8 half-ulps are 4ε.
+                // t is 1 and all coordinates are exact. Roundings: two in each edge function, which count
+                // once because they are normalised; two in det; a product, two sums and 1/d_z in the depth,
+                // and its product; the quotient: 8 half-ulps are 4ε.
                 assert!(
                     (t - 1.0).abs() <= 4.0 * f32::EPSILON,
                     "{} {t} {ray:?}",
@@ -269,7 +270,7 @@ fn no_ray_between_points_of_a_lattice_leaves_a_cube_on_it() {
 }
 
 #[test]
-fn an_axis_aligned_ray_finds_the_border_edges_and_corners_of_a_flat_grid() {
+fn an_axis_aligned_ray_hits_the_border_edges_and_corners_of_a_flat_grid() {
     const CELLS: u32 = 8;
     for kernel in watertight_kernels() {
         for place in [
@@ -283,7 +284,7 @@ fn an_axis_aligned_ray_finds_the_border_edges_and_corners_of_a_flat_grid() {
                 .map(|(x, y)| place.of(DVec3::new(f64::from(x) / 2.0, f64::from(y) / 2.0, 0.0)))
                 .collect();
             for axis in 0..3 {
-                // The grid turned, so that the ray runs along each axis in turn.
+                // The grid rotated, so that the ray is parallel to each axis in turn.
                 let turned = |p: Vec3| [p.yzx(), p.zxy(), p][axis];
                 let mut mesh = mesh.clone();
                 mesh.positions.iter_mut().for_each(|p| *p = turned(*p));
@@ -302,8 +303,8 @@ fn an_axis_aligned_ray_finds_the_border_edges_and_corners_of_a_flat_grid() {
 }
 
 #[test]
-fn a_direction_whose_inverse_overflows_still_reaches_the_border_of_a_flat_grid() {
-    // 1e-42 is so small that its inverse is infinite; the ray arrives at the border exactly.
+fn a_direction_whose_reciprocal_overflows_still_hits_the_border_of_a_flat_grid() {
+    // 1e-42 is so small that its reciprocal is infinite; the ray hits the border exactly.
     let tiny = 1e-42f32;
     for kernel in watertight_kernels() {
         let intersector = scene(flat_grid(4, Placement::UNIT)).intersector(kernel);
@@ -317,8 +318,8 @@ fn a_direction_whose_inverse_overflows_still_reaches_the_border_of_a_flat_grid()
     }
 }
 
-/// Up and down along z, the other two components zeros of either sign. Powers of two, so that the
-/// origin is exact.
+/// Up and down along z; the other two components are zeros of either sign. The length is a power of two, so
+/// that the origin is exact.
 fn directions() -> impl Iterator<Item = Vec3> {
     [1.0f32, -1.0].into_iter().flat_map(|z| {
         let zeros = [(0.0, 0.0), (0.0, -0.0), (-0.0, 0.0), (-0.0, -0.0)];

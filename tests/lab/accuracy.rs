@@ -1,6 +1,6 @@
-//! The table in `docs/accuracy.md` is what the laboratory measures.
+//! Test that the table in `docs/accuracy.md` matches a new measurement.
 //!
-//! To write it anew: `HITSCOPE_ACCURACY=write cargo test -p hitscope-lab accuracy`. Look at the difference.
+//! To update it: `HITSCOPE_ACCURACY=write cargo test -p hitscope-lab accuracy`. Look at the difference.
 
 use hitscope_core::progress::Progress;
 use hitscope_lab::measure::{self, Sizes};
@@ -11,7 +11,7 @@ const START: &str = "<!-- accuracy: written by a test -->\n";
 const END: &str = "<!-- end of accuracy -->";
 
 #[test]
-fn the_table_of_accuracy_is_up_to_date() {
+fn the_accuracy_table_is_up_to_date() {
     let sizes = Sizes {
         speed_rays: 0,
         ..Sizes::FULL
@@ -23,7 +23,7 @@ fn the_table_of_accuracy_is_up_to_date() {
         &Progress::default(),
         &|_| (),
     );
-    let table = accuracy_table(&all.expect("nobody cancels"));
+    let table = accuracy_table(&all.expect("never cancelled"));
     let text = std::fs::read_to_string(DOCUMENT).expect("the document exists");
     let (before, rest) = text.split_once(START).expect("the table's start");
     let (shown, after) = rest.split_once(END).expect("the table's end");
@@ -31,6 +31,6 @@ fn the_table_of_accuracy_is_up_to_date() {
         let text = format!("{before}{START}{table}{END}{after}");
         std::fs::write(DOCUMENT, text).expect("the document can be written");
     } else {
-        assert_eq!(shown, table, "HITSCOPE_ACCURACY=write writes it anew");
+        assert_eq!(shown, table, "HITSCOPE_ACCURACY=write updates it");
     }
 }

@@ -1,4 +1,4 @@
-//! The commands' contract: what goes in, what comes out.
+//! Tests of the commands' inputs and outputs.
 
 use crate::folder::{CUBE, Folder};
 use hitscope_lab::commands::{BenchArgs, InfoArgs, InspectArgs, Output, RenderArgs, TraceArgs};
@@ -28,12 +28,12 @@ fn trace_answers_each_ray_in_order() {
     let miss = serde_json::json!({ "hit": false, "line": 4, "ray_rounding": 0.0 });
     assert_eq!(answers[1], miss);
     assert_eq!(answers[2]["error"], "the direction is zero in f32");
-    assert_eq!(answers[3]["error"], "a ray has 6 or 8 numbers, here are 3");
+    assert_eq!(answers[3]["error"], "expected 6 or 8 numbers, found 3");
     assert_eq!(answers[4]["error"], "“x” is not a number");
 }
 
 #[test]
-fn trace_obeys_the_interval_and_its_switches() {
+fn trace_obeys_the_interval_and_its_options() {
     let folder = Folder::new();
     let rays = "0.25 0.5 3 0 0 -1 0 2\n0.25 0.5 3 0 0 -1 2 9\n0.25 0.5 3 0 0 -1 3.5 9\n";
     let closest: Vec<Value> = folder
@@ -57,7 +57,7 @@ fn trace_obeys_the_interval_and_its_switches() {
 }
 
 #[test]
-fn trace_all_gives_every_crossing_once() {
+fn trace_all_lists_every_crossing_once() {
     let rays = "0.25 0.75 3 0 0 -1\n0.5 0.5 3 0 0 -1\n9 9 9 1 0 0\n";
     let answers = Folder::new().trace("--all", rays);
     let ts = |answer: &Value| -> Vec<f64> {
@@ -65,7 +65,7 @@ fn trace_all_gives_every_crossing_once() {
         hits.iter().filter_map(|hit| hit["t"].as_f64()).collect()
     };
     assert_eq!(ts(&answers[0]), [2.0, 3.0]);
-    // Along both diagonals: two triangles at the same t are one crossing.
+    // Through both diagonals: two triangles at the same t are one crossing.
     assert_eq!(ts(&answers[1]), [2.0, 3.0]);
     assert_eq!(
         answers[1]["hits"][0]["also"].as_array().map(Vec::len),
@@ -75,7 +75,7 @@ fn trace_all_gives_every_crossing_once() {
 }
 
 #[test]
-fn trace_gives_the_same_on_any_number_of_threads() {
+fn trace_gives_the_same_answers_on_any_number_of_threads() {
     let folder = Folder::new();
     let rays: String = (0..500)
         .map(|i| format!("{} 0.3 3 0.001 0.002 -1\n", f64::from(i) / 400.0))
@@ -86,7 +86,7 @@ fn trace_gives_the_same_on_any_number_of_threads() {
 }
 
 #[test]
-fn inspect_prints_what_the_contract_names() {
+fn inspect_prints_the_documented_values() {
     let folder = Folder::new();
     let line = "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0 --json";
     let found = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
@@ -102,7 +102,7 @@ fn inspect_prints_what_the_contract_names() {
         found["hit"]["geometric_normal"],
         serde_json::json!([0.0, 0.0, 1.0])
     );
-    // The eye's 0.4 is no f32 number; the direction is along −z.
+    // The eye's 0.4 isn't an f32 number; the direction is along −z.
     assert_eq!(found["ray"]["ray_rounding"], f64::from(0.4f32) - 0.4);
     assert_eq!(found["exact"]["t_fraction"], "4");
     let kernels = found["kernels"].as_array().expect("a list");
@@ -123,9 +123,9 @@ fn inspect_prints_what_the_contract_names() {
 }
 
 #[test]
-fn inspect_tells_how_far_the_ray_is_from_the_cameras() {
+fn inspect_reports_the_distance_from_the_cameras_ray() {
     let folder = Folder::new();
-    // 0.1 is no f32, and at 10⁹ an ulp is 64.
+    // 0.1 isn't an f32 number, and at 10⁹ an ulp is 64.
     for (eye, least, most) in [("0.1,0.5,5", 1e-9, 1e-6), ("1000000010,0.5,5", 9.0, 64.0)] {
         let line =
             format!("@cube.obj --pixel 0,0 --size 1x1 --eye {eye} --target 0.5,0.5,0.5 --json");
@@ -139,7 +139,7 @@ fn inspect_tells_how_far_the_ray_is_from_the_cameras() {
 }
 
 #[test]
-fn inspect_counts_triangles_and_faces_from_0_and_says_so() {
+fn inspect_counts_triangles_and_faces_from_0_and_states_it() {
     let folder = Folder::new();
     let line = "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0";
     let text = folder.text(|f, out| f.args::<InspectArgs>(line).run(out));
@@ -173,7 +173,7 @@ fn inspect_refuses_a_pixel_outside_and_an_impossible_camera() {
 }
 
 #[test]
-fn info_counts_what_is_there() {
+fn info_counts_the_elements_of_a_file() {
     let folder = Folder::new();
     let info = folder.json(|f, out| f.args::<InfoArgs>("@cube.obj --json").run(out));
     let expected = [
@@ -193,12 +193,12 @@ fn info_counts_what_is_there() {
     let info = folder.json(|f, out| f.args::<InfoArgs>("@open.obj --json").run(out));
     assert_eq!(info["health"]["open_edges"], 3);
     assert_eq!(info["dropped"]["zero_area"], 1);
-    // A triangle dropped, and a material that no library defines.
+    // A dropped triangle, and a material that no library defines.
     assert_eq!(info["warnings"].as_array().map(Vec::len), Some(2));
 }
 
 #[test]
-fn render_writes_a_png_of_the_size_asked_for() {
+fn render_writes_a_png_of_the_given_size() {
     let folder = Folder::new();
     let args: RenderArgs =
         folder.args("@cube.obj -o @out.png --size 40x30 --samples 4 --threads 2");
@@ -214,7 +214,7 @@ fn render_writes_a_png_of_the_size_asked_for() {
         image.get_pixel(0, 0),
         "the cube is in the middle"
     );
-    // The very pixels, in their order.
+    // The same pixels in the same order.
     let pixels: Vec<[u8; 4]> = image.pixels().map(|pixel| pixel.0).collect();
     assert_eq!(pixels, rendered.film.pixels());
     let bad = Output::create(Path::new("/no/such/folder/x.png"));
@@ -226,7 +226,7 @@ fn render_writes_a_png_of_the_size_asked_for() {
 }
 
 #[test]
-fn a_mesh_far_away_is_traced_in_the_files_coordinates() {
+fn rays_and_hits_of_a_distant_mesh_are_in_the_files_coordinates() {
     let folder = Folder::new();
     let far: String = CUBE
         .lines()
@@ -252,7 +252,7 @@ fn a_mesh_far_away_is_traced_in_the_files_coordinates() {
 }
 
 #[test]
-fn bench_prints_a_row_for_each_workload_and_kernel() {
+fn bench_prints_a_row_per_workload_and_kernel() {
     let folder = Folder::new();
     let line = "@cube.obj --size 24x16 --rounds 1 --threads 2 --kernel fast --kernel exact --json";
     let report = folder.json(|folder, out| folder.args::<BenchArgs>(line).run(out));

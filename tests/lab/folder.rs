@@ -1,4 +1,4 @@
-//! A folder with a mesh, and commands that run in it.
+//! A temporary folder with a mesh, and helpers that run commands in it.
 
 use clap::{Args, Parser};
 use hitscope_lab::commands::{CommandError, TraceArgs};
@@ -6,7 +6,7 @@ use serde_json::Value;
 use std::path::PathBuf;
 use tempfile::TempDir;
 
-/// A unit cube at the origin as six quads, the one in front named, and a far corner of it shared.
+/// A unit cube at the origin as six quads; the front one has a group and a material.
 pub const CUBE: &str = "\
 v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nv 0 0 1\nv 1 0 1\nv 1 1 1\nv 0 1 1
 f 4 3 2 1\nf 1 2 6 5\nf 2 3 7 6\nf 3 4 8 7\nf 4 1 5 8\ng front\nusemtl red\nf 5 6 7 8\n";
@@ -17,7 +17,7 @@ struct Cli<A: Args> {
     args: A,
 }
 
-/// A folder with `cube.obj`, and whatever else a test puts there.
+/// A temporary folder with `cube.obj` and files of the test.
 pub struct Folder(TempDir);
 
 impl Folder {
@@ -54,7 +54,7 @@ impl Folder {
             .collect()
     }
 
-    /// What a command prints.
+    /// The output of a command.
     pub fn text(
         &self,
         run: impl FnOnce(&Self, &mut Vec<u8>) -> Result<(), CommandError>,

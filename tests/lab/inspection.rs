@@ -1,4 +1,4 @@
-//! Inspection against cases whose answer is known.
+//! Tests of inspections whose answers are known.
 
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::{Camera, Projection};
@@ -9,7 +9,7 @@ use hitscope_core::scene::Shading;
 use hitscope_core::{Scene, TriangleMesh};
 use hitscope_lab::inspection::Inspection;
 
-/// Two triangles of a square in the plane z = 0, which share the diagonal from (0, 0) to (2, 2).
+/// A square in the plane z = 0, of two triangles that share the diagonal from (0, 0) to (2, 2).
 fn square() -> Scene {
     let mesh = TriangleMesh {
         positions: vec![
@@ -26,7 +26,7 @@ fn square() -> Scene {
         face_count: 1,
         ..TriangleMesh::default()
     };
-    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+    Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
 
 fn inspect(at: DVec3) -> Inspection {
@@ -49,7 +49,7 @@ fn inspect(at: DVec3) -> Inspection {
 }
 
 #[test]
-fn the_weights_are_those_of_the_corners() {
+fn barycentric_coordinates_are_in_the_order_of_the_corners() {
     let found = inspect(DVec3::new(1.5, 0.5, 0.0));
     let hit = found.hit.expect("inside");
     assert_eq!((hit.triangle, hit.t), (0, 4.0));
@@ -61,7 +61,7 @@ fn the_weights_are_those_of_the_corners() {
 }
 
 #[test]
-fn a_hit_on_a_shared_edge_belongs_to_the_lower_triangle_and_names_the_other() {
+fn a_hit_on_a_shared_edge_reports_the_lower_triangle_and_lists_the_other() {
     let found = inspect(DVec3::new(1.0, 1.0, 0.0));
     let exact = found.exact.expect("on the diagonal");
     assert_eq!((exact.triangle, exact.also), (0, vec![1]));

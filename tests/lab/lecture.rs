@@ -1,4 +1,4 @@
-//! The lecture's slips: what is printed goes wrong, and the kernels don't.
+//! Tests that show errors of the lecture's printed programs, which the kernels don't have.
 
 use glam::Vec3;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_kernel};
@@ -16,14 +16,14 @@ const CORNERS: [Vec3; 3] = [
     Vec3::new(1.0, 5.0, 0.0),
 ];
 
-/// Over the point with weights 1/4, 1/2 of B and 1/4 of C.
+/// A ray to the point with barycentric coordinates 1/4, 1/2, 1/4.
 fn over_the_middle() -> Ray {
     Ray::new(Vec3::new(3.0, 2.0, 4.0), Vec3::NEG_Z).expect("a ray")
 }
 
 #[test]
-fn the_programs_normal_is_the_slides_turned_round_and_ours_follows_the_right_hand() {
-    // The slide has (v1 − v0) × (v2 − v0), by the right hand, the program c × b with b = B − A, c = C − A.
+fn the_programs_normal_is_opposite_to_the_slides_and_ours_follows_the_right_hand_rule() {
+    // The slide has (v1 − v0) × (v2 − v0), by the right-hand rule; the program has c × b with b = B − A, c = C − A.
     assert_eq!(lecture::program_normal(CORNERS), Vec3::NEG_Z);
     let mesh: TriangleMesh = soup(&[CORNERS]);
     assert_eq!(mesh.geometric_normal(0), Vec3::Z);
@@ -32,7 +32,7 @@ fn the_programs_normal_is_the_slides_turned_round_and_ours_follows_the_right_han
 #[test]
 fn the_programs_beta_belongs_to_c_and_ours_to_b() {
     let ray = over_the_middle();
-    let printed = lecture::plane_projection(&ray, CORNERS).expect("a hit all the same");
+    let printed = lecture::plane_projection(&ray, CORNERS).expect("a hit nevertheless");
     assert_eq!((printed.u, printed.v), (0.25, 0.5));
     for kernel in TRIANGLE_KERNELS {
         let hit = kernel.intersect(&ray, CORNERS).expect("a hit");
@@ -41,14 +41,14 @@ fn the_programs_beta_belongs_to_c_and_ours_to_b() {
 }
 
 #[test]
-fn the_slides_tolerance_lets_a_hit_behind_through_and_the_programs_drops_long_directions() {
+fn the_slides_tolerance_accepts_hits_behind_the_origin_and_the_programs_rejects_long_directions() {
     assert!(
         lecture::passes_slide(-5.0),
-        "|t| < ε doesn't reject what lies behind"
+        "|t| < ε doesn't reject hits behind the origin"
     );
     assert!(!lecture::passes_slide(5e-7));
     let origin = over_the_middle().origin;
-    // As the user would hand it over, without our rescaling.
+    // As given by a user, without rescaling by `Ray::new`.
     let long = Ray {
         dir: Vec3::NEG_Z * 1e10,
         ..over_the_middle()
@@ -69,15 +69,15 @@ fn the_slides_tolerance_lets_a_hit_behind_through_and_the_programs_drops_long_di
 }
 
 #[test]
-fn the_edge_planes_cull_one_side_and_give_a_nan_on_an_edges_line_and_ours_do_neither() {
+fn the_lectures_edge_planes_cull_one_side_and_yield_nan_on_an_edges_line_and_ours_do_neither() {
     let up = Ray::new(Vec3::new(3.0, 2.0, -4.0), Vec3::Z).expect("a ray");
     let down = over_the_middle();
     let is_hit = |ray: &Ray| lecture::edge_planes(ray, CORNERS).is_some();
     assert_ne!(is_hit(&up), is_hit(&down), "one of the sides is culled");
-    // From the line of AB, in the triangle's plane: t and the edge's normal are NaN, and a NaN fails
-    // neither t < ε nor P·n + s < 0: the program reports a hit, with numbers that are none.
+    // From the line of AB, in the triangle's plane: t and the edge's normal are NaN, for which both t < ε and
+    // P·n + s < 0 are false. The program reports a hit of NaN values.
     let on_line = Ray::new(Vec3::new(9.0, 1.0, 0.0), Vec3::new(0.5, 1.0, 0.0)).expect("a ray");
-    let printed = lecture::edge_planes(&on_line, CORNERS).expect("a hit that isn't");
+    let printed = lecture::edge_planes(&on_line, CORNERS).expect("a false hit");
     assert!(printed.t.is_nan() && printed.u.is_nan());
     for kernel in TRIANGLE_KERNELS {
         for ray in [&up, &down] {
@@ -97,21 +97,21 @@ fn the_edge_planes_cull_one_side_and_give_a_nan_on_an_edges_line_and_ours_do_nei
 }
 
 #[test]
-fn the_box_test_by_single_pairs_never_misses_and_ours_does_what_it_should() {
+fn the_lectures_box_test_of_single_pairs_never_misses_and_ours_does() {
     let bounds = Aabb::around([Vec3::ZERO, Vec3::ONE]);
-    let beside = Ray::new(Vec3::new(-1.0, 3.0, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
+    let passing = Ray::new(Vec3::new(-1.0, 3.0, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
     assert!(
-        lecture::meets_box(&beside, &bounds),
-        "each pair by itself has near ≤ far"
+        lecture::meets_box(&passing, &bounds),
+        "each pair of planes alone has near ≤ far"
     );
     let triangle = [Vec3::ZERO, Vec3::ONE, Vec3::new(0.0, 1.0, 1.0)];
     let scene = scene(soup(&[triangle]));
     let kernel = triangle_kernel("watertight").expect("in the table");
-    assert!(scene.intersector(kernel).candidates(&beside).is_empty());
+    assert!(scene.intersector(kernel).candidates(&passing).is_empty());
 }
 
 #[test]
-fn the_parametric_form_without_a_is_right_only_at_the_origin() {
+fn the_parametric_form_without_a_is_correct_only_with_a_at_the_origin() {
     let ray = over_the_middle();
     assert_eq!(lecture::parametric(&ray, CORNERS), None);
     let moved = Ray::new(ray.origin - CORNERS[0], ray.dir).expect("a ray");
@@ -124,7 +124,7 @@ fn the_parametric_form_without_a_is_right_only_at_the_origin() {
 }
 
 #[test]
-fn the_plane_from_the_worlds_origin_cancels_far_away_and_ours_from_the_corner_does_not() {
+fn a_plane_relative_to_the_worlds_origin_cancels_far_away_and_ours_relative_to_a_corner_does_not() {
     let case = triangle_cases()
         .into_iter()
         .find(|case| case.name == "offset-1e5")
@@ -142,7 +142,7 @@ fn the_plane_from_the_worlds_origin_cancels_far_away_and_ours_from_the_corner_do
 }
 
 #[test]
-fn interpolation_by_any_kernel_gives_the_point_back() {
+fn interpolation_with_any_kernels_coordinates_returns_the_hit_point() {
     let mut random = Random::new(3);
     let mut checked = 0;
     for _ in 0..1_000 {
@@ -151,7 +151,7 @@ fn interpolation_by_any_kernel_gives_the_point_back() {
         let target = 0.5 * a + 0.125 * b + 0.375 * c;
         let origin = 3.0 * random.in_cube_f32();
         let ray = Ray::new(origin, target - origin).expect("a ray");
-        // Slivers and grazing rays have ill-conditioned weights: their case is measured, not tested.
+        // Barycentric coordinates of slivers and grazing rays are ill-conditioned: measured by the lab, not tested.
         let normal = (b - a).cross(c - a);
         let cosine = normal.normalize().dot(ray.dir.normalize()).abs();
         if normal.length() < 0.25 || cosine < 0.1 {

@@ -1,4 +1,4 @@
-//! How the commands load a mesh, and what `info` tells of it.
+//! Tests of loading meshes, and of the output of `info`.
 
 use crate::folder::{CUBE, Folder};
 use hitscope_lab::commands::{InfoArgs, InspectArgs, RenderArgs};
@@ -9,7 +9,7 @@ fn info(folder: &Folder, line: &str) -> serde_json::Value {
 }
 
 #[test]
-fn a_bad_face_refuses_the_file_or_is_dropped_as_asked() {
+fn a_file_with_an_invalid_face_is_refused_or_the_face_is_dropped() {
     let folder = Folder::new();
     folder.write("bad.obj", &format!("{CUBE}f 1 2 99\n"));
     let strict = folder.args::<InfoArgs>("@bad.obj").run(&mut Vec::new());
@@ -25,7 +25,7 @@ fn a_bad_face_refuses_the_file_or_is_dropped_as_asked() {
 }
 
 #[test]
-fn a_file_that_takes_too_much_memory_is_refused() {
+fn a_file_that_needs_too_much_memory_is_refused() {
     let folder = Folder::new();
     folder.write("large.obj", &CUBE.repeat(20_000));
     let result = folder
@@ -37,7 +37,7 @@ fn a_file_that_takes_too_much_memory_is_refused() {
 }
 
 #[test]
-fn info_tells_flaws_and_what_ways_of_writing_take() {
+fn info_reports_flaws_and_the_memory_of_other_representations() {
     let folder = Folder::new();
     let cube = info(&folder, "@cube.obj --json");
     assert_eq!(cube["bytes_as"]["triangle list"], 12 * 36);
@@ -58,9 +58,9 @@ fn info_tells_flaws_and_what_ways_of_writing_take() {
     assert_eq!(twice["health"]["non_manifold_edges"], 3);
 }
 
-/// Positions print as the file has them, and a hit is where it should be to a micrometre.
+/// Positions print as in the file, and a hit's position is correct to a micrometre.
 #[test]
-fn coordinates_of_a_surveyor_are_told_as_they_are_in_the_file() {
+fn survey_coordinates_are_printed_as_in_the_file() {
     let folder = Folder::new();
     folder.write(
         "utm.obj",

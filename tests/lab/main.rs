@@ -1,27 +1,27 @@
 //! Integration tests of hitscope-lab.
 
-// What the commands print, and what they refuse.
+// Outputs and errors of the commands.
 mod commands;
-// A folder with a mesh, for tests of commands.
+// A temporary folder with a mesh, for tests of commands.
 mod folder;
-// Lines, numbers and rounding of `trace`.
+// `trace`: lines, numbers and rounding.
 mod trace;
-// How the commands load a mesh, and what `info` tells of it.
+// Loading meshes, and the output of `info`.
 mod loading;
 // Inspection of single rays against the exact answer.
 mod inspection;
 
-// The exact kernel against the oracle; the accurate ones where f64 suffices.
+// The exact, accurate and watertight kernels against the oracle.
 mod exact;
 
-// The table in docs/accuracy.md is what the laboratory measures.
+// The table in docs/accuracy.md matches a new measurement.
 mod accuracy;
 
-// The lecture's slips.
+// Errors in the lecture's programs.
 mod lecture;
 
-// From which distance on a scene requires more than `fast`.
+// The distance above which a scene requires more than `fast`.
 mod requirement;
 
-// Closed meshes, boxes, leaving rays.
+// Watertightness: closed meshes, boxes and spawned rays.
 mod watertight;

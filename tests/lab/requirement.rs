@@ -1,4 +1,4 @@
-//! The threshold of distance from which a scene is said to require more than `fast`.
+//! Test of the distance above which a scene requires more than `fast`.
 
 use glam::{UVec2, Vec3};
 use hitscope_core::Scene;
@@ -7,7 +7,7 @@ use hitscope_core::mesh::Health;
 use hitscope_core::mesh::shapes::{scene, soup};
 use hitscope_lab::requirement::required_tier;
 
-/// Two triangles of a size, 1 apart, and the distance from which the starting view shows them, in lengths of their
+/// A scene of two triangles of a given size, 1 apart, and the distance of its starting view, in lengths of their
 /// longest edge.
 fn dust(size: f32) -> (Scene, f64) {
     let dust = |p: Vec3| [p, p + size * Vec3::X, p + size * Vec3::Y];
@@ -17,10 +17,10 @@ fn dust(size: f32) -> (Scene, f64) {
 }
 
 #[test]
-fn a_view_ten_thousand_times_as_far_as_triangles_are_large_is_a_reason() {
+fn a_starting_view_at_ten_thousand_triangle_sizes_is_a_reason() {
     let mut size = 1e-4f32;
     for (times, expected) in [(9_500.0, false), (10_500.0, true)] {
-        // The distance hardly depends on the size: one step is enough.
+        // The distance hardly depends on the size, so one step is enough.
         size *= (dust(size).1 / times) as f32;
         let (scene, found) = dust(size);
         assert!((found / times - 1.0).abs() < 0.01, "{found}");

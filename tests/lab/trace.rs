@@ -103,7 +103,8 @@ fn long_lines_and_long_words_are_refused_in_few_words() {
 #[test]
 fn numbers_read_back_to_the_same_doubles() {
     // The distance is an f32: 1.0000029 for who reads f32, another number for who reads doubles.
-    let t = 1.000_002_861_022_949_218_75;
+    // The f32 next to it, in full: 1.00000286102294921875.
+    let t = f64::from(1.000_002_9_f32);
     assert_eq!(f64::from(t as f32), t);
     let found = text(PLANE, "", line([0.25, 0.5, t, 0.0, 0.0, -1.0]));
     assert!(found.contains("\"t\":1.0000028610229492,"), "{found}");

@@ -1,4 +1,4 @@
-//! Closed meshes through the tree, a million rays for each place and aim: none gets out.
+//! Tests that no ray leaves a closed mesh: a million rays through the tree per position and aim.
 
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::spawn::default_spawn_policy;
@@ -8,7 +8,7 @@ use hitscope_lab::measure::spawning::spawn_cases;
 use rayon::prelude::*;
 
 #[test]
-fn no_ray_leaves_a_closed_mesh_by_a_kernel_that_promises_it() {
+fn no_ray_leaves_a_closed_mesh_with_a_watertight_kernel() {
     let watertight = TRIANGLE_KERNELS
         .iter()
         .filter(|kernel| kernel.info.promises.is_watertight);
@@ -26,7 +26,7 @@ fn no_ray_leaves_a_closed_mesh_by_a_kernel_that_promises_it() {
 }
 
 #[test]
-fn no_box_loses_what_the_ray_hits() {
+fn no_box_test_loses_a_hit() {
     BOX_CASES.par_iter().for_each(|case| {
         let cell = case.measure(10_000, 5);
         assert!(cell.n >= 10_000, "{cell:?}");
@@ -35,7 +35,7 @@ fn no_box_loses_what_the_ray_hits() {
 }
 
 #[test]
-fn no_ray_that_leaves_a_surface_by_the_default_policy_meets_it_again() {
+fn no_ray_spawned_by_the_default_policy_hits_its_own_surface() {
     spawn_cases().par_iter().for_each(|case| {
         for kernel in TRIANGLE_KERNELS
             .iter()

@@ -40,7 +40,7 @@ fn a_file_opens_and_stays_if_the_next_one_is_bad() {
     for (path, message) in [
         (
             bad,
-            "bad.obj:4: no face is left: 1 have an index that is out of range",
+            "bad.obj:4: no faces left: 1 have an index that is out of range",
         ),
         (folder.path().join("none.obj"), "none.obj: "),
         (folder.path().to_owned(), "this is a directory"),

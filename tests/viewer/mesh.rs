@@ -58,7 +58,8 @@ fn flaws_are_marked_and_listed_and_a_bad_face_gives_a_warning() {
     let point = window.state().flaw().expect("a flaw").point.truncate();
     assert_eq!((point - 0.5).abs().max_element(), 0.5);
     window.get_by_label("1 of 4");
-    window.get_by_label_contains("line ");
+    let has_line = |line: usize| window.query_by_label(&format!("line {line}")).is_some();
+    assert!(has_line(5) || has_line(6));
     for (button, index) in [("Next", 1), ("Previous", 0), ("Previous", 3)] {
         window.get_by_label(button).click();
         window.run_steps(3);

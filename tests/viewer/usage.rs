@@ -14,7 +14,10 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         (&format!("{render} --samples -1"), "-1 is not in 1..=4096"),
         (&format!("{render} --threads 0"), "0 is not in 1..=1024"),
         (&format!("{render} --size 1x16385"), "from 1 to 16384"),
-        (&format!("{render} --eye 1,2"), "three numbers with commas"),
+        (
+            &format!("{render} --eye 1,2"),
+            "three numbers separated by commas",
+        ),
         (
             &format!("{render} --eye 1,1,1 --target 1,1,1"),
             "eye and target are the same",
@@ -38,13 +41,13 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             "bench none.obj --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
         ),
-        ("lab --case nonsense", "no case begins with “nonsense”"),
+        ("lab --case nonsense", "no case name begins with “nonsense”"),
         (
             "lab --scene none.obj --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
         ),
         ("trace - --rays -", "can't both come from standard input"),
-        ("info - --lenient", "which standard input doesn't allow"),
+        ("info - --lenient", "possible from standard input"),
         ("-", "the window can't show standard input"),
     ];
     for (line, message) in cases {

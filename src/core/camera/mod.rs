@@ -325,7 +325,7 @@ mod tests {
     const F64_PX: f64 = 60.0 * 320.0 * f64::EPSILON;
 
     #[test]
-    fn a_point_projects_to_the_pixel_whose_ray_goes_through_it() {
+    fn a_point_projects_to_the_pixel_whose_ray_passes_through_it() {
         for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
             let camera = camera(projection);
             for at in [
@@ -343,7 +343,7 @@ mod tests {
     }
 
     #[test]
-    fn the_centre_of_the_picture_shows_the_target_and_up_is_above_it() {
+    fn the_target_is_at_the_pictures_centre_and_up_points_upwards() {
         for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
             let camera = camera(projection);
             let middle = camera
@@ -358,14 +358,14 @@ mod tests {
     }
 
     #[test]
-    fn a_sample_at_a_half_is_the_pixels_centre() {
+    fn a_sample_at_one_half_is_the_pixels_centre() {
         let camera = camera(PERSPECTIVE);
         let centre = camera.ray(UVec2::new(10, 20), Vec2::splat(0.5));
         assert_eq!(centre, camera.ray_through(DVec2::new(10.5, 20.5)));
     }
 
     #[test]
-    fn a_point_of_a_plane_that_faces_the_camera_lies_under_its_pixel() {
+    fn a_pixels_point_on_a_plane_facing_the_camera_projects_to_the_pixel() {
         let on_plane = DVec3::new(0.5, 1.0, -2.0);
         for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
             let camera = camera(projection);
@@ -379,7 +379,7 @@ mod tests {
     }
 
     #[test]
-    fn a_moved_camera_sees_a_point_that_moved_with_it_at_the_same_pixel() {
+    fn moving_the_camera_and_a_point_together_keeps_the_pixel() {
         for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
             let camera = camera(projection);
             // f32 holds the eye and its sum with this.
@@ -391,7 +391,7 @@ mod tests {
     }
 
     #[test]
-    fn clip_space_agrees_with_pixels_and_its_depth_falls_from_one() {
+    fn clip_space_agrees_with_pixels_and_depth_decreases_from_one() {
         for projection in [PERSPECTIVE, ORTHOGRAPHIC] {
             let camera = camera(projection);
             let clip_from_eye = camera.clip_from_eye(0.5, 100.0);
@@ -414,7 +414,7 @@ mod tests {
     }
 
     #[test]
-    fn up_vectors_and_distances_of_any_length_have_a_direction() {
+    fn up_vectors_and_distances_of_any_length_are_normalised() {
         let camera = |eye: DVec3, up: DVec3| {
             Camera::look_at(eye, DVec3::ZERO, up, PERSPECTIVE, UVec2::ONE).expect("good")
         };
@@ -428,7 +428,7 @@ mod tests {
     }
 
     #[test]
-    fn impossible_cameras_are_refused_with_the_reason() {
+    fn invalid_cameras_are_refused_with_the_reason() {
         let make = |eye: DVec3, up: DVec3, projection, size| {
             Camera::look_at(eye, DVec3::ZERO, up, projection, size).expect_err("refused")
         };

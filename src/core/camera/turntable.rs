@@ -261,7 +261,7 @@ mod tests {
     }
 
     #[test]
-    fn framing_shows_the_whole_scene_and_fills_the_picture() {
+    fn framing_fits_the_whole_scene_to_the_picture() {
         for scene in scenes() {
             for orthographic in [false, true] {
                 let mut turntable = Turntable::framing(scene, SIZE);
@@ -280,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn zoom_keeps_the_point_under_the_cursor_there() {
+    fn zooming_keeps_the_point_under_the_cursor() {
         for scene in scenes() {
             for orthographic in [false, true] {
                 let mut turntable = Turntable::framing(scene, SIZE);
@@ -298,7 +298,7 @@ mod tests {
     }
 
     #[test]
-    fn centring_on_a_point_changes_no_size_in_the_picture() {
+    fn centring_on_a_point_keeps_sizes_in_the_picture() {
         for scene in scenes() {
             for orthographic in [false, true] {
                 let mut turntable = Turntable::framing(scene, SIZE);
@@ -324,7 +324,7 @@ mod tests {
     }
 
     #[test]
-    fn zoom_stops_before_f32_gives_out() {
+    fn zooming_stops_within_the_range_of_f32() {
         for scene in scenes() {
             let mut turntable = Turntable::framing(scene, SIZE);
             let anchor = turntable.pivot;
@@ -338,7 +338,7 @@ mod tests {
     }
 
     #[test]
-    fn the_largest_scene_that_f32_holds_can_be_looked_at() {
+    fn the_largest_scene_in_f32_has_a_valid_camera() {
         let scene = Aabb::around([Vec3::splat(-3e38), Vec3::splat(3e38)]);
         let mut turntable = Turntable::framing(scene, SIZE);
         for is_orthographic in [false, true] {
@@ -353,7 +353,7 @@ mod tests {
     }
 
     #[test]
-    fn pan_moves_the_pivots_plane_with_the_pointer() {
+    fn panning_moves_the_pivots_plane_with_the_pointer() {
         for scene in scenes() {
             let mut turntable = Turntable::framing(scene, SIZE);
             let point = turntable.pivot;
@@ -365,7 +365,7 @@ mod tests {
     }
 
     #[test]
-    fn orbit_keeps_pivot_distance_and_horizon() {
+    fn orbiting_keeps_the_pivot_the_distance_and_the_horizon() {
         for scene in scenes() {
             let mut turntable = Turntable::framing(scene, SIZE);
             let before = turntable;
@@ -413,7 +413,7 @@ mod tests {
     }
 
     #[test]
-    fn a_scene_of_one_point_or_of_nothing_can_be_looked_at() {
+    fn an_empty_scene_or_a_single_point_has_a_valid_camera() {
         let points = [Vec3::ZERO, Vec3::splat(1e7)].map(|point| Aabb::around([point]));
         for bounds in [Aabb::EMPTY, points[0], points[1]] {
             let turntable = Turntable::framing(bounds, SIZE);

@@ -66,7 +66,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn more_tests_are_brighter() {
+    fn a_higher_cost_has_a_brighter_colour() {
         let brightness = |tests| cost_colour(tests).element_sum();
         for (less, more) in [(0, 1), (1, 10), (10, 100), (100, COST_SCALE)] {
             assert!(brightness(less) < brightness(more));

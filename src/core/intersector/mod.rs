@@ -44,8 +44,9 @@ pub struct Crossing {
 /// Finds the hits of rays in one scene with one kernel.
 ///
 /// Rays come from [`Ray::new`] or a [`Camera`](crate::Camera), so they hold no NaN. A ray's interval and hits
-/// are compared in the kernel's precision; of hits at equal t the lowest primitive counts. A hit whose t
-/// exceeds the largest finite f32 is a miss.
+/// are compared in the kernel's precision. Of hits whose computed t are equal, the lowest primitive counts. Only
+/// the exact kernel promises the lowest primitive of several at exactly equal t: other kernels round each t on
+/// its own. A hit whose t exceeds the largest finite f32 is a miss.
 ///
 /// A hit counts only if the ray meets the box around the triangle, and it ranks no nearer than that box. So
 /// answers don't depend on the tree. The first of [`all_hits`](Self::all_hits), which are ordered by t alone,

@@ -58,7 +58,7 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
                     let mut values = [t.to_array(), u.to_array(), v.to_array()];
                     let corners = corners(rows, lane);
                     let hits = decide::<K>(self.all, corners, doubtful, &mut values);
-                    is_hit = is_hit | SimdMask::from_bitmask(self.token, u64::from(hits));
+                    is_hit |= SimdMask::from_bitmask(self.token, u64::from(hits));
                     [t, u, v] = values.map(|x| f32x16::load_array(self.token, x));
                 }
                 let rank = rank(t, floor);

@@ -72,7 +72,7 @@ impl Precision {
 pub struct Promises {
     /// No ray passes between adjacent triangles of a closed mesh.
     pub is_watertight: bool,
-    /// Hits and misses match exact arithmetic, and t is within 0.7 ulp of f32.
+    /// Hits and misses match exact arithmetic, and t is within 0.51 ulp of f32.
     pub is_accurate: bool,
     /// Hits, misses and the order of two hits match exact arithmetic.
     pub is_exact: bool,

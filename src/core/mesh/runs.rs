@@ -41,7 +41,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn each_triangle_has_the_number_of_its_run() {
+    fn each_triangle_has_its_runs_number() {
         let mut runs = Runs::default();
         for (triangle, number) in [(0, 0), (2, 5), (3, 5), (4, 1), (4, 7), (6, 3), (6, 7)] {
             runs.begin(triangle, number);

@@ -1,4 +1,4 @@
-//! Makes a mesh of the file's numbers.
+//! Assembles a mesh from the file's numbers.
 
 use super::error::{Problem, Warning};
 use super::facts::{Element, Facts, Tally};
@@ -13,7 +13,7 @@ use crate::progress::{Phase, Progress};
 use glam::DVec3;
 use std::ops::Range;
 
-/// Elements between two checks whether the load was cancelled.
+/// Elements between two cancellation checks.
 const ELEMENTS_PER_CHECK: usize = 1 << 14;
 
 pub(super) fn assemble(
@@ -28,7 +28,7 @@ pub(super) fn assemble(
     let looks = materials::look_up(facts, files, options.max_memory, progress)?;
     warnings.extend(looks.warnings);
     if looks.textures.is_empty() {
-        // Nothing uses texture coordinates.
+        // Texture coordinates aren't used.
         numbers.textures = Vec::new();
         numbers.corners[1] = Vec::new();
     }
@@ -73,14 +73,14 @@ pub(super) fn assemble(
     })
 }
 
-/// A mesh that grows element by element.
+/// A mesh under construction.
 struct Assembly<'n> {
     mesh: TriangleMesh,
     numbers: &'n Numbers,
     oddities: Oddities,
     triangulator: Triangulator,
     outline: Outline,
-    /// The corners of the face that is being cut.
+    /// Corners of the face that is being triangulated.
     polygon: Vec<DVec3>,
 }
 
@@ -89,7 +89,7 @@ impl Assembly<'_> {
         let mut materials = FaceRuns::new(&facts.materials.runs);
         let mut groups = FaceRuns::new(&facts.groups.runs);
         let mut smoothing = FaceRuns::new(&facts.smoothing);
-        let mut no_faces = facts.no_faces.iter().peekable();
+        let mut non_faces = facts.non_faces.iter().peekable();
         let (mut start, mut face) = (0, 0);
         for element in 0..facts.element_count {
             if element % ELEMENTS_PER_CHECK == 0 {
@@ -99,7 +99,7 @@ impl Assembly<'_> {
             let count = self.numbers.arities.get(element).map_or(3, |&n| n as usize);
             let corners = start..start + count;
             start += count;
-            if let Some(&(_, kind)) = no_faces.next_if(|(at, _)| *at == element) {
+            if let Some(&(_, kind)) = non_faces.next_if(|(at, _)| *at == element) {
                 self.add_lines_or_points(kind, corners);
                 continue;
             }
@@ -128,7 +128,7 @@ impl Assembly<'_> {
         }
     }
 
-    /// Triangulates a face, and leaves out triangles that no ray can hit.
+    /// Triangulates a face, and drops triangles that no ray can hit.
     fn add_face(
         &mut self,
         face: usize,
@@ -180,7 +180,7 @@ impl Assembly<'_> {
     }
 }
 
-/// Turns runs of faces into runs of triangles.
+/// Converts runs of faces to runs of triangles.
 struct FaceRuns<'r> {
     rest: &'r [(usize, u32)],
 }
@@ -190,7 +190,7 @@ impl<'r> FaceRuns<'r> {
         Self { rest: runs }
     }
 
-    /// Begins a face, whose first triangle is the given one.
+    /// Starts a face whose first triangle is `triangle`.
     fn step(&mut self, face: usize, triangle: u32, of_triangles: &mut Runs) {
         while let [(first, number), rest @ ..] = self.rest
             && *first <= face
@@ -201,7 +201,7 @@ impl<'r> FaceRuns<'r> {
     }
 }
 
-/// How often each oddity occurs, and where first.
+/// Count and first line of each oddity.
 #[derive(Default)]
 struct Oddities {
     non_finite: Tally,
@@ -216,18 +216,18 @@ impl Oddities {
         let elements = self.not_finite_elements;
         let of_elements = (elements > 0).then(|| {
             let message = format!(
-                "{elements} line(s) or point(s) dropped: a vertex is not finite, or too large"
+                "{elements} line(s) or point(s) dropped: a vertex is not finite or too large"
             );
             Warning::of_file(message)
         });
         [
             self.non_finite
-                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite, or too large")),
+                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite or too large")),
             self.zero_area
                 .warning(|_| format!("{zero_area} triangle(s) dropped: their area is zero")),
             self.fan.warning(|fans| {
                 format!(
-                    "{fans} polygon(s) cross themselves, have no plane or too many corners: cut as a fan"
+                    "{fans} polygon(s) triangulated as fans: they intersect themselves, have no plane or have too many corners"
                 )
             }),
             of_elements,
@@ -237,7 +237,7 @@ impl Oddities {
     }
 }
 
-/// Gives back the unused capacity of lists.
+/// Releases the unused capacity of lists.
 fn shrink(mesh: &mut TriangleMesh) {
     mesh.triangles.shrink_to_fit();
     mesh.faces.shrink_to_fit();
@@ -246,7 +246,7 @@ fn shrink(mesh: &mut TriangleMesh) {
     mesh.corner_textures.shrink_to_fit();
 }
 
-/// An error that says why there are no triangles, if there are none.
+/// Returns an error with the reason if the mesh has no triangles.
 fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
     if !mesh.triangles.is_empty() {
         return Ok(());
@@ -259,17 +259,17 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
     } = mesh.dropped;
     let message = if zero_area + non_finite > 0 {
         let message = format!(
-            "no triangle is left: {zero_area} have zero area, {non_finite} a corner that is NaN, infinite or too large for f32"
+            "no triangles left: {zero_area} have zero area, {non_finite} have a corner that is NaN, infinite or too large for f32"
         );
         return Err(Problem::line(facts.face_line(0), message));
     } else if bad_index > 0 {
         let message = format!(
-            "no face is left: {bad_index} have an index that is out of range, or fewer than three corners"
+            "no faces left: {bad_index} have an index that is out of range or fewer than three corners"
         );
         return Err(Problem::line(facts.dropped_faces.first_line, message));
     } else if facts.element_count > 0 {
         format!(
-            "there are lines or points ({}), but no faces: nothing that a ray could hit",
+            "there are lines or points ({}), but no faces: nothing to trace",
             facts.element_count
         )
     } else if facts.counts[0] > 0 {

@@ -1,16 +1,16 @@
-//! The vertices that tobj copies.
+//! Counts the vertices that tobj copies.
 
 use crate::mesh::NO_INDEX;
 
-/// tobj copies for each list of faces what it refers to, once a list.
+/// Upper bound on tobj's copies: it copies each entry that a list of faces uses once per list.
 #[derive(Debug)]
 pub(super) struct Copies {
-    /// At most, in the lists that were ended.
+    /// Upper bound on the copies in finished lists.
     entries: [usize; 3],
-    /// How many corners and elements these have.
+    /// Number of corners and elements in finished lists.
     pub corners: [usize; 3],
     pub elements: usize,
-    /// The lowest and the highest index since then, of the corners that were looked at.
+    /// The lowest and highest index among the corners of the current list examined so far.
     ranges: [(u32, u32); 3],
     seen: [usize; 3],
 }
@@ -28,7 +28,7 @@ impl Default for Copies {
 }
 
 impl Copies {
-    /// No more than there are corners since the last list, and no more than there are indices in their range.
+    /// Copies in the current list: at most its number of corners, and at most the size of its index range.
     fn since(&self, corners: &[Vec<u32>; 3]) -> [usize; 3] {
         std::array::from_fn(|list| {
             let (low, high) = self.ranges[list];
@@ -41,7 +41,7 @@ impl Copies {
         })
     }
 
-    /// Looks at the corners that were added to the lists.
+    /// Examines the corners added to the lists.
     pub(super) fn look_at(&mut self, corners: &[Vec<u32>; 3]) {
         for ((range, list), seen) in self.ranges.iter_mut().zip(corners).zip(&mut self.seen) {
             let new = list.get(*seen..).unwrap_or_default().iter().copied();
@@ -52,7 +52,7 @@ impl Copies {
         }
     }
 
-    /// A list is ended that has these corners and, with those before, so many elements.
+    /// Ends a list. `corners` are the corners so far, `elements` the number of elements so far.
     pub(super) fn cut(&mut self, corners: &[Vec<u32>; 3], elements: usize) {
         self.look_at(corners);
         let since = self.since(corners);
@@ -65,7 +65,7 @@ impl Copies {
         };
     }
 
-    /// How many entries of each list there are copies of, at most, if all corners were looked at.
+    /// Upper bound on the copies of each list's entries, if all corners were examined.
     pub(super) fn counts(&self, corners: &[Vec<u32>; 3]) -> [usize; 3] {
         let since = self.since(corners);
         std::array::from_fn(|list| self.entries[list] + since[list])
@@ -77,7 +77,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn copies_are_no_more_than_corners_and_no_more_than_vertices() {
+    fn copies_are_bounded_by_corners_and_by_vertices() {
         let (mut copies, mut lists) = (Copies::default(), [vec![], vec![], vec![]]);
         let mut add = |corners: [u32; 3]| {
             lists[0].extend(corners);

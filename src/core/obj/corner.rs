@@ -2,7 +2,7 @@
 
 use super::facts::shortened;
 
-/// The lists that a corner's indices count in, in the order in which it names them.
+/// The lists that a corner's indices refer to, in the order of a corner's notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum List {
     Vertex,
@@ -17,7 +17,7 @@ impl List {
         ["vertex", "texture", "normal"][self as usize]
     }
 
-    /// The message for an index that names nothing.
+    /// The message for an index that refers to no entry.
     pub(super) fn out_of_range(self, written: i64, count: usize) -> String {
         let what = self.name();
         match written {
@@ -27,29 +27,29 @@ impl List {
     }
 }
 
-/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn` as it is written: indices from 1 or, negative, from the end.
+/// A corner `v`, `v/vt`, `v//vn` or `v/vt/vn` as written: indices from 1 or, if negative, from the end.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Corner {
     pub indices: [Option<i64>; 3],
-    /// Where it begins in the line.
+    /// Offset of the corner in the line.
     pub offset: usize,
 }
 
-/// A word that is no corner: where it begins, and what is wrong with it.
+/// A word that isn't a corner: its offset and what is wrong with it.
 #[derive(Debug, PartialEq)]
 pub(super) struct Malformed {
     pub offset: usize,
     pub message: String,
 }
 
-/// The corners in a line; none after one that is malformed.
+/// Iterates over the corners in a line; ends after a malformed one.
 pub(super) struct Corners<'l> {
     line: &'l [u8],
     at: usize,
 }
 
 impl<'l> Corners<'l> {
-    /// Those from an offset on.
+    /// The corners from an offset on.
     pub(super) fn of(line: &'l [u8], at: usize) -> Self {
         Self { line, at }
     }
@@ -82,14 +82,17 @@ impl Iterator for Corners<'_> {
             }
         }
         let word = self.word(offset);
-        let message = format!("“{}” has more than vertex/texture/normal", shortened(&word));
+        let message = format!(
+            "“{}” has more parts than vertex/texture/normal",
+            shortened(&word)
+        );
         self.at = self.line.len();
         Some(Err(Malformed { offset, message }))
     }
 }
 
 impl Corners<'_> {
-    /// The number that begins here; `None` if there is none, or one that is too long for any list.
+    /// The number at the current position; `None` if there is none, or it is too long for any list.
     fn index(&mut self) -> Option<i64> {
         let sign = self.line.get(self.at);
         let is_negative = sign == Some(&b'-');
@@ -108,7 +111,7 @@ impl Corners<'_> {
         Some(if is_negative { -value } else { value })
     }
 
-    /// The word that begins here.
+    /// The word at an offset.
     fn word(&self, offset: usize) -> String {
         let word = self.line[offset..].split(|&b| is_blank(b)).next();
         String::from_utf8_lossy(word.unwrap_or_default()).into_owned()
@@ -144,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn every_form_of_a_corner_is_read() {
+    fn every_notation_of_a_corner_is_read() {
         let read = corners(" 1\t+2/3 4//-5 6/7/8 9/ 1// ");
         let expected = [
             [Some(1), None, None],
@@ -158,9 +161,12 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_corner_is_named() {
+    fn a_malformed_corner_is_reported() {
         for (line, message) in [
-            ("1/1/1/1 2", "“1/1/1/1” has more than vertex/texture/normal"),
+            (
+                "1/1/1/1 2",
+                "“1/1/1/1” has more parts than vertex/texture/normal",
+            ),
             ("1.0", "“1.0” is not an index"),
             ("1/x/2", "“x” in “1/x/2” is not an index"),
             ("/1", "“” in “/1” is not an index"),

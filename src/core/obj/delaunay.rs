@@ -1,12 +1,12 @@
-//! Cuts a polygon of many corners by a constrained Delaunay triangulation, in n log n steps.
+//! Triangulates a polygon with many corners by a constrained Delaunay triangulation, in O(n log n).
 //!
 //! Source: L. P. Chew, "Constrained Delaunay Triangulations", Algorithmica 4, 1989; the crate `spade` for the
 //! triangulation, whose predicates are exact.
 //!
-//! The polygon lies in the coordinate plane that it is least steep over, so that no coordinate is rounded: corners
-//! that touch an edge, and bridges to holes, stay where they are. Its edges are forced into the triangulation of its
-//! corners one by one; the first one that crosses another ends the work. Triangles around which the polygon goes once
-//! are inside.
+//! The polygon is projected onto the coordinate plane to which it is most nearly parallel, so that no
+//! coordinate is rounded: corners that touch an edge, and bridges to holes, stay in place. Its edges are
+//! forced into the triangulation of its corners one by one; the first that crosses another ends the attempt.
+//! Triangles with winding number one are inside.
 
 use super::polygon::vector_area;
 use crate::progress::{Cancelled, Progress};
@@ -18,21 +18,21 @@ use spade::{
 };
 use std::collections::HashMap;
 
-/// Steps after which forcing in edges is given up, about a second, and for each corner. Ordinary polygons need a few
-/// for each edge.
+/// Limit on the steps for forcing edges: a constant, about a second, and one per corner. Ordinary polygons
+/// need a few steps per edge.
 const MOST_STEPS: usize = 1 << 24;
 const MOST_STEPS_PER_CORNER: usize = 64;
-/// Corners or edges between two checks whether the load was cancelled.
+/// Corners or edges between two cancellation checks.
 const CORNERS_PER_CHECK: usize = 1 << 8;
-/// Marks a directed edge that isn't one of the polygon.
+/// Marks a directed edge that isn't an edge of the polygon.
 const NO_CORNER: u32 = u32::MAX;
 
-/// Corners are inserted one by one, each found through a hierarchy of the former ones. Inserting all at once takes
-/// the square of their number where they lie on few circles or lines (14 s for a comb of 100 000, 2026-11).
+/// Corners are inserted one by one, located through a hierarchy of the previous ones. Bulk insertion takes
+/// quadratic time if the corners lie on few circles or lines (14 s for a comb of 100 000, 2026-11).
 type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
-/// Appends the triangles of a polygon, three corners each, that keep its winding. `false` if it crosses itself, has no
-/// plane, or takes too many steps.
+/// Appends a polygon's triangles, three corners each, with its winding. Returns `false` if the polygon
+/// crosses itself, has no plane, or takes too many steps.
 ///
 /// # Errors
 /// Cancelled by `progress`.
@@ -64,8 +64,8 @@ pub(super) fn triangulate(
     Ok(true)
 }
 
-/// The corners in the coordinate plane over which the polygon is least steep, counterclockwise, scaled by a power of
-/// two to sizes of about 1.
+/// The corners projected onto the coordinate plane most nearly parallel to the polygon, counterclockwise,
+/// scaled by a power of two to a size of about 1.
 fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let area = vector_area(corners);
     if !area.is_finite() || area == DVec3::ZERO {
@@ -79,11 +79,11 @@ fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let largest = corners
         .iter()
         .fold(0.0, |most: f64, p| most.max(p.abs().max_element()));
-    // f64's exponents are those of its logarithm, so the scale is a power of two, but for subnormal sizes.
+    // The logarithm's integer part is f64's exponent, so the scale is exact, except for subnormal sizes.
     let scale = 2f64.powi(-(largest.log2().floor() as i32).clamp(-1000, 1000));
     let scaled = |x: f64| {
         let x = x * scale;
-        // Smaller numbers the crate refuses; beside 1 they are nothing. Also, −0 becomes 0.
+        // spade rejects smaller numbers; compared with 1 they are negligible. Also, −0 becomes 0.
         if x.abs() < spade::MIN_ALLOWED_VALUE {
             0.0
         } else {
@@ -98,18 +98,18 @@ fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
 struct Polygon {
     mesh: Mesh,
     vertex_of: Vec<FixedVertexHandle>,
-    /// The first corner at each vertex, and how many are there.
+    /// For each vertex, its first corner and the number of its corners.
     corners_at: Vec<(u32, u32)>,
-    /// Of each directed edge: the polygon's corner that the edge leaves, so that the inside on its left is this
-    /// corner's; [`NO_CORNER`] where the polygon has no such edge.
+    /// For each directed edge, the corner of the polygon where the edge starts and to which the inside on its
+    /// left belongs; [`NO_CORNER`] if the polygon has no such edge.
     corner_of: Vec<u32>,
-    /// Of each undirected edge: how often the polygon goes along it as its first directed edge does, less how often
-    /// the other way.
+    /// For each undirected edge, the number of times that the polygon passes along its first directed edge,
+    /// minus the number in the other direction.
     passes: Vec<i32>,
 }
 
 impl Polygon {
-    /// The triangulation of the corners; none if there are no three corners off one line.
+    /// Triangulates the corners; `None` if all lie on one line.
     fn new(points: &[Point2<f64>], progress: &Progress) -> Result<Option<Self>, Cancelled> {
         let mut places: Vec<(Point2<f64>, u32, u32)> = Vec::new();
         let mut known: HashMap<[u64; 2], usize> = HashMap::with_capacity(points.len());
@@ -136,7 +136,7 @@ impl Polygon {
                 return Ok(None);
             };
             vertices[place] = vertex;
-            // Vertices are numbered as they are inserted.
+            // Vertices are numbered in the order of insertion.
             corners_at.push((first, count));
         }
         if mesh.num_vertices() != places.len() || mesh.num_inner_faces() == 0 {
@@ -151,7 +151,8 @@ impl Polygon {
         }))
     }
 
-    /// Makes every edge of the polygon one of the triangulation; `false` if two cross, or it takes too long.
+    /// Forces every edge of the polygon into the triangulation. Returns `false` if two cross, or it takes too
+    /// long.
     fn force_edges(&mut self, progress: &Progress) -> Result<bool, Cancelled> {
         let count = self.vertex_of.len();
         let most_steps = MOST_STEPS + MOST_STEPS_PER_CORNER * count;
@@ -164,7 +165,7 @@ impl Polygon {
             if from == to {
                 continue;
             }
-            // An edge is sought among those of its first vertex.
+            // Searching an edge iterates over the corners at its first vertex.
             steps += self.corners_at[from.index()].1 as usize;
             let mut crossings = 0;
             for crossed in LineIntersectionIterator::new_from_handles(&self.mesh, from, to) {
@@ -187,7 +188,7 @@ impl Polygon {
         Ok(true)
     }
 
-    /// Notes an edge, or a part of one that goes through other vertices.
+    /// Records an edge, or a part of one that passes through other vertices.
     fn note_edge(&mut self, corner: u32, from: FixedVertexHandle, part: FixedDirectedEdgeHandle) {
         let start = self.mesh.directed_edge(part).from().fix();
         let corner = if start == from {
@@ -199,20 +200,20 @@ impl Polygon {
         self.passes[part.as_undirected().index()] += if is_first(part) { 1 } else { -1 };
     }
 
-    /// How often the polygon goes along a directed edge, less how often the other way.
+    /// Number of passes of the polygon along a directed edge, minus those in the other direction.
     fn passes_along(&self, edge: FixedDirectedEdgeHandle) -> i32 {
         let passes = self.passes[edge.as_undirected().index()];
         if is_first(edge) { passes } else { -passes }
     }
 
-    /// The triangles around which the polygon goes once; none if it goes around some in another way, which makes it
-    /// no simple polygon.
+    /// The triangles with winding number one; `None` if any has a winding number other than 0 or 1, so that
+    /// the polygon isn't simple.
     fn inside(&self) -> Option<Vec<FixedFaceHandle<InnerTag>>> {
         const UNSEEN: i32 = i32::MAX;
         let mut winding = vec![UNSEEN; self.mesh.num_all_faces()];
         let (mut inside, mut open) = (Vec::new(), vec![self.mesh.outer_face().fix()]);
         winding[0] = 0;
-        // The edges of the outer face are those of the hull.
+        // The outer face's edges are those of the hull.
         let hull = self.mesh.convex_hull().map(|edge| edge.fix());
         let mut across: Vec<FixedDirectedEdgeHandle> = hull.collect();
         while let Some(face) = open.pop() {
@@ -225,7 +226,8 @@ impl Polygon {
                 }
                 across.extend(inner.adjacent_edges().map(|edge| edge.fix()));
             }
-            // The polygon has its inside on its left, once more than on its right.
+            // The inside is on the left of the polygon's edges: the winding number is one more than on the
+            // right.
             for edge in across.drain(..) {
                 let edge = self.mesh.directed_edge(edge);
                 let edge = if edge.face().fix() == face {
@@ -244,8 +246,8 @@ impl Polygon {
         Some(inside)
     }
 
-    /// Gives the corner of each edge of the polygon to the edges that follow it counterclockwise around the same
-    /// vertex, where several corners share that.
+    /// Where several corners share a vertex, gives the corner of each polygon edge to the edges that follow
+    /// it counterclockwise around that vertex.
     ///
     /// ```text
     ///   in of corner 1 ╲   ╱ out of corner 2
@@ -277,7 +279,7 @@ impl Polygon {
         }
     }
 
-    /// The corner at an edge's beginning that the triangle on its left has.
+    /// The corner at an edge's start for the triangle on its left.
     fn corner_left_of(&self, edge: FixedDirectedEdgeHandle) -> u32 {
         let vertex = self.mesh.directed_edge(edge).from().fix();
         match self.corners_at[vertex.index()] {
@@ -287,16 +289,18 @@ impl Polygon {
     }
 }
 
-/// Steps for an edge of the polygon before which so many edges of the triangulation give way: these are flipped, then
-/// flipped on until the triangles are Delaunay ones again (1 µs each, and 12 ns times their square, 2026-11).
+/// Steps for forcing a polygon edge that crosses this many edges of the triangulation. They are flipped, then
+/// further edges are flipped until the triangles are Delaunay again (1 µs each, and 12 ns times their square,
+/// 2026-11).
 fn steps_for(crossings: usize) -> usize {
     16 * crossings + crossings * crossings / 4
 }
 
-/// The numbers below `count`, each once, with any run of them spread evenly over all. In the polygon's own order each
-/// long edge beside another would cross all that the last one crossed: 12 s for a sheared comb of 10 000 corners.
+/// The numbers below `count` in an order in which any run of them is spread evenly over the range. In the
+/// polygon's own order each long edge next to another would cross all edges that the last one crossed: 12 s
+/// for a sheared comb of 10 000 corners.
 fn scattered(count: usize) -> impl Iterator<Item = usize> {
-    /// The golden ratio, less 1.
+    /// The golden ratio minus 1.
     const GOLDEN: f64 = 0.618_033_988_749_895;
     let mut stride = ((count as f64 * GOLDEN) as usize).max(1);
     while greatest_common_divisor(stride, count) != 1 {

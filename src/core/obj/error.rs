@@ -5,44 +5,44 @@ use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Why a file couldn't be loaded. Every message names the file, and the line where there is one.
+/// The reason why a file couldn't be loaded. Every message names the file and, if known, the line.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// It isn't there, or can't be read.
+    /// The file doesn't exist, or can't be read.
     #[error("{}: {source}", shown(path))]
     Unreadable {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
-    /// It is a directory.
+    /// The path is a directory.
     #[error("{}: this is a directory, not an OBJ file", shown(path))]
     Directory {
         /// The directory.
         path: PathBuf,
     },
-    /// A line can't be understood.
+    /// A line is malformed.
     #[error("{}:{line}{}: {message}", shown(path), column.map(|c| format!(":{c}")).unwrap_or_default())]
     Line {
         /// The file.
         path: PathBuf,
         /// The line, counted from 1.
         line: usize,
-        /// The character at which the wrong word begins, counted from 1.
+        /// The character at which the malformed word starts, counted from 1.
         column: Option<usize>,
         /// What is wrong there.
         message: String,
     },
-    /// The file as a whole holds nothing to show, or too much.
+    /// The file as a whole has nothing to show, or too much.
     #[error("{}: {message}", shown(path))]
     Content {
         /// The file.
         path: PathBuf,
-        /// What the file is or lacks.
+        /// What is wrong with the file.
         message: String,
     },
-    /// The user cancelled.
+    /// The load was cancelled.
     #[error("{}: loading was cancelled", shown(path))]
     Cancelled {
         /// The file.
@@ -50,12 +50,12 @@ pub enum LoadError {
     },
 }
 
-/// A path as messages show it: without control characters, which could move a terminal's cursor.
+/// A path for messages, without control characters, which could move a terminal's cursor.
 pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
 }
 
-/// A text without control characters and without marks that change the direction of reading.
+/// A text without control characters and without marks that change the writing direction.
 pub(super) fn printable(text: &str) -> String {
     let turns = |c: char| matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
     let plain = |c: char| {
@@ -68,7 +68,7 @@ pub(super) fn printable(text: &str) -> String {
     text.chars().map(plain).collect()
 }
 
-/// An error before the file's name is known.
+/// An error without the file's name.
 #[derive(Debug)]
 pub(super) enum Problem {
     Line {
@@ -116,12 +116,12 @@ impl From<Cancelled> for Problem {
     }
 }
 
-/// An oddity of a file whose mesh was loaded all the same.
+/// A warning about a file whose mesh was loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The first line that it concerns, counted from 1.
+    /// The first line that it refers to, counted from 1.
     pub line: Option<usize>,
-    /// What is odd, and how often it occurs.
+    /// What is unusual, and how often.
     pub message: String,
 }
 
@@ -155,7 +155,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_message_is_one_line_and_moves_no_cursor() {
+    fn a_message_is_one_line_without_control_characters() {
         let path = Path::new("a\n\u{1b}[31m\u{202e}é.obj");
         let error = Problem::Content("too bad".to_owned()).in_file(path);
         let expected = "a\u{FFFD}\u{FFFD}[31m\u{FFFD}é.obj: too bad";

@@ -1,4 +1,4 @@
-//! A face's statement, read from the file again.
+//! Reads a face's statement from the file again.
 
 use super::corner::{Corner, Corners, List, is_blank};
 use super::error::{LoadError, Problem, printable};
@@ -10,16 +10,16 @@ use std::collections::BTreeMap;
 use std::io::{self, Read};
 use std::path::Path;
 
-/// What a file says about a face.
+/// A face as written in the file.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FaceSource {
-    /// The statement, shortened if it is long.
+    /// The statement's text, shortened if it is long.
     pub statement: String,
-    /// Its corners, in the file's order.
+    /// The face's corners, in the file's order.
     pub corners: Vec<FaceCorner>,
 }
 
-/// A corner of a face in the file. Indices are counted from 1.
+/// A corner of a face in the file. Indices start at 1.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct FaceCorner {
     /// Index of the `v` statement.
@@ -28,16 +28,17 @@ pub struct FaceCorner {
     pub texture: Option<usize>,
     /// Index of the `vn` statement.
     pub normal: Option<usize>,
-    /// Coordinates of the vertex.
+    /// The vertex's coordinates.
     pub position: DVec3,
-    /// Texture coordinates; `None` if the file doesn't have those that the corner names.
+    /// The texture coordinates; `None` if the corner has none, or they don't exist.
     pub uv: Option<DVec2>,
 }
 
-/// Reads the `f` statement that begins on a line (counted from 1), and what its corners name.
+/// Reads the `f` statement that starts on a line (from 1), and the vertices and texture coordinates that it
+/// refers to.
 ///
-/// `open` gives the file's bytes from their beginning; it is called twice. `path` is for errors. `None` if no face
-/// begins on that line, or it names a vertex that isn't there: the file has changed since it was loaded.
+/// `open` opens the file's bytes at their start; it is called twice. `path` is used in errors. Returns `None`
+/// if no face starts on that line, or a vertex doesn't exist: the file has changed since it was loaded.
 ///
 /// # Errors
 /// See [`LoadError`].
@@ -58,13 +59,13 @@ pub fn face_source<R: Read>(
     read().map_err(|problem: Problem| problem.in_file(path))
 }
 
-/// The statement on a line with the indices of its corners.
+/// The statement on a line and the indices of its corners.
 fn statement_on(
     bytes: impl Read,
     line: usize,
     progress: &Progress,
 ) -> Result<Option<FaceSource>, Problem> {
-    /// A polygon of some ten corners fits.
+    /// Fits a polygon of about ten corners.
     const LONGEST_TEXT: usize = 160;
     let mut counts = [0; 3];
     let mut lines = Lines::new(bytes, progress)?;
@@ -100,7 +101,7 @@ fn statement_on(
     Ok(None)
 }
 
-/// A corner with its indices counted from 1. Negative ones count from the end of what has been read.
+/// Converts a corner's indices to start at 1. Negative ones count back from the last entry read.
 fn from_one(corner: Corner, counts: [usize; 3]) -> Option<FaceCorner> {
     let index = |list: List| {
         let written = corner.indices[list as usize]?;
@@ -119,7 +120,7 @@ fn from_one(corner: Corner, counts: [usize; 3]) -> Option<FaceCorner> {
     })
 }
 
-/// Reads the coordinates that corners name; whether each vertex was found.
+/// Reads the coordinates of the corners. Returns whether every vertex was found.
 fn look_up(
     bytes: impl Read,
     corners: &mut [FaceCorner],
@@ -166,7 +167,7 @@ fn look_up(
     Ok(true)
 }
 
-/// The first numbers of a statement; zeros where it has fewer.
+/// The first numbers of a statement, padded with zeros.
 fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Problem> {
     let plain = Statement {
         bytes: without_comment(statement.bytes),
@@ -212,14 +213,14 @@ mod tests {
     }
 
     #[test]
-    fn a_face_is_read_with_what_its_corners_name() {
+    fn a_face_is_read_with_its_corners_coordinates() {
         let joined = source(6).expect("a face");
         assert_eq!(joined.statement, "f 1/1 2  3");
         assert_eq!(joined.corners[0].uv, Some(DVec2::new(0.5, 0.25)));
         assert_eq!(joined.corners[1].uv, None);
         let quad = source(9).expect("a face");
         let vertices: Vec<usize> = quad.corners.iter().map(|corner| corner.vertex).collect();
-        // Negative indices count from what was read before; positive ones may come later.
+        // Negative indices refer to earlier entries; positive ones may refer to later entries.
         assert_eq!(vertices, [1, 3, 4, 5]);
         assert_eq!(quad.corners[1].position, DVec3::new(1.0, 1.0, 0.0));
         assert_eq!(quad.corners[3].position, DVec3::new(7.0, 8.0, 9.0));
@@ -230,7 +231,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_without_a_face_has_none() {
+    fn a_line_without_a_face_gives_none() {
         for line in [0, 1, 7, 10, 99] {
             assert_eq!(source(line), None, "{line}");
         }

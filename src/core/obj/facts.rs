@@ -1,4 +1,4 @@
-//! The facts that the reader learns about a file besides the numbers that it passes on.
+//! What the reader learns about a file besides the numbers that it passes on.
 
 use super::copies::Copies;
 use super::corner::List;
@@ -7,28 +7,28 @@ use super::names::{Libraries, NamedRuns};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
-/// The kinds of statements that have corners.
+/// Kinds of statements with corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Element {
     Face,
-    /// A line through its corners.
+    /// A polyline through its corners.
     Line,
-    /// Its corners are points.
+    /// One point per corner.
     Points,
 }
 
 impl Element {
-    /// How many corners it needs, and a sentence that says so.
+    /// The minimum number of corners, and a sentence for the error message.
     pub(super) fn least_corners(self) -> (usize, &'static str) {
         match self {
             Self::Face => (3, "a face needs three corners"),
             Self::Line => (2, "a line needs two corners"),
-            Self::Points => (1, "a list of points needs one"),
+            Self::Points => (1, "a list of points needs one point"),
         }
     }
 }
 
-/// How often something happened, and on which line first.
+/// Number of occurrences, and the line of the first.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
     pub count: usize,
@@ -43,65 +43,66 @@ impl Tally {
         self.count += 1;
     }
 
-    /// A warning, if it happened at all.
+    /// A warning if the count isn't zero.
     pub(super) fn warning(self, message: impl FnOnce(usize) -> String) -> Option<Warning> {
         (self.count > 0).then(|| Warning::at(self.first_line, message(self.count)))
     }
 }
 
-/// The facts that the reader learned. Arrays of three are indexed by [`List`].
+/// What the reader learned about a file. Arrays of three are indexed by [`List`].
 #[derive(Debug, Default)]
 pub(super) struct Facts {
-    /// The entries of each list.
+    /// Number of entries in each list.
     pub counts: [usize; 3],
-    /// For each corner of each element its index, from 0, in each list, or [`NO_INDEX`](crate::mesh::NO_INDEX). The second and the third
-    /// are empty while no corner names one.
+    /// For each corner of each element, its index from 0 in each list, or
+    /// [`NO_INDEX`](crate::mesh::NO_INDEX). The second and third are empty as long as no corner has such an
+    /// index.
     pub corners: [Vec<u32>; 3],
-    /// Faces, lines and points together.
+    /// Number of faces, lines and points.
     pub element_count: usize,
-    /// Elements that are no faces, in their order.
-    pub no_faces: Vec<(usize, Element)>,
+    /// Indices of the elements that aren't faces, in ascending order.
+    pub non_faces: Vec<(usize, Element)>,
     pub face_count: usize,
     pub face_lines: LineRuns,
     pub materials: NamedRuns,
     pub groups: NamedRuns,
-    /// Runs of faces, and their smoothing group; 0 is none. Empty if the file has no `s`.
+    /// Runs of faces with their smoothing group; 0 is no group. Empty if the file has no `s` statement.
     pub smoothing: Vec<(usize, u32)>,
     pub libraries: Libraries,
-    /// The colours of vertices, up to the last one that has a colour.
+    /// Vertex colours, up to the last vertex that has one.
     pub colours: Vec<[f32; 3]>,
     coloured: usize,
     has_byte_colours: bool,
-    /// Normals that are zero or not finite.
+    /// Number of normals that are zero or not finite.
     pub useless_normals: usize,
-    /// The highest index of each list, from 1, and the line of the element that has it.
+    /// The highest index in each list, from 1, and the line of its element.
     pub highest: [(usize, usize); 3],
-    /// Statements that were left out.
+    /// Ignored statements by keyword.
     ignored: BTreeMap<String, Tally>,
-    /// Faces left out, as they have an impossible index or too few corners; lines and points alike.
+    /// Faces dropped for an invalid index or too few corners; `dropped_others` counts lines and points.
     pub dropped_faces: Tally,
     pub dropped_others: Tally,
-    /// Corners without the texture coordinates or the normal that they name, as there is none.
+    /// Corners whose texture coordinates or normal don't exist.
     pub bare: Tally,
-    /// Where texture coordinates are named, if there are none at all.
+    /// Line of the element with the highest texture index, in a file without texture coordinates.
     idle_textures_line: Option<usize>,
-    /// Whether a vertex may have a coordinate of more than 15 digits.
+    /// Whether a vertex coordinate may have more than 15 digits.
     pub has_long_numbers: bool,
-    /// Whether other bytes than zeros follow the gzip data.
+    /// Whether bytes other than zeros follow the gzip data.
     pub has_garbage: bool,
-    /// The vertices that tobj copied.
+    /// Upper bound on the vertices that tobj copied.
     pub copies: Copies,
-    /// The most corners that a face has.
+    /// Largest number of corners of a face.
     pub largest_face: usize,
 }
 
 impl Facts {
-    /// The line, counted from 1, of an `f` statement, counted from 0.
+    /// The line (from 1) of an `f` statement (from 0).
     pub(super) fn face_line(&self, face: usize) -> usize {
         self.face_lines.line(face)
     }
 
-    /// Counts a statement that is left out.
+    /// Counts an ignored statement.
     pub(super) fn ignore(&mut self, keyword: &str, line: usize) {
         count_by_keyword(&mut self.ignored, keyword, line);
     }
@@ -113,14 +114,15 @@ impl Facts {
         }
     }
 
-    /// Notes the colour of the last vertex. Vertices without a colour get one that is white on any scale.
+    /// Records the colour of the last vertex. Vertices without a colour get a value that is white on either
+    /// scale.
     pub(super) fn add_colour(&mut self, colour: [f32; 3]) {
         self.colours.resize(self.counts[0] - 1, [f32::INFINITY; 3]);
         self.colours.push(colour);
         self.coloured += 1;
     }
 
-    /// A colour for each vertex, sRGB from 0 to 1, or none at all. Some programs write them from 0 to 255.
+    /// Returns a colour for each vertex, sRGB from 0 to 1, or an empty list. Some programs write 0 to 255.
     pub(super) fn take_colours(&mut self) -> Vec<Vec3> {
         let mut colours = std::mem::take(&mut self.colours);
         if !colours.is_empty() {
@@ -132,7 +134,7 @@ impl Facts {
         let are_whole = given.all(|x| x.fract() == 0.0);
         self.has_byte_colours = are_whole && largest > 1.0 && largest <= 255.0;
         let white = if self.has_byte_colours { 255.0 } else { 1.0 };
-        // NaN is black.
+        // NaN becomes black.
         let channel = |x: f32| {
             if x.is_nan() {
                 0.0
@@ -144,7 +146,7 @@ impl Facts {
         colours.into_iter().map(colour).collect()
     }
 
-    /// Notes an element whose corners are in the lists.
+    /// Records an element whose corners are in the lists.
     pub(super) fn add_element(&mut self, element: Element, line: usize) {
         if element == Element::Face {
             self.materials.add_face(self.face_count);
@@ -152,12 +154,12 @@ impl Facts {
             self.face_count += 1;
             self.face_lines.push(line);
         } else {
-            self.no_faces.push((self.element_count, element));
+            self.non_faces.push((self.element_count, element));
         }
         self.element_count += 1;
     }
 
-    /// Leaves out an element of which corners were added to the lists.
+    /// Drops an element, and removes its corners from the lists.
     pub(super) fn drop_element(&mut self, element: Element, before: [usize; 3], line: usize) {
         for (list, length) in self.corners.iter_mut().zip(before) {
             list.truncate(length);
@@ -168,29 +170,30 @@ impl Facts {
         }
     }
 
-    /// Elements since tobj's last list was ended.
+    /// Number of elements since the end of tobj's last list.
     pub(super) fn elements_since_cut(&self) -> usize {
         self.element_count - self.copies.elements
     }
 
-    /// Notes that tobj's list of faces was ended.
+    /// Records the end of one of tobj's lists.
     pub(super) fn cut(&mut self) {
         self.copies.cut(&self.corners, self.element_count);
     }
 
-    /// Whether each index so far names an entry that was read. Idle lists don't count.
+    /// Whether every index so far refers to an entry that was read. Idle lists are not checked.
     pub(super) fn is_complete(&self) -> bool {
         List::ALL.into_iter().all(|list| {
             self.is_idle(list) || self.highest[list as usize].0 <= self.counts[list as usize]
         })
     }
 
-    /// Whether a list has no entries and needs none: some exporters number texture coordinates that they don't write.
+    /// Whether a list has no entries and needs none: some exporters write indices of texture coordinates that
+    /// don't exist.
     pub(super) fn is_idle(&self, list: List) -> bool {
         list == List::Texture && self.counts[list as usize] == 0
     }
 
-    /// Removes the indices of texture coordinates at the end of a file that has none.
+    /// Removes texture indices if the file has no texture coordinates.
     pub(super) fn forget_idle_textures(&mut self) {
         let (highest, line) = self.highest[List::Texture as usize];
         if self.is_idle(List::Texture) && highest > 0 {
@@ -200,7 +203,7 @@ impl Facts {
         }
     }
 
-    /// Warnings about all that was left out, in the order of their first lines.
+    /// Warnings about everything ignored or dropped, in the order of their first lines.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let ignored = self.ignored.iter().filter_map(|(keyword, tally)| {
             tally.warning(|count| format!("{count} “{keyword}” statement(s) ignored"))
@@ -219,12 +222,13 @@ impl Facts {
                     .warning(|count| format!("{count} line(s) or point(s) {why}")),
             )
             .chain(self.bare.warning(|count| {
-                format!("{count} texture or normal indices ignored: there are no such")
+                format!("{count} texture or normal indices ignored: they are out of range")
             }))
             .chain(self.idle_textures_line.map(|line| {
                 Warning::at(
                     line,
-                    "texture coordinates are named, but there are none".to_owned(),
+                    "faces have texture indices, but the file has no texture coordinates"
+                        .to_owned(),
                 )
             }))
             .chain(uncoloured)
@@ -232,11 +236,12 @@ impl Facts {
                 Warning::of_file("bytes after the end of the gzip data ignored".to_owned())
             }))
             .chain(self.has_byte_colours.then(|| {
-                Warning::of_file("colours of vertices go beyond 1: taken as bytes".to_owned())
+                Warning::of_file("vertex colours above 1: interpreted as bytes".to_owned())
             }))
             .chain((self.useless_normals > 0).then(|| {
                 let count = self.useless_normals;
-                let message = format!("{count} normal(s) are zero or not finite: computed instead");
+                let message =
+                    format!("{count} normal(s) computed: those in the file are zero or not finite");
                 Warning::of_file(message)
             }))
             .collect();
@@ -244,13 +249,14 @@ impl Facts {
         warnings
     }
 
-    /// Triangles, if every face becomes a fan.
+    /// Number of triangles if every face becomes a fan.
     pub(super) fn triangle_count(&self) -> usize {
         self.corners[0].len().saturating_sub(2 * self.face_count)
     }
 }
 
-/// Counts a statement by its keyword. Files of random bytes have many: all after the first ones count as one.
+/// Counts a statement by its keyword. Files of random bytes have many keywords: all after the first 40 share
+/// a count.
 pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, line: usize) {
     const MOST_KEYWORDS: usize = 40;
     let is_known = tallies.contains_key(keyword);
@@ -262,7 +268,7 @@ pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &
     tallies.entry(name.to_owned()).or_default().add(line);
 }
 
-/// Line numbers of statements, kept as runs of statements on consecutive lines.
+/// Line numbers of statements, stored as runs of statements on consecutive lines.
 #[derive(Clone, Debug, Default)]
 pub struct LineRuns {
     runs: Vec<(usize, usize)>,
@@ -279,7 +285,7 @@ impl LineRuns {
         self.next_line = line + 1;
     }
 
-    /// The line of a statement, counted from 1; the statement is counted from 0. 0 if there are none.
+    /// The line (from 1) of a statement (from 0); 0 if there are no statements.
     pub fn line(&self, statement: usize) -> usize {
         let run = self.runs.partition_point(|(first, _)| *first <= statement);
         match run.checked_sub(1).map(|run| self.runs[run]) {
@@ -298,7 +304,7 @@ impl LineRuns {
     }
 }
 
-/// A word as messages show it: shortened, and without control characters.
+/// A word for messages: shortened, and without control characters.
 pub(super) fn shortened(word: &str) -> String {
     const LENGTH: usize = 60;
     let rest = word.chars().nth(LENGTH).map(|_| '…');

@@ -1,12 +1,12 @@
-//! Turns panics of other crates on a user's data into errors.
+//! Converts panics of dependencies on user data into errors.
 
 use super::error::Problem;
 use std::any::Any;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// The result of `work`, or an error that says what it panicked about. `what` names the work in the message.
+/// Returns the result of `work`, or an error with the panic's message. `what` names the work in the message.
 ///
-/// After a panic, whatever the work was given may only be dropped.
+/// After a panic, anything passed to the work may only be dropped.
 pub(super) fn fenced<T>(what: &str, work: impl FnOnce() -> T) -> Result<T, Problem> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| {
         Problem::Content(format!("{what} failed unexpectedly: {}", reason(&*panic)))

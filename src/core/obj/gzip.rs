@@ -1,4 +1,4 @@
-//! Unpacks gzip as gzip(1) does: members one after the other, with zeros behind the last one ignored.
+//! Decompresses gzip as gzip(1) does: consecutive members, ignoring zeros after the last one.
 //!
 //! Source: RFC 1952, 2.2: a file is a series of members. Tapes and some servers pad it with zeros.
 
@@ -7,18 +7,18 @@ use std::cell::Cell;
 use std::io::{self, BufRead, Read};
 use std::rc::Rc;
 
-/// How a gzip member begins.
+/// The first bytes of a gzip member.
 pub(super) const MAGIC: [u8; 2] = [0x1F, 0x8B];
 
-/// The unpacked bytes of all members.
+/// Reads the decompressed bytes of all members.
 pub(super) struct GzipMembers<R> {
-    /// The member that is being read; `None` after the last one.
+    /// The current member; `None` after the last one.
     member: Option<GzDecoder<R>>,
     has_garbage: Rc<Cell<bool>>,
 }
 
 impl<R: BufRead> GzipMembers<R> {
-    /// `has_garbage` becomes true when bytes other than zeros follow the last member, which are left unread.
+    /// `has_garbage` is set to true if bytes other than zeros follow the last member; they are left unread.
     pub(super) fn new(source: R, has_garbage: Rc<Cell<bool>>) -> Self {
         Self {
             member: Some(GzDecoder::new(source)),
@@ -83,9 +83,9 @@ mod tests {
         encoder.finish().expect("memory")
     }
 
-    /// The text, and whether there is garbage behind it.
+    /// The text, and whether garbage follows it.
     fn unpacked(bytes: &[u8]) -> io::Result<(String, bool)> {
-        // Of any size, so that members end anywhere in the buffer.
+        // A small odd size, so that members end anywhere in the buffer.
         let source = BufReader::with_capacity(7, bytes);
         let has_garbage = Rc::default();
         let mut text = String::new();
@@ -94,7 +94,7 @@ mod tests {
     }
 
     #[test]
-    fn members_follow_each_other_and_zeros_follow_them() {
+    fn several_members_and_trailing_zeros_are_read() {
         let [a, b, empty] = [&b"v 1\n"[..], b"v 2\n", b""].map(packed);
         for (parts, text, has_garbage) in [
             (vec![&a[..]], "v 1\n", false),
@@ -109,7 +109,7 @@ mod tests {
     }
 
     #[test]
-    fn a_second_member_that_ends_early_is_an_error() {
+    fn a_truncated_second_member_is_an_error() {
         let [a, b] = [&b"v 1\n"[..], b"v 2\n"].map(packed);
         for length in [1, 5, b.len() - 1] {
             let bytes = [&a, &b[..length]].concat();

@@ -1,15 +1,15 @@
-//! Recognises files that are no OBJ by their first bytes.
+//! Recognises other file formats by their first bytes.
 
 use memchr::memchr;
 
-/// The first bytes of a kind of file, and its name.
+/// The first bytes of a file format, and its name.
 const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"<!doctype", "an HTML page"),
     (b"<html", "an HTML page"),
     (b"<?xml", "an XML file"),
     (
         b"version https://git-lfs",
-        "a pointer of git-lfs to a file that wasn't fetched",
+        "a Git LFS pointer to a file that wasn't fetched",
     ),
     (b"solid ", "an STL file"),
     (b"ply\n", "a PLY file"),
@@ -22,10 +22,10 @@ const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"glTF", "a glTF file"),
     (b"Kaydara FBX", "an FBX file"),
     (b"PK\x03\x04", "a ZIP archive"),
-    (b"BZh", "packed with bzip2"),
+    (b"BZh", "a bzip2 file"),
 ];
 
-/// A message that says what a file is, if its first bytes show that it is no OBJ.
+/// A message with the file's format, if its first bytes show that it isn't an OBJ.
 pub(super) fn not_an_obj(first_bytes: &[u8]) -> Option<String> {
     if first_bytes.is_empty() {
         return Some("the file is empty".to_owned());
@@ -45,14 +45,14 @@ mod tests {
     use super::*;
 
     #[test]
-    fn other_files_are_called_by_their_names() {
+    fn other_formats_are_recognised() {
         for (bytes, what) in [
             (&b"\n  <HTML><body>"[..], "an HTML page"),
             (b"ply\nformat ascii 1.0", "a PLY file"),
             (b"solid cube\nfacet", "an STL file"),
             (b"{\"asset\":{}}", "a JSON file"),
             (b"\x7fELF\0\0", "a binary file"),
-            (b"BZh91AY", "packed with bzip2"),
+            (b"BZh91AY", "a bzip2 file"),
         ] {
             let expected = format!("this is {what}, not an OBJ file");
             assert_eq!(

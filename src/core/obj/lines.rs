@@ -1,7 +1,7 @@
 //! Splits an OBJ or MTL file into statements.
 //!
-//! Lines end in LF, CR or CRLF; a backslash at the end joins the next one. A byte order mark is taken
-//! away, UTF-16 read as UTF-8, gzip unpacked.
+//! Lines end in LF, CR or CRLF; a backslash at the end of a line joins the next one. A byte order mark is
+//! removed, UTF-16 converted to UTF-8, gzip decompressed.
 
 use super::error::Problem;
 use super::gzip::{GzipMembers, MAGIC};
@@ -13,35 +13,35 @@ use std::cell::Cell;
 use std::io::{self, BufRead, BufReader, Read};
 use std::rc::Rc;
 
-/// Bytes that are read between two checks whether the load was cancelled.
+/// Bytes read between two cancellation checks.
 const PIECE: usize = 1 << 18;
-/// A longer line isn't read to its end: a polygon of ten million corners would fit.
+/// Longest line that is read; a polygon of ten million corners would fit.
 const LONGEST_LINE: usize = 128 << 20;
 
-/// Bytes that show that a file is no OBJ.
+/// Number of bytes by which other file formats are recognised.
 const ENOUGH_TO_TELL: usize = 1 << 10;
 
-/// The statements of a text, one after the other.
+/// Splits a text into statements.
 pub(super) struct Lines<'p> {
     source: Box<dyn Read + 'p>,
     progress: &'p Progress,
-    /// Bytes read and not yet split into lines, from `start` on.
+    /// Bytes read but not yet split into lines, from `start` on.
     buffer: Vec<u8>,
     start: usize,
     is_at_end: bool,
     line: usize,
     longest_line: usize,
-    /// A statement of several lines.
+    /// Buffer for a statement of several lines.
     joined: Vec<u8>,
     has_garbage: Rc<Cell<bool>>,
 }
 
-/// A statement as it stands in the file, and the line on which it begins, counted from 1.
+/// A statement as written in the file, and the line (from 1) on which it starts.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Statement<'l> {
     pub line: usize,
     pub bytes: &'l [u8],
-    /// Whether it is joined of several lines.
+    /// Whether the statement was joined from several lines.
     pub is_joined: bool,
 }
 
@@ -50,13 +50,13 @@ impl Statement<'_> {
         Problem::line(self.line, message)
     }
 
-    /// An error about the word that begins at an offset.
+    /// An error about the word that starts at an offset.
     pub(super) fn problem_at(&self, offset: usize, message: String) -> Problem {
         let is_start = |b: &&u8| **b & 0xC0 != 0x80;
         let characters = self.bytes[..offset].iter().filter(is_start).count();
         Problem::Line {
             line: self.line,
-            // The columns of joined lines aren't known.
+            // Columns in joined lines are unknown.
             column: (!self.is_joined).then_some(characters + 1),
             message,
         }
@@ -98,7 +98,7 @@ impl<'p> Lines<'p> {
         })
     }
 
-    /// Gives up lines that take more than a quarter of the memory that may be used: the buffer doubles as it grows.
+    /// Limits lines to a quarter of the allowed memory, as the buffer doubles when it grows.
     pub(super) fn limit_lines(&mut self, max_memory: u64) {
         let most = usize::try_from(max_memory / 4).unwrap_or(LONGEST_LINE);
         self.longest_line = most.clamp(PIECE, LONGEST_LINE);
@@ -107,16 +107,16 @@ impl<'p> Lines<'p> {
     /// Checks the first bytes, before the first statement is read.
     ///
     /// # Errors
-    /// Says what the file is, if it is no OBJ.
+    /// The file is recognised as another format.
     pub(super) fn require_obj(&mut self) -> Result<(), Problem> {
-        // They may come a few at a time.
+        // A source may return a few bytes at a time.
         while self.buffer.len() < ENOUGH_TO_TELL && !self.is_at_end {
             self.fill()?;
         }
         not_an_obj(&self.buffer).map_or(Ok(()), |what| Err(Problem::Content(what)))
     }
 
-    /// The next statement; `None` at the end.
+    /// The next statement, or `None` at the end.
     pub(super) fn next(&mut self) -> Result<Option<Statement<'_>>, Problem> {
         let Some((from, to)) = self.next_line()? else {
             return Ok(None);
@@ -150,23 +150,23 @@ impl<'p> Lines<'p> {
         }))
     }
 
-    /// Whether the whole text was read.
+    /// Whether the whole text has been read.
     pub(super) fn is_at_end(&self) -> bool {
         self.is_at_end
     }
 
-    /// Whether bytes follow the packed ones that are neither packed nor zero.
+    /// Whether bytes other than zeros follow the gzip data.
     pub(super) fn has_garbage(&self) -> bool {
         self.has_garbage.get()
     }
 
-    /// Where the next line stands in the buffer, without its end.
+    /// The range of the next line in the buffer, without its line end.
     fn next_line(&mut self) -> Result<Option<(usize, usize)>, Problem> {
         let mut searched = 0;
         let (length, step) = loop {
             let rest = &self.buffer[self.start..];
             match memchr2(b'\n', b'\r', &rest[searched..]).map(|at| at + searched) {
-                // A CR at the very end may be half of a CRLF: read on to know.
+                // A CR at the end of the buffer may be half of a CRLF, so more bytes are needed.
                 Some(at) if rest[at] == b'\n' || at + 1 < rest.len() || self.is_at_end => {
                     let is_pair = rest[at] == b'\r' && rest.get(at + 1) == Some(&b'\n');
                     break (at, at + 1 + usize::from(is_pair));
@@ -211,20 +211,23 @@ impl<'p> Lines<'p> {
     }
 }
 
-/// A line that continues on the next one, without the final backslash. Comments don't continue.
+/// The line without its final backslash, if it continues on the next line. Comments don't continue.
 fn before_backslash(line: &[u8]) -> Option<&[u8]> {
     let continued = line.trim_ascii_end().strip_suffix(b"\\")?;
-    // A name may have a # inside.
+    // A name may contain a #.
     let begins_word = |at: usize| at == 0 || line[at - 1].is_ascii_whitespace();
     let has_comment = memchr_iter(b'#', line).any(begins_word);
     (!has_comment).then_some(continued)
 }
 
 fn too_long(line: usize, longest: usize) -> Problem {
-    Problem::line(line, format!("a line of more than {} MB", longest >> 20))
+    Problem::line(
+        line,
+        format!("the line is longer than {} MB", longest >> 20),
+    )
 }
 
-/// Counts the bytes that are read, and ends with an error when the load is cancelled.
+/// Counts the bytes read, and returns an error once the load is cancelled.
 struct CountingReader<'p, R> {
     bytes: R,
     progress: &'p Progress,
@@ -232,7 +235,7 @@ struct CountingReader<'p, R> {
 
 impl<R: Read> Read for CountingReader<'_, R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        // Packed bytes may unpack to nothing for long.
+        // Compressed bytes may decompress to nothing for a long time.
         self.progress.check().map_err(io::Error::other)?;
         let count = self.bytes.read(out)?;
         self.progress.add_read(count as u64);
@@ -262,7 +265,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_in_any_way_and_continue_after_a_backslash() {
+    fn lines_have_any_line_end_and_continue_after_a_backslash() {
         let expected = [(1, "v 1"), (2, ""), (3, "f 1  2 3"), (5, "g a")];
         let expected: Vec<(usize, String)> = expected.map(|(n, text)| (n, text.to_owned())).into();
         for end in ["\n", "\r", "\r\n"] {
@@ -280,7 +283,7 @@ mod tests {
     }
 
     #[test]
-    fn a_comment_ends_with_its_line() {
+    fn a_comment_does_not_continue_after_a_backslash() {
         let comment = r" # C:\models\".to_owned();
         let text = format!("{comment}\nv 1");
         assert_eq!(
@@ -290,7 +293,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_obj_is_told_behind_empty_lines() {
+    fn other_formats_are_recognised_after_empty_lines() {
         for bytes in [
             &b"\r\n\n <html>"[..],
             b"\n<!DOCTYPE html>",
@@ -299,13 +302,13 @@ mod tests {
         ] {
             let progress = Progress::default();
             let mut lines = Lines::new(bytes, &progress).expect("bytes");
-            let is_told = matches!(lines.require_obj(), Err(Problem::Content(_)));
-            assert!(is_told, "{}", bytes.escape_ascii());
+            let is_recognised = matches!(lines.require_obj(), Err(Problem::Content(_)));
+            assert!(is_recognised, "{}", bytes.escape_ascii());
         }
     }
 
     #[test]
-    fn half_a_gzip_file_is_an_error() {
+    fn a_truncated_gzip_file_is_an_error() {
         let whole = gzipped(&b"v 0 0 0\n".repeat(1000));
         let progress = Progress::default();
         let mut lines = Lines::new(&whole[..whole.len() / 2], &progress).expect("bytes");

@@ -1,4 +1,4 @@
-//! Looks up the materials that faces name, and reads their textures.
+//! Looks up the materials that faces use, and reads their textures.
 
 use super::Warning;
 use super::error::Problem;
@@ -13,7 +13,7 @@ use std::collections::{HashMap, HashSet};
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The materials that faces name, in the order of their names, and the textures of these.
+/// The materials that faces use, in the order of their names, and their textures.
 pub(super) struct MaterialResolver {
     pub materials: Vec<Material>,
     pub textures: Vec<Texture>,
@@ -21,7 +21,7 @@ pub(super) struct MaterialResolver {
     pub warnings: Vec<Warning>,
 }
 
-/// Looks up every material that faces name, and reads the pictures of those.
+/// Looks up every material that faces use, and reads its texture.
 pub(super) fn look_up(
     facts: &Facts,
     files: &dyn ReferencedFiles,
@@ -81,39 +81,39 @@ pub(super) fn look_up(
     })
 }
 
-/// Warnings of one kind, of which only the first ones are kept.
+/// Warnings of one kind; keeps the first ones and counts the rest.
 #[derive(Default)]
 struct LimitedWarnings {
     told: Vec<Warning>,
-    untold: usize,
+    unlisted: usize,
 }
 
 impl LimitedWarnings {
     fn add(&mut self, warning: Warning) {
         /// As many as a panel shows at once.
-        const MOST_TOLD: usize = 20;
-        if self.told.len() < MOST_TOLD {
+        const MOST_LISTED: usize = 20;
+        if self.told.len() < MOST_LISTED {
             self.told.push(warning);
         } else {
-            self.untold += 1;
+            self.unlisted += 1;
         }
     }
 
     fn warnings(self, what: &str) -> Vec<Warning> {
-        let more = (self.untold > 0)
-            .then(|| Warning::of_file(format!("{} more {what} like these", self.untold)));
+        let more = (self.unlisted > 0)
+            .then(|| Warning::of_file(format!("{} more {what} like these", self.unlisted)));
         self.told.into_iter().chain(more).collect()
     }
 }
 
-/// The definitions of the materials that faces name.
+/// Definitions of the materials that faces use.
 struct Libraries<'a> {
     files: &'a dyn ReferencedFiles,
     max_memory: u64,
-    /// The names that faces use, with and without what may be a comment.
+    /// Names that faces use, with and without a possible comment.
     wanted: HashSet<&'a str>,
     progress: &'a Progress,
-    /// Each material with its library's folder. Of several by one name the first one counts.
+    /// Each material with its library's folder. The first of several definitions counts.
     known: HashMap<String, (String, Definition)>,
     /// Paths of libraries, and whether they could be read.
     seen: HashMap<PathBuf, bool>,
@@ -122,7 +122,7 @@ struct Libraries<'a> {
 }
 
 impl<'a> Libraries<'a> {
-    /// Reads every library of a file.
+    /// Reads all libraries of a file.
     fn of(
         facts: &'a Facts,
         files: &'a dyn ReferencedFiles,
@@ -147,7 +147,7 @@ impl<'a> Libraries<'a> {
         Ok(libraries)
     }
 
-    /// Reads the libraries that a `mtllib` names: one, whose name may have spaces, or several.
+    /// Reads the libraries of a `mtllib` statement: one, whose name may contain spaces, or several.
     fn read(&mut self, line: usize, names: &str) -> Result<(), Problem> {
         let whole = names.trim_matches('"').replace('\\', "/");
         let Err(error) = self.read_one(&whole)? else {
@@ -174,7 +174,7 @@ impl<'a> Libraries<'a> {
 
     /// Reads a library unless it was read before.
     fn read_one(&mut self, library: &str) -> Result<Result<(), String>, Problem> {
-        /// Far more than any file has, and few enough to look for.
+        /// More than any real file has, yet few enough to look up.
         const MOST: usize = 10_000;
         self.progress.check()?;
         if library.is_empty() {
@@ -192,7 +192,7 @@ impl<'a> Libraries<'a> {
         Ok(read)
     }
 
-    /// Reads the file of a library.
+    /// Reads a library's file.
     fn read_file(&mut self, library: &str, path: &Path) -> Result<Result<(), String>, Problem> {
         let bytes = match self.files.read(path, self.max_memory) {
             Ok(bytes) => bytes,
@@ -219,7 +219,7 @@ impl<'a> Libraries<'a> {
     }
 }
 
-/// The names of several libraries. Each ends with a word in `.mtl`; if there is no such word, each word is a name.
+/// The names of several libraries. Each ends with a word in `.mtl`; without such a word, each word is a name.
 fn names_in(several: &str) -> impl Iterator<Item = String> {
     /// The longest path on Linux.
     const LONGEST_NAME: usize = 4096;
@@ -239,7 +239,7 @@ fn names_in(several: &str) -> impl Iterator<Item = String> {
     })
 }
 
-/// The reason why a file can't be read.
+/// The reason why a file can't be read, for messages.
 fn reason(error: &io::Error) -> String {
     match error.kind() {
         io::ErrorKind::NotFound => "not found".to_owned(),
@@ -247,23 +247,23 @@ fn reason(error: &io::Error) -> String {
     }
 }
 
-/// The textures so far.
+/// State of reading textures.
 struct Textures<'a> {
     files: &'a dyn ReferencedFiles,
-    /// Bytes that textures still to come may take.
+    /// Memory in bytes that further textures may use.
     max_memory: u64,
     list: Vec<Texture>,
-    /// The texture of each name that was looked up.
+    /// The texture of each name looked up.
     by_name: HashMap<String, u32>,
-    /// The texture of each file that was read.
+    /// The texture of each file read.
     by_path: HashMap<PathBuf, u32>,
-    /// Stands in for all that can't be read.
+    /// Checkerboard in place of all textures that can't be read.
     checker: Option<u32>,
     odd: LimitedWarnings,
 }
 
 impl Textures<'_> {
-    /// A map whose picture lies in the library's folder or in the mesh's; a checker where it can't be read.
+    /// A map whose picture is in the library's folder or the mesh's, or a checker if it can't be read.
     fn map(&mut self, map: &MapFile, folder: &str) -> TextureMap {
         let in_folder = if folder.is_empty() {
             map.name.clone()
@@ -285,7 +285,7 @@ impl Textures<'_> {
         }
     }
 
-    /// The texture of a name that wasn't looked up yet.
+    /// The texture of a name that wasn't looked up before.
     fn texture(&mut self, name: &str, in_folder: &str) -> u32 {
         let mut why = String::new();
         let names = [in_folder, name];
@@ -327,7 +327,7 @@ impl Textures<'_> {
         self.push(texture)
     }
 
-    /// The checkerboard that stands in for a texture that can't be read.
+    /// The checkerboard shown in place of a texture that can't be read.
     fn checker(&mut self, name: &str, why: &str) -> u32 {
         self.warn(name, &format!("{why}; shown as a checker"));
         let checker = self.checker;

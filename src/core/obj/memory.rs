@@ -1,41 +1,41 @@
-//! Bounds the memory that loading takes, from what was read so far.
+//! Estimates the memory that loading takes, from what has been read so far.
 //!
-//! Three phases take the most. Their lists don't exist at the same time:
+//! Three phases use most. Their lists don't exist at the same time:
 //!
 //! | phase | lists |
 //! |---|---|
-//! | reading | tobj's numbers in f64, its copies of them for each list of faces, indices here and there |
+//! | reading | tobj's numbers in f64, its copies of them for each list of faces, indices in tobj and in `Facts` |
 //! | assembling | the file's numbers in f64 and its indices, the mesh |
 //! | building the tree | the mesh, the tree, and the builder's lists |
 //!
-//! A list that grows is copied to a place twice as large, of which only the used part takes memory; one grows at a
-//! time.
+//! A growing list is copied to one of twice the capacity, of which only the used part takes memory; only one
+//! list grows at a time.
 
 use super::corner::List;
 use super::facts::Facts;
 use super::polygon;
 use crate::bvh;
 
-/// What tobj keeps for an entry of each list: three numbers in f64, two of texture coordinates.
+/// tobj's bytes per entry of each list: three numbers in f64, two for texture coordinates.
 const IN_F64: [usize; 3] = [24, 16, 24];
-/// The same in f32, as a mesh keeps it.
+/// The same in f32, as in a mesh.
 const IN_F32: [usize; 3] = [12, 8, 12];
 /// An index.
 const INDEX: usize = 4;
 /// A colour in f32.
 const COLOUR: usize = 12;
-/// Of a triangle: indices, face and outline.
+/// Per triangle: indices, face and outline.
 const TRIANGLE: usize = 12 + 4 + 1;
-/// Of a triangle: the indices of its corners' normals, or of their texture coordinates.
+/// Per triangle: the indices of its corners' normals, or of their texture coordinates.
 const CORNERS: usize = 12;
-/// tobj's `Face`, and a corner of it if there are more than four; lists with room for twice as many.
+/// tobj's `Face`, and a corner of it if there are more than four; lists may have twice the capacity.
 const PENDING_FACE: usize = 2 * 104;
 const PENDING_CORNER: usize = 2 * 24;
-/// What triangulating a large polygon takes for each corner (measured 2026-11).
+/// Memory per corner for triangulating a large polygon (measured 2026-11).
 const POLYGON_CORNER: usize = 300;
 
 impl Facts {
-    /// Bytes that loading takes at most, if the file ended here.
+    /// Upper bound on the bytes that loading takes, if the file ended here.
     pub(super) fn bytes(&mut self) -> usize {
         self.copies.look_at(&self.corners);
         let phases = [self.reading(), self.assembling(), self.mesh() + self.tree()];
@@ -80,7 +80,7 @@ impl Facts {
         bvh::BYTES_WHILE_BUILDING * self.triangle_count()
     }
 
-    /// The numbers of elements' corners, where not all are triangles.
+    /// Memory for the elements' corner counts, unless all are triangles.
     fn arities(&self) -> usize {
         if self.corners[0].len() == 3 * self.element_count {
             0
@@ -100,7 +100,7 @@ impl Facts {
     }
 
     fn names(&self) -> usize {
-        let runs = 16 * (self.smoothing.capacity() + self.no_faces.capacity());
+        let runs = 16 * (self.smoothing.capacity() + self.non_faces.capacity());
         let names = self.materials.bytes() + self.groups.bytes() + self.libraries.bytes();
         names + runs + self.face_lines.bytes()
     }

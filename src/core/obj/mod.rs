@@ -2,13 +2,13 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | bytes become statements: compression, encodings, line ends | `lines`, `gzip`, `kind` |
-//! | statements are checked, noted, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies`, `memory` |
-//! | tobj reads their numbers, in f64 | here |
-//! | its lists of some ten thousand faces become one | `numbers` |
-//! | vertices are recentred, polygons cut, and triangles that no ray can hit dropped | `assemble`, `place`, `polygon`, `delaunay`, `outline` |
-//! | the line of a face is read again | `face_source` |
-//! | names become materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
+//! | bytes are split into statements: compression, encodings, line ends | `lines`, `gzip`, `kind` |
+//! | statements are checked, recorded, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies`, `memory` |
+//! | tobj parses their numbers in f64 | here |
+//! | tobj's lists, one per 16 384 faces, are merged | `numbers` |
+//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`, `place`, `polygon`, `delaunay`, `outline` |
+//! | a face's statement is read again for the inspector | `face_source` |
+//! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
 
 mod assemble;
 mod copies;
@@ -51,41 +51,41 @@ use std::fs::{File, Metadata};
 use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 
-/// Where a mesh's origin is put.
+/// Placement of a mesh's origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Recentre {
-    /// Near the mesh, if it lies far from (0, 0, 0) for its size: f32 then holds its detail.
+    /// Near the mesh, if it is far from (0, 0, 0) relative to its size, so that f32 keeps its detail.
     #[default]
     Auto,
     /// At (0, 0, 0): positions are the file's numbers rounded to f32.
     Off,
 }
 
-/// How faces are treated whose indices name nothing.
+/// Treatment of faces whose indices are out of range.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FaultPolicy {
     /// The file is refused.
     #[default]
     Strict,
-    /// A face without a vertex is dropped; a normal or texture coordinates that don't exist are left out. A warning
-    /// counts them. Files that come through a pipe are refused, as they can't be read twice.
+    /// A face with an invalid vertex index is dropped; invalid normals and texture coordinates are omitted. A
+    /// warning counts them. Pipes are read with [`Strict`](Self::Strict), as they can't be read twice.
     Lenient,
 }
 
-/// How a file is loaded.
+/// Options for loading a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct LoadOptions {
-    /// Where the mesh's origin is put.
+    /// Placement of the mesh's origin.
     pub recentre: Recentre,
-    /// How faces are treated whose indices name nothing.
+    /// Treatment of faces whose indices are out of range.
     pub faults: FaultPolicy,
-    /// Bytes of memory that loading and building the tree may take; a file that needs more is refused.
+    /// Memory in bytes that loading and building the tree may use; a file that needs more is refused.
     pub max_memory: u64,
 }
 
 impl Default for LoadOptions {
     fn default() -> Self {
-        /// Room for some 50 million triangles.
+        /// Enough for about 50 million triangles.
         const MAX_MEMORY: u64 = 8 << 30;
         Self {
             recentre: Recentre::default(),
@@ -95,27 +95,27 @@ impl Default for LoadOptions {
     }
 }
 
-/// A mesh, and the oddities of its file.
+/// A mesh and the warnings about its file.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The mesh.
     pub mesh: TriangleMesh,
-    /// What was dropped or ignored, for the user to know.
+    /// Warnings about dropped, ignored or unusual parts of the file.
     pub warnings: Vec<Warning>,
-    /// `v` statements in the file.
+    /// Number of `v` statements in the file.
     pub vertex_count: usize,
-    /// No coordinate of the traced mesh lies farther from its decimal in the file than this.
+    /// Upper bound on the difference between a coordinate of the traced mesh and its decimal in the file.
     pub max_rounding: f64,
-    /// The line of each face, counted as [`TriangleMesh::face_of`] does.
+    /// The line of each face, indexed like [`TriangleMesh::face_of`].
     pub face_lines: LineRuns,
-    /// The libraries and textures that were looked for, whether or not they are there.
+    /// Paths of the libraries and textures that were looked for, including missing ones.
     pub files: Vec<PathBuf>,
 }
 
-/// Loads an OBJ file, perhaps a gzipped one, and the material libraries and textures beside it.
+/// Loads an OBJ file, optionally gzipped, with its material libraries and textures.
 ///
 /// # Errors
-/// See [`LoadError`]: what is wrong, and on which line.
+/// See [`LoadError`], which gives the reason and the line.
 pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Loaded, LoadError> {
     let unreadable = |source| LoadError::Unreadable {
         path: path.to_owned(),
@@ -128,7 +128,7 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         });
     }
     if is_device(&before) {
-        // Some never end.
+        // Some devices never end.
         return Err(Problem::Content("this is a device, not an OBJ file".to_owned()).in_file(path));
     }
     progress.set_total(before.len());
@@ -146,7 +146,7 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
     let is_cancelled = matches!(parsed, Err(LoadError::Cancelled { .. }));
     let after = std::fs::metadata(path).map_err(unreadable)?;
     if is_changed(&before, &after) && !is_cancelled {
-        // Whatever was wrong with half a file is of no interest.
+        // A partial file's other errors don't matter.
         return Err(Problem::Content(CHANGED.to_owned()).in_file(path));
     }
     let mut loaded = parsed?;
@@ -154,7 +154,7 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
     Ok(loaded)
 }
 
-/// Whether a file is neither stored nor a pipe: a disk, a terminal, or a source of bytes without end.
+/// Whether a file is neither regular nor a pipe, such as a disk, a terminal, or an endless source of bytes.
 fn is_device(info: &Metadata) -> bool {
     #[cfg(unix)]
     {
@@ -169,17 +169,17 @@ fn is_device(info: &Metadata) -> bool {
     }
 }
 
-const CHANGED: &str = "the file changed while it was read; load it again";
+const CHANGED: &str = "the file changed while it was being read; load it again";
 
 fn is_changed(before: &Metadata, after: &Metadata) -> bool {
     before.is_file()
         && (before.len(), before.modified().ok()) != (after.len(), after.modified().ok())
 }
 
-/// Parses an OBJ from bytes; `path` is what errors call it.
+/// Parses an OBJ from bytes; error messages use `path`.
 ///
-/// `open` gives the bytes, from their beginning. It is called a second time if a lenient reading found
-/// that faces name vertices which never came.
+/// `open` opens the bytes at their start. It is called a second time if a lenient read found faces with
+/// vertices that never followed.
 ///
 /// # Errors
 /// See [`LoadError`].
@@ -214,10 +214,10 @@ fn parse_with<R: Read>(
     read_twice().map_err(|problem| problem.in_file(path))
 }
 
-/// The result of reading a file once.
+/// Result of reading a file once.
 enum ReadOutcome {
     Loaded(Box<Loaded>),
-    /// Some indices are too high for these counts of vertices, texture coordinates and normals.
+    /// Some indices exceed these counts of vertices, texture coordinates and normals.
     Again([usize; 3]),
 }
 
@@ -237,7 +237,7 @@ fn read<R: Read>(
         single_index: false,
         ..tobj::LoadOptions::default()
     };
-    // The reader passes on no `mtllib`: materials are looked up by name afterwards.
+    // The reader passes no `mtllib` on: materials are looked up by name afterwards.
     let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
     let parsed = fenced("reading", || {
         tobj::load_obj_buf(&mut reader, &tobjs, no_library)
@@ -246,12 +246,12 @@ fn read<R: Read>(
         Ok((models, _)) => (models, None),
         Err(error) => (Vec::new(), Some(error)),
     };
-    // The reader knows the line and the reason; tobj only that there is an error.
+    // The reader knows the line and the reason of an error; tobj knows neither.
     let mut facts = match reader.finish(error.as_ref())? {
         Outcome::Read(facts) => facts,
         Outcome::Again(counts) => return Ok(ReadOutcome::Again(counts)),
     };
-    // The rest is for textures.
+    // Textures get the remaining memory.
     let options = LoadOptions {
         max_memory: options.max_memory.saturating_sub(facts.bytes() as u64),
         ..options

@@ -1,7 +1,7 @@
 //! Reads material libraries.
 //!
-//! Read here and not by tobj, which panics on the legal `Kd 0.5` and drops a whole library for a
-//! statement that it doesn't know. One bad line costs that line.
+//! tobj isn't used here: it panics on the valid `Kd 0.5`, and drops a whole library for an unknown statement.
+//! This parser skips only the bad line.
 //!
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
@@ -15,17 +15,17 @@ use crate::progress::Progress;
 use glam::{Vec2, Vec3};
 use std::collections::{BTreeMap, HashSet};
 
-/// A material, and the picture that it names.
+/// A material and its texture file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Definition {
     pub material: Material,
     pub diffuse_map: Option<MapFile>,
     line: usize,
-    /// Whether a `d` was read, which counts more than a `Tr`.
+    /// Whether a `d` was read, which overrides `Tr`.
     has_opacity: bool,
 }
 
-/// A `map_Kd`: a file's name, and how it lies on the surface.
+/// A `map_Kd`: a file's name, and its placement on the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapFile {
     pub name: String,
@@ -33,17 +33,17 @@ pub(super) struct MapFile {
     pub offset: Vec2,
 }
 
-/// Statements that programs write for each material and that shading doesn't use. Warnings about them would hide
-/// the others.
+/// Statements that programs write for every material and that shading doesn't use. Warnings about them would
+/// hide others.
 const SILENT: [&str; 3] = ["Ka", "Ni", "sharpness"];
 
-/// Statements between two checks whether the load was cancelled.
+/// Statements between two cancellation checks.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
-/// A library of more bytes, unpacked, isn't read to its end: four times the largest file that is read at all.
+/// Largest library in bytes, decompressed: four times the largest file that is read at all.
 const LARGEST: usize = 1 << 30;
 
-/// Keywords of the format and of its usual extensions, in lower case. Only these are named in warnings: any file
-/// can be called a library, and warnings must not quote it.
+/// Keywords of the format and its common extensions, in lower case. Warnings quote only these: any file can
+/// be named as a library, and its content must not be shown.
 const KEYWORDS: [&str; 45] = [
     "ka",
     "kd",
@@ -92,14 +92,14 @@ const KEYWORDS: [&str; 45] = [
     "map_opacity",
 ];
 
-/// A library's materials, and what was odd about it.
+/// A library's materials and the warnings about it.
 pub(super) struct MaterialLibrary {
-    /// The wanted ones, each by its first definition.
+    /// The wanted materials, each by its first definition.
     pub definitions: Vec<Definition>,
     pub warnings: Vec<Warning>,
 }
 
-/// Reads the wanted materials of a library; `None` if the file isn't one.
+/// Reads the wanted materials of a library; `None` if the file isn't a library.
 ///
 /// # Errors
 /// Cancelled by `progress`.
@@ -115,18 +115,18 @@ pub(super) fn parse(
         Err(Problem::Cancelled) => return Err(Problem::Cancelled),
         Err(problem) => Some(problem.in_file(library.as_ref()).to_string()),
     };
-    // A library without materials holds comments at most.
+    // A library without materials contains at most comments.
     if parser.material_count == 0 && (parser.statement_count > 0 || failure.is_some()) {
         return Ok(None);
     }
     let about = format!("material library “{}”", shortened(library));
     let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
         let Tally { count, first_line } = tally;
-        format!("{about}: {count} “{keyword}” statement(s) skipped, line {first_line} first")
+        format!("{about}: {count} “{keyword}” statement(s) skipped, the first on line {first_line}")
     });
     let unknown = (parser.unknown.count > 0).then(|| {
         let Tally { count, first_line } = parser.unknown;
-        format!("{about}: {count} unknown statement(s) skipped, line {first_line} first")
+        format!("{about}: {count} unknown statement(s) skipped, the first on line {first_line}")
     });
     let warnings = skipped.chain(unknown).chain(failure);
     Ok(Some(MaterialLibrary {
@@ -135,18 +135,18 @@ pub(super) fn parse(
     }))
 }
 
-/// The materials so far.
+/// State of parsing a library.
 #[derive(Default)]
 struct Parser {
     found: Vec<Definition>,
     names: HashSet<String>,
     current: Option<Definition>,
-    /// Statements besides comments.
+    /// Number of statements, not counting comments.
     statement_count: usize,
     material_count: usize,
     /// Skipped statements by keyword.
     skipped: BTreeMap<String, Tally>,
-    /// Skipped statements whose keyword isn't one of the format.
+    /// Skipped statements whose keyword isn't in [`KEYWORDS`].
     unknown: Tally,
 }
 
@@ -157,7 +157,7 @@ impl Parser {
         is_wanted: impl Fn(&str) -> bool,
         progress: &Progress,
     ) -> Result<(), Problem> {
-        // Bytes of libraries don't count as progress.
+        // A library's bytes don't count as progress.
         let own = Progress::default();
         let mut lines = Lines::new(bytes, &own)?;
         let (mut count, mut length) = (0, 0);
@@ -168,7 +168,9 @@ impl Parser {
             count += 1;
             length += statement.bytes.len() + 1;
             if length > LARGEST {
-                return Err(statement.problem(format!("more than {} MB", LARGEST >> 20)));
+                return Err(
+                    statement.problem(format!("the library is larger than {} MB", LARGEST >> 20))
+                );
             }
             self.take(statement, &is_wanted);
         }
@@ -229,7 +231,7 @@ impl Parser {
 }
 
 impl Definition {
-    /// Reads a statement and returns the skipped options; `None` if it can't be read or isn't known.
+    /// Reads a statement and returns the skipped options; `None` if it is malformed or unknown.
     fn read(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
         let material = &mut self.material;
         match keyword {
@@ -238,7 +240,7 @@ impl Definition {
             "Ke" => material.emission = light(rest)?,
             "Ns" => material.shininess = number(rest).filter(|x| *x >= 0.0)?,
             "d" => {
-                // With -halo, the given opacity is the one in the middle.
+                // With -halo, the value is the opacity at the centre.
                 let value = rest.strip_prefix("-halo").unwrap_or(rest);
                 material.opacity = part(value)?;
                 self.has_opacity = true;
@@ -268,7 +270,7 @@ impl Definition {
     }
 }
 
-/// Three numbers, or one for all three channels, of no channel less than 0.
+/// Three numbers, or one for all three channels; none may be negative.
 fn light(rest: &str) -> Option<Vec3> {
     let numbers: Option<Vec<f32>> = rest.split_whitespace().map(number).collect();
     let light = match numbers?[..] {
@@ -279,7 +281,7 @@ fn light(rest: &str) -> Option<Vec3> {
     light.cmpge(Vec3::ZERO).all().then_some(light)
 }
 
-/// A reflectance: from 0 to 1 in each channel.
+/// A reflectance: 0 to 1 in each channel.
 fn colour(rest: &str) -> Option<Vec3> {
     light(rest).filter(|colour| colour.cmple(Vec3::ONE).all())
 }
@@ -295,7 +297,7 @@ fn number(word: &str) -> Option<f32> {
     number.is_finite().then_some(number)
 }
 
-/// `-option value… name with spaces`, and the options that shading has no use for.
+/// Parses `-option value… name with spaces`; also returns the options that shading doesn't use.
 fn map_file(rest: &str) -> Option<(MapFile, Vec<String>)> {
     let mut map = MapFile {
         name: String::new(),
@@ -311,7 +313,7 @@ fn map_file(rest: &str) -> Option<(MapFile, Vec<String>)> {
             "-mm" => (2, 2),
             "-blendu" | "-blendv" | "-cc" | "-clamp" | "-boost" | "-bm" | "-texres"
             | "-imfchan" | "-type" => (1, 1),
-            // A name may begin with a dash.
+            // A name may start with a dash.
             _ => break,
         };
         let mut values = Vec::new();
@@ -336,7 +338,7 @@ fn map_file(rest: &str) -> Option<(MapFile, Vec<String>)> {
     (!map.name.is_empty()).then_some((map, skipped))
 }
 
-/// The first word, and what follows it.
+/// The first word, and the rest.
 fn word(text: &str) -> (&str, &str) {
     let text = text.trim_start();
     let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));

@@ -1,16 +1,16 @@
-//! The materials, groups and libraries that a file names.
+//! Materials, groups and libraries named in a file.
 
 use std::collections::{HashMap, HashSet};
 
-/// Runs of faces that go by a name: the faces of a group, or of a material.
+/// Named runs of faces: groups or materials.
 #[derive(Debug)]
 pub(super) struct NamedRuns {
-    /// Distinct names; the first one, empty, is for faces before any run.
+    /// Distinct names; the first, empty one is for faces before any run.
     pub names: Vec<String>,
     by_name: HashMap<String, u32>,
-    /// The name that the next face gets.
+    /// The name of the next face, if it changes.
     next: Option<String>,
-    /// The first face, and the index of the name that it and those after it have.
+    /// The first face of each run, and the index of its name.
     pub runs: Vec<(usize, u32)>,
     text_bytes: usize,
 }
@@ -28,12 +28,12 @@ impl Default for NamedRuns {
 }
 
 impl NamedRuns {
-    /// Gives the next face and those after it a name.
+    /// Sets the name of the next face and those after it.
     pub(super) fn begin(&mut self, name: String) {
         self.next = Some(name);
     }
 
-    /// Notes a face. A name that no face gets isn't kept.
+    /// Adds a face. Names without faces aren't kept.
     pub(super) fn add_face(&mut self, face: usize) {
         let Some(name) = self.next.take() else {
             return;
@@ -48,13 +48,13 @@ impl NamedRuns {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        /// Two strings and an entry of a hash map that is half full.
+        /// Two strings and an entry of a half-full hash map.
         const OF_NAME: usize = 24 + 2 * 32 + 32;
         self.names.len() * OF_NAME + self.text_bytes + 16 * self.runs.capacity()
     }
 }
 
-/// The material libraries that a file names, each once, with the line.
+/// Distinct names of material libraries in a file, with their lines.
 #[derive(Debug, Default)]
 pub(super) struct Libraries {
     pub names: Vec<(usize, String)>,
@@ -71,7 +71,7 @@ impl Libraries {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        /// A number and a string, twice for growth, and an entry of a hash set that is half full.
+        /// A number and a string, twice for growth, and an entry of a half-full hash set.
         const OF_NAME: usize = 2 * 32 + 2 * 32;
         self.names.len() * OF_NAME + self.text_bytes
     }
@@ -82,7 +82,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_name_that_comes_back_is_one_name() {
+    fn a_repeated_name_is_stored_once() {
         let mut runs = NamedRuns::default();
         for (face, name) in [(0, "a"), (2, "unused"), (2, "c"), (4, "a")] {
             runs.begin(name.to_owned());

@@ -1,6 +1,6 @@
 //! Gathers the numbers that corners refer to.
 //!
-//! tobj gives a list for some ten thousand faces each; here they become one for the whole file.
+//! tobj returns a list per 16 384 faces; this module merges them for the whole file.
 
 use super::corner::List;
 use super::error::Problem;
@@ -10,23 +10,23 @@ use crate::progress::Progress;
 use glam::{DVec3, Vec2, Vec3};
 use std::ops::Range;
 
-/// The file's numbers that elements refer to, and the elements' indices.
+/// The numbers that elements refer to, and the elements' indices.
 #[derive(Default)]
 pub(super) struct Numbers {
     pub positions: Vec<DVec3>,
-    /// Colours of the vertices, or nothing.
+    /// Vertex colours; empty if there are none.
     pub colours: Vec<Vec3>,
     pub textures: Vec<Vec2>,
     pub normals: Vec<Vec3>,
-    /// For each corner of each element its index in the lists above, or [`NO_INDEX`]; the second and third
+    /// For each corner of each element, its index in the lists above, or [`NO_INDEX`]; the second and third
     /// may be empty.
     pub corners: [Vec<u32>; 3],
-    /// Corners of each element; empty if all have three.
+    /// Number of corners of each element; empty if all have three.
     pub arities: Vec<u32>,
 }
 
 impl Numbers {
-    /// Puts each number at its index in the file, then removes numbers that nothing refers to.
+    /// Places each number at its index in the file, then removes unused numbers.
     pub(super) fn gather(
         models: Vec<tobj::Model>,
         facts: &mut Facts,
@@ -65,7 +65,7 @@ impl Numbers {
                 let k = 2 * k as usize;
                 Vec2::new(mesh.texcoords[k] as f32, mesh.texcoords[k + 1] as f32)
             });
-            // tobj lists them only where not all are three.
+            // tobj lists them only if not all are three.
             let count = match mesh.face_arities.len() {
                 0 => mesh.indices.len() / 3,
                 count => count,
@@ -78,7 +78,7 @@ impl Numbers {
             elements += count;
         }
         if (first, elements) != (vertices.len(), facts.element_count) {
-            let message = "reading failed unexpectedly: faces went missing".to_owned();
+            let message = "reading failed unexpectedly: faces are missing".to_owned();
             return Err(Problem::Content(message));
         }
         progress.check()?;
@@ -125,12 +125,12 @@ impl Numbers {
     }
 }
 
-/// A part of a list, which may be empty instead.
+/// The part of a list, or an empty slice if the list is empty.
 fn part_of<'l>(list: &'l [u32], range: &Range<usize>) -> &'l [u32] {
     list.get(range.clone()).unwrap_or_default()
 }
 
-/// A list of the file's that fills piece by piece.
+/// A list indexed as in the file, filled piece by piece.
 struct Sparse<T> {
     values: Vec<T>,
     is_used: Vec<bool>,
@@ -144,7 +144,7 @@ impl<T: Copy> Sparse<T> {
         }
     }
 
-    /// `in_file` and `in_piece` are the indices of the same corners in both.
+    /// `in_file` and `in_piece` are the indices of the same corners in either list.
     fn put(&mut self, in_file: &[u32], in_piece: &[u32], value: impl Fn(u32) -> T) {
         for (&to, &from) in in_file.iter().zip(in_piece) {
             if to != NO_INDEX {
@@ -154,7 +154,7 @@ impl<T: Copy> Sparse<T> {
         }
     }
 
-    /// The new index of each entry, where some aren't used.
+    /// The new index of each entry, if some are unused.
     fn numbering(&self) -> Option<Vec<u32>> {
         if !self.is_used.contains(&false) {
             return None;

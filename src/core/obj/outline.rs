@@ -1,6 +1,6 @@
-//! Tells the edges of polygons from the diagonals of their triangles.
+//! Distinguishes a polygon's edges from the diagonals of its triangles.
 
-/// Tells edges of a polygon from diagonals, and from bridges to its holes.
+/// Distinguishes a polygon's edges from diagonals and from bridges to its holes.
 ///
 /// ```text
 ///   4───────────3
@@ -12,16 +12,17 @@
 /// ```
 #[derive(Default)]
 pub(super) struct Outline {
-    /// The polygon's vertices in order of their number, to find one that comes twice.
+    /// The polygon's vertices, sorted, for finding repeated ones.
     sorted: Vec<u32>,
-    /// Edges along which the polygon goes both ways, each with its ends from low to high, sorted.
+    /// Edges that the polygon passes in both directions, each with its lower vertex first, sorted.
     bridges: Vec<[u32; 2]>,
 }
 
 impl Outline {
-    /// Looks for bridges in a polygon.
+    /// Finds the bridges of a polygon.
     pub(super) fn prepare(&mut self, vertices: &[u32]) {
-        /// The least corners that a polygon with a hole can have: three around each, and twice the bridge's.
+        /// Minimum number of corners of a polygon with a hole: three around each, and the bridge's ends
+        /// twice.
         const LEAST_WITH_HOLE: usize = 8;
         self.bridges.clear();
         if vertices.len() < LEAST_WITH_HOLE {
@@ -42,8 +43,8 @@ impl Outline {
             .extend(edges.iter().filter(|edge| is_both_ways(edge)));
     }
 
-    /// Bit k: the triangle's edge from corner k to the next one is an edge of the polygon. `local` are the
-    /// triangle's corners among the polygon's `vertices`.
+    /// Bit k is set if the triangle's edge from corner k to the next is an edge of the polygon. `local` holds
+    /// the triangle's corners as indices into the polygon's `vertices`.
     pub(super) fn of(&self, local: [usize; 3], vertices: &[u32]) -> u8 {
         let count = vertices.len();
         let is_edge = |k: usize| {
@@ -61,7 +62,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn diagonals_and_bridges_are_no_edges() {
+    fn diagonals_and_bridges_are_not_edges() {
         let mut outline = Outline::default();
         let quad = [7, 8, 9, 10];
         outline.prepare(&quad);
@@ -69,9 +70,9 @@ mod tests {
         assert_eq!(outline.of([0, 2, 3], &quad), 0b110);
         let frame = [1, 2, 3, 4, 1, 5, 6, 7, 8, 5];
         outline.prepare(&frame);
-        // 1 2 8: from 2 to 8 and from 8 to 1 are diagonals.
+        // 1 2 8: 2–8 and 8–1 are diagonals.
         assert_eq!(outline.of([0, 1, 8], &frame), 0b001);
-        // 4 1 5: from 1 to 5 is the bridge.
+        // 4 1 5: 1–5 is the bridge.
         assert_eq!(outline.of([3, 4, 5], &frame), 0b001);
         outline.prepare(&quad);
         assert_eq!(outline.of([3, 0, 1], &quad), 0b011);

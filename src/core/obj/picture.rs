@@ -1,4 +1,4 @@
-//! Decodes the pictures of textures: PNG and JPEG.
+//! Decodes texture pictures: PNG and JPEG.
 
 use super::error::{Problem, printable};
 use super::fence::fenced;
@@ -7,7 +7,7 @@ use glam::UVec2;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// A texture, and whether its file ends before the picture does.
+/// A texture, and whether its file is truncated.
 pub(super) struct Picture {
     pub texture: Texture,
     pub is_cut_short: bool,
@@ -16,7 +16,7 @@ pub(super) struct Picture {
 /// Decodes a picture, unless that takes more than `max_bytes` besides the file's own.
 ///
 /// # Errors
-/// Why there is no picture, in words that quote nothing of a file that isn't one.
+/// The reason, without quoting anything from a file that isn't a picture.
 pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
     let decode = || decode(bytes, max_bytes);
     let picture = match fenced("decoding", decode) {
@@ -27,13 +27,13 @@ pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Pictur
     let size = UVec2::new(picture.width(), picture.height());
     let texture = Texture::new(name, size, picture.into_raw());
     Ok(Picture {
-        texture: texture.ok_or("an empty picture")?,
+        texture: texture.ok_or("the picture is empty")?,
         is_cut_short: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
     })
 }
 
 fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
-    // Some end with a line end.
+    // Some messages end with a line end.
     let words = |error: image::ImageError| printable(error.to_string().trim());
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
@@ -48,7 +48,7 @@ fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
     let needed = needed_bytes(&decoder, format, bytes.len() as u64);
     if needed > max_bytes {
         return Err(format!(
-            "decoding takes {} MB of memory, {} MB are left (--max-memory)",
+            "decoding needs {} MB of memory, {} MB are left (--max-memory)",
             needed.div_ceil(1 << 20),
             max_bytes >> 20
         ));
@@ -57,10 +57,10 @@ fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
     Ok(decoded.into_rgb8())
 }
 
-/// The most memory that a decoder and the conversion to red, green and blue of eight bits take at a time.
+/// Peak memory of the decoder and of the conversion to 8-bit RGB.
 fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u64) -> u64 {
-    /// For each pixel of a JPEG: coefficients of 16 bits for up to four components, which a progressive one keeps
-    /// for the whole picture.
+    /// Per pixel of a JPEG: 16-bit coefficients for up to four components, which a progressive file keeps for
+    /// the whole picture.
     const JPEG_COEFFICIENTS: u64 = 8;
     let (width, height) = decoder.dimensions();
     let pixels = u64::from(width) * u64::from(height);
@@ -74,13 +74,13 @@ fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u6
         ImageFormat::Jpeg => JPEG_COEFFICIENTS * pixels + file_bytes,
         _ => 0,
     };
-    // Coefficients are gone before the conversion begins.
+    // The coefficients are freed before the conversion.
     decoded.saturating_add(working.max(converted))
 }
 
 const JPEG_START: &[u8] = b"\xFF\xD8";
 
-/// Whether a JPEG has its end marker, without which its decoder makes up the missing rows in grey.
+/// Whether a JPEG has its end marker; without it the decoder fills missing rows with grey.
 ///
 /// Source: ITU-T T.81 (1992), B.1.1: markers and their segments.
 fn has_jpeg_end(bytes: &[u8]) -> bool {
@@ -91,7 +91,7 @@ fn has_jpeg_end(bytes: &[u8]) -> bool {
             Some(0xD9) => return true,
             // A fill byte; the marker follows.
             Some(0xFF) | None => {}
-            // A data byte 0xFF, a restart, a marker without a segment, or a second start.
+            // A data byte 0xFF, a restart marker, a marker without a segment, or a second start marker.
             Some(0x00 | 0x01 | 0xD0..=0xD8) => at += 1,
             Some(_) => {
                 let length = bytes

@@ -1,13 +1,13 @@
-//! Chooses a mesh's origin, so that f32 holds its detail, and bounds what rounding moves.
+//! Chooses a mesh's origin so that f32 keeps its detail, and bounds the rounding error.
 
 use super::Recentre;
 use crate::mesh::TriangleMesh;
 use glam::DVec3;
 
 /// A point near the mesh whose coordinates have few bits, so that subtracting it in f64 is exact for
-/// coordinates of up to some 29 bits below the mesh's size; zero if the mesh isn't far away.
+/// coordinates of up to about 29 bits below the mesh's size; zero if the mesh isn't far away.
 pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
-    /// Nearer than this many sizes, f32 loses at most two bits more than at the origin.
+    /// Within this many sizes of zero, f32 loses at most two bits more than at zero.
     const NEAR: f64 = 4.0;
     let finite = points.iter().filter(|p| p.is_finite());
     let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {
@@ -19,7 +19,7 @@ pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
     {
         return DVec3::ZERO;
     }
-    // A mesh of one point: its own coordinates, as f32 holds them.
+    // A mesh of one point: its own coordinates rounded to f32.
     if size == 0.0 {
         return centre.as_vec3().as_dvec3();
     }
@@ -32,13 +32,13 @@ pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
     }
 }
 
-/// A bound on how far, in a coordinate, what is traced lies from the numbers in the file.
+/// Upper bound, per coordinate, on the distance between the traced mesh and the numbers in the file.
 ///
-/// It adds what three roundings cost: of the decimal to f64, of the difference from the origin, and of that to f32.
-/// The last two are known exactly. The first is at most half a unit in the last place of the f64, and nothing
-/// where the decimal is the f64's own value. `has_long_numbers` says whether a coordinate may have more
-/// than 15 digits. Decimals of at most 15 digits differ as f64s, so that an f64 whose own value has no more digits
-/// was written as just that.
+/// It sums the errors of three roundings: of the decimal to f64, of the difference from the origin, and of
+/// that to f32. The last two are known exactly. The first is at most half an ulp of the f64, and zero if the
+/// decimal equals the f64. `has_long_numbers` says whether a coordinate may have more than 15 digits.
+/// Different decimals of at most 15 digits are different f64s, so that an f64 whose own value has no more
+/// digits was written as exactly that value.
 pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3], has_long_numbers: bool) -> f64 {
     let vertices = mesh.positions.iter().zip(exact);
     let mut most = 0.0;
@@ -46,7 +46,7 @@ pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3], has_long_number
         for axis in 0..3 {
             let (x, origin) = (in_file[axis], mesh.origin[axis]);
             let (from_origin, lost) = difference(x, origin);
-            // Exact: the two differ by less than half of the last place of an f32.
+            // Exact: the two differ by less than half an ulp of an f32.
             let moved = (from_origin - f64::from(own[axis])).abs() + lost.abs();
             let read = half_last_place(x);
             if moved + read > most {
@@ -55,11 +55,11 @@ pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3], has_long_number
             }
         }
     }
-    // The two sums above round thrice at most.
+    // The two sums above round at most three times.
     most * (1.0 + 4.0 * f64::EPSILON)
 }
 
-/// a − b rounded, and what rounding lost.
+/// a − b rounded, and the rounding error.
 ///
 /// Source: Knuth, The Art of Computer Programming, volume 2, section 4.2.2, theorem B.
 fn difference(a: f64, b: f64) -> (f64, f64) {
@@ -68,12 +68,13 @@ fn difference(a: f64, b: f64) -> (f64, f64) {
     (rounded, (a - (rounded - of_b)) - (b + of_b))
 }
 
-/// Half of the last place of an f64: what reading a decimal as this one loses at most.
+/// Half an ulp of an f64: the largest error of a decimal parsed as this f64.
 fn half_last_place(x: f64) -> f64 {
     0.5 * (x.abs().next_up() - x.abs())
 }
 
-/// Whether an f64's own value, written out, has at most 15 digits. Says no of some whole numbers beyond 2⁵³.
+/// Whether the exact decimal expansion of an f64 has at most 15 digits. Returns false for some integers above
+/// 2⁵³.
 fn has_15_digits(x: f64) -> bool {
     const TOO_LARGE: u64 = 1_000_000_000_000_000;
     // 5²² is larger.
@@ -84,7 +85,7 @@ fn has_15_digits(x: f64) -> bool {
     let bits = x.abs().to_bits();
     let (exponent, fraction) = ((bits >> 52) as i32, bits & ((1 << 52) - 1));
     let whole = fraction | 1 << 52;
-    // x = odd·2^power. Subnormal numbers have too many bits behind the point anyhow.
+    // x = odd·2^power. Subnormal numbers have too many fractional bits in any case.
     let power = exponent - 1075 + whole.trailing_zeros().cast_signed();
     let odd = whole >> whole.trailing_zeros();
     match power {
@@ -103,7 +104,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_digits_of_an_f64s_own_value_are_counted() {
+    fn digits_of_an_f64s_exact_decimal_expansion_are_counted() {
         for (x, expected) in [
             (0.0, true),
             (-3.0, true),

@@ -1,4 +1,4 @@
-//! Cuts polygons into triangles.
+//! Triangulates polygons.
 
 use super::delaunay;
 use super::error::Problem;
@@ -7,27 +7,28 @@ use crate::progress::{Cancelled, Progress};
 use earcut::Earcut;
 use glam::DVec3;
 
-/// Up to so many corners, ears are clipped: for a polygon that crosses itself that takes up to FEW³ steps, a tenth of
-/// a millisecond (2026-11). Larger ones are cut by a Delaunay triangulation, which takes n log n: 50 ms for 10 000.
+/// Up to this many corners, ears are clipped, which takes up to FEW³ steps for a polygon that crosses itself:
+/// a tenth of a millisecond (2026-11). Larger polygons get a Delaunay triangulation in O(n log n): 50 ms for
+/// 10 000 corners.
 const FEW: usize = 100;
-/// Of more corners than this, rounding makes a circle concave here and there; by so little that a fan fits it.
+/// Above this many corners, rounding makes a circle concave in places, but by so little that a fan fits it.
 const MANY: usize = 1000;
-/// Of more corners than this, a concave polygon becomes a fan: a triangulation takes some 300 bytes a corner.
+/// Above this many corners, a concave polygon becomes a fan: a triangulation uses about 300 bytes per corner.
 pub(super) const LARGEST: usize = 1_000_000;
 
-/// Cuts polygons; keeps its buffers between them.
+/// Triangulates polygons; reuses its buffers.
 pub(super) struct Triangulator {
     earcut: Earcut<f64>,
     projected: Vec<[f64; 2]>,
     indices: Vec<u32>,
 }
 
-/// How a polygon was cut.
+/// How a polygon was triangulated.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub(super) enum Cut {
-    /// Its triangles cover it once.
+    /// The triangles cover the polygon once.
     Good,
-    /// It crosses itself, has no plane, or is too large: a fan from its first corner.
+    /// The polygon crosses itself, has no plane, or is too large: a fan from its first corner.
     Fan,
 }
 
@@ -40,11 +41,11 @@ impl Triangulator {
         }
     }
 
-    /// Calls `triangle` with three corners of the polygon for each of its triangles, which keep the polygon's winding.
-    /// A fan has n − 2 triangles; otherwise there may be fewer, or more where the polygon touches itself.
+    /// Calls `triangle` with three corners for each triangle of the polygon, in the polygon's winding. A fan
+    /// has n − 2 triangles; other triangulations may have fewer, or more if the polygon touches itself.
     ///
-    /// A convex polygon becomes a fan. A small one is ear-clipped in the plane of its vector area, a large one cut
-    /// by a Delaunay triangulation.
+    /// A convex polygon becomes a fan. A small one is ear-clipped in the plane of its vector area, a large
+    /// one gets a Delaunay triangulation.
     ///
     /// # Errors
     /// Cancelled by `progress`.
@@ -66,10 +67,10 @@ impl Triangulator {
         Ok(if is_fan { Cut::Good } else { Cut::Fan })
     }
 
-    /// Fills the list of indices; `false` if the polygon can't be cut.
+    /// Fills the list of indices; `false` if the polygon can't be triangulated.
     fn cut_concave(&mut self, corners: &[DVec3], progress: &Progress) -> Result<bool, Problem> {
         if corners.len() <= FEW {
-            // What a crate makes of a polygon that it panics at, a fan can do without it.
+            // If a dependency panics, the polygon becomes a fan.
             let is_cut = fenced("cutting a polygon", || self.clip_ears(corners));
             return Ok(is_cut.unwrap_or(false));
         }
@@ -80,13 +81,13 @@ impl Triangulator {
         triangulated(corners, progress, &mut self.indices)
     }
 
-    /// Whether ears could be clipped so that the triangles' areas add up to the polygon's.
+    /// Clips ears. Returns whether the triangles' areas add up to the polygon's.
     fn clip_ears(&mut self, corners: &[DVec3]) -> bool {
         let Some(normal) = vector_area(corners).try_normalize() else {
             return false;
         };
         let (x, y) = normal.any_orthonormal_pair();
-        // Relative to a corner, so that a polygon far away keeps its shape.
+        // Relative to a corner, so that a distant polygon keeps its shape.
         let project = |&p: &DVec3| [(p - corners[0]).dot(x), (p - corners[0]).dot(y)];
         self.projected.clear();
         self.projected.extend(corners.iter().map(project));
@@ -105,13 +106,13 @@ impl Triangulator {
         };
         let cut: f64 = self.indices.chunks_exact_mut(3).map(area).sum();
         let whole = 2.0 * vector_area(corners).length();
-        // Sums of n products each would differ by some n·2⁻⁵², but a polygon that isn't quite flat
-        // projects to a little less than its area; a crossing changes far more.
+        // Sums of n products each differ by about n·2⁻⁵². A polygon that isn't quite flat projects to
+        // slightly less than its area; a crossing changes far more.
         (cut - whole).abs() <= 1e-9 * whole
     }
 }
 
-/// Fills `indices` by a Delaunay triangulation; `false` if there is none, also where the crate panics.
+/// Fills `indices` with a Delaunay triangulation; `false` if there is none or the dependency panics.
 fn triangulated(
     corners: &[DVec3],
     progress: &Progress,
@@ -124,14 +125,14 @@ fn triangulated(
     }
 }
 
-/// Half the sum of the cross products along the edges: the polygon's normal, as long as its area.
+/// Half the sum of the cross products along the edges: the polygon's normal, whose length is its area.
 pub(super) fn vector_area(corners: &[DVec3]) -> DVec3 {
     let from_first = |p: DVec3| p - corners[0];
     let edge = |pair: &[DVec3]| from_first(pair[0]).cross(from_first(pair[1]));
     0.5 * corners.windows(2).map(edge).sum::<DVec3>()
 }
 
-/// Whether the triangles of a fan that are turned over have next to no area.
+/// Whether the flipped triangles of a fan have negligible area.
 fn fan_fits(corners: &[DVec3]) -> bool {
     let normal = vector_area(corners).normalize_or_zero();
     let doubled = |pair: &[DVec3]| {
@@ -148,7 +149,7 @@ fn fan_fits(corners: &[DVec3]) -> bool {
     wrong <= 1e-9 * right && right > 0.0 && goes_round_once(corners, normal)
 }
 
-/// Whether every corner turns the same way and the boundary goes round once, so that a fan fits.
+/// Whether every corner turns the same way and the boundary winds once, so that a fan fits.
 fn is_convex(corners: &[DVec3]) -> bool {
     let normal = vector_area(corners);
     let count = corners.len();
@@ -164,9 +165,10 @@ fn is_convex(corners: &[DVec3]) -> bool {
         && goes_round_once(corners, normal)
 }
 
-/// Whether a polygon all of whose corners turn the same way, but for rounding, goes round its middle once.
+/// Whether a polygon winds once around its centre, given that all its corners turn the same way but for
+/// rounding.
 fn goes_round_once(corners: &[DVec3], normal: DVec3) -> bool {
-    // Fewer corners can't go round twice.
+    // Polygons with fewer corners can't wind twice.
     const LEAST: usize = 5;
     let count = corners.len();
     let Some(normal) = normal.try_normalize() else {
@@ -177,7 +179,7 @@ fn goes_round_once(corners: &[DVec3], normal: DVec3) -> bool {
     }
     let y = normal.any_orthonormal_vector();
     let middle = corners.iter().sum::<DVec3>() / count as f64;
-    // Passes over the ray from the middle along x, less those the other way.
+    // Signed crossings of the ray from the centre along x.
     let mut turns = 0;
     for k in 0..count {
         let [from, to] = [k, (k + 1) % count].map(|k| corners[k] - middle);

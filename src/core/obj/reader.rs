@@ -1,4 +1,4 @@
-//! Passes on to tobj the lines that it may see.
+//! Passes a file's plain lines on to tobj.
 
 use super::corner::List;
 use super::error::Problem;
@@ -9,18 +9,17 @@ use super::{FaultPolicy, LoadOptions};
 use crate::progress::Progress;
 use std::io::{self, BufRead, Read};
 
-/// Bytes that tobj is given at a time.
+/// Bytes passed to tobj at a time.
 const PIECE: usize = 1 << 16;
-/// Corners of triangles are numbered by u32, and the last number of vertices marks a missing one.
+/// Corners of triangles are numbered by u32, and the largest vertex number marks a missing one.
 const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
 const MOST_ENTRIES: usize = u32::MAX as usize - 1;
-/// Faces after which tobj's list of them is ended. It takes 104 bytes for each; a shorter list would
-/// copy more vertices twice.
+/// Faces per list of tobj's. A list takes 104 bytes per face; shorter lists would copy more vertices twice.
 const FACES_PER_CUT: usize = 1 << 14;
-/// Statements between two checks of the memory that they take, whether or not tobj sees them.
+/// Statements between two checks of their memory, whether or not tobj gets them.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
 
-/// See the [module](self). Give it to tobj as a `BufRead`, then ask [`finish`](Self::finish).
+/// See the [module](self). Pass it to tobj as a `BufRead`, then call [`finish`](Self::finish).
 pub(super) struct NormalisingReader<'p> {
     lines: Lines<'p>,
     router: StatementRouter,
@@ -29,18 +28,18 @@ pub(super) struct NormalisingReader<'p> {
     problem: Option<Problem>,
 }
 
-/// How a reading ended.
+/// Result of a read.
 pub(super) enum Outcome {
-    /// All was read, and every index is in range.
+    /// The whole file was read, and every index is in range.
     Read(Box<Facts>),
-    /// Some indices are too high, which only the end of the file could tell. To be read again, with the
-    /// counts that are known now.
+    /// Some indices are too high, as known only at the end of the file. The file must be read again with these
+    /// counts.
     Again([usize; 3]),
 }
 
 impl<'p> NormalisingReader<'p> {
     /// # Errors
-    /// The source can't be read, or is no OBJ.
+    /// The source can't be read, or isn't an OBJ.
     pub(super) fn new(
         bytes: impl Read + 'p,
         options: &LoadOptions,
@@ -59,7 +58,7 @@ impl<'p> NormalisingReader<'p> {
         })
     }
 
-    /// The facts, or the error in the file. `parsed` is tobj's error, if it had one.
+    /// Returns the facts, or the error in the file. `parsed` is tobj's error, if any.
     pub(super) fn finish(mut self, parsed: Option<&tobj::LoadError>) -> Result<Outcome, Problem> {
         if let Some(problem) = self.problem {
             return Err(problem);
@@ -69,7 +68,7 @@ impl<'p> NormalisingReader<'p> {
             self.router.facts.has_garbage = self.lines.has_garbage();
         }
         let facts = &self.router.facts;
-        // Only a whole file tells how many there are.
+        // The counts are known only at the end of the file.
         if !facts.is_complete() && self.lines.is_at_end() {
             if self.router.faults == FaultPolicy::Lenient {
                 return Ok(Outcome::Again(facts.counts));
@@ -89,7 +88,7 @@ impl<'p> NormalisingReader<'p> {
         }
     }
 
-    /// Prepares the next lines for tobj; none at the end of the file.
+    /// Prepares the next lines for tobj; leaves none at the end of the file.
     fn next_piece(&mut self) -> Result<(), Problem> {
         self.router.out.clear();
         self.router.out_lines.clear();
@@ -117,12 +116,12 @@ impl<'p> NormalisingReader<'p> {
         let facts = &mut self.router.facts;
         if facts.triangle_count() > MOST_TRIANGLES || facts.counts.iter().any(|&n| n > MOST_ENTRIES)
         {
-            let message = "more vertices or triangles than 32 bits can number".to_owned();
+            let message = "more vertices or triangles than 32-bit indices allow".to_owned();
             return Err(Problem::Content(message));
         }
         if facts.bytes() as u64 > self.max_memory {
             return Err(Problem::Content(format!(
-                "loading takes more than the {} MB of memory that it may use (--max-memory)",
+                "loading needs more than the {} MB of memory allowed (--max-memory)",
                 self.max_memory >> 20
             )));
         }
@@ -149,7 +148,7 @@ impl BufRead for NormalisingReader<'_> {
             self.problem = Some(problem);
         }
         if self.problem.is_some() {
-            // tobj only has to stop; `finish` tells the reason.
+            // tobj only has to stop; `finish` returns the reason.
             return Err(io::ErrorKind::InvalidData.into());
         }
         Ok(&self.router.out[self.consumed..])

@@ -1,4 +1,4 @@
-//! The files that an OBJ and its material libraries name.
+//! Finds and reads the files that an OBJ and its material libraries name.
 
 use super::stored_file;
 use std::cell::RefCell;
@@ -7,19 +7,19 @@ use std::ffi::OsString;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// Reads a file that an OBJ or its material library names, by a name with `/` between folders.
+/// Reads a file named by an OBJ or its material library; names separate folders by `/`.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
-/// Finds and reads files by names with `/` between folders.
+/// Finds and reads files by names that separate folders by `/`.
 pub(super) trait ReferencedFiles {
-    /// The path of the file that a name leads to: one path for all spellings of it.
+    /// The path of a name; the same path for all its spellings.
     fn find(&self, name: &str) -> PathBuf;
 
-    /// The bytes of a file that was found, if there are at most so many.
+    /// The bytes of a found file of at most `most_bytes`.
     fn read(&self, path: &Path, most_bytes: u64) -> io::Result<Vec<u8>>;
 }
 
-/// Files that a function reads by their names.
+/// Files that a function reads by name.
 pub(super) struct NamedFiles<'a>(pub ReadFile<'a>);
 
 impl ReferencedFiles for NamedFiles<'_> {
@@ -32,18 +32,18 @@ impl ReferencedFiles for NamedFiles<'_> {
     }
 }
 
-/// The files in and around an OBJ's folder, and those that it names by a whole path.
+/// Files in and around an OBJ's folder, and at absolute paths.
 pub(super) struct Folder {
     path: PathBuf,
-    /// Where the OBJ really is, if its name is a link.
+    /// The folder of the link's target, if the OBJ is a link.
     behind_link: Option<PathBuf>,
-    /// The paths that were looked for, whether or not there was a file.
+    /// Paths that were looked for, including missing ones.
     wanted: RefCell<BTreeSet<PathBuf>>,
-    /// The contents of the folders that were searched.
+    /// Contents of the folders searched.
     listings: RefCell<HashMap<PathBuf, Listing>>,
 }
 
-/// A folder's names by their lower case.
+/// A folder's names, keyed by their lower case.
 type Listing = HashMap<String, OsString>;
 
 impl Folder {
@@ -63,15 +63,14 @@ impl Folder {
         self.wanted.into_inner().into_iter().collect()
     }
 
-    /// The folders that a file may lie in.
+    /// The folders to search.
     fn folders(&self) -> impl Iterator<Item = &PathBuf> {
         [Some(&self.path), self.behind_link.as_ref()]
             .into_iter()
             .flatten()
     }
 
-    /// The file of a name; one that differs in letter case, or lies in the folder itself, where no file has just
-    /// that name.
+    /// The file with this name. Failing that, one that differs in case or is in the folder itself.
     fn file_of(&self, name: &Path, file_name: &Path) -> Option<PathBuf> {
         let mut folders = self.folders();
         folders.find_map(|folder| {
@@ -80,7 +79,7 @@ impl Folder {
         })
     }
 
-    /// The file of a path, or of one that is this one but for letter case.
+    /// The file at a path, or one whose path differs only in case.
     fn any_case(&self, folder: &Path, name: &Path) -> Option<PathBuf> {
         let exact = folder.join(name);
         if exact.exists() {
@@ -104,7 +103,7 @@ impl Folder {
 impl ReferencedFiles for Folder {
     fn find(&self, name: &str) -> PathBuf {
         let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
-        // A network path would make this computer ask another one.
+        // A network path would make this computer contact another one.
         let name = if name.starts_with("//") {
             file_name
         } else {
@@ -112,7 +111,7 @@ impl ReferencedFiles for Folder {
         };
         let mut wanted = self.wanted.borrow_mut();
         let Some(found) = self.file_of(name, file_name) else {
-            // It may be written to any of them later.
+            // The file may be created in any of them later.
             wanted.extend(self.folders().map(|folder| folder.join(name)));
             return self.path.join(name);
         };
@@ -128,8 +127,8 @@ impl ReferencedFiles for Folder {
     }
 }
 
-/// The names in a folder; none if it can't be read. Of names that differ in letter case alone the last one by
-/// bytes counts.
+/// The names in a folder; empty if it can't be read. Of names that differ only in case, the last one by bytes
+/// counts.
 fn listing(folder: &Path) -> Listing {
     let is_here = folder.as_os_str().is_empty();
     let folder = if is_here { Path::new(".") } else { folder };
@@ -147,7 +146,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_found_in_any_case_and_without_their_folder() {
+    fn files_are_found_in_any_case_and_without_their_stated_folder() {
         let folder = tempfile::tempdir().expect("a folder");
         let sub = folder.path().join("Maps");
         std::fs::create_dir(&sub).expect("written");

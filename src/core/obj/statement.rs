@@ -1,7 +1,7 @@
-//! Notes each statement, and passes plain ones on to tobj.
+//! Records each statement, and passes plain ones on to tobj.
 //!
-//! tobj is given plain `v`, `vt`, `vn` and `f` lines only, whose indices were checked: so it never meets
-//! the input that makes it panic or change geometry without a word. All else is noted in [`Facts`].
+//! tobj gets only plain `v`, `vt`, `vn` and `f` lines with valid indices, so that it never sees input that
+//! makes it panic or silently change the geometry. Everything else is recorded in [`Facts`].
 
 use super::FaultPolicy;
 use super::corner::{Corner, Corners, List, is_blank};
@@ -14,23 +14,23 @@ use super::words::{
 use crate::mesh::NO_INDEX;
 use std::io::Write as _;
 
-/// Statements on their way to tobj.
+/// Routes statements to tobj or to [`Facts`].
 pub(super) struct StatementRouter {
     pub facts: Facts,
-    /// What tobj is to read next, and which line of the file each of its lines comes from.
+    /// Text for tobj to read next; `out_lines` gives the file's line of each of its lines.
     pub out: Vec<u8>,
     pub out_lines: LineRuns,
     pub faults: FaultPolicy,
-    /// How many there are in each list, where an earlier reading found that out.
+    /// Number of entries in each list, if an earlier read counted them.
     known_counts: Option<[usize; 3]>,
 }
 
 /// How a corner, or all corners of an element, were resolved.
 enum Resolved {
     AsWritten,
-    /// tobj must not see it as it is written.
+    /// tobj must get other indices than those in the file.
     Changed,
-    /// There is no such vertex, or there are too few.
+    /// A vertex doesn't exist, or there are too few corners.
     Impossible,
 }
 
@@ -45,7 +45,7 @@ impl StatementRouter {
         }
     }
 
-    /// Notes a statement, and adds the line that tobj reads for it, if any.
+    /// Records a statement, and appends tobj's line for it, if any.
     pub(super) fn take(&mut self, statement: Statement<'_>) -> Result<(), Problem> {
         let bytes = statement.bytes;
         let start = bytes.iter().position(|&b| !is_blank(b));
@@ -68,7 +68,7 @@ impl StatementRouter {
         Ok(())
     }
 
-    /// Notes a statement that tobj doesn't read.
+    /// Records a statement that tobj doesn't read.
     fn note(&mut self, keyword: &[u8], line: usize, rest: &[u8]) {
         let facts = &mut self.facts;
         match keyword {
@@ -81,15 +81,15 @@ impl StatementRouter {
         }
     }
 
-    /// The numbers of a vertex (three, perhaps a weight or a colour), of texture coordinates (one to
-    /// three, of which two count) or of a normal (three).
+    /// Checks the numbers of a vertex (three, optionally a weight or a colour), of texture coordinates (one
+    /// to three, of which two are used) or of a normal (three).
     fn numbers(
         &mut self,
         list: List,
         statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
-        /// A word of so many bytes has at most 15 digits.
+        /// A word of at most this many bytes has at most 15 digits.
         const SHORT: usize = 15;
         let words = Words::of(statement.bytes, after);
         let WordCount {
@@ -104,7 +104,7 @@ impl StatementRouter {
         };
         if count < least {
             return Err(statement.problem(format!(
-                "“{keyword}” needs {least} number(s), here are {count}"
+                "“{keyword}” needs {least} number(s), found {count}"
             )));
         }
         if is_plain && count == used {
@@ -128,7 +128,7 @@ impl StatementRouter {
         }
         self.end_line(statement.line);
         self.facts.counts[list as usize] += 1;
-        // x y z w has a weight, which polygons don't use; x y z r g b (a) a colour.
+        // `x y z w` has a weight, which polygons don't use; `x y z r g b (a)` a colour.
         if list == List::Vertex && count >= 6 {
             let mut colour = [0.0; 3];
             for (channel, word) in colour.iter_mut().zip(words.skip(3)) {
@@ -139,7 +139,7 @@ impl StatementRouter {
         Ok(())
     }
 
-    /// A face, or what tobj is to take for one so that it reads its vertices.
+    /// Passes on a face, or a line or points as a face, so that tobj reads their vertices.
     fn element(
         &mut self,
         element: Element,
@@ -165,7 +165,7 @@ impl StatementRouter {
         Ok(())
     }
 
-    /// Checks an element's corners and adds them to the lists; none, if it is dropped.
+    /// Checks an element's corners and adds them to the lists; adds none if the element is dropped.
     fn corners(
         &mut self,
         element: Element,
@@ -201,10 +201,11 @@ impl StatementRouter {
         })
     }
 
-    /// Adds the corners of a face that has vertices alone, each a plain number of one that was read; if it is
-    /// another, none. Most lines of large files are such; the long way took 7 % of a load more (2026-11).
+    /// Fast path for a face whose corners are plain numbers of vertices already read; returns `false` and
+    /// adds nothing for any other face. Most lines of large files are such faces; without this path loading
+    /// took 7 % longer (2026-11).
     fn plain_face(&mut self, line: &[u8], mut at: usize) -> bool {
-        /// As many digits as u32 always holds.
+        /// Number of digits that always fits u32.
         const MOST_DIGITS: usize = 9;
         let count = self.facts.counts[0];
         let [vertices, textures, normals] = &mut self.facts.corners;
@@ -271,8 +272,8 @@ impl StatementRouter {
         Ok(resolved)
     }
 
-    /// An index counted from 0. One that is too high may still come true further down, unless it is known
-    /// how many there are.
+    /// Converts an index to start at 0. An index that is too high may become valid later in the file, unless
+    /// the final counts are known.
     fn index(&mut self, list: List, written: i64, line: usize) -> Option<u32> {
         let at = list as usize;
         let from_one = if written < 0 {
@@ -280,7 +281,7 @@ impl StatementRouter {
         } else {
             written
         };
-        // The last number of u32 marks a missing index, and more no file can have.
+        // The largest u32 marks a missing index; larger indices can't occur in any file.
         if from_one <= 0 || from_one >= i64::from(NO_INDEX) {
             return None;
         }
@@ -297,7 +298,7 @@ impl StatementRouter {
         Some(from_one as u32 - 1)
     }
 
-    /// The corners from `first` on, with what is known to be there.
+    /// Writes the corners from `first` on with their resolved indices.
     fn write_corners(&mut self, first: usize) {
         self.out.push(b'f');
         for corner in first..self.facts.corners[0].len() {
@@ -313,8 +314,8 @@ impl StatementRouter {
         }
     }
 
-    /// Ends the list of faces that tobj gathers before it copies what they use: small lists, and no long
-    /// work that can't be stopped, at the end of a file.
+    /// Ends tobj's current list of faces. tobj copies the vertices that a list uses; small lists avoid long
+    /// work at the end of the file that can't be cancelled.
     pub(super) fn cut(&mut self, line: usize) {
         self.out.push(b'g');
         self.end_line(line);
@@ -326,7 +327,7 @@ impl StatementRouter {
         self.out_lines.push(line);
     }
 
-    /// The error in a number of the line that tobj read last, which ends at `consumed`.
+    /// The error in a number on the line that tobj read last, which ends at `consumed`.
     pub(super) fn unexplained(&self, consumed: usize, error: &tobj::LoadError) -> Problem {
         let read = self.out[..consumed].strip_suffix(b"\n").unwrap_or_default();
         let start = read
@@ -347,7 +348,7 @@ impl StatementRouter {
     }
 }
 
-/// The number of a smoothing group; 0, no group, for `off` and for words that are no number.
+/// The number of a smoothing group: 1 for `on`; 0 (no group) for `off` and anything else that isn't a number.
 fn smoothing_group(word: &str) -> u32 {
     match word {
         "on" => 1,

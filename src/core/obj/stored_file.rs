@@ -1,32 +1,32 @@
-//! Reads stored files: regular files, neither devices, pipes nor what `/proc` and `/sys` show.
+//! Reads stored files: regular files, but not devices, pipes, or files in `/proc` and `/sys`.
 //!
-//! A mesh names its material libraries and textures, and users open meshes that others sent. So what a name leads
-//! to is checked, by what is opened, and no more is read than is allowed, whatever size the file claims to have.
+//! A mesh names its material libraries and textures, and users open meshes from others. So the opened file is
+//! checked, and no more than the limit is read, whatever size the file claims to have.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// The bytes of a stored file of at most so many.
+/// The bytes of a stored file of at most `most_bytes`.
 ///
 /// # Errors
-/// It can't be read, is larger, or isn't a stored file.
+/// The file can't be read, is larger, or isn't a stored file.
 pub(super) fn read(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     // Opening a device may change its state.
     require_regular(&std::fs::metadata(path)?)?;
     let file = open(path)?;
-    // The path may lead to another file by now.
+    // The path may refer to another file by now.
     let info = file.metadata()?;
     require_regular(&info)?;
     if is_in_system_folder(path)? || is_of_kernel(&file) {
-        return Err(io::Error::other("a file of the system, not a stored one"));
+        return Err(io::Error::other("a system file, not a stored one"));
     }
     let size = info.len().min(most_bytes);
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     file.take(most_bytes.saturating_add(1))
         .read_to_end(&mut bytes)?;
     if bytes.len() as u64 > most_bytes {
-        let message = format!("larger than the {} MB that may be read", most_bytes >> 20);
+        let message = format!("larger than the limit of {} MB", most_bytes >> 20);
         return Err(io::Error::other(message));
     }
     Ok(bytes)
@@ -40,7 +40,7 @@ fn require_regular(info: &Metadata) -> io::Result<()> {
     }
 }
 
-/// Opens a file; a pipe without waiting for its writer.
+/// Opens a file; for a pipe, without waiting for its writer.
 fn open(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);
@@ -54,7 +54,7 @@ fn open(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Whether a path, links followed, leads into `/proc` or `/sys`.
+/// Whether a path, with links resolved, is inside `/proc` or `/sys`.
 fn is_in_system_folder(path: &Path) -> io::Result<bool> {
     let path = path.canonicalize()?;
     Ok(["/proc", "/sys"]
@@ -62,7 +62,7 @@ fn is_in_system_folder(path: &Path) -> io::Result<bool> {
         .any(|folder| path.starts_with(folder)))
 }
 
-/// Whether a file lies in a file system that the kernel makes up, wherever that is mounted.
+/// Whether a file is in one of the kernel's virtual file systems, wherever it is mounted.
 #[cfg(any(target_os = "linux", target_os = "android"))]
 fn is_of_kernel(file: &File) -> bool {
     /// `f_type` of proc, sysfs, debugfs, tracefs, cgroup, cgroup2, securityfs, bpf, configfs and pstore, from
@@ -93,18 +93,18 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_more_is_read_than_is_allowed() {
+    fn a_file_beyond_the_limit_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("five");
         std::fs::write(&path, "12345").expect("written");
         assert_eq!(read(&path, 5).expect("small enough"), b"12345");
         let error = read(&path, 4).expect_err("too large").to_string();
-        assert_eq!(error, "larger than the 0 MB that may be read");
+        assert_eq!(error, "larger than the limit of 0 MB");
     }
 
     #[cfg(target_os = "linux")]
     #[test]
-    fn files_of_the_kernel_devices_and_pipes_are_not_read() {
+    fn kernel_files_devices_and_pipes_are_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let at = |name: &str| folder.path().join(name);
         let link = |to: &str, name: &str| std::os::unix::fs::symlink(to, at(name)).expect("linked");
@@ -116,18 +116,15 @@ mod tests {
         rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, mode, 0)
             .expect("a pipe");
         for (path, why) in [
-            (at("maps"), "a file of the system, not a stored one"),
-            (
-                at("self").join("maps"),
-                "a file of the system, not a stored one",
-            ),
+            (at("maps"), "a system file, not a stored one"),
+            (at("self").join("maps"), "a system file, not a stored one"),
             (
                 "/proc/self/pagemap".into(),
-                "a file of the system, not a stored one",
+                "a system file, not a stored one",
             ),
             (
                 "/sys/kernel/notes".into(),
-                "a file of the system, not a stored one",
+                "a system file, not a stored one",
             ),
             (at("zero"), "not a regular file"),
             (at("pipe"), "not a regular file"),

@@ -1,4 +1,4 @@
-//! Texts that are loaded, or refused with a message.
+//! Short texts that load, or are refused with a message.
 
 use super::*;
 use crate::mesh::NO_INDEX;
@@ -51,7 +51,7 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1/1/1/1 2 3",
-            "x.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
+            "x.obj:4:3: “1/1/1/1” has more parts than vertex/texture/normal",
         ),
         ("f 1.0 2 3", "x.obj:4:3: “1.0” is not an index"),
         ("f 1/x 2 3", "x.obj:4:3: “x” in “1/x” is not an index"),
@@ -60,10 +60,7 @@ fn errors_name_the_line_and_the_word() {
             "x.obj:4: a face needs three corners, this one has 2",
         ),
         ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5:5: “1,5” is not a number"),
-        (
-            "v 0 1\nf 1 2 3",
-            "x.obj:4: “v” needs 3 number(s), here are 2",
-        ),
+        ("v 0 1\nf 1 2 3", "x.obj:4: “v” needs 3 number(s), found 2"),
         ("vn a b c", "x.obj:4:4: “a” is not a number"),
         (
             " v 0 1.2.3 0\nf 1 2 3",
@@ -73,7 +70,7 @@ fn errors_name_the_line_and_the_word() {
         ("vn 0 1 1e\nf 1 2 3", "x.obj:4:8: “1e” is not a number"),
         (
             "l 1 2",
-            "x.obj: there are lines or points (1), but no faces: nothing that a ray could hit",
+            "x.obj: there are lines or points (1), but no faces: nothing to trace",
         ),
         (
             "",
@@ -81,11 +78,11 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1 1 2",
-            "x.obj:4: no triangle is left: 1 have zero area, 0 a corner that is NaN, infinite or too large for f32",
+            "x.obj:4: no triangles left: 1 have zero area, 0 have a corner that is NaN, infinite or too large for f32",
         ),
         (
             "v nan 0 0\nf 1 2 4",
-            "x.obj:5: no triangle is left: 0 have zero area, 1 a corner that is NaN, infinite or too large for f32",
+            "x.obj:5: no triangles left: 0 have zero area, 1 have a corner that is NaN, infinite or too large for f32",
         ),
     ];
     for (statement, expected) in cases {
@@ -95,7 +92,7 @@ fn errors_name_the_line_and_the_word() {
 }
 
 #[test]
-fn a_mesh_far_away_keeps_its_detail() {
+fn a_distant_mesh_keeps_its_detail() {
     let text = "v 4649776.25 30.125 -10000000.5\nv 4649777.25 30.125 -10000000.5\nv 4649776.25 31.1 -10000000.5\nf 1 2 3\n";
     let loaded = load_text(text).expect("good");
     let mesh = &loaded.mesh;
@@ -109,9 +106,9 @@ fn a_mesh_far_away_keeps_its_detail() {
 }
 
 #[test]
-fn the_largest_rounding_of_a_coordinate_is_told() {
+fn the_largest_rounding_of_a_coordinate_is_reported() {
     let loaded = load_text("v 0.1 0 0\nv 1 0.3 0\nv 0 1 0.75\nf 1 2 3\n").expect("good");
-    // 0.3 errs by more than 0.1. That decimals are rounded to f64 adds 2⁻⁵⁴ at most.
+    // 0.3 errs by more than 0.1. Rounding decimals to f64 adds at most 2⁻⁵⁴.
     let expected = f64::from(0.3f32) - 0.3;
     let difference = (loaded.max_rounding - expected).abs();
     assert!(difference <= 2f64.powi(-54), "{}", loaded.max_rounding);
@@ -125,7 +122,7 @@ fn an_ordinary_mesh_keeps_the_files_numbers() {
 }
 
 #[test]
-fn polygons_keep_their_id_and_hide_their_diagonals() {
+fn polygons_keep_their_id_and_diagonals_are_not_outlined() {
     let text = format!("{TRIANGLE}v 1 1 0\nf 1 2 3\nf 1 2 4 3\n");
     let mesh = load_text(&text).expect("good").mesh;
     assert_eq!([0, 1, 2].map(|t| mesh.face_of(t)), [0, 1, 1]);
@@ -134,7 +131,7 @@ fn polygons_keep_their_id_and_hide_their_diagonals() {
 }
 
 #[test]
-fn names_normals_and_materials_go_to_their_faces() {
+fn faces_get_their_names_normals_and_materials() {
     let text = format!(
         "mtllib a b.mtl\nmtllib missing.mtl\n{TRIANGLE}vn 0 0 2\nf 1 2 3\ng left side #2\nusemtl red\nf 1//1 2//1 3//1\nusemtl blue\nf 1//1 2 3//1\nl 1 2\nl 2 3\ncurv 1\n"
     );
@@ -159,12 +156,12 @@ fn names_normals_and_materials_go_to_their_faces() {
     assert!(warnings[1].starts_with("line 2: material library “missing.mtl”: "));
     assert_eq!(
         warnings[2],
-        "1 material(s) without a definition, “blue” first"
+        "1 material(s) without a definition, the first is “blue”"
     );
 }
 
 #[test]
-fn a_cancelled_load_says_so() {
+fn a_cancelled_load_is_an_error() {
     let progress = Progress::default();
     progress.cancel();
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
@@ -179,7 +176,7 @@ fn a_cancelled_load_says_so() {
 }
 
 #[test]
-fn an_endless_line_is_given_up() {
+fn an_endless_line_is_refused() {
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
     let progress = Progress::default();
     let result = parse(
@@ -191,7 +188,7 @@ fn an_endless_line_is_given_up() {
     );
     let error = result.expect_err("endless").to_string();
     assert!(
-        error.starts_with("x.obj:1: a line of more than "),
+        error.starts_with("x.obj:1: the line is longer than "),
         "{error}"
     );
     let zeros = parse(

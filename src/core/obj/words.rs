@@ -1,4 +1,4 @@
-//! The words of a line, and the numbers among them.
+//! Splits a line into words, and parses numbers.
 
 use super::corner::is_blank;
 use super::error::Problem;
@@ -7,7 +7,7 @@ use super::lines::Statement;
 use memchr::memchr_iter;
 use std::str::FromStr;
 
-/// The words of a line, and where they begin.
+/// Iterates over the words of a line and their offsets.
 #[derive(Clone)]
 pub(super) struct Words<'l> {
     line: &'l [u8],
@@ -15,7 +15,7 @@ pub(super) struct Words<'l> {
 }
 
 impl<'l> Words<'l> {
-    /// Those from an offset on.
+    /// The words from an offset on.
     pub(super) fn of(line: &'l [u8], at: usize) -> Self {
         Self { line, at }
     }
@@ -35,19 +35,19 @@ impl<'l> Iterator for Words<'l> {
     }
 }
 
-/// The words of a line, counted.
+/// Word count and related facts about a line.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct WordCount {
     pub words: usize,
-    /// The most bytes that a word has.
+    /// Length of the longest word in bytes.
     pub longest: usize,
-    /// Whether all their bytes can be parts of decimal numbers.
+    /// Whether all bytes of the words can be parts of decimal numbers.
     pub is_plain: bool,
 }
 
 /// Counts the words from an offset on.
 pub(super) fn count_words(line: &[u8], at: usize) -> WordCount {
-    /// 1 for blanks, 2 for what is neither blank nor of a number.
+    /// 1 for blanks, 2 for bytes that are neither blanks nor parts of numbers.
     const CLASSES: [u8; 256] = {
         let mut classes = [2; 256];
         let mut byte = 0;
@@ -88,7 +88,7 @@ pub(super) fn number<T: FromStr>(
     })
 }
 
-/// Whether a word has more than 15 digits, zeros before the first other one and the exponent's not counted.
+/// Whether a word has more than 15 digits, without leading zeros and the exponent.
 pub(super) fn is_long_number(word: &[u8]) -> bool {
     const MOST_DIGITS: usize = 15;
     let mantissa = word.split(|&b| matches!(b, b'e' | b'E')).next();
@@ -99,25 +99,25 @@ pub(super) fn is_long_number(word: &[u8]) -> bool {
     digits.skip_while(|&&b| b == b'0').count() > MOST_DIGITS
 }
 
-/// A line up to its comment. A # after a point begins no comment: Microsoft writes NaN as `-1.#IND`.
+/// A line up to its comment. A # after a point starts no comment: Microsoft writes NaN as `-1.#IND`.
 pub(super) fn without_comment(bytes: &[u8]) -> &[u8] {
     let is_comment = |&at: &usize| at == 0 || bytes[at - 1] != b'.';
     let comment = memchr_iter(b'#', bytes).find(is_comment);
     comment.map_or(bytes, |at| &bytes[..at])
 }
 
-/// A name up to a # after a blank, which may begin a comment; `None` if there is no such #.
+/// A name up to a # after a blank, which may start a comment; `None` if there is no such #.
 pub(super) fn before_comment(name: &str) -> Option<&str> {
     let at = name.find(" #").or_else(|| name.find("\t#"))?;
     Some(name[..at].trim_end())
 }
 
-/// A name keeps its `#`, as exporters write `usemtl Material #27`.
+/// A name, including any `#`, as exporters write `usemtl Material #27`.
 pub(super) fn name(bytes: &[u8]) -> String {
     text(bytes).trim().to_owned()
 }
 
-/// Bytes as text: as Latin-1 if they aren't UTF-8.
+/// Decodes bytes as UTF-8 or, if invalid, as Latin-1.
 pub(super) fn text(bytes: &[u8]) -> String {
     match str::from_utf8(bytes) {
         Ok(text) => text.to_owned(),
@@ -130,7 +130,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn words_stand_between_blanks() {
+    fn words_are_separated_by_blanks() {
         let count = |words, longest, is_plain| WordCount {
             words,
             longest,
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn digits_of_long_numbers_are_counted() {
+    fn numbers_of_more_than_15_digits_are_detected() {
         for (word, is_long) in [
             ("1000000000000000.3", true),
             ("-123456.123456789", false),
@@ -166,7 +166,7 @@ mod tests {
     }
 
     #[test]
-    fn names_may_have_any_bytes() {
+    fn names_may_contain_any_bytes() {
         assert_eq!(name(b" caf\xe9 #2 "), "café #2");
         assert_eq!(name("café".as_bytes()), "café");
         assert_eq!(without_comment(b"1 2 # 3"), b"1 2 ");

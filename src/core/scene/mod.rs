@@ -261,14 +261,14 @@ impl LoadedScene {
     }
 }
 
-/// The warning for a mesh that is too large or too small for f32 kernels.
+/// The warning for a mesh whose size f32 kernels can't handle well.
 fn size_warning(bounds: Aabb) -> Option<Warning> {
     let size = 2.0 * bounds.radius();
     let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
     (!SAFE_SIZE.contains(&size)).then(|| Warning {
         line: None,
         message: format!(
-            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, f32 kernels may miss hits: scale the mesh or use `precise` or `exact`"
+            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, `fast` may miss hits and `watertight` is slow: scale the mesh or use `precise`"
         ),
     })
 }
@@ -279,7 +279,7 @@ mod tests {
     use std::io;
 
     #[test]
-    fn a_mesh_too_large_or_too_small_for_f32_kernels_has_a_warning() {
+    fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {
         let library = |_: &str| Err(io::ErrorKind::NotFound.into());
         let (path, progress) = (Path::new("x.obj"), Progress::default());
         for (scale, is_warned) in [

@@ -196,7 +196,7 @@ mod tests {
     }
 
     #[test]
-    fn the_better_tree_replaces_the_first_one_in_existing_intersectors() {
+    fn the_better_tree_replaces_the_first_in_existing_intersectors() {
         let scene = large();
         let quick = scene.intersector(default_triangle_kernel());
         let ray = Ray::new(Vec3::new(0.1, 0.2, 3.0), -Vec3::Z).expect("a ray");
@@ -222,7 +222,7 @@ mod tests {
     }
 
     #[test]
-    fn intersectors_made_while_the_tree_is_replaced_get_the_better_one() {
+    fn intersectors_made_while_the_tree_is_replaced_get_the_better_tree() {
         let scene = large();
         let fast = triangle_kernel("fast").expect("in the table");
         let ray = Ray::new(Vec3::new(0.1, 0.2, 3.0), -Vec3::Z).expect("a ray");

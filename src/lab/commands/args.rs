@@ -24,25 +24,25 @@ pub struct CameraArgs {
     /// Width and height of the picture in pixels, each at most 16384
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse_size)]
     pub size: UVec2,
-    /// Position of the camera [default: as in the window, in view of the whole mesh]
+    /// Position of the camera [default: the window's starting view of the whole mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
     pub eye: Option<DVec3>,
-    /// The point in the middle of the picture [default: the centre of the mesh]
+    /// Point in the centre of the picture [default: the centre of the mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub target: Option<DVec3>,
-    /// The direction that points up in the picture [default: 0,1,0]
+    /// Direction that points up in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub up: Option<DVec3>,
     /// Vertical field of view, above 0 and below 180 [default: 40]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "ortho", value_parser = parse_fov)]
     pub fov: Option<f64>,
-    /// Orthographic projection, in which the picture is HEIGHT units of the file high
+    /// Orthographic projection; the picture is HEIGHT units of the file high
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true, value_parser = parse_height)]
     pub ortho: Option<f64>,
 }
 
 impl CameraArgs {
-    /// Checks what can be checked without a mesh. Call it before one is loaded.
+    /// Checks the arguments without a mesh. Call this before loading one.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
@@ -53,7 +53,7 @@ impl CameraArgs {
                 _ => Ok(()),
             };
         };
-        // Only directions count here: whether positions fit f32 depends on the mesh's origin.
+        // Checks directions only: whether positions fit in f32 depends on the mesh's origin.
         match self.look_at(DVec3::ZERO, target - eye) {
             Err(error) if error != CameraError::NotFinite => Err(usage(error)),
             _ => Ok(()),
@@ -63,8 +63,8 @@ impl CameraArgs {
     /// The camera for a scene.
     ///
     /// # Errors
-    /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if the mesh can't be
-    /// seen with any.
+    /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if no camera can show
+    /// the mesh.
     pub fn camera(&self, scene: &Scene) -> Result<Camera, CommandError> {
         let Some(eye) = self.eye else {
             return Ok(self.framing(scene)?);
@@ -106,10 +106,10 @@ fn usage(error: CameraError) -> CommandError {
     CommandError::Usage(error.to_string())
 }
 
-/// Which kernel answers the rays.
+/// The kernel that traces the rays.
 #[derive(Args, Clone, Debug)]
 pub struct KernelArg {
-    /// Intersection kernel, by its name or its tier's
+    /// Intersection kernel, by name or tier
     #[arg(long, value_name = "KERNEL", default_value = "watertight", value_parser = kernel_names())]
     pub kernel: String,
 }
@@ -117,29 +117,29 @@ pub struct KernelArg {
 impl KernelArg {
     /// The kernel's row in the table.
     pub fn kernel(&self) -> &'static TriangleKernel {
-        triangle_kernel(&self.kernel).expect("clap takes names from the table only")
+        triangle_kernel(&self.kernel).expect("clap accepts only names in the table")
     }
 }
 
-/// How a mesh is loaded, and kept for tracing.
+/// How a mesh is loaded and stored for tracing.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct MeshArgs {
     /// Drop faces with invalid indices, with a warning, instead of refusing the file
     #[arg(long)]
     pub lenient: bool,
-    /// Most memory that may be taken.
+    /// Memory limit.
     #[command(flatten)]
     pub memory: MemoryArg,
-    /// Store triangles and tree in a third less memory; rays take longer
+    /// Store triangles and tree in a third less memory; tracing is slower
     #[arg(long)]
     pub compact: bool,
 }
 
 impl MeshArgs {
-    /// Loads a scene, and prints the file's warnings.
+    /// Loads a scene and prints the file's warnings.
     ///
     /// # Errors
-    /// [`CommandError::Load`]; [`CommandError::Usage`] where standard input would have to be read twice.
+    /// [`CommandError::Load`]; [`CommandError::Usage`] if standard input would have to be read twice.
     pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, CommandError> {
         let load_options = LoadOptions {
             recentre,
@@ -162,32 +162,32 @@ impl MeshArgs {
     }
 }
 
-/// Most memory that a mesh with its textures, and a picture of it, may take.
+/// Memory limit for a mesh, its textures and tree, and a picture of it.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct MemoryArg {
-    /// Refuse a file or a picture that takes more memory than this
+    /// Refuse a file or a picture that needs more memory than this
     #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
     pub max_memory: u64,
 }
 
 impl MemoryArg {
-    /// The same in bytes.
+    /// The limit in bytes.
     pub fn bytes(self) -> u64 {
         self.max_memory.saturating_mul(1 << 20)
     }
 }
 
-/// Where smooth shading has edges.
+/// Crease angle of smooth shading.
 #[derive(Args, Clone, Copy, Debug)]
 pub struct CreaseArg {
-    /// With smooth shading: show an edge where triangles meet at a larger angle than this, whatever normals and
-    /// smoothing groups the file has
+    /// With smooth shading: keep edges sharp where triangles meet at a larger angle than this, and ignore the
+    /// file's normals and smoothing groups
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse_crease)]
     pub crease: Option<f32>,
 }
 
 impl CreaseArg {
-    /// Refuses a crease without smooth shading, which alone shows it.
+    /// Refuses a crease angle with flat shading, which has no use for it.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
@@ -199,7 +199,7 @@ impl CreaseArg {
         Ok(())
     }
 
-    /// The scene with its edges there.
+    /// The scene with this crease angle.
     pub fn apply(self, scene: Arc<Scene>) -> Arc<Scene> {
         match self.crease {
             Some(degrees) => Arc::new(scene.with_crease(Crease::Above(degrees.to_radians()))),
@@ -208,10 +208,10 @@ impl CreaseArg {
     }
 }
 
-/// What the colours of a picture show.
+/// The view of a picture.
 #[derive(Args, Clone, Debug)]
 pub struct ViewArg {
-    /// What the colours show
+    /// View: the meaning of the colours
     #[arg(long, value_name = "NAME", default_value = "shaded", value_parser = view_names())]
     pub view: String,
 }
@@ -219,7 +219,7 @@ pub struct ViewArg {
 impl ViewArg {
     /// The view's row in the table.
     pub fn view(&self) -> &'static Integrator {
-        integrator(&self.view).expect("clap takes names from the table only")
+        integrator(&self.view).expect("clap accepts only names in the table")
     }
 }
 
@@ -242,7 +242,7 @@ fn view_names() -> impl clap::builder::TypedValueParser<Value = String> {
 
 /// `1280x720`.
 fn parse_size(text: &str) -> Result<UVec2, String> {
-    /// Largest side of a picture, as of a GPU's textures.
+    /// Largest side of a picture, the usual limit of GPU textures.
     const LARGEST: u32 = 16384;
     let sides = text.split_once(['x', 'X', '×']);
     let [width, height] = sides
@@ -282,7 +282,7 @@ fn parse_crease(text: &str) -> Result<f32, String> {
 
 /// `1,-2.5,3e4`.
 fn parse_vector(text: &str) -> Result<DVec3, String> {
-    let expected = || "expected three numbers with commas between them, as in 1,-2.5,3".to_owned();
+    let expected = || "expected three numbers separated by commas, as in 1,-2.5,3".to_owned();
     let numbers: Vec<f64> = text
         .split(',')
         .map(|word| word.trim().parse())

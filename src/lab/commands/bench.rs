@@ -1,4 +1,4 @@
-//! `hitscope bench`: speed of loading a mesh, of building its tree, and of tracing rays through it.
+//! `hitscope bench`: measures the speed of loading a mesh, building its tree and tracing rays.
 
 use super::args::{CameraArgs, MeshArgs, kernel_names};
 use super::{CommandError, ThreadsArg};
@@ -20,17 +20,17 @@ use std::sync::Mutex;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::time::{Duration, Instant};
 
-/// Measure the speed of loading, building and tracing
+/// Measure the speed of loading, tree building and tracing
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Workloads:
   primary  camera rays through the centres of the pixels
   bounce   a diffuse ray from each hit of a primary ray
   random   rays across the bounding sphere of the scene
-  shadow   the bounce rays again, asking only whether they hit anything
+  shadow   the bounce rays again, any hit instead of the closest
 
-A rate is the number of rays divided by the CPU time of the tracing threads and multiplied by their number: the
-median of all rounds. Kernels take turns in each round.
+Rates are rays divided by the average CPU time of the tracing threads, median of all rounds. Each round measures
+the kernels in turn.
 
 Examples:
   hitscope bench bunny.obj
@@ -41,7 +41,7 @@ pub struct BenchArgs {
     /// Camera of the primary rays.
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Kernel, by its name or its tier's; repeat it for several [default: the four tiers]
+    /// Kernel, by name or tier; repeat the option for several [default: the four tiers]
     #[arg(long = "kernel", value_name = "KERNEL", value_parser = kernel_names())]
     pub kernels: Vec<String>,
     /// How the mesh is loaded.
@@ -50,7 +50,7 @@ pub struct BenchArgs {
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadsArg,
-    /// Rounds to take the median of, 1 to 1000
+    /// Rounds, 1 to 1000; rates are medians over all rounds
     #[arg(long, value_name = "N", default_value_t = 5, allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=1000))]
     pub rounds: u16,
     /// Print one JSON object
@@ -58,9 +58,9 @@ pub struct BenchArgs {
     pub json: bool,
 }
 
-/// Most camera rays, and most random rays.
+/// Maximum number of camera rays, and of random rays.
 const MOST_RAYS: usize = 1 << 20;
-/// Rays that a thread takes at once.
+/// Rays that a thread takes from the queue at a time.
 const RAYS_PER_PART: usize = 4096;
 
 #[derive(Serialize)]
@@ -68,13 +68,13 @@ struct Report {
     triangles: usize,
     simd: &'static str,
     load_ms: f64,
-    /// Of the tree, on all cores.
+    /// Building the tree, on all cores.
     build_ms: f64,
-    /// Of the quick tree that the window starts with. No ray is traced through it here.
+    /// Building the quick tree that the window starts with. No rays are traced through it here.
     quick_build_ms: f64,
-    /// Tree, and triangles packed for the first kernel.
+    /// The tree and the packed triangles of the first kernel.
     bytes_per_triangle: f64,
-    /// `None` where the system has no figure.
+    /// `None` if the system doesn't report it.
     peak_rss_bytes: Option<u64>,
     kernels: Vec<PackedKernel>,
     workloads: Vec<Row>,
@@ -91,7 +91,7 @@ struct PackedKernel {
 struct Row {
     name: &'static str,
     kernel: &'static str,
-    /// Rays that go through the tree together where they are coherent.
+    /// Rays traced together if they are coherent.
     rays_together: usize,
     threads: usize,
     rays: usize,
@@ -100,7 +100,7 @@ struct Row {
     mrays_per_s_wall: f64,
 }
 
-/// The query for the rays of a workload.
+/// The query of a workload.
 #[derive(Clone, Copy)]
 enum WorkloadQuery {
     Closest,
@@ -139,7 +139,7 @@ impl BenchArgs {
             build_ms: milliseconds(scene.build_time()),
             quick_build_ms: milliseconds(quick_build_time(scene.mesh())),
             bytes_per_triangle: packed[0].bytes_per_triangle,
-            // Before the rays are made: the viewer doesn't keep any.
+            // Measured before the rays are generated: the viewer stores none.
             peak_rss_bytes: peak_rss_bytes(),
             kernels: packed,
             workloads: self.rows(&intersectors, &workloads(scene, &camera, MOST_RAYS, 1)),
@@ -160,7 +160,8 @@ impl BenchArgs {
         } else {
             &self.kernels
         };
-        let named = |name: &String| triangle_kernel(name).expect("names are from the table only");
+        let named =
+            |name: &String| triangle_kernel(name).expect("clap accepts only names in the table");
         names.iter().map(named).collect()
     }
 
@@ -176,7 +177,7 @@ impl BenchArgs {
         for (name, query, rays) in single.chain(more) {
             let mut times = vec![Vec::new(); intersectors.len()];
             let mut hits = vec![0; intersectors.len()];
-            // The first round warms up and doesn't count.
+            // The first round is a warm-up.
             for round in 0..=self.rounds {
                 for (k, intersector) in intersectors.iter().enumerate() {
                     let traced = trace(&**intersector, query, rays, self.threads.count());
@@ -210,12 +211,12 @@ impl BenchArgs {
     }
 }
 
-/// One round of a workload.
+/// The results of one round of a workload.
 #[derive(Clone, Copy)]
 struct Traced {
     hits: u64,
     threads: usize,
-    /// Sum over the threads, divided by their number.
+    /// Average over the threads.
     cpu_seconds: f64,
     wall_seconds: f64,
 }
@@ -243,7 +244,7 @@ fn trace(
     };
     let start = Instant::now();
     let threads = std::thread::scope(|scope| {
-        // Where the system grants fewer threads, those it grants do the work.
+        // If the system grants fewer threads, those do all the work.
         let start = |_| std::thread::Builder::new().spawn_scoped(scope, work).ok();
         let others = (1..threads).map_while(start).count();
         work();

@@ -1,20 +1,20 @@
-//! A file that isn't complete yet.
+//! An output file that isn't complete yet.
 
 use std::fs::{File, Metadata};
 use std::io;
 use std::path::{Path, PathBuf};
 use tempfile::{Builder, NamedTempFile, TempPath};
 
-/// A file that is being written, in the directory where it is to appear. It vanishes unless it is renamed.
+/// A temporary file in the directory of the output. It is deleted unless it is renamed.
 pub(super) struct Draft {
     file: File,
-    /// `None` while it has no name: then the system removes it even if the program is killed.
+    /// `None` if it has no name; the system then removes it even if the program is killed.
     name: Option<TempPath>,
     path: PathBuf,
 }
 
 impl Draft {
-    /// An empty file, with the permissions of the one that it is to replace.
+    /// Creates an empty file with the permissions of the file that it will replace.
     pub(super) fn create(path: &Path) -> io::Result<Self> {
         let directory = directory_of(path);
         let (file, name) = match unnamed_file(directory) {
@@ -39,9 +39,9 @@ impl Draft {
         &self.file
     }
 
-    /// Replaces the older file, if there is one.
+    /// Moves the file to the output's path, replacing an older file.
     pub(super) fn rename(self) -> io::Result<()> {
-        // On the disk before its name is: after a power failure the name mustn't lead to half a file.
+        // Synced before it is renamed, so that a power failure can't leave half a file under the name.
         self.file.sync_all()?;
         let name = match self.name {
             Some(name) => name,
@@ -63,13 +63,13 @@ fn named_file(directory: &Path) -> io::Result<NamedTempFile> {
     #[cfg(unix)]
     {
         use std::os::unix::fs::PermissionsExt as _;
-        // As for any new file. The umask applies.
+        // The mode of any new file; the umask applies.
         builder.permissions(std::fs::Permissions::from_mode(0o666));
     }
     builder.tempfile_in(directory)
 }
 
-/// Keeps the owner of the older file where the system allows it, as it does for root.
+/// Keeps the owner of the older file if the system allows it, as it does for root.
 fn keep_owner(file: &File, old: &Metadata) {
     #[cfg(unix)]
     {
@@ -80,7 +80,7 @@ fn keep_owner(file: &File, old: &Metadata) {
     let _ = (file, old);
 }
 
-/// A file without a name, if the file system supports such files and `/proc` is there to name it later.
+/// Creates a file without a name, if the file system supports it and `/proc` exists for naming it later.
 #[cfg(target_os = "linux")]
 fn unnamed_file(directory: &Path) -> Option<File> {
     use rustix::fs::{Mode, OFlags, open};
@@ -88,7 +88,7 @@ fn unnamed_file(directory: &Path) -> Option<File> {
         return None;
     }
     let flags = OFlags::TMPFILE | OFlags::WRONLY | OFlags::CLOEXEC;
-    // As for any new file. The umask applies.
+    // The mode of any new file; the umask applies.
     let mode = Mode::from_raw_mode(0o666);
     open(directory, flags, mode).ok().map(File::from)
 }

@@ -1,4 +1,4 @@
-//! `hitscope info`: the contents of a file, and the kernel tier that they require.
+//! `hitscope info`: prints the contents of a file and the kernel tier that they require.
 
 use super::CommandError;
 use super::args::MeshArgs;
@@ -38,12 +38,12 @@ struct Info {
     polygons: usize,
     materials: usize,
     groups: usize,
-    /// Straight segments of the file's lines.
+    /// Segments of the file's polylines.
     lines: usize,
     points: usize,
     bounds: Bounds,
     origin: [f64; 3],
-    /// Largest difference in a coordinate between the file's decimals and the mesh that is traced.
+    /// Largest difference per coordinate between the file's decimals and the traced mesh.
     max_rounding: f64,
     bytes: BTreeMap<&'static str, usize>,
     /// Memory of the same surface in other representations.
@@ -68,7 +68,7 @@ struct HealthReport {
     degenerate: usize,
     non_finite: usize,
     bad_index: usize,
-    /// Count of each of [`FLAWS`]; null where it wasn't checked.
+    /// Number of each of [`FLAWS`]; null if not checked.
     #[serde(flatten)]
     flaws: BTreeMap<&'static str, Option<usize>>,
     max_aspect: f64,
@@ -151,7 +151,7 @@ impl Info {
         writeln!(out, "bounds              {:?}", self.bounds.min)?;
         writeln!(out, "                    {:?}", self.bounds.max)?;
         writeln!(out, "origin              {:?}", self.origin)?;
-        writeln!(out, "rounded by          {:e} at most", self.max_rounding)?;
+        writeln!(out, "rounded by          at most {:e}", self.max_rounding)?;
         for (part, bytes) in &self.bytes {
             writeln!(out, "bytes               {bytes} {part}")?;
         }
@@ -168,11 +168,7 @@ impl Info {
                 None => writeln!(out, "{title:<20}not checked: too many border edges")?,
             }
         }
-        writeln!(
-            out,
-            "longest triangle    {:.1} times its height",
-            self.health.max_aspect
-        )?;
+        writeln!(out, "max aspect ratio    {:.1}", self.health.max_aspect)?;
         writeln!(
             out,
             "load, build         {:.1} ms, {:.1} ms",

@@ -1,4 +1,4 @@
-//! Loading the mesh of a command, from a file or from standard input.
+//! Loads the mesh of a command from a file or from standard input.
 
 use super::CommandError;
 use super::stderr::{ProgressLine, print_line};
@@ -19,10 +19,10 @@ pub fn is_stdin(path: &Path) -> bool {
 }
 
 /// Loads a scene from a file, or from standard input if `path` is `-`, and prints the file's warnings to stderr, one
-/// in a line.
+/// per line.
 ///
 /// # Errors
-/// [`CommandError::Load`]; [`CommandError::Usage`] where standard input would have to be read twice.
+/// [`CommandError::Load`]; [`CommandError::Usage`] if standard input would have to be read twice.
 pub(super) fn load(
     path: &Path,
     load_options: LoadOptions,
@@ -53,7 +53,8 @@ fn load_stdin(
     options: SceneOptions,
 ) -> Result<LoadedScene, CommandError> {
     if load_options.faults == FaultPolicy::Lenient {
-        let message = "--lenient may read the mesh twice, which standard input doesn't allow";
+        let message =
+            "--lenient may need to read the mesh twice, which isn't possible from standard input";
         return Err(CommandError::Usage(message.to_owned()));
     }
     let (start, progress) = (Instant::now(), Progress::default());
@@ -66,5 +67,5 @@ fn load_stdin(
     };
     let no_folder = |_: &str| Err(io::Error::other("standard input has no folder to look in"));
     let loaded = obj::parse(open, name, load_options, &no_folder, &progress)?;
-    Ok(LoadedScene::of(loaded, start, options, &progress).expect("nobody cancels"))
+    Ok(LoadedScene::of(loaded, start, options, &progress).expect("never cancelled"))
 }

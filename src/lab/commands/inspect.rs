@@ -1,4 +1,4 @@
-//! `hitscope inspect`: the ray of one pixel.
+//! `hitscope inspect`: prints the inspection of one pixel's ray.
 
 use super::CommandError;
 use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs};
@@ -14,22 +14,22 @@ use std::path::PathBuf;
 const ABOUT: &str = "\
 Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
 
-The ray is the one that `render` traces, with the same camera, through the centre of the pixel. The
-exact answer is computed with integers; the table compares every kernel with it.
+The ray goes through the centre of the pixel, as in `render` with the same camera. The exact answer is
+computed with integers; the table compares every kernel with it.
 
 Values, in the text and in JSON:
 
   t                  in lengths of the ray's direction, which has unit length up to rounding
-  barycentric        weights of the triangle's corners A, B and C
+  barycentric        barycentric coordinates for the triangle's corners A, B and C
   triangle, face     indices, counted from 0, in the order of the file
   position           in the file's coordinates
-  t_error_ulps       error of t, in units in the last place of f32
-  barycentric_error  largest error of a weight
-  ray_rounding       largest distance, in one coordinate and in units of the file, between this ray
-                     and the camera's ray in f64, where they may meet the mesh. It is large for a
-                     camera that is far away.
+  t_error_ulps       error of t, in ulps of f32
+  barycentric_error  largest error of a barycentric coordinate
+  ray_rounding       largest distance per coordinate, in units of the file, between this ray and the
+                     camera's ray in f64, where they may meet the mesh. It is large for a distant
+                     camera.
 
-Numbers in JSON read back to the same value as a double.";
+Numbers in JSON parse as doubles without loss.";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -38,9 +38,9 @@ Examples:
   hitscope inspect bunny.obj --pixel 640,360 --kernel exact --shading smooth
 
 Exit status:
-  0  done, also if the ray hits nothing
-  1  the mesh can't be read: one line on stderr says why
-  2  the command line is at fault, for example a pixel outside the picture";
+  0  success, even if the ray hits nothing
+  1  the mesh can't be read; one line on stderr has the reason
+  2  the command line is wrong, for example the pixel is outside the picture";
 
 /// Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
 #[derive(Args, Clone, Debug)]
@@ -48,19 +48,19 @@ Exit status:
 pub struct InspectArgs {
     /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
-    /// The pixel; 0,0 is at the top left
+    /// Pixel; 0,0 is at the top left
     #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
     pub pixel: UVec2,
     /// Camera
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Shading for which the normal is given
+    /// Shading that determines the shading normal
     #[arg(long, default_value = "flat")]
     pub shading: ShadingArg,
     /// Kernel
     #[command(flatten)]
     pub kernel: KernelArg,
-    /// Where smooth shading has edges.
+    /// Crease angle of smooth shading.
     #[command(flatten)]
     pub crease: CreaseArg,
     /// How the mesh is loaded.
@@ -72,7 +72,7 @@ pub struct InspectArgs {
 }
 
 impl InspectArgs {
-    /// Traces the ray and prints what is known of it.
+    /// Traces the ray and prints its inspection.
     ///
     /// # Errors
     /// See [`CommandError`].
@@ -122,7 +122,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     )?;
     writeln!(
         out,
-        "           rounded by {:e} at most, in the file's units",
+        "           rounded by at most {:e}, in the file's units",
         ray.ray_rounding
     )?;
     writeln!(
@@ -132,9 +132,9 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     )?;
     print_hit(kernel, hit.as_ref(), out)?;
     match exact {
-        None => writeln!(out, "exactly: no hit")?,
+        None => writeln!(out, "exact: no hit")?,
         Some(exact) => {
-            writeln!(out, "exactly: triangle {}, counted from 0", exact.triangle)?;
+            writeln!(out, "exact: triangle {}, counted from 0", exact.triangle)?;
             writeln!(out, "  t            {} = {}", exact.t, exact.t_fraction)?;
             writeln!(out, "  barycentric  {}", list(exact.barycentric))?;
         }
@@ -142,7 +142,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(
         out,
         "{:<18} {:>14} {:>14} {:>14}",
-        "kernel", "t", "error in ulps", "weight error"
+        "kernel", "t", "t error, ulps", "bary. error"
     )?;
     let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
     for row in kernels {
@@ -183,7 +183,7 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
     Ok(())
 }
 
-/// Three numbers, without minus zero.
+/// Formats three numbers, minus zero as zero.
 fn list<T: Copy + Debug + Default + PartialEq>(numbers: [T; 3]) -> String {
     let plain = |x: T| if x == T::default() { T::default() } else { x };
     format!("{:?}", numbers.map(plain))

@@ -1,4 +1,4 @@
-//! `hitscope lab`: the accuracy of every kernel and its price in speed, measured on this machine.
+//! `hitscope lab`: measures accuracy and speed of every kernel on this machine.
 
 use super::args::{CameraArgs, MeshArgs};
 use super::stderr::ProgressLine;
@@ -32,16 +32,16 @@ Examples:
   hitscope lab --case closed --case order --seed 7
   hitscope lab --scene bunny.obj --eye 3,2,4
 
-Everything but speed is the same on every machine for the same seed. Threads: one per core."
+All results except speed are the same on every machine for the same seed. Uses one thread per core."
 )]
 pub struct LabArgs {
-    /// Measure fewer rays: half a minute instead of several
+    /// Measure fewer rays: half a minute instead of several minutes
     #[arg(long)]
     pub quick: bool,
     /// Write report.html, lab.json and accuracy.md to this directory
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Measure only cases whose names begin with NAME, and no speed; repeat it for several
+    /// Measure only cases whose names begin with NAME, and no speed; repeat the option for several
     #[arg(long, value_name = "NAME")]
     pub case: Vec<String>,
     /// Print one JSON object
@@ -50,7 +50,7 @@ pub struct LabArgs {
     /// Random seed
     #[arg(long, default_value_t = 1)]
     pub seed: u64,
-    /// Measure this OBJ file instead, as the camera sees it; - for standard input
+    /// Measure with camera rays in this OBJ file instead; - for standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = CASE_OPTIONS)]
     pub scene: Option<PathBuf>,
     /// Camera.
@@ -61,7 +61,7 @@ pub struct LabArgs {
     pub mesh: MeshArgs,
 }
 
-/// Options of the lab itself. All others are about the mesh of `--scene`.
+/// Options that don't require `--scene`.
 const OWN_OPTIONS: [&str; 6] = ["quick", "out", "case", "json", "seed", "scene"];
 /// Options that have no effect on a scene.
 const CASE_OPTIONS: [&str; 3] = ["out", "case", "seed"];
@@ -110,11 +110,13 @@ impl LabArgs {
         ));
         let show = |run: RunProgress| {
             let (percent, left) = (100.0 * run.done, duration_text(run.left));
-            progress.update(format_args!("{percent:3.0} %, {left} left without speed"));
+            progress.update(format_args!(
+                "{percent:3.0} %, {left} left, not counting speed"
+            ));
         };
         let never_cancelled = Progress::default();
         let measured = measure::run(sizes, self.seed, &is_wanted, &never_cancelled, &show);
-        let all = measured.expect("nobody cancels");
+        let all = measured.expect("never cancelled");
         progress.end();
         let about = RunInfo {
             version: env!("CARGO_PKG_VERSION"),
@@ -125,7 +127,7 @@ impl LabArgs {
             seed: self.seed,
             size: if self.quick { "quick" } else { "full" },
         };
-        // The tables come first: they are worth as much if a file can't be written any more.
+        // Print the tables first: a file may turn out not to be writable.
         let json = report::to_json(&about, &all);
         if self.json {
             writeln!(out, "{}", json::to_pretty(&json))?;
@@ -143,7 +145,7 @@ impl LabArgs {
                 let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
                 let names = names.join(", ");
                 return Err(CommandError::Usage(format!(
-                    "no case begins with “{case}”; the cases are {names}"
+                    "no case name begins with “{case}”; the cases are {names}"
                 )));
             }
         }
@@ -185,7 +187,7 @@ impl LabArgs {
             progress.update(format_args!("{done} of {all} kernels"));
             rows.push(row);
         });
-        measured.expect("nobody cancels");
+        measured.expect("never cancelled");
         progress.end();
         if self.json {
             let json = json!({
@@ -202,7 +204,7 @@ impl LabArgs {
     }
 }
 
-/// The files of a report. Made before the measurement, which takes minutes: they can be written.
+/// The files of a report, opened before the measurement, which takes minutes, to be sure that they are writable.
 struct ReportFiles {
     json: Output,
     page: Output,
@@ -245,7 +247,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", machine())?;
     writeln!(
         out,
-        "Mrays/s of one thread's CPU time; errors of {n} camera and bounce rays, of which {hits} hit, against the oracle"
+        "Mrays/s by CPU time of one thread; errors against the oracle for {n} camera and bounce rays, {hits} of which hit"
     )?;
     writeln!(
         out,
@@ -286,7 +288,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     Ok(())
 }
 
-/// CPU, threads and SIMD level.
+/// Describes the machine: CPU, threads and SIMD level.
 fn machine() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = info
@@ -300,7 +302,7 @@ fn machine() -> String {
     )
 }
 
-/// A duration in whole seconds, as in `2m 5s`.
+/// Formats a duration in whole seconds, as in `2m 5s`.
 fn duration_text(time: Duration) -> String {
     let seconds = Duration::from_secs(time.as_secs_f64().ceil() as u64);
     humantime::format_duration(seconds).to_string()

@@ -1,4 +1,4 @@
-//! The commands that need no window. They print results to stdout, and errors in one line to stderr.
+//! The commands that need no window. They print results to stdout and errors, one line each, to stderr.
 
 mod args;
 mod bench;
@@ -36,7 +36,7 @@ use std::path::{Path, PathBuf};
 /// Why a command failed.
 #[derive(Debug, thiserror::Error)]
 pub enum CommandError {
-    /// The arguments contradict each other, or ask for something impossible.
+    /// The arguments contradict each other or are impossible to satisfy.
     #[error("{0}")]
     Usage(String),
     /// The mesh couldn't be loaded.
@@ -62,7 +62,7 @@ pub enum CommandError {
     File {
         /// The file.
         path: PathBuf,
-        /// What the system said.
+        /// The system's error.
         source: io::Error,
     },
     /// The picture couldn't be rendered.
@@ -71,13 +71,13 @@ pub enum CommandError {
     /// Results couldn't be written to stdout.
     #[error("stdout: {0}")]
     Stdout(#[from] io::Error),
-    /// The machine lacks what is needed.
+    /// The machine lacks a resource, such as memory or threads.
     #[error("{0}")]
     Other(String),
 }
 
 impl CommandError {
-    /// Whether the command line is at fault, rather than a file or the machine.
+    /// Whether the command line is wrong, rather than a file or the machine.
     pub fn is_usage(&self) -> bool {
         matches!(self, Self::Usage(_) | Self::PixelOutside { .. })
     }

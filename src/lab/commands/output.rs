@@ -1,4 +1,4 @@
-//! Files that commands write: an output appears under its name when it is complete.
+//! Output files of commands, which appear under their names once they are complete.
 
 use super::draft::Draft;
 use super::{CommandError, file_error};
@@ -10,11 +10,11 @@ use std::sync::Arc;
 
 const STDOUT: &str = "/dev/stdout";
 
-/// A place for a file, which was writable when it was created.
+/// An output file, which was writable when this was created.
 ///
-/// A regular file is written beside its place and renamed when it is complete: whatever happens before, an older
-/// file keeps its content, and its permissions in any case. Symbolic links are followed. A pipe or a device is
-/// opened at once and written directly.
+/// A regular file is written to a temporary file in its directory, which is renamed once it is complete. Until then
+/// an older file is unchanged; its permissions are kept. Symbolic links are followed. A pipe or a device is opened
+/// at once and written directly.
 #[derive(Clone, Debug)]
 pub struct Output {
     path: PathBuf,
@@ -23,17 +23,17 @@ pub struct Output {
 
 #[derive(Clone, Debug)]
 enum Destination {
-    /// A regular file, or none yet: its path with links followed.
+    /// A regular file, which may not exist yet: its path with links resolved.
     Replaced(PathBuf),
     /// A pipe or a device.
     Opened(Arc<File>),
 }
 
 impl Output {
-    /// Checks that the place can be written. Call it before long work.
+    /// Checks that the path can be written. Call this before long work.
     ///
     /// # Errors
-    /// [`CommandError::File`] with what the system says.
+    /// [`CommandError::File`] with the system's error.
     pub fn create(path: &Path) -> Result<Self, CommandError> {
         let destination = destination(path).map_err(|source| file_error(path, source))?;
         Ok(Self {
@@ -42,10 +42,10 @@ impl Output {
         })
     }
 
-    /// Writes the file. `content` is given a buffered writer.
+    /// Writes the file. `content` receives a buffered writer.
     ///
     /// # Errors
-    /// [`CommandError::File`] with what the system says; the place is then as it was before.
+    /// [`CommandError::File`] with the system's error; an older file is then unchanged.
     pub fn write(
         &self,
         content: impl FnOnce(&mut dyn Write) -> io::Result<()>,
@@ -66,7 +66,7 @@ impl Output {
     /// See [`write`](Self::write).
     ///
     /// # Panics
-    /// If there aren't as many pixels as `size` says.
+    /// If the number of pixels doesn't match `size`.
     pub fn write_png(&self, size: UVec2, pixels: &[[u8; 4]]) -> Result<(), CommandError> {
         assert_eq!(pixels.len(), size.as_usizevec2().element_product());
         self.write(|out| {
@@ -84,9 +84,9 @@ impl Output {
     }
 }
 
-/// Whether writing to a path goes to a pipe or a device, rather than to a file of this name.
+/// Whether a path is written directly, as pipes, devices and descriptors are, and not replaced.
 pub(super) fn is_stream(path: &Path) -> bool {
-    // A file that stdout is redirected to mustn't be replaced: others may write to it, too.
+    // A file that stdout is redirected to mustn't be replaced: other programs may write to it, too.
     let is_descriptor = [STDOUT, "/dev/stderr", "/dev/fd", "/proc"]
         .iter()
         .any(|place| path.starts_with(place));
@@ -99,7 +99,7 @@ fn destination(path: &Path) -> io::Result<Destination> {
     }
     let path = behind_links(path)?;
     match OpenOptions::new().write(true).open(&path) {
-        // A file that can't be written isn't replaced either.
+        // A read-only file isn't replaced either.
         Err(error) if error.kind() != io::ErrorKind::NotFound => return Err(error),
         _ => {}
     }
@@ -117,9 +117,9 @@ fn stream(path: &Path) -> io::Result<File> {
     OpenOptions::new().append(true).open(path)
 }
 
-/// Where a path leads if it, or what it leads to, is a symbolic link. The end needn't exist.
+/// A path with the symbolic links at its end resolved. The target needn't exist.
 fn behind_links(path: &Path) -> io::Result<PathBuf> {
-    /// As many as Linux follows.
+    /// The limit of Linux.
     const MOST_LINKS: u32 = 40;
     let mut path = path.to_owned();
     for _ in 0..MOST_LINKS {

@@ -1,4 +1,4 @@
-//! What a traced picture shows, and the tracing of it.
+//! Options of a traced picture, and its tracing.
 
 use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
 use super::{CommandError, ThreadsArg};
@@ -14,7 +14,7 @@ use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Film, Intersector};
 use std::sync::Arc;
 
-/// What a traced picture shows
+/// Options of a traced picture
 #[derive(Args, Clone, Debug)]
 pub struct PictureArgs {
     /// Camera.
@@ -23,7 +23,7 @@ pub struct PictureArgs {
     /// Samples per pixel, 1 to 4096, rounded up to a power of two
     #[arg(long, value_name = "N", default_value_t = 16, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
     pub samples: u32,
-    /// How normals vary over a triangle
+    /// Shading of triangles
     #[arg(long, default_value = "flat")]
     pub shading: ShadingArg,
     /// View.
@@ -32,13 +32,13 @@ pub struct PictureArgs {
     /// Kernel.
     #[command(flatten)]
     pub kernel: KernelArg,
-    /// Where smooth shading has edges.
+    /// Crease angle of smooth shading.
     #[command(flatten)]
     pub crease: CreaseArg,
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// With the view “disagreement”: the kernel to compare with [default: exact]
+    /// Kernel to compare with, for the view “disagreement” [default: exact]
     #[arg(long, value_name = "KERNEL", value_parser = kernel_names())]
     pub against: Option<String>,
     /// Threads.
@@ -64,23 +64,23 @@ impl From<ShadingArg> for Shading {
     }
 }
 
-/// A picture, with what is needed to draw over it.
+/// A traced picture, and the camera and scene for drawing over it.
 pub struct Rendered {
     /// The picture.
     pub film: Film,
-    /// Its camera.
+    /// The camera.
     pub camera: Camera,
-    /// The scene that it shows.
+    /// The scene.
     pub loaded: LoadedScene,
-    /// How normals vary over its triangles.
+    /// Flat or smooth shading.
     pub shading: Shading,
 }
 
-/// The background of pictures without a window, in sRGB; the same as the dark theme's.
+/// The background of pictures without a window, in sRGB; the dark theme's.
 pub const DARK_BACKGROUND: Vec3 = Vec3::new(0.13, 0.14, 0.16);
 
 impl PictureArgs {
-    /// Checks what can be checked without a mesh. Call it before one is loaded.
+    /// Checks the arguments without a mesh. Call this before loading one.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
@@ -112,7 +112,7 @@ impl PictureArgs {
         let intersector: Arc<dyn Intersector> =
             Arc::from(loaded.scene.intersector(self.kernel.kernel()));
         let against = self.against.as_deref().unwrap_or("exact");
-        let chosen = triangle_kernel(against).expect("clap takes names from the table only");
+        let chosen = triangle_kernel(against).expect("clap accepts only names in the table");
         let view = self.view.view();
         let second = view.second(&loaded.scene, &intersector, chosen);
         self.require_memory(&loaded, &[&intersector, &second])?;
@@ -137,7 +137,7 @@ impl PictureArgs {
         })
     }
 
-    /// Refuses a picture for which the mesh leaves no room.
+    /// Refuses a picture that exceeds the memory limit together with the mesh.
     fn require_memory(
         &self,
         loaded: &LoadedScene,
@@ -155,7 +155,7 @@ impl PictureArgs {
         }
         let [picture, mesh] = [bytes, held as u64].map(|bytes| bytes.div_ceil(1 << 20));
         Err(CommandError::Other(self.too_large(format_args!(
-            "takes {picture} MB beside the mesh's {mesh} MB"
+            "takes {picture} MB besides the mesh's {mesh} MB"
         ))))
     }
 
@@ -167,7 +167,7 @@ impl PictureArgs {
     fn too_large(&self, takes: std::fmt::Arguments) -> String {
         let UVec2 { x, y } = self.camera.size;
         format!(
-            "a picture of {x}x{y} pixels {takes}, and hitscope may use {} MB (--max-memory)",
+            "a picture of {x}x{y} pixels {takes}; the limit is {} MB (--max-memory)",
             self.mesh.memory.max_memory
         )
     }

@@ -1,4 +1,4 @@
-//! `hitscope render`: a picture without a window.
+//! `hitscope render`: renders a picture without a window.
 
 use super::output::is_stream;
 use super::{CommandError, PictureArgs, Rendered};
@@ -15,11 +15,11 @@ Examples:
   hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0 --wireframe
   hitscope render bunny.obj -o /dev/stdout --view cost | display
 
-The file appears under its name when it is complete. A picture takes 19 bytes of memory per pixel.")]
+The output file appears under its name once it is complete. A picture takes 19 bytes of memory per pixel.")]
 pub struct RenderArgs {
     /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
-    /// PNG file to write; a pipe or a device, too
+    /// PNG file, pipe or device to write
     #[arg(short, long, value_name = "OUT.png", value_parser = parse_png)]
     pub output: PathBuf,
     /// Picture.
@@ -28,13 +28,13 @@ pub struct RenderArgs {
     /// Draw the edges of the polygons over the picture (needs a GPU or a software renderer for Vulkan)
     #[arg(long)]
     pub wireframe: bool,
-    /// Draw the normals over the picture (needs the same)
+    /// Draw the normals over the picture (same requirement)
     #[arg(long)]
     pub normals: bool,
 }
 
 impl RenderArgs {
-    /// Checks what can be checked without the mesh. Call it before long work.
+    /// Checks the arguments without the mesh. Call this before long work.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
@@ -42,7 +42,7 @@ impl RenderArgs {
         self.picture.check()
     }
 
-    /// Traces the picture. The overlay is left to the caller, who may have a GPU.
+    /// Traces the picture. Drawing the overlay is left to the caller, which may have a GPU.
     ///
     /// # Errors
     /// See [`CommandError`].
@@ -53,7 +53,7 @@ impl RenderArgs {
     }
 }
 
-/// Reads the name of a picture: one that says what will be in the file, or a pipe or a device.
+/// Parses the path of a picture: a name ending in .png, a pipe or a device.
 ///
 /// # Errors
 /// A message for the user.

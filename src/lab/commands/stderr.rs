@@ -3,12 +3,12 @@
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write};
 
-/// Prints a line. Where stderr is closed or full, the line is lost, and nothing else happens.
+/// Prints a line. If stderr is closed or full, the line is lost without an error.
 pub fn print_line(line: impl Display) {
     _ = writeln!(io::stderr(), "{line}");
 }
 
-/// Progress of a command, printed on terminals only.
+/// A progress line, printed on terminals only.
 #[derive(Clone, Copy)]
 pub(super) struct ProgressLine {
     is_terminal: bool,
@@ -21,22 +21,22 @@ impl ProgressLine {
         }
     }
 
-    /// Prints a line that stays.
+    /// Prints a permanent line.
     pub(super) fn print(self, line: impl Display) {
         if self.is_terminal {
             print_line(line);
         }
     }
 
-    /// Prints over the line before.
+    /// Overwrites the progress line.
     pub(super) fn update(self, line: impl Display) {
         if self.is_terminal {
-            // Spaces cover the rest of a longer line.
+            // Spaces overwrite the end of a longer line.
             _ = write!(io::stderr(), "\r{line}     ");
         }
     }
 
-    /// Ends the line that was updated.
+    /// Ends the progress line.
     pub(super) fn end(self) {
         self.print("");
     }

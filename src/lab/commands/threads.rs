@@ -48,7 +48,7 @@ pub fn start_thread_pool() -> Result<(), CommandError> {
             Ok(thread) => idle.push(thread),
             Err(source) if idle.is_empty() => return Err(no_threads(&source)),
             Err(_) => {
-                // Loading a mesh takes a thread beside these.
+                // Loading a mesh needs one thread besides these.
                 if idle.len() > 1
                     && let Some(thread) = idle.pop()
                 {

@@ -1,16 +1,15 @@
-//! Rays given in the file's coordinates, as f64, turned into the f32 rays that kernels trace.
+//! Conversion of f64 rays in the file's coordinates to the f32 rays that kernels trace.
 //!
 //! A kernel takes f32 numbers relative to the mesh's origin. Rounding a ray that starts far from the mesh can move
-//! it by more than the mesh is large. There are up to four ways to trace a ray, and the one that rounds least is
-//! taken:
+//! it by more than the mesh's size. Of up to four ways to trace a ray, the one that rounds least is used:
 //!
-//! - The traced ray starts where the given one does, or where the given one comes near the mesh. Near the mesh, both
-//!   origin and direction are rounded about as finely as the mesh's own positions.
+//! - The traced ray starts at the given origin, or where the given ray comes near the mesh. Near the mesh, origin and
+//!   direction are rounded about as finely as the mesh's own positions.
 //! - The origin of the frame is the mesh's, or (0, 0, 0) of the file, where a ray of f32 numbers isn't rounded at all.
-//!   The latter needs a mesh whose positions are f32 numbers there, too, and a second tree. That is built for the
-//!   first ray that needs it.
+//!   The latter requires that the mesh's positions are f32 numbers there, too, and a second tree, which is built for
+//!   the first ray that needs it.
 //!
-//! What is left is told as [`PlacedRay::rounding`].
+//! [`PlacedRay::rounding`] is the remaining error.
 
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::TriangleKernel;
@@ -18,8 +17,8 @@ use hitscope_core::ray::RayError;
 use hitscope_core::{Intersector, Ray, Scene};
 use std::sync::OnceLock;
 
-/// Another start or frame is taken where it rounds this many times less. With less to gain, the f32 ray that the
-/// reader expects stays the one that is traced: it loses two bits at most.
+/// Another start or frame is used if it reduces the rounding by more than this factor. Otherwise the ray that the
+/// user expects is traced, which loses at most two bits.
 const WORTHWHILE: f64 = 4.0;
 
 /// A ray in the file's coordinates: `origin + t·dir` for `t_min < t < t_max`.
@@ -27,7 +26,7 @@ const WORTHWHILE: f64 = 4.0;
 pub struct GivenRay {
     /// The origin.
     pub origin: DVec3,
-    /// The direction; t counts its lengths.
+    /// The direction; t is in units of its length.
     pub dir: DVec3,
     /// Lower end of the interval.
     pub t_min: f64,
@@ -43,8 +42,8 @@ pub struct PlacedRay {
     frame: FrameKind,
     /// The given ray's t at which the traced ray starts.
     start: f64,
-    /// The largest distance, in one coordinate and in the file's units, between the traced and the given ray at the
-    /// same t, for all t at which the ray may meet the mesh. 0: the ray is traced exactly as given.
+    /// The largest distance per coordinate, in the file's units, between the traced and the given ray at the same t,
+    /// over all t at which the ray may meet the mesh. 0 means that the ray is traced exactly as given.
     pub rounding: f64,
 }
 
@@ -57,13 +56,13 @@ impl PlacedRay {
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 enum FrameKind {
-    /// About the mesh's origin.
+    /// Relative to the mesh's origin.
     Mesh,
-    /// About (0, 0, 0) of the file.
+    /// Relative to (0, 0, 0) of the file.
     File,
 }
 
-/// A scene in the frames in which its rays may be traced.
+/// A scene, and its intersectors in the frames in which rays are traced.
 pub struct Frames<'a> {
     scene: &'a Scene,
     kernel: &'static TriangleKernel,
@@ -74,7 +73,7 @@ pub struct Frames<'a> {
 }
 
 impl<'a> Frames<'a> {
-    /// `max_memory`: bytes that both trees with their triangles may take; else there is no second one.
+    /// `max_memory` limits the bytes of both trees and their triangles; if they exceed it, there is no second tree.
     pub fn new(scene: &'a Scene, kernel: &'static TriangleKernel, max_memory: u64) -> Self {
         Self {
             scene,
@@ -96,7 +95,7 @@ impl<'a> Frames<'a> {
 
     /// The f32 ray that is traced for a given one.
     ///
-    /// The ends of the interval are rounded outwards: for a t of f32 the comparison with them is exact.
+    /// The ends of the interval are rounded outwards, so that comparing them with an f32 t is exact.
     ///
     /// # Errors
     /// See [`RayError`].
@@ -119,13 +118,13 @@ impl<'a> Frames<'a> {
         let in_file = better(frame.place_at_origin(given), frame.place_near_mesh(given));
         let in_file = better(placed, Some(in_file));
         match in_file {
-            // Where there is no memory for the second tree, the mesh's frame has to do.
+            // Without memory for the second tree, use the mesh's frame.
             Ok(chosen) if chosen.frame == FrameKind::File && self.file().is_none() => placed,
             _ => in_file,
         }
     }
 
-    /// Whether the mesh's positions are f32 numbers in the file's frame, and that is another frame.
+    /// Whether the file's frame differs from the mesh's, holds its positions as f32 numbers, and fits in memory.
     fn has_file_frame(&self) -> bool {
         let has = || {
             let mesh = self.scene.mesh();
@@ -147,7 +146,7 @@ impl<'a> Frames<'a> {
     }
 }
 
-/// The candidate if it is worth the change, else the ray that there is.
+/// The candidate if it is sufficiently more accurate, else `placed`.
 fn better(
     placed: Result<PlacedRay, RayError>,
     candidate: Option<Result<PlacedRay, RayError>>,
@@ -161,7 +160,7 @@ fn better(
     }
 }
 
-/// An origin, and where the mesh lies about it.
+/// The origin of a frame, and the mesh's bounding ball relative to it.
 struct Frame {
     kind: FrameKind,
     origin: DVec3,
@@ -189,17 +188,17 @@ impl Frame {
         }
     }
 
-    /// Starts where the given ray does.
+    /// Places a ray with its start at the given origin.
     fn place_at_origin(&self, given: &GivenRay) -> Result<PlacedRay, RayError> {
         let interval = [f32_below(given.t_min), f32_above(given.t_max)];
         self.place(given, 0.0, interval)
     }
 
-    /// Starts where the given ray comes near the mesh, or at the beginning of its interval if that is later.
-    /// `None` where that is no other place, or behind the interval's end.
+    /// Places a ray with its start near the mesh, or at the beginning of its interval if that is later. `None` if
+    /// that is the given origin or lies behind the interval's end.
     fn place_near_mesh(&self, given: &GivenRay) -> Option<Result<PlacedRay, RayError>> {
         let [entry, exit] = self.reach(given);
-        // In steps of a sixteenth of the way through the ball: a number of few digits keeps t = start + t′ exact
+        // Rounded to a sixteenth of the way through the ball: a start with few digits keeps t = start + t′ exact
         // for many rays.
         let exponent = (exit - entry).log2().floor() as i32;
         let step = 2f64.powi(exponent.saturating_sub(4));
@@ -212,7 +211,7 @@ impl Frame {
         } else {
             f32_above(given.t_max - start)
         };
-        // No hit lies before the start, unless it lies before the interval.
+        // Hits before the start also lie before the interval.
         Some(self.place(given, start, [0.0, end]))
     }
 
@@ -252,21 +251,21 @@ impl Frame {
     }
 }
 
-/// The distance that [`PlacedRay::rounding`] is, between a ray and its origin and direction in f64, all in the
-/// coordinates of the scene's mesh.
+/// The [`PlacedRay::rounding`] of a ray whose origin and direction in f64 are given, all in the coordinates of the
+/// scene's mesh.
 pub fn rounding(scene: &Scene, ray: &Ray, [origin, dir]: [DVec3; 2]) -> f64 {
     let (origin_error, dir_error) = (ray.origin.as_dvec3() - origin, ray.dir.as_dvec3() - dir);
     let reach = Ball::around(scene).reach(origin, dir);
     largest_distance(origin_error, dir_error, reach.map(|t| t.max(0.0)))
 }
 
-/// The larger of the distances, in one coordinate, at two t.
+/// The larger of the distances per coordinate at two values of t.
 fn largest_distance(origin_error: DVec3, dir_error: DVec3, t: [f64; 2]) -> f64 {
     let at = |t: f64| (origin_error + t * dir_error).abs().max_element();
     t.map(at).into_iter().fold(0.0, f64::max)
 }
 
-/// A ball that holds the mesh.
+/// A bounding ball of the mesh.
 #[derive(Clone, Copy, Debug)]
 struct Ball {
     centre: DVec3,
@@ -274,7 +273,7 @@ struct Ball {
 }
 
 impl Ball {
-    /// In the coordinates of the scene's mesh.
+    /// The ball in the coordinates of the scene's mesh.
     fn around(scene: &Scene) -> Self {
         let bounds = scene.bounds();
         if bounds.is_empty() {
@@ -289,11 +288,11 @@ impl Ball {
         }
     }
 
-    /// The values of t between which a ray may be inside, were it to aim at the centre.
+    /// The interval of t in which the ray would be inside the ball if it went through the centre.
     ///
-    /// The radius is enlarged for the rounding of the centre, of f32, and of the radius. The middle of the interval
-    /// is a quotient of dot products, each of which errs by less than 4·2⁻⁵³ of the distance to the centre; 2⁻⁴⁸ of
-    /// it is more than all of that.
+    /// The radius is enlarged to cover the rounding of the centre, to f32, and of the radius. The middle of the
+    /// interval is a quotient of dot products, each of which has an error below 4·2⁻⁵³ of the distance to the centre;
+    /// 2⁻⁴⁸ of that distance is more than all of these errors.
     fn reach(&self, origin: DVec3, dir: DVec3) -> [f64; 2] {
         let to_centre = self.centre - origin;
         let length = dir.length();
@@ -304,7 +303,7 @@ impl Ball {
     }
 }
 
-/// A number of two f64, exact to some 100 bits: the sum of both, the first of which is the sum rounded.
+/// A number as the sum of two f64, accurate to about 100 bits; `high` is the rounded sum.
 #[derive(Clone, Copy, Debug)]
 struct Precise {
     high: f64,
@@ -322,7 +321,7 @@ impl Precise {
         }
     }
 
-    /// a + b + c·d, to some 100 bits.
+    /// a + b + c·d, to about 100 bits.
     fn sum_with_product(a: f64, b: f64, c: f64, d: f64) -> Self {
         if c == 0.0 {
             return Self::sum(a, b);
@@ -334,7 +333,7 @@ impl Precise {
         Self::sum(total.high, total.low + (sum.low + product_error))
     }
 
-    /// How much a rounded number is larger.
+    /// The error of a rounded number: how much it is larger.
     fn error_of(self, rounded: f32) -> f64 {
         (f64::from(rounded) - self.high) - self.low
     }

@@ -1,4 +1,4 @@
-//! Rays in their frames, against integers.
+//! Tests of placed rays against integer arithmetic.
 
 use super::*;
 use hitscope_core::TriangleMesh;
@@ -13,7 +13,7 @@ fn scene(origin: DVec3) -> Scene {
         triangles: vec![[0, 1, 2]],
         ..TriangleMesh::default()
     };
-    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+    Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
 
 fn given(origin: DVec3, dir: DVec3) -> GivenRay {
@@ -32,7 +32,7 @@ fn whole(x: f64, exponent: i32) -> i128 {
     x as i128
 }
 
-/// The largest distance in a coordinate at a t, in units of 2⁻⁸⁰. Integers: exact.
+/// The largest distance per coordinate at a t, in units of 2⁻⁸⁰, exactly.
 fn distance(given: &GivenRay, placed: &PlacedRay, frame: DVec3, t: f64) -> i128 {
     let axis = |k: usize| {
         let exact = whole(given.origin[k], 80) - whole(frame[k], 80)
@@ -48,7 +48,7 @@ fn distance(given: &GivenRay, placed: &PlacedRay, frame: DVec3, t: f64) -> i128 
 }
 
 #[test]
-fn rays_from_anywhere_are_rounded_as_finely_as_the_mesh_and_by_what_is_told() {
+fn rays_from_anywhere_are_rounded_as_finely_as_the_mesh_and_at_most_by_the_reported_rounding() {
     let origin = DVec3::new(500_000.0, 4_649_776.0, 0.1);
     let scene = scene(origin);
     let frames = Frames::new(&scene, default_triangle_kernel(), u64::MAX);
@@ -64,17 +64,20 @@ fn rays_from_anywhere_are_rounded_as_finely_as_the_mesh_and_by_what_is_told() {
         let given = given(DVec3::from_array(start), dir);
         let placed = frames.place(&given).expect("a ray");
         assert_eq!(placed.frame, FrameKind::Mesh, "0.1 is no f32 number");
-        // The last roundings of the figure itself.
-        let told = (placed.rounding * (1.0 + 1e-12) * 2f64.powi(80)) as i128;
+        // Allows for rounding errors of the reported value itself.
+        let reported = (placed.rounding * (1.0 + 1e-12) * 2f64.powi(80)) as i128;
         let [entry, exit] = Ball::around(&scene).reach(given.origin - origin, dir);
         let inset = 2f64.powi(-18);
         for t in [entry + inset, (entry + exit) / 2.0, exit - inset] {
             let t = rounded(t, 20).max(0.0);
             let found = distance(&given, &placed, origin, t);
-            assert!(found <= told, "{given:?} {placed:?} at {t}: {found} {told}");
+            assert!(
+                found <= reported,
+                "{given:?} {placed:?} at {t}: {found} {reported}"
+            );
         }
-        // Within the ball and beside it, coordinates about the mesh's origin are less than 4: the start is
-        // rounded by 2⁻²³, the direction by 2⁻²⁵ over 2 lengths at most. Four times as much may be left.
+        // In and near the ball, coordinates relative to the mesh's origin are below 4: the start is rounded by
+        // 2⁻²³, the direction by 2⁻²⁵ over at most 2 lengths. `WORTHWHILE` allows four times as much.
         assert!(
             placed.rounding < 4.0 * 2f64.powi(-22),
             "{given:?} {placed:?}"
@@ -85,7 +88,7 @@ fn rays_from_anywhere_are_rounded_as_finely_as_the_mesh_and_by_what_is_told() {
 }
 
 #[test]
-fn the_files_frame_serves_where_it_rounds_less_if_there_is_memory_for_it() {
+fn the_files_frame_is_used_if_it_rounds_less_and_fits_in_memory() {
     let scene = scene(DVec3::new(1000.0, 1.0, 1.0));
     let ray = given(DVec3::new(0.0, 1.0 - 1e-9, 1.5), DVec3::X);
     let tiny = given(DVec3::new(0.0, 1e-9, 1.5), DVec3::X);
@@ -99,12 +102,12 @@ fn the_files_frame_serves_where_it_rounds_less_if_there_is_memory_for_it() {
     let (frame, rounding) = place(0, &tiny);
     assert_eq!(frame, FrameKind::Mesh);
     assert!((rounding - 1e-9).abs() < 1e-15, "{rounding}");
-    // About the mesh's origin, this one is the tiny number.
+    // This one is the tiny number relative to the mesh's origin.
     assert_eq!(place(u64::MAX, &ray).0, FrameKind::Mesh);
 }
 
 #[test]
-fn what_is_no_ray_is_refused() {
+fn invalid_rays_are_refused() {
     let scene = scene(DVec3::splat(1000.0));
     let frames = Frames::new(&scene, default_triangle_kernel(), u64::MAX);
     let ray = given(DVec3::ZERO, DVec3::X);
@@ -128,14 +131,14 @@ fn what_is_no_ray_is_refused() {
             Err(RayError::IntervalEmpty)
         );
     }
-    // An origin that f32 can't hold, whose ray comes by.
+    // An origin beyond the range of f32, whose ray passes near the mesh.
     let far = place(given(DVec3::new(-1e39, 1000.25, 1000.25), DVec3::X));
     assert!(far.is_ok(), "{far:?}");
 }
 
 #[test]
 fn a_mesh_without_triangles_is_missed_wherever_the_ray_starts() {
-    let scene = Scene::new(TriangleMesh::default(), &Progress::default()).expect("nobody cancels");
+    let scene = Scene::new(TriangleMesh::default(), &Progress::default()).expect("never cancelled");
     let frames = Frames::new(&scene, default_triangle_kernel(), u64::MAX);
     for origin in [DVec3::ZERO, DVec3::splat(0.1), DVec3::splat(1e30)] {
         let placed = frames

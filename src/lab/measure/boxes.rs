@@ -1,4 +1,4 @@
-//! Measures whether the tree's boxes lose triangles that a ray hits, independently of any kernel.
+//! Measures whether the tree's boxes lose triangles that a ray hits, independent of any kernel.
 
 use super::statistics::{bound_per_million, per_million};
 use crate::oracle;
@@ -29,9 +29,9 @@ pub struct BoxCase {
 pub struct BoxCell {
     /// The case.
     pub case: &'static str,
-    /// Exact hits of rays and triangles; each ray must meet the triangle's box.
+    /// Exact hits on triangles; each ray must meet the triangle's box.
     pub n: u64,
-    /// Hits on triangles in leaves that the ray didn't meet.
+    /// Hits on triangles in leaves that the ray didn't reach.
     pub lost: u64,
     /// The same per million.
     pub lost_per_million: f64,
@@ -187,7 +187,7 @@ impl BoxCase {
 fn triangles(random: &mut Random, extent: DVec3, offset: f64) -> TriangleMesh {
     let place = DVec3::new(offset, -offset, offset);
     let mut corner = || (place + extent * random.in_cube()).as_vec3();
-    // Several leaves, so that the tree has boxes below the root.
+    // Enough for several leaves, so that the tree has boxes below the root.
     let corners: Vec<[Vec3; 3]> = (0..24).map(|_| [corner(), corner(), corner()]).collect();
     soup(&corners)
 }
@@ -214,7 +214,7 @@ fn grid(random: &mut Random) -> TriangleMesh {
     mesh
 }
 
-/// A perpendicular ray at the edge or a corner of a grid, with zeros of either sign in the other components.
+/// A perpendicular ray at an edge or a corner of a grid, with zeros of either sign in the other components.
 fn at_border(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     let count = mesh.positions.len();
     let [a, b] = [(); 2].map(|()| mesh.positions[random.index(count)]);

@@ -1,16 +1,16 @@
-//! What is measured: all kernels, and the programs of the lecture as printed.
+//! The tests that are measured: all kernels, and the lecture's programs as printed.
 
 use super::lecture;
 use glam::Vec3;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::{Hit, Ray};
 
-/// A ray–triangle test to measure.
+/// A ray–triangle test to be measured.
 #[derive(Clone, Copy)]
 pub enum Contestant {
     /// A kernel of the table.
     Kernel(&'static TriangleKernel),
-    /// A program of the lecture, including its mistakes.
+    /// One of the lecture's programs, including its mistakes.
     AsPrinted(&'static lecture::AsPrinted),
 }
 
@@ -23,7 +23,7 @@ impl Contestant {
         }
     }
 
-    /// Tests a ray and a triangle. A program of the lecture may return numbers that aren't finite.
+    /// Tests a ray against a triangle. The lecture's programs may return non-finite numbers.
     pub fn intersect(self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
         match self {
             Self::Kernel(kernel) => kernel.intersect(ray, corners),

@@ -1,7 +1,7 @@
-//! The programs of the lecture as printed, including their mistakes.
+//! The lecture's programs as printed, including their mistakes.
 //!
-//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022. The kernels
-//! of the same names are the corrected versions; these are only measured.
+//! Source: H. Lensch, "Basic Geometry", lecture in computer graphics, Tübingen 2022. The kernels of the same
+//! names are corrected versions; the programs here are only measured.
 
 use glam::Vec3;
 use hitscope_core::{Aabb, Hit, Ray};
@@ -14,7 +14,7 @@ pub struct AsPrinted {
     pub title: &'static str,
     /// Its mistakes.
     pub summary: &'static str,
-    /// The hit that it reports.
+    /// The program's ray–triangle test.
     pub intersect: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
 }
 
@@ -43,7 +43,7 @@ pub static AS_PRINTED: &[AsPrinted] = &[
 /// The lecture's tolerance on t.
 const EPSILON: f32 = 0.000_001;
 
-/// Method (1), the pseudo-code, with its missing parenthesis added.
+/// Method (1): the pseudo-code, with its missing parenthesis added.
 pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     let n = program_normal([a, b, c]);
     let (b, c) = (b - a, c - a);
@@ -71,7 +71,7 @@ pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     if gamma < 0.0 || beta + gamma > 1.0 {
         return None;
     }
-    // A reader of HIT(t, beta, gamma) takes these as the weights of B and C, in this order.
+    // In HIT(t, beta, gamma), these read as the weights of B and C, in this order.
     Some(Hit {
         t,
         u: beta,
@@ -80,7 +80,7 @@ pub fn plane_projection(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     })
 }
 
-/// The normal of the pseudo-code, c × b. The slide on normals has (v1 − v0) × (v2 − v0), the opposite.
+/// The normal in the pseudo-code, c × b. The slide on normals has (v1 − v0) × (v2 − v0), the opposite.
 pub fn program_normal([a, b, c]: [Vec3; 3]) -> Vec3 {
     (c - a).cross(b - a).normalize()
 }
@@ -111,7 +111,8 @@ pub fn parametric(ray: &Ray, [a, b, c]: [Vec3; 3]) -> Option<Hit> {
     })
 }
 
-/// Method (3). The lecture doesn't define t and the weights; they come from the plane and from areas.
+/// Method (3). The lecture doesn't define t and the barycentric coordinates; they are computed from the plane
+/// and from areas.
 pub fn edge_planes(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     let o = ray.origin;
     let [a, b, c] = corners.map(|corner| corner - o);
@@ -138,7 +139,7 @@ pub fn edge_planes(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     })
 }
 
-/// The box test of the slides: a miss if t_near > t_far for one pair of planes, each pair on its own.
+/// The box test of the slides: a miss if t_near > t_far for any single pair of planes.
 pub fn meets_box(ray: &Ray, bounds: &Aabb) -> bool {
     (0..3).all(|axis| {
         let to = |plane: Vec3| (plane[axis] - ray.origin[axis]) / ray.dir[axis];

@@ -1,4 +1,4 @@
-//! Does a ray get out of a closed mesh? Through the tree, aimed at shared edges and vertices.
+//! Measures whether rays leave a closed mesh: rays through the tree, aimed at shared edges and vertices.
 
 use super::statistics::{bound_per_million, per_million};
 use glam::DVec3;
@@ -11,23 +11,23 @@ use hitscope_core::ray::ulp_at;
 use hitscope_core::{Intersector, Ray};
 use serde::Serialize;
 
-/// A closed mesh somewhere, and where rays from its inside go.
+/// A closed mesh at some size and position, with rays from its inside.
 pub struct MeshCase {
-    /// As `--case` takes it.
+    /// The name, as in `--case`.
     pub name: String,
-    /// For tables.
+    /// The title in tables.
     pub title: String,
-    /// What is extreme about it.
+    /// What makes the case extreme.
     pub about: &'static str,
     body: Body,
 }
 
-/// The mesh, and where rays start and go.
+/// The kind of mesh, and the aim of its rays.
 #[derive(Clone, Copy)]
 enum Body {
     /// A sphere and a torus.
     Round { place: Placement, aim: Aim },
-    /// A long box, prism or the like.
+    /// A long box, prism or corridor.
     Long {
         footprint: Footprint,
         length: f64,
@@ -40,42 +40,42 @@ enum Aim {
     Anywhere,
     Edges,
     Vertices,
-    /// From so many sizes away to a point well inside.
+    /// From a distance of this many sizes to a point well inside.
     From(f64),
 }
 
-/// One kernel in one case.
+/// The result of one kernel in one case.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct MeshCell {
     /// The case.
     pub case: String,
     /// The kernel.
     pub kernel: &'static str,
-    /// Rays, every one of which must hit.
+    /// Number of rays, all of which must hit.
     pub n: u64,
-    /// Those that didn't.
+    /// Rays that missed.
     pub missed: u64,
-    /// The same, a million.
+    /// The same per million.
     pub missed_per_million: f64,
-    /// What a zero means with a confidence of 95 %, a million.
+    /// The upper bound per million, with 95 % confidence, if the count is zero.
     pub bound_per_million: f64,
-    /// Of every 16th ray, those whose first two crossings lie within 4 ulps of each other, scaled up to all:
-    /// one surface met twice, or two that really lie so close at the edge that is aimed at.
+    /// Rays whose first two crossings are within 4 ulps of each other, found among every 16th ray and scaled
+    /// up: one surface hit twice, or two surfaces that close at the edge that the ray is aimed at.
     pub doubled: u64,
-    /// The same, a million.
+    /// The same per million.
     pub doubled_per_million: f64,
-    /// What a zero of those means; larger, as only every 16th ray is looked at.
+    /// The upper bound per million if there are none; larger, as only every 16th ray is tested.
     pub doubled_bound_per_million: f64,
-    /// Triangles narrowed in f64, a million rays; `None` for kernels that don't adapt.
+    /// Triangles decided in f64, per million rays; `None` for kernels that aren't adaptive.
     pub in_f64_per_million: Option<f64>,
-    /// Decisions taken in integers, likewise.
+    /// Decisions in integers, per million rays; `None` for kernels that aren't adaptive.
     pub in_integers_per_million: Option<f64>,
 }
 
-/// Every case.
+/// All cases.
 pub fn mesh_cases() -> Vec<MeshCase> {
     let offset = |x: f64| (format!("offset {x:e}"), Placement::new(1.0, x));
-    // At 1e7 an ulp is 1: a body of size 1 has no inside there, one of size 16 has.
+    // At 1e7 an ulp is 1: a body of size 1 has no interior there, one of size 16 has.
     let farthest = ("offset 1e7".to_owned(), Placement::new(16.0, 1e7 / 16.0));
     let scale = |x: f64| (format!("scale {x:e}"), Placement::new(x, 0.5));
     let places = [0.0, 1e2, 1e3, 1e4, 1e5, 1.5e5, 1e6].map(offset);
@@ -98,7 +98,7 @@ pub fn mesh_cases() -> Vec<MeshCase> {
         .chain([1e3, 1e5, 1e6].map(|distance| MeshCase {
             name: format!("closed-far-{distance:e}"),
             title: format!("closed, from {distance:e}"),
-            about: "The same from so many sizes away, at points well inside.",
+            about: "The same from this many sizes away, at points well inside.",
             body: Body::Round {
                 place: Placement::UNIT,
                 aim: Aim::From(distance),
@@ -160,7 +160,7 @@ impl MeshCase {
         }
     }
 
-    /// The meshes, and what makes their rays.
+    /// The meshes, and the functions that make their rays.
     fn bodies(&self) -> Vec<(TriangleMesh, RaySource)> {
         match self.body {
             Body::Round { place, aim } => {
@@ -191,13 +191,13 @@ impl MeshCase {
     }
 }
 
-/// A point inside, before it is placed.
+/// Makes a point inside a body, before placement.
 type Inside = fn(&mut Random) -> DVec3;
 
 /// Makes a ray from inside a mesh.
 type RaySource = Box<dyn Fn(&TriangleMesh, &mut Random) -> Ray>;
 
-/// A ray from inside a round body, or to its inside.
+/// A ray from inside a round body, or from far away to its inside.
 fn aimed_ray(
     mesh: &TriangleMesh,
     place: Placement,
@@ -209,7 +209,7 @@ fn aimed_ray(
         let within = inside(random);
         if let Aim::From(distance) = aim {
             let origin = (distance * random.direction()).as_vec3();
-            // From a million sizes away f32 aims to within a tenth: still inside.
+            // From a million sizes away, f32's aim errs by up to a tenth: still inside.
             let dir = (within - origin.as_dvec3()).as_vec3();
             if let Ok(ray) = Ray::new(origin, dir) {
                 return ray;
@@ -232,7 +232,7 @@ fn aimed_ray(
     }
 }
 
-/// Doubled hits are looked for on one ray of so many: all hits cost more than the nearest.
+/// One ray in this many is tested for doubled hits: finding all hits costs more than finding the nearest.
 const EVERY: u64 = 16;
 
 #[derive(Default)]

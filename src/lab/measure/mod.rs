@@ -5,11 +5,11 @@
 //! | [`cases`], [`triangles`] | errors of kernels for single triangles |
 //! | [`meshes`] | rays that leave a closed mesh |
 //! | [`order`] | wrong nearest triangles |
-//! | [`boxes`] | hits that the tree's boxes lose |
-//! | [`spawning`] | rays that hit the surface which they leave |
+//! | [`boxes`] | hits lost by the tree's boxes |
+//! | [`spawning`] | self-hits of spawned rays |
 //! | [`speed`], [`workloads`] | rays per second |
 //! | [`scene`] | kernels in the user's scene |
-//! | [`lecture`] | the programs of the lecture as printed |
+//! | [`lecture`] | the lecture's programs as printed |
 //!
 //! All results except speed depend only on the seed, not on the run or the machine.
 
@@ -50,13 +50,13 @@ pub struct Sizes {
     pub watertight_rays: u64,
     /// Rays per closed mesh for each other kernel.
     pub leaking_rays: u64,
-    /// Rays per case of order.
+    /// Rays per case of the order of hits.
     pub order_rays: u64,
     /// Hits per case of boxes.
     pub box_hits: u64,
-    /// Rays per case of spawning for each tier's kernel; a tenth for the others.
+    /// Rays per spawning case for each tier's kernel; a tenth for other kernels.
     pub spawn_rays: u64,
-    /// Rays per workload; 0 skips the measurement of speed.
+    /// Rays per workload; 0 skips measuring speed.
     pub speed_rays: usize,
     /// Rounds per workload, of which the median counts.
     pub speed_rounds: usize,
@@ -78,8 +78,8 @@ impl Sizes {
         speed_cells: 83,
     };
 
-    /// 10⁷ rays for single triangles, 10⁸ rays from inside closed meshes for each kernel that promises to be
-    /// watertight, 10⁶ rays per case of spawning.
+    /// 10⁷ rays for single triangles, 10⁸ rays from inside closed meshes per watertight kernel, 10⁶ rays per
+    /// spawning case.
     pub const FULL: Self = Self {
         triangle_rays: 100_000,
         watertight_rays: 4_200_000,
@@ -109,7 +109,7 @@ impl Sizes {
     }
 }
 
-/// All results.
+/// Results of all measurements.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct Measurements {
     /// Single triangles.
@@ -120,7 +120,7 @@ pub struct Measurements {
     pub order: Vec<OrderCell>,
     /// Boxes.
     pub boxes: Vec<BoxCell>,
-    /// Rays that leave a surface.
+    /// Spawned rays.
     pub spawning: Vec<SpawnCell>,
     /// One row per kernel.
     pub speed: Vec<Speed>,
@@ -131,11 +131,11 @@ pub struct Measurements {
 pub struct CaseInfo {
     /// The name, as in `--case`.
     pub name: String,
-    /// The measurement that it belongs to.
+    /// The measurement to which the case belongs.
     pub section: &'static str,
     /// The title in tables.
     pub title: String,
-    /// What makes it extreme.
+    /// What makes the case extreme.
     pub about: String,
 }
 
@@ -173,7 +173,7 @@ pub fn all_cases() -> Vec<CaseInfo> {
         .collect()
 }
 
-/// A part of the work, and its expected time in seconds on one thread.
+/// A part of the work, with its expected time in seconds on one thread.
 struct Task {
     seconds: f64,
     run: Box<dyn Fn() -> Measurements + Send + Sync>,
@@ -196,7 +196,7 @@ impl Task {
 /// Progress of a run.
 #[derive(Clone, Copy, Debug)]
 pub struct RunProgress {
-    /// Finished part of the work, 0 to 1.
+    /// Finished fraction of the work, 0 to 1.
     pub done: f64,
     /// Estimated time left.
     pub left: Duration,
@@ -264,7 +264,7 @@ impl Measurements {
     }
 }
 
-/// The seed of a case, which doesn't depend on the other cases.
+/// The seed of a case, independent of the other cases.
 fn seed_of(seed: u64, name: &str) -> u64 {
     let mixed = |seed, byte: u8| mix(seed ^ u64::from(byte));
     name.bytes().fold(mix(seed), mixed)

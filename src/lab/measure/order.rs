@@ -1,5 +1,5 @@
 //! Measures whether kernels find the nearest triangle and order all crossings correctly: small sets of
-//! triangles, traced through the tree, compared with the oracle.
+//! triangles, traced through the tree and compared with the oracle.
 
 use super::statistics::{bound_per_million, per_million};
 use crate::oracle::{self, Crossing};
@@ -35,7 +35,7 @@ pub struct OrderCell {
     pub n: u64,
     /// Rays with two or more triangles at the same t.
     pub ties: u64,
-    /// Rays whose nearest triangle differs from the oracle's or is missing.
+    /// Rays whose nearest triangle differs from the oracle's, or that found none.
     pub wrong_nearest: u64,
     /// The same per million.
     pub wrong_nearest_per_million: f64,

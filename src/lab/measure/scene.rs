@@ -13,7 +13,7 @@ use serde::Serialize;
 /// Sizes of the measurement.
 #[derive(Clone, Copy, Debug)]
 pub struct SceneSizes {
-    /// Camera rays to compare with the oracle; each hit adds a bounce ray.
+    /// Camera rays compared with the oracle; each hit adds a bounce ray.
     pub checked: usize,
     /// Rays per workload for measuring speed.
     pub timed: usize,
@@ -45,12 +45,12 @@ pub struct SceneRow {
     pub n: u64,
     /// Rays that hit, according to the oracle.
     pub hits: u64,
-    /// Hits that the kernel missed. The oracle tests the triangles in boxes that the ray meets; [`boxes`](super::boxes)
-    /// measures whether boxes lose hits.
+    /// Hits that the kernel missed. The oracle tests the triangles in boxes that the ray meets;
+    /// [`boxes`](super::boxes) measures whether boxes lose hits.
     pub missed: u64,
     /// False hits.
     pub false_hits: u64,
-    /// Hits on a triangle other than the nearest one with the lowest index.
+    /// Hits on a triangle other than the nearest with the lowest index.
     pub other_triangle: u64,
     /// All wrong decisions per million.
     pub wrong_per_million: f64,
@@ -58,11 +58,11 @@ pub struct SceneRow {
     pub bound_per_million: f64,
     /// Errors of t on the right triangle, in f32 ulps.
     pub t_ulps: Option<Quantiles>,
-    /// Its speed in this scene.
+    /// The kernel's speed in this scene.
     pub speed: Speed,
 }
 
-/// Measures every kernel in a scene as seen by a camera. Passes each row to `each` once it is measured.
+/// Measures every kernel in a scene seen by a camera. Passes each row to `each` as soon as it is measured.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -106,7 +106,7 @@ struct Answer {
 }
 
 fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answer>, Cancelled> {
-    // The candidates contain every triangle that the ray can hit, whichever the kernel.
+    // The candidates contain every triangle that the ray can hit, for any kernel.
     let intersector = scene.intersector(default_triangle_kernel());
     let mut answers = Vec::with_capacity(rays.len());
     for ray in rays {

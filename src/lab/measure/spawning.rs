@@ -1,12 +1,12 @@
-//! Measures self-hits of rays that leave a surface, and the height at which they start.
+//! Measures self-hits of spawned rays, and the height of their origins.
 //!
 //! A ray that leaves one of these surfaces can't hit it again: a convex body (a randomly rotated octahedron
-//! with corners rounded to f32); a plane of two triangles whose corners lie in it exactly (multiples of a power
-//! of two); a single triangle whose coordinates have independent magnitudes from 10⁻⁸ to 10⁸; and a plane around
-//! an edge in an axis, where coordinates are 0, left at small angles.
+//! with corners rounded to f32); a plane of two triangles whose corners lie in it exactly (multiples of a
+//! power of two); a single triangle whose coordinates have independent magnitudes from 10⁻⁸ to 10⁸; and a
+//! plane around an edge on an axis, where coordinates are 0, left at small angles.
 //!
-//! Source of the third one: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests
-//! of its shapes.
+//! Source of the third: M. Pharr, W. Jakob, G. Humphreys, "Physically Based Rendering", 4th ed., the tests of
+//! its shapes.
 
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use glam::{DVec3, Vec3};
@@ -29,14 +29,14 @@ pub struct SpawnCase {
     surfaces: Surfaces,
 }
 
-/// The surfaces that rays leave.
+/// Surfaces that rays leave.
 #[derive(Clone, Copy)]
 enum Surfaces {
     /// Octahedra and planes of this size at this offset, in sizes, from the world origin.
     Bodies { size: f64, offset: f64 },
-    /// A triangle with coordinates of independent magnitudes.
+    /// A triangle whose coordinates have independent magnitudes.
     Triangle,
-    /// Triangles of one plane around an edge that lies in an axis.
+    /// Coplanar triangles around an edge on an axis.
     AroundAxis,
 }
 
@@ -95,7 +95,7 @@ pub fn spawn_cases() -> Vec<SpawnCase> {
 const RAYS_PER_SURFACE: u64 = 64;
 
 impl SpawnCase {
-    /// Lets `n` rays leave by each policy; the kernel finds where they start, and whether they meet the
+    /// Spawns `n` rays by each policy. The kernel finds the points that they leave, and whether they hit the
     /// surface again.
     pub fn measure(&self, kernel: &'static TriangleKernel, n: u64, seed: u64) -> Vec<SpawnCell> {
         let mut random = Random::new(seed);
@@ -124,7 +124,7 @@ impl SpawnCase {
                 for (k, policy) in SPAWN_POLICIES.iter().enumerate() {
                     let ray = policy
                         .spawn(&departure)
-                        .expect("a finite place and direction");
+                        .expect("a finite origin and direction");
                     self_hits[k] += u64::from(intersector.any_hit(&ray));
                     heights[k].push(height(&ray, corners, dir) / size);
                 }
@@ -171,8 +171,8 @@ impl SpawnCase {
         }
     }
 
-    /// A ray that arrives at a triangle's outside, its hit, and the direction in which it leaves; `None` if the
-    /// kernel keeps finding no hit.
+    /// A ray that hits a triangle from outside, its hit, and the direction in which a ray leaves; `None` if
+    /// the kernel keeps finding no hit.
     fn bounce(
         &self,
         mesh: &TriangleMesh,
@@ -191,7 +191,7 @@ impl SpawnCase {
             }
             let mut leaving = outwards(random.in_cube(), normal);
             if let Surfaces::AroundAxis = self.surfaces {
-                // The target is on the edge from A to C; the angle to the plane is down to 2⁻²⁴.
+                // The target is on the edge from A to C; the angle to the plane is as small as 2⁻²⁴.
                 u = 0.0;
                 let along = leaving - leaving.dot(normal) * normal;
                 leaving = along + 2f64.powi(-(random.index(25) as i32)) * normal;
@@ -217,8 +217,8 @@ impl SpawnCase {
     }
 }
 
-/// Four triangles of a plane around an edge in an axis, and their size. Corners are multiples of a power of two; in
-/// the plane two coordinates are equal, or one is 0.
+/// Four coplanar triangles around an edge on an axis, and their size. Corners are multiples of a power of
+/// two; in the plane two coordinates are equal, or one is 0.
 fn around_axis(random: &mut Random) -> (TriangleMesh, f64) {
     let [x, y, z] = [[0, 1, 2], [1, 2, 0], [2, 0, 1]][random.index(3)];
     let size = 2f64.powi(random.index(21) as i32 - 10);
@@ -234,7 +234,7 @@ fn around_axis(random: &mut Random) -> (TriangleMesh, f64) {
     let (right, left) = (at(whole(1), whole(0)), at(-whole(1), -whole(0)));
     let beyond = at(2.0 * size, 0.0);
     let before = at(-2.0 * size, 0.0);
-    // The edge is the one from A to C, in triangles that are wound alike.
+    // The edge is AC; both triangles have the same winding.
     let triangles = [
         [start, right, end],
         [end, left, start],
@@ -244,8 +244,8 @@ fn around_axis(random: &mut Random) -> (TriangleMesh, f64) {
     (soup(&triangles), size)
 }
 
-/// It stays convex when its corners are rounded, as its faces meet at 109°, unless its size spans only a few
-/// floats; the caller detects that by degenerate triangles.
+/// An octahedron. Rounding its corners keeps it convex, as its faces meet at 109°, unless its size spans only
+/// a few floats; the caller recognises that by degenerate triangles.
 fn octahedron(place: Placement, random: &mut Random) -> TriangleMesh {
     let x = random.in_cube().normalize_or(DVec3::X);
     let y = x.cross(random.in_cube()).normalize_or(DVec3::Y);
@@ -271,7 +271,7 @@ fn octahedron(place: Placement, random: &mut Random) -> TriangleMesh {
 /// Two triangles of a slanted parallelogram whose corners are multiples of the ulp of the largest coordinate.
 fn plane(place: Placement, random: &mut Random) -> TriangleMesh {
     let farthest = place.offset.abs().max_element() + 2.0 * place.scale;
-    // The next power of two, from its bits, because a logarithm may differ between machines.
+    // The next power of two, computed from the bits because logarithms may differ between machines.
     let step = f64::from(f32::from_bits(
         (((farthest as f32).to_bits() >> 23) + 1) << 23,
     )) / f64::from(1 << 23);
@@ -283,13 +283,13 @@ fn plane(place: Placement, random: &mut Random) -> TriangleMesh {
     soup(&[[a, b, c], [a, c, d]])
 }
 
-/// A random direction on the side of the normal.
+/// A random direction on the normal's side.
 fn outwards(dir: DVec3, normal: DVec3) -> DVec3 {
     let dir = dir.normalize_or(normal);
     if dir.dot(normal) < 0.0 { -dir } else { dir }
 }
 
-/// Height of a ray's origin above the triangle's plane, on the side to which the ray leaves.
+/// Height of a ray's origin above the triangle's plane, on the side on which the ray leaves.
 fn height(ray: &Ray, corners: [Vec3; 3], dir: Vec3) -> f64 {
     let normal = unit_normal(corners);
     let side = normal.dot(dir.as_dvec3()).signum();

@@ -1,4 +1,4 @@
-//! Speed of kernels: rays per second through the tree, and nanoseconds per test.
+//! Speed of kernels: rays per second through the tree, and nanoseconds per triangle test.
 
 use super::workloads::Workloads;
 use cpu_time::ThreadTime;
@@ -27,7 +27,7 @@ pub struct Speed {
     pub time_relative_to_fast: f64,
     /// Nanoseconds per triangle test, without the tree.
     pub ns_per_test: f64,
-    /// Bytes per triangle for packed triangles and tree.
+    /// Size of the packed triangles and the tree, in bytes per triangle.
     pub bytes_per_triangle: f64,
     /// Triangles decided in f64, per million rays; `None` for kernels that aren't adaptive.
     pub in_f64_per_million: Option<f64>,
@@ -52,8 +52,8 @@ pub fn default_camera(scene: &Scene) -> Camera {
     Turntable::framing(scene.bounds(), size).camera(size)
 }
 
-/// Measures kernels in one scene, each in the same rounds as `fast`, so that other load on the machine affects
-/// both. At most two packed meshes are in memory.
+/// Measures kernels in one scene, each in the same rounds as `fast`, so that other load on the machine
+/// affects both. At most two packed meshes are in memory.
 pub struct Bench<'a> {
     scene: &'a Scene,
     /// Title of the scene in the report.
@@ -65,7 +65,7 @@ pub struct Bench<'a> {
 }
 
 impl<'a> Bench<'a> {
-    /// Packs the scene for `fast`. The median of `rounds` rounds counts.
+    /// Packs the scene for `fast`. Results are medians over `rounds` rounds.
     pub fn new(scene: &'a Scene, name: String, workloads: &'a Workloads, rounds: usize) -> Self {
         let fast = triangle_kernel("fast").expect("the fast tier is in the table");
         Self {
@@ -107,7 +107,7 @@ impl<'a> Bench<'a> {
             *rate = rays.len() as f64 / median(own).max(1e-9) / 1e6;
             ratios.push(median(ratio));
         }
-        // `fast` relative to itself is 1 by definition, whatever two measurements say.
+        // `fast` relative to itself is 1 by definition; two measurements would differ.
         let is_fast = kernel.info.name == self.fast.kernel().name;
         let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
         let triangles = self.scene.mesh().triangles.len().max(1) as f64;
@@ -130,7 +130,7 @@ impl<'a> Bench<'a> {
     }
 }
 
-/// Rays per call of an intersector, so many that the cost of the call doesn't matter.
+/// Rays per call of an intersector: enough to make the cost of the call negligible.
 pub const RAYS_AT_ONCE: usize = 64;
 
 fn seconds_for(intersector: &dyn Intersector, rays: &[Ray]) -> f64 {

@@ -31,7 +31,7 @@ pub fn per_million(count: u64, n: u64) -> f64 {
     count as f64 / (n.max(1) as f64) * 1e6
 }
 
-/// The upper bound per million, with 95 % confidence, if none of `n` failed: 3/n.
+/// The upper bound per million, with 95 % confidence, if there are no failures among `n`: 3/n.
 ///
 /// Source: Hanley, Lippman-Hand, "If Nothing Goes Wrong, Is Everything All Right?", JAMA 249(13), 1983.
 pub fn bound_per_million(n: u64) -> f64 {
@@ -68,7 +68,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_are_among_the_values() {
+    fn quantiles_are_values_of_the_sample() {
         let values: Vec<f64> = (0..=100).rev().map(f64::from).collect();
         let quantiles = Quantiles::of(values).expect("not empty");
         assert_eq!(
@@ -81,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn a_zero_comes_with_its_bound() {
+    fn a_rate_of_zero_is_shown_with_its_bound() {
         assert_eq!(rate_text(0, 1_000_000), "0 (<3.00)");
         assert_eq!(rate_text(5, 1_000_000), "5.00");
         assert_eq!(rate_text(250_000, 1_000_000), "2.5e5");

@@ -25,14 +25,14 @@ pub struct TriangleCell {
     pub missed: u64,
     /// False hits.
     pub false_hits: u64,
-    /// Answers that contain a NaN or an infinity.
+    /// Hits with a NaN or an infinity.
     pub non_finite: u64,
     /// Errors of t where both hit, in f32 ulps.
     pub t_ulps: Option<Quantiles>,
-    /// The largest error of a barycentric coordinate of each ray, where both hit.
+    /// Each ray's largest error of a barycentric coordinate, where both hit.
     pub barycentric_error: Option<Quantiles>,
-    /// Distance between the kernel's point by barycentric coordinates and its point by t, where both hit, in units of
-    /// the largest coordinate of the ray's origin and the corners.
+    /// Distance between o + t·d and the point by the kernel's barycentric coordinates, where both hit,
+    /// relative to the largest coordinate of the ray's origin and the corners.
     pub gap: Option<Quantiles>,
 }
 
@@ -54,7 +54,7 @@ struct ContestantCounts {
     gaps: Vec<f64>,
 }
 
-/// The exact answer, rounded once, that hits are compared with.
+/// The exact hit, rounded once, with which a kernel's hit is compared.
 struct Answer {
     t: f64,
     /// The f32 ulp at t.
@@ -77,7 +77,7 @@ pub fn measure(case: &Case, contestants: &[Contestant], n: u64, seed: u64) -> Ve
         for (contestant, tally) in contestants.iter().zip(&mut tallies) {
             let found = contestant.intersect(&ray, corners);
             if let (Some(hit), Some(_)) = (found, &answer) {
-                // Answers that aren't finite are counted separately.
+                // Non-finite results are counted separately.
                 let gap = Some(gap(&ray, corners, &hit));
                 tally.gaps.extend(gap.filter(|gap| gap.is_finite()));
             }

@@ -12,11 +12,11 @@ pub type Workloads = [Vec<Ray>; 3];
 /// Names of the workloads.
 pub const WORKLOADS: [&str; 3] = ["primary", "bounce", "random"];
 
-/// Side of the blocks of camera rays in pixels; a power of two.
+/// Side length in pixels of the blocks of camera rays; a power of two.
 const BLOCK_PX: u32 = 8;
 
-/// Height of the origins of bounce rays above the surface, in diagonals of the scene's box. It exceeds the error of
-/// every kernel, so that all kernels trace the same rays.
+/// Height of the origins of bounce rays above the surface, relative to the diagonal of the scene's box. It
+/// exceeds every kernel's error, so that all kernels trace the same rays.
 const LIFT: f64 = 1e-5;
 
 /// The workloads of a scene: at most `count` camera rays, a bounce ray from each of their hits, and `count` random
@@ -51,7 +51,7 @@ fn primary_rays(camera: &Camera, count: usize) -> Vec<Ray> {
         .collect()
 }
 
-/// Moves bits 0, 2, 4 … to bits 0, 1, 2 …: one coordinate of a point on the Morton curve.
+/// Moves bits 0, 2, 4 … to bits 0, 1, 2 …: decodes one coordinate of a Morton code.
 fn every_second(k: u32) -> u32 {
     k & 1 | (k >> 2 & 1) << 1 | (k >> 4 & 1) << 2
 }
@@ -106,7 +106,7 @@ mod tests {
     use hitscope_core::mesh::shapes::{Placement, scene, sphere};
 
     #[test]
-    fn the_workloads_are_what_their_names_say() {
+    fn the_workloads_match_their_names() {
         let scene = scene(sphere(8, Placement::UNIT));
         let projection = Projection::Perspective { fov_y_radians: 0.7 };
         let size = UVec2::new(32, 16);
@@ -117,13 +117,13 @@ mod tests {
         let intersector = scene.intersector(default_triangle_kernel());
         let is_hit = |ray: &&Ray| intersector.any_hit(ray);
         assert_eq!(primary.iter().filter(is_hit).count(), bounce.len());
-        // A sphere is convex: what leaves it doesn't come back.
+        // A sphere is convex: rays that leave it never hit it again.
         assert_eq!(bounce.iter().filter(is_hit).count(), 0);
         assert!(random.iter().filter(is_hit).count() > 100);
     }
 
     #[test]
-    fn camera_rays_go_through_every_pixel_once_or_evenly_through_some() {
+    fn camera_rays_cover_every_pixel_once_or_an_even_subset() {
         let projection = Projection::Orthographic { height: 2.0 };
         for (size, count, expected) in [
             (UVec2::new(21, 10), 1000, 210),

@@ -187,7 +187,7 @@ mod tests {
     }
 
     #[test]
-    fn a_number_and_its_fraction_are_the_same() {
+    fn a_number_equals_its_fraction() {
         for x in numbers(10_000).chain([0.0, 1.0, -0.1, f64::MIN_POSITIVE / 8.0, 5e-324, f64::MAX])
         {
             assert_eq!(Fraction::from_f64(x).expect("finite").to_f64(), x);
@@ -197,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn quotients_round_as_ieee_division_does() {
+    fn quotients_round_like_ieee_division() {
         let list: Vec<f64> = numbers(30_000).collect();
         let mut checked = 0;
         for pair in list.chunks_exact(2) {
@@ -223,7 +223,7 @@ mod tests {
     }
 
     #[test]
-    fn ties_go_to_the_even_number() {
+    fn ties_round_to_even() {
         let half_way =
             |k: i64| Fraction::new(IBig::from(2 * k + 1), IBig::from(2)).expect("not zero");
         let even = 1i64 << 24;

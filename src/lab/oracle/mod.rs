@@ -1,4 +1,5 @@
-//! The oracle: exact answers in integers of any size. It doesn't round and shares no formula with the kernels.
+//! The oracle: exact intersections in integers of any size. It doesn't round, and shares no formula with the
+//! kernels.
 
 mod fraction;
 mod triangle;

@@ -20,17 +20,17 @@ use hitscope_core::{Ray, TriangleMesh};
 /// The exact hit of a ray and a triangle.
 #[derive(Clone, Debug)]
 pub struct ExactHit {
-    /// Distance, in lengths of the direction.
+    /// The hit's t, in lengths of the direction.
     pub t: Fraction,
-    /// Barycentric coordinates of the three corners; their sum is 1.
+    /// Barycentric coordinates of the hit; their sum is 1.
     pub barycentric: [Fraction; 3],
-    /// Whether the hit lies on an edge or at a corner.
+    /// Whether the hit is on an edge or at a corner.
     pub is_on_boundary: bool,
 }
 
 /// The hit with `t_min < t < t_max`, or `None`.
 ///
-/// The triangle is closed: its boundary belongs to it. A ray in its plane misses it; every ray misses a
+/// The triangle is closed: it includes its boundary. A ray in its plane misses it; every ray misses a
 /// triangle of zero area. A NaN or an infinity anywhere except in `t_max` is a miss.
 pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     let places = [ray.origin, corners[0], corners[1], corners[2]];
@@ -49,7 +49,7 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     let numerator = dot(&to_a, &normal);
     let t = Fraction::new(numerator.clone(), det.clone())?.scaled(length_exponent - dir_exponent);
 
-    // The point on it, in the plane's own coordinates.
+    // The hit point, in the plane's own coordinates.
     let k = (0..3).find(|&k| normal[k] != IBig::ZERO)?;
     let (x, y) = ((k + 1) % 3, (k + 2) % 3);
     let p = |axis: usize| &numerator * &d[axis] - &det * &to_a[axis];
@@ -59,7 +59,7 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     let l3 = &e[x] * &p_y - &e[y] * &p_x;
     let weights = [&whole - &l2 - &l3, l2, l3];
 
-    // Inside: no weight has the opposite sign of their sum.
+    // Inside: no barycentric coordinate has the opposite sign of their sum.
     let outside = whole.cmp(&IBig::ZERO).reverse();
     if weights.iter().any(|w| w.cmp(&IBig::ZERO) == outside) {
         return None;
@@ -80,10 +80,12 @@ pub fn intersect(ray: &Ray, corners: [Vec3; 3]) -> Option<ExactHit> {
     })
 }
 
-/// A crossing of a ray with a mesh: the hit, and its triangles in the order in which they were tested.
+/// A crossing of a ray with a mesh: the hit, and the triangles hit there in the order in which they were
+/// tested.
 pub type Crossing = (ExactHit, Vec<u32>);
 
-/// All crossings of a ray with some triangles, nearest first; hits at exactly the same t are one crossing.
+/// All crossings of a ray with the given triangles, nearest first; hits at exactly the same t are one
+/// crossing.
 pub fn crossings(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Vec<Crossing> {
     let hit = |&triangle| Some((intersect(ray, mesh.corners(triangle))?, triangle));
     let mut hits: Vec<(ExactHit, u32)> = triangles.iter().filter_map(hit).collect();
@@ -99,7 +101,7 @@ pub fn crossings(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Vec<Cross
     crossings
 }
 
-/// The nearest hit and its triangle; the first triangle of several at the same t.
+/// The nearest hit and its triangle; the first of several triangles at the same t.
 pub fn nearest(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Option<(u32, ExactHit)> {
     triangles
         .iter()
@@ -162,11 +164,11 @@ mod tests {
     }
 
     #[test]
-    fn hits_inside_and_at_a_corner_are_exact_and_the_rest_are_misses() {
+    fn hits_inside_and_at_a_corner_are_exact_and_other_rays_miss() {
         let inside = hit(Vec3::new(1.0, 2.0, 6.0), Vec3::new(0.0, 0.0, -4.0)).expect("inside");
         assert_eq!(answer(&inside), ["3/2", "1/4", "1/4", "1/2"]);
         assert!(!inside.is_on_boundary);
-        let corner = hit(Vec3::new(4.0, 0.0, -1.0), Vec3::Z).expect("the boundary belongs to it");
+        let corner = hit(Vec3::new(4.0, 0.0, -1.0), Vec3::Z).expect("the boundary is included");
         assert_eq!(answer(&corner), ["1", "0", "1", "0"]);
         assert!(corner.is_on_boundary);
         assert!(
@@ -182,7 +184,7 @@ mod tests {
     }
 
     #[test]
-    fn one_ulp_beside_the_edge_is_outside_at_any_scale() {
+    fn one_ulp_past_the_edge_is_outside_at_any_scale() {
         for exponent in [-120, -60, 0, 60, 120] {
             let scale = 2f32.powi(exponent);
             let corners = TRIANGLE.map(|p| p * scale);
@@ -196,7 +198,7 @@ mod tests {
     }
 
     #[test]
-    fn a_ray_or_triangle_that_is_not_finite_is_a_miss() {
+    fn a_non_finite_ray_or_triangle_is_a_miss() {
         let ray = Ray::new(Vec3::Z, Vec3::NEG_Z).expect("a ray");
         assert!(intersect(&ray, [Vec3::ZERO; 3]).is_none());
         assert!(intersect(&ray, [Vec3::NAN, Vec3::X, Vec3::Y]).is_none());

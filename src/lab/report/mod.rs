@@ -1,4 +1,4 @@
-//! Reports of measurements: JSON, an HTML page and tables of text.
+//! Reports of measurements: JSON, an HTML page and text tables.
 
 mod text;
 
@@ -76,7 +76,7 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
 
 /// All results as a self-contained HTML page.
 pub fn to_page(json: &Value) -> String {
-    // The first `</` would end the script element.
+    // `</` would end the script element.
     PAGE.replace(STYLE.0, STYLE.1)
         .replace(SCRIPT.0, SCRIPT.1)
         .replace(JSON, &json::to_line(json).replace("</", "<\\/"))
@@ -133,7 +133,7 @@ fn triangle_json(cell: &TriangleCell) -> Value {
     json
 }
 
-/// A contestant over all cases of single triangles.
+/// A contestant's totals over all cases of single triangles.
 #[derive(Clone, Copy, Debug, Default, serde::Serialize)]
 struct Accuracy {
     n: u64,
@@ -141,7 +141,7 @@ struct Accuracy {
     missed: u64,
     false_hits: u64,
     wrong_per_million: f64,
-    /// The value in the worst case.
+    /// The 99th percentile and the maximum of the worst case.
     t_ulps_p99: Option<f64>,
     t_ulps_max: Option<f64>,
     barycentric_max: Option<f64>,
@@ -188,7 +188,10 @@ mod tests {
         };
         let page = to_page(&to_json(&about, &Measurements::default()));
         assert!(page.contains(STYLE.1) && page.contains(SCRIPT.1));
-        assert!(page.contains("<\\/script>"), "data can't end its element");
+        assert!(
+            page.contains("<\\/script>"),
+            "data must not end its script element"
+        );
         for (placeholder, n) in [(STYLE.0, 0), (SCRIPT.0, 0), (JSON, 0)] {
             assert_eq!(page.matches(placeholder).count(), n, "{placeholder}");
         }

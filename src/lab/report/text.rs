@@ -1,4 +1,4 @@
-//! Tables for a terminal, and the one in `docs/accuracy.md`.
+//! Tables for the terminal, and the table in `docs/accuracy.md`.
 
 use crate::measure::contestants::{Contestant, contestants};
 use crate::measure::statistics::{per_million, rate_text, short};
@@ -253,7 +253,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     }
     writeln!(
         out,
-        "Rays that leave a surface; per million rays, heights in sizes of the surface"
+        "Spawned rays; per million rays, heights in sizes of the surface"
     )?;
     let mut rows = header(&[
         "case",
@@ -290,7 +290,7 @@ const SHOWN: [(&str, &str); 8] = [
     ("direction-1e20", "direction 10²⁰"),
 ];
 
-/// Whether the table in `docs/accuracy.md` shows this case.
+/// Whether the table in `docs/accuracy.md` includes this case.
 pub fn is_in_accuracy_table(case: &str) -> bool {
     SHOWN.iter().any(|(name, _)| *name == case)
 }

@@ -57,11 +57,11 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
         ui.selectable_value(&mut trade.axis, Axis::ErrorOfT, "Error of t");
         ui.selectable_value(&mut trade.axis, Axis::Wrong, "Wrong decisions");
     });
-    plot_ui(ui, trade.axis, &rows, settings);
-    table_ui(ui, &rows, settings);
     if settings.session_kernel.is_some() {
         keep_ui(ui, settings);
     }
+    plot_ui(ui, trade.axis, &rows, settings);
+    table_ui(ui, &rows, settings);
     is_wanted_again
 }
 

@@ -1,4 +1,4 @@
-//! Clean files: the same numbers as tobj's.
+//! Clean files give the same numbers as tobj.
 
 use super::{STRICT, load_path};
 use glam::{DVec3, Vec2, Vec3};
@@ -7,7 +7,7 @@ use hitscope_core::mesh::shapes::{Placement, sphere, torus};
 use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
-/// What a file says of a face's corner.
+/// The data of a face's corner.
 #[derive(Debug, PartialEq)]
 struct Corner {
     position: DVec3,
@@ -16,7 +16,7 @@ struct Corner {
     texture: Option<Vec2>,
 }
 
-/// The corners of every face.
+/// The corners of every face, read by tobj.
 fn faces_by_tobj(path: &Path) -> Vec<Vec<Corner>> {
     let options = tobj::LoadOptions {
         single_index: false,
@@ -46,7 +46,7 @@ fn faces_of(mesh: &tobj::Mesh) -> Vec<Vec<Corner>> {
             texture: texture.map(|[u, v]| Vec2::new(u as f32, v as f32)),
         }
     };
-    // Listed only where not all have three corners.
+    // Listed only if a face doesn't have three corners.
     let arities = match &mesh.face_arities[..] {
         [] => vec![3; mesh.indices.len() / 3],
         arities => arities.to_vec(),
@@ -60,7 +60,7 @@ fn faces_of(mesh: &tobj::Mesh) -> Vec<Vec<Corner>> {
     arities.into_iter().map(face).collect()
 }
 
-/// Holds the corners of each of hitscope's triangles against those of its face by tobj.
+/// Compares the corners of each of hitscope's triangles with those of its face by tobj.
 fn assert_same(path: &Path) {
     let loaded = load_path(path, STRICT).unwrap_or_else(|error| panic!("{error}"));
     let mesh = &loaded.mesh;
@@ -113,7 +113,7 @@ fn corners(mesh: &TriangleMesh) -> impl Iterator<Item = [Corner; 3]> {
     })
 }
 
-/// What a file of [`written`] has besides positions and faces.
+/// The data of a file of [`written`] besides positions and faces.
 #[derive(Clone, Copy, PartialEq)]
 enum With {
     Nothing,
@@ -160,9 +160,9 @@ fn written(mesh: &TriangleMesh, with: With, offset: DVec3) -> String {
     text
 }
 
-/// More triangles than tobj is given in one list.
+/// More triangles than one of tobj's lists gets.
 #[test]
-fn large_clean_files_are_read_as_by_tobj() {
+fn large_clean_files_give_the_same_numbers_as_tobj() {
     let folder = tempfile::tempdir().expect("a folder");
     let texel = super::files().join("texel.png");
     std::fs::copy(texel, folder.path().join("t.png")).expect("copied");
@@ -179,9 +179,9 @@ fn large_clean_files_are_read_as_by_tobj() {
     }
 }
 
-/// Also real meshes, if `HITSCOPE_MESHES` names a folder of them.
+/// Also reads real meshes, if `HITSCOPE_MESHES` names a folder of them.
 #[test]
-fn files_of_programs_are_read_as_by_tobj() {
+fn files_written_by_programs_give_the_same_numbers_as_tobj() {
     let assets = Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
     let folders = std::env::var_os("HITSCOPE_MESHES").map(PathBuf::from);
     let mut count = 0;
@@ -198,7 +198,7 @@ fn files_of_programs_are_read_as_by_tobj() {
 }
 
 #[test]
-fn quads_are_read_as_by_tobj() {
+fn quads_give_the_same_numbers_as_tobj() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("x.obj");
     let ball = sphere(3, Placement::UNIT);
@@ -210,7 +210,7 @@ fn quads_are_read_as_by_tobj() {
         With::Nothing,
         DVec3::ZERO,
     );
-    // The shape's triangles come in pairs, each of a quad.
+    // The shape's triangles come in pairs, each pair a quad.
     for pair in ball.triangles.chunks(2) {
         let [[a, b, c], [_, d, e]] = [pair[0], pair[1]];
         let corners = if d == c { [a, b, c, e] } else { [a, d, b, c] };

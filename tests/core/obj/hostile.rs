@@ -1,4 +1,4 @@
-//! Files that were made to hurt: a clear error, or the mesh, within the memory that is allowed.
+//! Malicious files give a clear error or the mesh, within the memory limit.
 
 use super::{LENIENT, STRICT, parse};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
@@ -9,7 +9,7 @@ use std::path::Path;
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
 
-/// The same bytes again and again.
+/// An endless repetition of the same bytes, cut at a length.
 struct Repeated {
     bytes: &'static [u8],
     at: usize,
@@ -77,11 +77,11 @@ fn an_index_of_a_billion_is_out_of_range() {
 }
 
 #[test]
-fn a_line_of_a_gigabyte_is_given_up_early() {
+fn a_line_of_a_gigabyte_is_refused_early() {
     let open = || Ok(Repeated::new(b"v 1 2 3 ", 1 << 30));
     let error = message(parse_with(open, 1 << 30));
     assert_eq!(error, "x.obj:1: a line of more than 128 MB");
-    // Less, where less memory may be used; also for a line that goes on on others.
+    // The limit is lower with less memory, also for a line with continuations.
     for bytes in [&b"v 1 2 3 "[..], b"v 1 2 3 \\\n"] {
         let open = || Ok(Repeated::new(bytes, 1 << 30));
         let error = message(parse_with(open, 64 << 20));
@@ -90,7 +90,7 @@ fn a_line_of_a_gigabyte_is_given_up_early() {
 }
 
 #[test]
-fn what_takes_too_much_memory_is_refused_by_name() {
+fn a_load_beyond_the_memory_limit_is_refused_with_the_options_name() {
     const MB: u64 = 1 << 20;
     for line in [
         &b"v 1 2 3\n"[..],
@@ -113,7 +113,7 @@ fn what_takes_too_much_memory_is_refused_by_name() {
 }
 
 #[test]
-fn a_gzip_bomb_is_stopped_by_the_memory_that_it_takes() {
+fn the_memory_limit_stops_a_gzip_bomb() {
     let packer = flate2::write::GzEncoder::new(Vec::new(), flate2::Compression::fast());
     let mut packer = io::BufWriter::new(packer);
     for _ in 0..20_000_000 {
@@ -152,14 +152,14 @@ fn a_million_materials_and_a_hundred_thousand_groups_are_read() {
     let path = Path::new("x.obj");
     let open = || Ok(text.as_bytes());
     let loaded = obj::parse(open, path, STRICT, &many, &Progress::default()).expect("good");
-    // Only the materials that faces name are kept.
+    // Only materials that faces use are kept.
     assert_eq!(loaded.mesh.named_material_count(), 100_000);
     assert_eq!(loaded.mesh.named_group_count(), 100_001);
     assert_eq!(loaded.warnings, []);
 }
 
 #[test]
-fn a_polygon_of_many_corners_is_read() {
+fn a_polygon_with_many_corners_is_read() {
     let corners = 20_000;
     let mut text = String::new();
     for i in 0..corners {
@@ -176,7 +176,7 @@ fn a_polygon_of_many_corners_is_read() {
 }
 
 #[test]
-fn of_thousands_of_oddities_some_are_told_and_the_others_counted() {
+fn of_thousands_of_warnings_some_are_listed_and_the_rest_counted() {
     let (mut library, mut text) = (String::new(), String::from(TRIANGLE));
     for k in 0..3000 {
         writeln!(library, "newmtl m{k}\nmap_Kd lost{k}.png\nodd{k} 1").expect("memory");
@@ -202,13 +202,13 @@ fn of_thousands_of_oddities_some_are_told_and_the_others_counted() {
     ] {
         assert!(warnings.iter().any(|w| w.contains(expected)), "{expected}");
     }
-    // One checker stands in for all pictures.
+    // All pictures share one checker.
     assert_eq!(loaded.mesh.textures.len(), 1);
 }
 
-/// A picture whose header promises more than memory holds.
+/// A picture whose header declares a size beyond all memory.
 #[test]
-fn a_texture_bomb_is_a_checker_and_a_warning() {
+fn a_texture_bomb_gives_a_checker_and_a_warning() {
     let header = [
         &b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR"[..],
         &60_000u32.to_be_bytes(),
@@ -229,7 +229,7 @@ fn a_texture_bomb_is_a_checker_and_a_warning() {
     assert!(loaded.mesh.textures[0].bytes() < 20_000);
 }
 
-/// A source that panics stands for a crate that does.
+/// A reader that panics, in place of a dependency that does.
 #[test]
 fn a_panic_while_reading_is_an_error() {
     struct Panicking;
@@ -239,7 +239,7 @@ fn a_panic_while_reading_is_an_error() {
         }
     }
     let none = |_: &str| Err(io::ErrorKind::NotFound.into());
-    // At once, and only when tobj asks for more.
+    // At once, and only when tobj reads more.
     for text in [String::new(), TRIANGLE.repeat(100_000)] {
         let open = || Ok(text.as_bytes().chain(Panicking));
         let path = Path::new("x.obj");

@@ -1,4 +1,4 @@
-//! Material libraries and textures, and how files name them.
+//! Material libraries and textures, and how files refer to them.
 
 use super::{STRICT, load, load_path, warnings};
 use glam::{Vec2, Vec3};
@@ -12,7 +12,7 @@ fn materials(loaded: &Loaded) -> BTreeMap<&str, &Material> {
 }
 
 #[test]
-fn legal_but_unusual_materials_are_read_and_what_is_skipped_is_said() {
+fn unusual_materials_are_read_and_skipped_statements_are_reported() {
     let loaded = load("unusual.obj");
     let materials = materials(&loaded);
     assert_eq!(materials["grey"].diffuse, Some(Vec3::splat(0.5)));
@@ -24,7 +24,7 @@ fn legal_but_unusual_materials_are_read_and_what_is_skipped_is_said() {
         (map.scale, map.offset),
         (Vec2::splat(2.0), Vec2::new(0.5, 0.0))
     );
-    // Half of texel.png is red, half is green; (0.375, 0) of the surface is at 1.25 of it.
+    // Half of texel.png is red, half is green; (0.375, 0) of the surface maps to u = 1.25.
     let colour = map.colour(&loaded.mesh.textures, Vec2::new(0.375, 0.0));
     assert_eq!(colour, Vec3::X);
     let skipped = ["Kd", "Pm", "Pr", "illum", "map_Kd", "map_Kd -bm", "map_Ke"];
@@ -38,7 +38,7 @@ fn legal_but_unusual_materials_are_read_and_what_is_skipped_is_said() {
 }
 
 #[test]
-fn libraries_are_found_by_several_odd_and_miscased_names() {
+fn libraries_are_found_by_several_names_odd_names_and_wrong_case() {
     let loaded = load("libraries.obj");
     assert_eq!(warnings(&loaded), [""; 0]);
     let materials = materials(&loaded);
@@ -48,7 +48,7 @@ fn libraries_are_found_by_several_odd_and_miscased_names() {
     assert_eq!(diffuse("spaced"), Some(Vec3::Z));
     assert_eq!(diffuse("inner"), Some(Vec3::new(1.0, 1.0, 0.0)));
     assert_eq!(diffuse("capital"), Some(Vec3::new(0.0, 1.0, 1.0)));
-    // The library in the folder names a picture that lies beside the mesh.
+    // The library in the folder names a picture in the mesh's folder.
     assert_eq!(loaded.mesh.textures.len(), 1);
     let names: Vec<_> = loaded
         .files
@@ -59,7 +59,7 @@ fn libraries_are_found_by_several_odd_and_miscased_names() {
 }
 
 #[test]
-fn a_missing_library_or_texture_is_named_and_the_mesh_opens() {
+fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
     let loaded = load("missing.obj");
     let warnings = warnings(&loaded);
     assert_eq!(loaded.mesh.triangles.len(), 2);
@@ -77,9 +77,9 @@ fn a_missing_library_or_texture_is_named_and_the_mesh_opens() {
     );
     assert_eq!(
         warnings[2],
-        "1 material(s) without a definition, “nobody” first"
+        "1 material(s) without a definition, the first is “nobody”"
     );
-    // What may come later can be watched for.
+    // Missing files are listed, so that they can be watched.
     let looked_for = |name: &str| loaded.files.iter().any(|path| path.ends_with(name));
     assert!(looked_for("nowhere.mtl") && looked_for("lost.png"));
     let map = materials(&loaded)["picture"].diffuse_map.expect("a map");
@@ -88,7 +88,7 @@ fn a_missing_library_or_texture_is_named_and_the_mesh_opens() {
 }
 
 #[test]
-fn a_library_that_was_read_before_is_not_missed() {
+fn a_library_read_earlier_is_not_reported_as_missing() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("x.obj");
     for (name, text) in [
@@ -109,11 +109,11 @@ fn a_library_that_was_read_before_is_not_missed() {
         warnings[0].starts_with("line 3: material library “c.mtl”: "),
         "{warnings:?}"
     );
-    // A name that no face uses isn't one of the mesh's.
+    // Names that no face uses aren't among the mesh's materials.
     assert_eq!(loaded.mesh.named_material_count(), 2);
 }
 
-/// What other programs write, and what is read of it in spite.
+/// Quirks of files that other programs write.
 #[test]
 fn quirks_of_programs_are_understood() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -142,16 +142,16 @@ fn quirks_of_programs_are_understood() {
     assert_eq!(
         warnings,
         [
-            "colours of vertices go beyond 1: taken as bytes",
-            "1 normal(s) are zero or not finite: computed instead",
-            "material library “a.mtl”: 1 unknown statement(s) skipped, line 5 first",
+            "vertex colours above 1: interpreted as bytes",
+            "1 normal(s) computed: those in the file are zero or not finite",
+            "material library “a.mtl”: 1 unknown statement(s) skipped, the first on line 5",
         ]
     );
 }
 
 #[cfg(unix)]
 #[test]
-fn libraries_beside_what_a_link_leads_to_are_found() {
+fn libraries_in_the_folder_of_a_links_target_are_found() {
     let folder = tempfile::tempdir().expect("a folder");
     let [there, here] = ["there", "here"].map(|name| folder.path().join(name));
     std::fs::create_dir(&there).expect("made");
@@ -163,7 +163,7 @@ fn libraries_beside_what_a_link_leads_to_are_found() {
     std::os::unix::fs::symlink(there.join("x.obj"), &link).expect("linked");
     let loaded = load_path(&link, STRICT).expect("good");
     assert_eq!(warnings(&loaded), [""; 0]);
-    // What is missing may come to either place.
+    // A missing file may appear in either folder.
     std::fs::remove_file(there.join("a.mtl")).expect("removed");
     let loaded = load_path(&link, STRICT).expect("good");
     for folder in [there.canonicalize().expect("there"), here] {
@@ -176,7 +176,7 @@ fn libraries_beside_what_a_link_leads_to_are_found() {
 }
 
 #[test]
-fn colours_a_little_beyond_one_are_no_bytes() {
+fn colours_slightly_above_one_are_not_taken_as_bytes() {
     let text = "v 0 0 0 1 1 1.5\nv 1 0 0 0.5 0 0\nv 0 1 0 0 -1 nan\nf 1 2 3\n";
     let loaded = super::parse(text.as_bytes(), STRICT).expect("good");
     let expected = [Vec3::ONE, Vec3::new(0.5, 0.0, 0.0), Vec3::ZERO];

@@ -1,27 +1,27 @@
-//! Any OBJ that people have: odd files, and clean ones against tobj alone.
+//! Reading OBJ files: unusual files, and clean ones compared with tobj.
 
-// A file for each oddity, and what becomes of it.
+// A file for each oddity, and its result.
 mod odd_files;
 
-// Material libraries and textures, and how files name them.
+// Material libraries and textures, and how files refer to them.
 mod materials;
 
-// The files that an OBJ names.
+// Files that an OBJ refers to.
 mod referenced_files;
 
-// Files that are packed, or come from a pipe or a device.
+// Compressed files, pipes and devices.
 mod sources;
 
-// How far the mesh lies from the numbers in the file.
+// How far the mesh deviates from the numbers in the file.
 mod rounding;
 
-// What is refused, and what is said of it.
+// Refused files and their messages.
 mod refused;
 
-// Clean files: the same numbers as tobj's.
+// Clean files give the same numbers as tobj.
 mod differential;
 
-// Files that were made to hurt.
+// Malicious files.
 mod hostile;
 
 use hitscope_core::obj::{self, FaultPolicy, LoadError, LoadOptions, Loaded};
@@ -40,7 +40,7 @@ const fn options(faults: FaultPolicy) -> LoadOptions {
     }
 }
 
-/// Where the files of this folder are.
+/// The folder with the test files.
 fn files() -> PathBuf {
     Path::new(env!("CARGO_MANIFEST_DIR")).join("../../tests/core/obj/files")
 }
@@ -54,12 +54,12 @@ fn load(name: &str) -> Loaded {
     loaded.unwrap_or_else(|error| panic!("{error}"))
 }
 
-/// The warnings about one of the files.
+/// The warnings about a file, as text.
 fn warnings(loaded: &Loaded) -> Vec<String> {
     loaded.warnings.iter().map(ToString::to_string).collect()
 }
 
-/// A mesh from a text that no other file belongs to.
+/// Parses a text that refers to no other file.
 fn parse(bytes: &[u8], options: LoadOptions) -> Result<Loaded, LoadError> {
     let none = |_: &str| Err(io::ErrorKind::NotFound.into());
     let path = Path::new("x.obj");

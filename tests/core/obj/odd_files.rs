@@ -1,4 +1,4 @@
-//! A file for each oddity, and what becomes of it.
+//! A file for each oddity, and its result.
 
 use super::{STRICT, load, load_path, warnings};
 use glam::{DVec3, Vec3};
@@ -8,9 +8,9 @@ use std::collections::BTreeMap;
 use std::fmt::Write as _;
 use std::path::Path;
 
-/// Files that are one triangle, however they are spelt.
+/// Files that contain one triangle in various notations.
 #[test]
-fn odd_spelling_is_read() {
+fn unusual_notations_are_read() {
     for name in [
         "mark.obj",
         "crlf.obj",
@@ -46,7 +46,7 @@ fn areas_by_group(loaded: &Loaded) -> BTreeMap<&str, f64> {
     let mut areas = BTreeMap::new();
     for triangle in 0..mesh.triangles.len() as u32 {
         let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
-        // All polygons of the file run to the left around +z.
+        // All polygons in the file are counterclockwise around +z.
         let area = 0.5 * (b - a).cross(c - a).dot(DVec3::Z);
         assert!(area > 0.0, "triangle {triangle} is flipped");
         let group = &mesh.groups[mesh.group.of(triangle) as usize];
@@ -56,53 +56,55 @@ fn areas_by_group(loaded: &Loaded) -> BTreeMap<&str, f64> {
 }
 
 #[test]
-fn concave_polygons_and_holes_keep_their_area_and_hide_their_diagonals() {
+fn concave_polygons_and_holes_keep_their_area_and_outline() {
     let loaded = load("concave.obj");
     let expected = [("arrow", 1.0), ("frame", 12.0), ("l", 3.0), ("u", 7.0)];
     assert_eq!(areas_by_group(&loaded), BTreeMap::from(expected));
     assert_eq!(warnings(&loaded), [""; 0]);
     let mesh = &loaded.mesh;
     assert_eq!(mesh.face_count, 4);
-    // The arrow: both triangles of face 0 have two edges of it, and share the diagonal.
+    // The arrow: both triangles of face 0 have two of its edges and share the diagonal.
     let of_arrow = (0..2).map(|t| (mesh.face_of(t), mesh.outline_of(t).count_ones()));
     assert!(of_arrow.eq([(0, 2), (0, 2)]));
-    // The frame's eight edges, and not the bridge between its two squares.
+    // The frame's eight edges, without the bridge between its two squares.
     let of_frame = (0..mesh.triangles.len() as u32).filter(|&t| mesh.face_of(t) == 3);
     let edges: u32 = of_frame.map(|t| mesh.outline_of(t).count_ones()).sum();
     assert_eq!(edges, 8);
 }
 
 #[test]
-fn polygons_without_a_plane_are_cut_the_same_way_each_time() {
+fn non_planar_polygons_are_triangulated_the_same_way_each_time() {
     let first = load("not_flat.obj");
     assert_eq!(
         warnings(&first),
-        ["line 11: 1 polygon(s) cross themselves, have no plane or too many corners: cut as a fan"]
+        [
+            "line 11: 1 polygon(s) triangulated as fans: they intersect themselves, have no plane or have too many corners"
+        ]
     );
     assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);
     assert_eq!(load("not_flat.obj").mesh.triangles, first.mesh.triangles);
 }
 
 #[test]
-fn lines_and_points_are_kept_apart_from_faces() {
+fn lines_and_points_are_stored_apart_from_faces() {
     let mesh = load("elements.obj").mesh;
     assert_eq!(mesh.triangles, [[0, 1, 2]]);
     assert_eq!(mesh.lines, [[0, 1], [1, 3], [3, 4], [0, 1], [4, 3]]);
     assert_eq!(mesh.points, [3, 4]);
-    // The vertex that nothing uses isn't kept.
+    // Unused vertices aren't kept.
     assert_eq!(mesh.positions.len(), 5);
     assert_eq!((mesh.face_of(0), mesh.face_count), (0, 1));
 }
 
 #[test]
-fn normals_are_taken_where_they_are_and_computed_elsewhere() {
+fn normals_are_read_where_present_and_computed_elsewhere() {
     let mesh = load("mixed.obj").mesh;
     assert_eq!(mesh.corner_normals[0], [0; 3]);
     assert_eq!(mesh.corner_normals[2], [NO_INDEX; 3]);
     assert_eq!(mesh.corner_normals[4], [0, NO_INDEX, NO_INDEX]);
     let normals = VertexNormals::of(&mesh, Crease::FromFile);
     assert_eq!(normals.of_triangle(&mesh, 0), [Vec3::Y; 3]);
-    // The second quad's own ones lean to the other side of the ridge where the quads meet.
+    // The second quad's normals lean to the other side of the ridge where the quads meet.
     let right = normals.of_triangle(&mesh, 2);
     assert!(right[0].z > 0.9 && right[1].x > 0.7, "{right:?}");
 }
@@ -111,7 +113,7 @@ fn normals_are_taken_where_they_are_and_computed_elsewhere() {
 fn smoothing_groups_are_obeyed_across_seams() {
     let mesh = load("smoothing.obj").mesh;
     let normals = VertexNormals::of(&mesh, Crease::FromFile);
-    // Corner 1 of the even ones and corner 0 of the odd ones are at the ridge.
+    // Corner 1 of the even triangles and corner 0 of the odd ones are at the ridge.
     let ridge = |roof: u32| {
         let [left, right] = [2 * roof, 2 * roof + 1].map(|t| normals.of_triangle(&mesh, t));
         [left[1], right[0]]
@@ -139,13 +141,13 @@ fn colours_stay_with_their_vertices() {
 }
 
 #[test]
-fn faces_with_a_vertex_that_is_not_finite_are_dropped_and_counted() {
+fn faces_with_a_non_finite_vertex_are_dropped_and_counted() {
     let loaded = load("not_finite.obj");
     assert_eq!(loaded.mesh.triangles.len(), 1);
     assert_eq!(loaded.mesh.dropped.non_finite, 4);
     assert_eq!(
         warnings(&loaded),
-        ["line 8: 4 triangle(s) dropped: a corner is not finite, or too large"]
+        ["line 8: 4 triangle(s) dropped: a corner is not finite or too large"]
     );
 }
 
@@ -167,7 +169,7 @@ fn free_form_statements_are_named_and_counted() {
     assert_eq!(warnings(&loaded), expected);
 }
 
-/// Vertices a millimetre apart, as a surveyor has them.
+/// Vertices a millimetre apart, as in a survey.
 #[test]
 fn a_millimetre_in_utm_coordinates_is_kept() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -192,14 +194,14 @@ fn a_millimetre_in_utm_coordinates_is_kept() {
     assert_eq!(spelt[5], DVec3::new(500_000.002, 4_649_776.001, 100.0));
 }
 
-/// More elements than tobj is given in one list, of every kind, so that what belongs to a corner is found again
-/// across lists.
+/// More elements of every kind than one of tobj's lists gets, so that the data of a corner is matched across
+/// lists.
 #[test]
-fn nothing_is_mixed_up_in_a_file_of_many_kinds() {
+fn elements_of_many_kinds_keep_their_own_data() {
     let mut text = String::from("vn 0 0 1\nvt 0.5 0.5\n");
     let count = 70_000;
     for k in 0..count {
-        // Three vertices an element; one more that nothing uses, every seventh; colours for some.
+        // Three vertices per element; an unused one before every seventh; colours for some.
         let x = f64::from(k);
         if k % 7 == 0 {
             text += "v -9 -9 -9\n";
@@ -224,7 +226,7 @@ fn nothing_is_mixed_up_in_a_file_of_many_kinds() {
         (mesh.triangles.len(), mesh.lines.len(), mesh.points.len()),
         (42_000, 14_000, 14_000)
     );
-    // Of lines two vertices are used, of points one.
+    // Lines use two vertices, points one.
     assert_eq!(mesh.positions.len(), 42_000 * 3 + 14_000 * 2 + 14_000);
     for triangle in 0..42_000 {
         let k = triangle / 3 * 5 + triangle % 3;

@@ -1,4 +1,4 @@
-//! The files that an OBJ names: where they may lie, what they may be, and how much of them is read.
+//! Files that an OBJ refers to: where they may be, what they may be, and how much of them is read.
 
 use super::{STRICT, load_path, warnings};
 use hitscope_core::obj::{LoadOptions, Loaded};
@@ -7,7 +7,7 @@ use std::fs;
 use std::io::Write as _;
 use std::path::Path;
 
-/// A folder with an OBJ of one textured triangle, its library's line, and other files.
+/// Loads an OBJ with one textured triangle and this first line, from a folder with these other files.
 fn load_beside(first_line: &str, files: &[(&str, &[u8])], options: LoadOptions) -> Loaded {
     let folder = tempfile::tempdir().expect("a folder");
     for (name, bytes) in files {
@@ -33,7 +33,7 @@ fn png(width: u32, height: u32) -> Vec<u8> {
 }
 
 #[test]
-fn a_file_that_is_no_library_or_picture_is_named_and_not_quoted() {
+fn a_file_that_is_no_library_or_picture_is_named_but_not_quoted() {
     const SECRET: &[u8] = b"root:hunter2:0:0\nKd hunter2\n\xFF\xD8hunter2\n";
     let library = ("m.mtl", &b"newmtl a\nmap_Kd secret\n"[..]);
     for (line, expected) in [
@@ -51,21 +51,21 @@ fn a_file_that_is_no_library_or_picture_is_named_and_not_quoted() {
         assert_eq!(warnings[0], expected);
         assert!(!warnings.concat().contains("hunter2"), "{warnings:?}");
     }
-    // Nor are statements quoted that no library has.
+    // Unknown statements aren't quoted, either.
     let library = ("m.mtl", &b"newmtl a\nhunter2 1\nKd hunter2\n"[..]);
     let warnings = warnings(&load_beside("mtllib m.mtl", &[library], STRICT));
     assert_eq!(
         warnings,
         [
-            "material library “m.mtl”: 1 “Kd” statement(s) skipped, line 3 first",
-            "material library “m.mtl”: 1 unknown statement(s) skipped, line 2 first",
+            "material library “m.mtl”: 1 “Kd” statement(s) skipped, the first on line 3",
+            "material library “m.mtl”: 1 unknown statement(s) skipped, the first on line 2",
         ]
     );
 }
 
 #[cfg(target_os = "linux")]
 #[test]
-fn devices_pipes_and_files_of_the_system_are_neither_libraries_nor_textures() {
+fn devices_pipes_and_kernel_files_are_rejected_as_libraries_and_textures() {
     let folder = tempfile::tempdir().expect("a folder");
     let at = |name: &str| folder.path().join(name);
     let made = std::process::Command::new("mkfifo")
@@ -79,7 +79,7 @@ fn devices_pipes_and_files_of_the_system_are_neither_libraries_nor_textures() {
     ] {
         std::os::unix::fs::symlink(to, at(link)).expect("linked");
     }
-    let of_system = "a file of the system, not a stored one";
+    let of_system = "a system file, not a stored one";
     for (name, why) in [
         ("/proc/self/pagemap", of_system),
         ("/proc/self/environ", of_system),
@@ -100,7 +100,7 @@ fn devices_pipes_and_files_of_the_system_are_neither_libraries_nor_textures() {
 }
 
 #[test]
-fn a_texture_is_decoded_once_however_its_path_is_spelt() {
+fn a_texture_with_several_spellings_of_its_path_is_decoded_once() {
     let folder = tempfile::tempdir().expect("a folder");
     fs::create_dir(folder.path().join("sub")).expect("made");
     fs::write(folder.path().join("Wood.png"), png(2, 2)).expect("written");
@@ -127,20 +127,20 @@ fn a_texture_is_decoded_once_however_its_path_is_spelt() {
 }
 
 #[test]
-fn a_library_is_read_once_however_its_path_is_spelt() {
+fn a_library_with_several_spellings_of_its_path_is_read_once() {
     let library = ("m.mtl", &b"newmtl a\nodd 1\n"[..]);
     let loaded = load_beside(
         "mtllib m.mtl\nmtllib ./m.mtl\nmtllib M.mtl",
         &[library],
         STRICT,
     );
-    let expected = "material library “m.mtl”: 1 unknown statement(s) skipped, line 2 first";
+    let expected = "material library “m.mtl”: 1 unknown statement(s) skipped, the first on line 2";
     assert_eq!(warnings(&loaded), [expected]);
 }
 
 #[test]
-fn half_a_jpeg_is_shown_with_a_warning() {
-    // Detail, so that most of the file is behind the header.
+fn a_truncated_jpeg_is_shown_with_a_warning() {
+    // Noise, so that most of the file is after the header.
     let channel = |x: u32| (x.wrapping_mul(2_654_435_761) >> 24) as u8;
     let texel = |x, y| image::Rgb([x, y, x + y].map(channel));
     let picture = image::RgbImage::from_fn(256, 256, texel);
@@ -153,7 +153,7 @@ fn half_a_jpeg_is_shown_with_a_warning() {
     let early = "texture “p.jpg”: the file ends early: part of the picture is missing";
     for (bytes, expected) in [
         (whole.clone(), None),
-        // Cameras append data of their own.
+        // Cameras append their own data.
         ([&whole[..], b"appended"].concat(), None),
         (whole[..whole.len() / 2].to_vec(), Some(early)),
         (whole[..whole.len() - 2].to_vec(), Some(early)),
@@ -165,7 +165,7 @@ fn half_a_jpeg_is_shown_with_a_warning() {
     }
 }
 
-/// A black PNG of one bit a pixel.
+/// A black PNG with one bit per pixel.
 fn one_bit_png(side: u32) -> Vec<u8> {
     let mut packer = flate2::write::ZlibEncoder::new(Vec::new(), flate2::Compression::fast());
     let row = vec![0; 1 + side.div_ceil(8) as usize];
@@ -187,7 +187,7 @@ fn one_bit_png(side: u32) -> Vec<u8> {
 }
 
 #[test]
-fn a_picture_that_takes_too_much_memory_is_refused_before_it_is_decoded() {
+fn a_picture_beyond_the_memory_limit_is_refused_before_decoding() {
     const MB: u64 = 1 << 20;
     let library = ("m.mtl", &b"newmtl a\nmap_Kd p.png\n"[..]);
     let load = |side: u32, max_memory: u64| {
@@ -198,9 +198,9 @@ fn a_picture_that_takes_too_much_memory_is_refused_before_it_is_decoded() {
         let picture = one_bit_png(side);
         load_beside("mtllib m.mtl", &[library, ("p.png", &picture)], options)
     };
-    // A byte a pixel as it is decoded, and three as it is kept: 1526 MB.
+    // One byte per pixel while decoding, and three when stored: 1526 MB.
     let refused = warnings(&load(20_000, 1200 * MB));
-    let expected = "texture “p.png”: decoding takes 1526 MB of memory, 1199 MB are left (--max-memory); shown as a checker";
+    let expected = "texture “p.png”: decoding needs 1526 MB of memory, 1199 MB are left (--max-memory); shown as a checker";
     assert_eq!(refused, [expected]);
     // 15.3 MB.
     assert_eq!(load(2000, 14 * MB).warnings.len(), 1);

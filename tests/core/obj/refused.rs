@@ -1,11 +1,11 @@
-//! What is refused, and what is said of it.
+//! Refused files and their messages.
 
 use super::{LENIENT, STRICT, files, load_path};
 use hitscope_core::mesh::NO_INDEX;
 use hitscope_core::obj;
 use hitscope_core::progress::Progress;
 
-/// The message about a file that isn't loaded, without the folder's name.
+/// The error message for a file that isn't loaded, without the folder's name.
 fn error(name: &str) -> String {
     let error = load_path(&files().join(name), STRICT).expect_err(name);
     let folder = format!("{}/", files().display());
@@ -13,7 +13,7 @@ fn error(name: &str) -> String {
 }
 
 #[test]
-fn an_index_that_names_nothing_is_an_error_or_costs_its_face() {
+fn an_invalid_index_is_an_error_or_drops_its_face() {
     for (name, message, dropped) in [
         (
             "too_high.obj",
@@ -54,11 +54,11 @@ fn an_index_that_names_nothing_is_an_error_or_costs_its_face() {
 }
 
 #[test]
-fn a_word_where_a_number_belongs_is_named_with_its_place() {
+fn a_word_in_place_of_a_number_is_reported_with_its_position() {
     for (name, message) in [
         (
             "four_parts.obj",
-            "four_parts.obj:4:3: “1/1/1/1” has more than vertex/texture/normal",
+            "four_parts.obj:4:3: “1/1/1/1” has more parts than vertex/texture/normal",
         ),
         ("comma.obj", "comma.obj:2:3: “0,5” is not a number"),
         ("word.obj", "word.obj:3:5: “one” is not a number"),
@@ -74,7 +74,7 @@ fn a_word_where_a_number_belongs_is_named_with_its_place() {
 }
 
 #[test]
-fn what_is_no_obj_is_called_by_its_name() {
+fn errors_name_the_format_of_files_that_are_not_obj() {
     let nothing = "no vertices and no faces: this is not an OBJ file";
     for (name, message) in [
         ("empty.obj", "the file is empty"),
@@ -90,7 +90,7 @@ fn what_is_no_obj_is_called_by_its_name() {
 
 #[cfg(unix)]
 #[test]
-fn a_file_that_may_not_be_read_says_so() {
+fn an_unreadable_file_is_reported() {
     use std::os::unix::fs::PermissionsExt;
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("secret.obj");
@@ -108,7 +108,7 @@ fn a_file_that_may_not_be_read_says_so() {
 }
 
 #[test]
-fn half_a_packed_file_is_an_error() {
+fn a_truncated_gzip_file_is_an_error() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("half.obj.gz");
     let whole = std::fs::read(files().join("packed.obj.gz")).expect("there");
@@ -116,9 +116,9 @@ fn half_a_packed_file_is_an_error() {
     assert!(load_path(&path, STRICT).is_err());
 }
 
-/// The file grows while it is read: an error, or the whole of it if reading was quicker.
+/// The file grows while it is read. Loading fails, or reads the whole file if it finishes first.
 #[test]
-fn a_file_that_changes_while_it_is_read_is_never_half_a_mesh() {
+fn a_file_that_changes_during_reading_never_gives_a_partial_mesh() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("growing.obj");
     let mut text = String::from("v 0 0 0\nv 1 0 0\nv 0 1 0\n");

@@ -1,11 +1,11 @@
-//! How far the mesh lies from the decimals in the file, against exact arithmetic.
+//! How far the mesh deviates from the decimals in the file, computed in exact arithmetic.
 
 use super::{STRICT, parse};
 use dashu_int::IBig;
 use hitscope_core::obj::Loaded;
 use hitscope_core::random::Random;
 
-/// Decimals and binary fractions are multiples of 10⁻⁶⁰·2⁻²⁰⁰ here.
+/// Decimals and binary fractions as multiples of 10⁻⁶⁰·2⁻²⁰⁰.
 const DECIMALS: usize = 60;
 const BITS: i32 = 200;
 
@@ -35,7 +35,7 @@ fn of_f64(x: f64) -> IBig {
     if x < 0.0 { -value } else { value }
 }
 
-/// The largest distance of a coordinate from its decimal.
+/// The largest error of a coordinate relative to its decimal.
 fn exact_rounding(loaded: &Loaded, vertices: &[[String; 3]]) -> IBig {
     let mesh = &loaded.mesh;
     let mut most = IBig::ZERO;
@@ -67,7 +67,7 @@ fn words(vertices: [[&str; 3]; 3]) -> Vec<[String; 3]> {
 }
 
 #[test]
-fn what_is_exact_is_said_to_be_exact() {
+fn exact_coordinates_have_a_rounding_of_zero() {
     let exact = words([
         ["1", "-2.5", "0.0"],
         ["4096.125", "3e2", "1"],
@@ -77,7 +77,7 @@ fn what_is_exact_is_said_to_be_exact() {
 }
 
 #[test]
-fn what_reading_decimals_costs_is_counted() {
+fn rounding_includes_the_error_of_parsing_decimals() {
     for vertices in [
         words([
             ["1000000000000000.3", "0", "0"],
@@ -105,7 +105,7 @@ fn what_reading_decimals_costs_is_counted() {
 }
 
 #[test]
-fn the_bound_holds_for_random_decimals_and_is_near() {
+fn the_bound_holds_for_random_decimals_and_is_tight() {
     let mut random = Random::new(17);
     for _ in 0..2000 {
         let (digits, places) = (1 + random.index(20), random.index(20));
@@ -125,13 +125,14 @@ fn the_bound_holds_for_random_decimals_and_is_near() {
             .map(|words| format!("v {}\n", words.join(" ")))
             .collect();
         let Ok(loaded) = parse(format!("{text}f 1 2 3\n").as_bytes(), STRICT) else {
-            // No area is left.
+            // The triangle's area is zero.
             continue;
         };
         let exact = exact_rounding(&loaded, &vertices);
         let bound = of_f64(loaded.max_rounding);
         assert!(bound >= exact, "{vertices:?}: {}", loaded.max_rounding);
-        // Two last places of the largest f64 more than it is, at most, and what adding up rounds.
+        // The bound exceeds the exact value by at most two ulps of the largest coordinate and the rounding of
+        // the sum.
         let largest = loaded
             .mesh
             .positions

@@ -1,4 +1,4 @@
-//! Where an OBJ's bytes come from: pipes, devices, and gzip as gzip(1) reads it.
+//! Sources of an OBJ's bytes: pipes, devices, and gzip files read like gzip(1).
 
 use super::{STRICT, load_path, parse, warnings};
 use flate2::{Compression, write::GzEncoder};
@@ -14,7 +14,7 @@ fn packed(bytes: &[u8]) -> Vec<u8> {
 }
 
 #[test]
-fn gzip_of_several_members_and_with_zeros_behind_is_read() {
+fn gzip_with_several_members_or_trailing_zeros_is_read() {
     let (head, tail) = MESH.split_at(10);
     let members = [packed(head), packed(b""), packed(tail)].concat();
     for (bytes, expected) in [
@@ -48,7 +48,7 @@ fn a_pipe_is_read() {
 
 #[cfg(target_os = "linux")]
 #[test]
-fn devices_and_files_of_the_kernel_are_refused_at_once() {
+fn devices_and_kernel_files_are_refused_at_once() {
     for (path, expected) in [
         ("/dev/zero", "/dev/zero: this is a device, not an OBJ file"),
         (

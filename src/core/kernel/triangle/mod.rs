@@ -165,7 +165,7 @@ mod tests {
     use crate::kernel::Tier;
 
     #[test]
-    fn names_and_tiers_find_their_kernel_and_are_unique() {
+    fn kernels_are_found_by_name_and_tier_and_both_are_unique() {
         let answers = |kernel: &TriangleKernel, name: &str| {
             kernel.info.name == name || kernel.info.tier.is_some_and(|tier| tier.name() == name)
         };

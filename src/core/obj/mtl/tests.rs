@@ -1,16 +1,16 @@
-//! What is read of material libraries, and what is said of the rest.
+//! Which statements of material libraries are read, and warnings about the rest.
 
 use super::*;
 
 fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
     let parsed = parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
-    let library = parsed.expect("nobody cancels").expect("a library");
+    let library = parsed.expect("not cancelled").expect("a library");
     let warnings = library.warnings.iter().map(ToString::to_string);
     (library.definitions, warnings.collect())
 }
 
 #[test]
-fn odd_statements_do_not_cost_the_other_materials() {
+fn unusual_statements_do_not_affect_other_materials() {
     let (materials, warnings) = messages(
         "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\nPr 1\n",
     );
@@ -19,7 +19,9 @@ fn odd_statements_do_not_cost_the_other_materials() {
     let diffuse: Vec<_> = materials.iter().map(|m| m.material.diffuse).collect();
     assert_eq!(diffuse, [Some(Vec3::splat(0.5)), Some(Vec3::X), None]);
     let skipped = |n: u32, keyword: &str, line: u32| {
-        format!("material library “m.mtl”: {n} “{keyword}” statement(s) skipped, line {line} first")
+        format!(
+            "material library “m.mtl”: {n} “{keyword}” statement(s) skipped, the first on line {line}"
+        )
     };
     assert_eq!(
         warnings,
@@ -33,27 +35,27 @@ fn odd_statements_do_not_cost_the_other_materials() {
 }
 
 #[test]
-fn a_file_that_is_no_library_is_not_quoted() {
+fn a_file_that_is_not_a_library_is_not_quoted() {
     let parse = |text: &str| parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
     for text in ["root:x:0:0\nKd 1 1 1\n", "\0\0\0", "secret 1\n"] {
-        assert!(parse(text).expect("nobody cancels").is_none(), "{text}");
+        assert!(parse(text).expect("not cancelled").is_none(), "{text}");
     }
     for text in ["", "# Material Count: 0\n\n"] {
         let library = parse(text)
-            .expect("nobody cancels")
+            .expect("not cancelled")
             .expect("an empty library");
         assert_eq!(library.warnings, [], "{text}");
     }
     let (_, warnings) = messages("newmtl a\nsecret 1\nroot:x\nPR 1\n");
     let expected = [
-        "material library “m.mtl”: 1 “PR” statement(s) skipped, line 4 first",
-        "material library “m.mtl”: 2 unknown statement(s) skipped, line 2 first",
+        "material library “m.mtl”: 1 “PR” statement(s) skipped, the first on line 4",
+        "material library “m.mtl”: 2 unknown statement(s) skipped, the first on line 2",
     ];
     assert_eq!(warnings, expected);
 }
 
 #[test]
-fn everything_that_shading_uses_is_read() {
+fn all_properties_that_shading_uses_are_read() {
     let (materials, warnings) = messages(
         "newmtl glass\nKs .1 .2 .3\nKe 2 0 0\nNs 50\nillum 1\nTr 0.75\nnewmtl b\nd -halo 0.5\nTr 1\nKa 1 1 1\nNi 1.5\n",
     );
@@ -71,7 +73,7 @@ fn everything_that_shading_uses_is_read() {
 }
 
 #[test]
-fn a_map_has_options_before_its_name() {
+fn a_maps_options_precede_its_name() {
     let map = |name: &str, scale, offset| Some((name.to_owned(), scale, offset));
     let (one, zero) = (Vec2::ONE, Vec2::ZERO);
     for (text, expected) in [

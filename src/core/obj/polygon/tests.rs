@@ -1,4 +1,4 @@
-//! Areas, holes, touching corners and crossings.
+//! Triangulation of polygons: areas, holes, touching corners and crossings.
 
 use super::*;
 
@@ -12,7 +12,7 @@ fn cut(points: &[[f64; 2]]) -> (Cut, f64) {
         let [a, b, c] = t.map(|k| points[k]);
         area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
     });
-    (how.expect("nobody cancels"), area)
+    (how.expect("not cancelled"), area)
 }
 
 #[test]
@@ -58,7 +58,7 @@ fn the_triangles_have_the_polygons_area_and_winding() {
 }
 
 #[test]
-fn what_crosses_itself_or_has_no_plane_becomes_a_fan() {
+fn a_polygon_that_crosses_itself_or_has_no_plane_becomes_a_fan() {
     assert_eq!(
         cut(&[[0.0, 0.0], [1.0, 1.0], [1.0, 0.0], [0.0, 1.0]]).0,
         Cut::Fan
@@ -74,7 +74,7 @@ fn what_crosses_itself_or_has_no_plane_becomes_a_fan() {
     assert_eq!(cut(&star).0, Cut::Fan);
 }
 
-/// A star of so many corners.
+/// A star with this many corners.
 fn star(count: u32) -> Vec<[f64; 2]> {
     let corner = |k: u32| {
         let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
@@ -85,21 +85,21 @@ fn star(count: u32) -> Vec<[f64; 2]> {
 }
 
 #[test]
-fn stars_of_any_size_are_cut() {
+fn stars_of_any_size_are_triangulated() {
     for count in [FEW as u32 - 2, FEW as u32 + 2, 10_000] {
         let (how, area) = cut(&star(count));
         // As many triangles of radii 1 and 0.7 as corners.
         let angle = std::f64::consts::TAU / f64::from(count);
         let expected = f64::from(count) * 0.5 * 0.7 * angle.sin();
         assert_eq!(how, Cut::Good);
-        // Sums of n numbers of at most 1, each wrong by a few 2⁻⁵³ of 1e4, where the polygon lies.
+        // Sums of n numbers of at most 1, each with an error of a few 2⁻⁵³ times 1e4, the polygon's position.
         assert!((area - expected).abs() < 1e-8, "{area}, {expected}");
     }
     assert_eq!(cut(&star(LARGEST as u32 + 2)).0, Cut::Fan);
 }
 
 #[test]
-fn a_fan_fits_a_large_circle_although_its_corners_are_rounded() {
+fn a_fan_fits_a_large_circle_with_rounded_corners() {
     let count = 200_000;
     let corner = |k: u32| {
         let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
@@ -111,7 +111,7 @@ fn a_fan_fits_a_large_circle_although_its_corners_are_rounded() {
 }
 
 #[test]
-fn a_polygon_that_is_not_wanted_is_given_up() {
+fn triangulation_stops_when_cancelled() {
     let in_plane = |p: &[f64; 2]| DVec3::new(p[0], p[1], 0.0);
     let progress = Progress::default();
     progress.cancel();
@@ -120,8 +120,8 @@ fn a_polygon_that_is_not_wanted_is_given_up() {
     assert!(matches!(result, Err(Problem::Cancelled)));
 }
 
-/// Every edge of a polygon belongs to just one triangle, if the polygon is simple and each triangle has the right
-/// ones of the corners that share a place.
+/// Asserts that every edge of a simple polygon belongs to exactly one triangle, which requires the right ones
+/// of corners that share a vertex.
 fn assert_edges_are_covered(points: &[[f64; 2]]) {
     let corners: Vec<DVec3> = points.iter().map(|p| DVec3::new(0.0, p[0], p[1])).collect();
     let count = corners.len();
@@ -134,11 +134,11 @@ fn assert_edges_are_covered(points: &[[f64; 2]]) {
         }
     };
     let how = Triangulator::new().cut(&corners, &Progress::default(), add);
-    assert_eq!(how.expect("nobody cancels"), Cut::Good);
+    assert_eq!(how.expect("not cancelled"), Cut::Good);
     assert!(covered.iter().all(|&times| times == 1), "{covered:?}");
 }
 
-/// A ring of so many corners around a place.
+/// A ring of this many corners around a point.
 fn ring(
     count: u32,
     centre: [f64; 2],
@@ -155,9 +155,9 @@ fn ring(
 }
 
 #[test]
-fn holes_on_bridges_are_cut_out() {
+fn holes_with_bridges_are_cut_out() {
     for count in [8, 60, 500] {
-        // Two holes, both on bridges from the first corner, the right one first.
+        // Two holes, both with bridges from the first corner, the right one first.
         let mut points: Vec<[f64; 2]> = ring(count, [0.0, 0.0], 10.0, 1.0).collect();
         for centre in [[5.0, -3.0], [5.0, 1.0]] {
             points.push(points[0]);
@@ -181,7 +181,7 @@ fn holes_on_bridges_are_cut_out() {
 }
 
 #[test]
-fn corners_that_touch_an_edge_or_another_corner_are_cut() {
+fn corners_may_touch_an_edge_or_another_corner() {
     // Teeth from above touch the floor, or the tips of teeth from below.
     for tip in [0.0, 1.0] {
         let mut points = vec![[0.0, 0.0]];
@@ -207,7 +207,7 @@ fn corners_that_touch_an_edge_or_another_corner_are_cut() {
 }
 
 #[test]
-fn random_polygons_are_cut_as_by_ear_clipping() {
+fn random_polygons_are_triangulated_as_by_ear_clipping() {
     let mut random = crate::random::Random::new(3);
     for count in [FEW + 1, 300, 1500] {
         let mut radius = || 0.2 + 0.8 * (random.index(1 << 20) as f64) / f64::from(1 << 20);
@@ -220,7 +220,7 @@ fn random_polygons_are_cut_as_by_ear_clipping() {
         let (mut ears, mut delaunay) = (Triangulator::new(), Vec::new());
         assert!(ears.clip_ears(&corners));
         assert!(
-            triangulated(&corners, &Progress::default(), &mut delaunay).expect("nobody cancels")
+            triangulated(&corners, &Progress::default(), &mut delaunay).expect("not cancelled")
         );
         assert_eq!(delaunay.len(), ears.indices.len());
         let normal = vector_area(&corners);
@@ -232,12 +232,12 @@ fn random_polygons_are_cut_as_by_ear_clipping() {
 }
 
 #[test]
-fn large_polygons_that_cross_themselves_become_a_fan() {
+fn large_self_crossing_polygons_become_a_fan() {
     let mut random = crate::random::Random::new(5);
     let count = 2500;
     let noise = (0..count).map(|_| [random.index(1000) as f64, random.index(1000) as f64]);
     assert_eq!(cut(&noise.collect::<Vec<_>>()).0, Cut::Fan);
-    // Twice round the same circle.
+    // Twice around the same circle.
     for count in [200, 2000] {
         let twice = ring(count, [0.0, 0.0], 1.0, 2.0);
         assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
@@ -246,10 +246,10 @@ fn large_polygons_that_cross_themselves_become_a_fan() {
             Cut::Good
         );
     }
-    // Around twice, inside of itself and outside.
+    // Around twice: once inside and once outside.
     let twice = ring(101, [0.0, 0.0], 1.0, 1.0).chain(ring(101, [0.0, 0.0], 2.0, 1.0));
     assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
-    // An eight whose halves only touch.
+    // A figure eight whose halves only touch.
     let eight = ring(101, [1.0, 0.0], -1.0, 1.0).chain(ring(101, [-1.0, 0.0], 1.0, -1.0));
     assert_eq!(cut(&eight.collect::<Vec<_>>()).0, Cut::Fan);
 }

@@ -1,4 +1,4 @@
-//! From lines of text to rays, and from hits to lines of JSON.
+//! Parses lines of text into rays and formats hits as lines of JSON.
 
 use super::lines::{LONGEST_LINE, Line};
 use crate::frames::{Frames, GivenRay, PlacedRay};
@@ -9,10 +9,10 @@ use hitscope_core::Hit;
 use hitscope_core::mesh::TriangleMesh;
 use serde::Serialize;
 
-/// Characters of a bad word that its error message shows.
+/// Maximum number of characters of a word that an error message quotes.
 const SHOWN: usize = 40;
 
-/// What is asked of each ray.
+/// The query for each ray.
 #[derive(Clone, Copy)]
 pub(super) enum RayQuery {
     Closest,
@@ -20,7 +20,7 @@ pub(super) enum RayQuery {
     All,
 }
 
-/// A line that isn't blank: a ray, or what is wrong with it.
+/// A line that isn't blank: its ray, or an error message.
 pub(super) struct Request {
     pub line: u64,
     pub ray: Result<PlacedRay, String>,
@@ -80,7 +80,7 @@ impl Request {
     }
 }
 
-/// The ray that a line gives.
+/// Parses a ray.
 fn ray(statement: &str) -> Result<GivenRay, String> {
     let mut numbers = [0.0; 8];
     let mut count = 0;
@@ -94,7 +94,7 @@ fn ray(statement: &str) -> Result<GivenRay, String> {
     let [t_min, t_max] = match count {
         6 => [0.0, f64::INFINITY],
         8 => [numbers[6], numbers[7]],
-        _ => return Err(format!("a ray has 6 or 8 numbers, here are {count}")),
+        _ => return Err(format!("expected 6 or 8 numbers, found {count}")),
     };
     Ok(GivenRay {
         origin: DVec3::from_slice(&numbers),
@@ -111,7 +111,7 @@ fn not_a_number(word: &str) -> String {
     format!("“{beginning}{more}” is not a number")
 }
 
-/// Answers rays about one scene.
+/// Traces rays through one scene and formats the answers.
 pub(super) struct RayAnswerer<'a> {
     pub mesh: &'a TriangleMesh,
     pub frames: &'a Frames<'a>,
@@ -119,7 +119,7 @@ pub(super) struct RayAnswerer<'a> {
 }
 
 impl RayAnswerer<'_> {
-    /// Whether the ray hits anything: the work of an answer, without its printing.
+    /// Whether the ray hits anything. Traces as for an answer, without formatting one.
     pub(super) fn is_hit(&self, placed: &PlacedRay) -> bool {
         let (intersector, ray) = (self.frames.intersector(placed), &placed.ray);
         match self.query {

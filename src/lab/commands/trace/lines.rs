@@ -1,16 +1,16 @@
-//! The lines of a text that may come through a pipe: numbered, of bounded length, and known as soon as they are there.
+//! Reads numbered lines of bounded length from a file or a pipe, as soon as they arrive.
 
 use std::io::{self, Read};
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 use std::sync::{Arc, Mutex, PoisonError};
 use std::thread;
 
-/// Longest line that is kept: eight numbers of several hundred digits fit many times.
+/// Maximum bytes of a line; eight numbers of several hundred digits fit many times.
 pub(super) const LONGEST_LINE: usize = 1 << 16;
 
-/// Bytes that are read at a time: what a pipe holds.
+/// Bytes per read: the capacity of a pipe.
 const PIECE: usize = 1 << 16;
-/// Pieces that may wait, so that reading goes on while rays are traced.
+/// Maximum number of pieces that are read ahead while rays are traced.
 const WAITING_PIECES: usize = 64;
 
 /// Complete lines.
@@ -28,13 +28,13 @@ struct Span {
     is_cut: bool,
 }
 
-/// A line without its end.
+/// A line without its line ending.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Line<'l> {
     /// Counted from 1.
     pub number: u64,
     pub bytes: &'l [u8],
-    /// Whether these are only the first [`LONGEST_LINE`] bytes of it.
+    /// Whether the line is longer than [`LONGEST_LINE`] and these are its first bytes.
     pub is_cut: bool,
 }
 
@@ -57,17 +57,17 @@ impl Lines {
     }
 }
 
-/// Splits a text that comes in pieces into lines. They end in LF, CR or CRLF.
+/// Splits text that arrives in pieces into lines, which end in LF, CR or CRLF.
 #[derive(Default)]
 pub(super) struct LineSplitter {
     lines: Lines,
-    /// Where the unfinished line begins in the bytes.
+    /// Start of the unfinished line in the bytes.
     start: usize,
-    /// Lines that have ended or were cut.
+    /// Number of lines so far, complete or cut.
     count: u64,
-    /// The rest of the line is left out: its beginning was handed over.
+    /// The rest of the line is skipped: its beginning was handed over.
     is_skipping: bool,
-    /// The last byte was a CR, to which an LF would belong.
+    /// The last byte was a CR; an LF that follows belongs to it.
     is_after_cr: bool,
 }
 
@@ -88,19 +88,19 @@ impl LineSplitter {
         self.extend(piece);
     }
 
-    /// The text ends here, also a line without an end.
+    /// Ends the text and, if it is unfinished, the last line.
     pub(super) fn finish(&mut self) {
         if self.is_skipping || self.start < self.lines.bytes.len() {
             self.end_line();
         }
     }
 
-    /// How many lines there are to take.
+    /// The number of complete lines.
     pub(super) fn len(&self) -> usize {
         self.lines.len()
     }
 
-    /// The complete lines so far.
+    /// Takes the complete lines.
     pub(super) fn take(&mut self) -> Lines {
         let unfinished = self.lines.bytes[self.start..].to_vec();
         self.start = 0;
@@ -118,7 +118,7 @@ impl LineSplitter {
         let room = LONGEST_LINE - (self.lines.bytes.len() - self.start);
         self.lines.bytes.extend(&part[..part.len().min(room)]);
         if part.len() > room {
-            // At once: the end may never come.
+            // Handed over at once: the end may never arrive.
             self.hand_over(true);
             self.is_skipping = true;
         }
@@ -144,16 +144,16 @@ impl LineSplitter {
     }
 }
 
-/// Behind a lock so that it is still there when no thread could be started with it.
+/// An input behind a lock, so that it survives a failed attempt to start a thread with it.
 type Input = Arc<Mutex<Box<dyn Read + Send>>>;
 
-/// Pieces of an input, read ahead by a thread of their own where the system grants one.
+/// The pieces of an input, read ahead by a thread if the system grants one.
 pub(super) enum Pieces {
     ReadAhead(Receiver<io::Result<Vec<u8>>>),
     Direct(Input),
 }
 
-/// The next piece, as far as it is known without waiting.
+/// The next piece, if it is known without waiting.
 pub(super) enum Next {
     Piece(Vec<u8>),
     End,
@@ -176,7 +176,7 @@ impl Pieces {
                 }
             }
         };
-        // The thread isn't joined: it may wait for input for ever.
+        // The thread isn't joined: it may wait for input forever.
         let thread = thread::Builder::new().name("read rays".to_owned());
         match thread.spawn(read_ahead) {
             Ok(_) => Self::ReadAhead(receiver),
@@ -185,7 +185,7 @@ impl Pieces {
     }
 
     /// # Errors
-    /// What the system said to reading.
+    /// The error of the read.
     pub(super) fn next_without_waiting(&mut self) -> io::Result<Next> {
         match self {
             Self::ReadAhead(pieces) => match pieces.try_recv() {
@@ -200,10 +200,10 @@ impl Pieces {
     /// The next piece, after waiting for it.
     ///
     /// # Errors
-    /// What the system said to reading.
+    /// The error of the read.
     pub(super) fn wait(&mut self) -> io::Result<Next> {
         match self {
-            // A thread that ends without a word has panicked; the end then is the end.
+            // A thread that ends without a last piece has panicked; treat it as the end.
             Self::ReadAhead(pieces) => pieces
                 .recv()
                 .map_or(Ok(Next::End), |piece| Ok(next_of(piece?))),
@@ -212,7 +212,7 @@ impl Pieces {
     }
 }
 
-/// Empty at the end.
+/// Reads a piece; empty at the end of the input.
 fn read_piece(input: &Input) -> io::Result<Vec<u8>> {
     let mut input = input.lock().unwrap_or_else(PoisonError::into_inner);
     let mut piece = vec![0; PIECE];
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn lines_end_in_any_way_wherever_the_text_is_cut_into_pieces() {
+    fn lines_end_in_lf_cr_or_crlf_however_the_text_is_split_into_pieces() {
         let expected = [(1, "a"), (2, ""), (3, "bc"), (4, "d")];
         let expected = expected.map(|(number, text)| (number, text.to_owned(), false));
         for end in ["\n", "\r", "\r\n"] {
@@ -273,7 +273,7 @@ mod tests {
     }
 
     #[test]
-    fn of_a_line_that_is_too_long_the_beginning_is_known_before_its_end() {
+    fn the_beginning_of_an_overlong_line_is_available_before_its_end() {
         let mut splitter = LineSplitter::default();
         for _ in 0..3 {
             splitter.push(&[b'7'; LONGEST_LINE / 2 + 1]);
@@ -290,7 +290,7 @@ mod tests {
             is_cut: false,
         };
         assert_eq!((lines.len(), lines.get(0)), (1, expected));
-        // The longest that is whole.
+        // The longest line that isn't cut.
         let whole = split(&[b'7'; LONGEST_LINE], 1000);
         assert_eq!(whole, [(1, "7".repeat(LONGEST_LINE), false)]);
     }

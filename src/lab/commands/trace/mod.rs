@@ -1,4 +1,4 @@
-//! `hitscope trace`: rays in, hits out.
+//! `hitscope trace`: traces rays from a file or stream and prints their hits.
 
 mod answers;
 mod lines;
@@ -19,9 +19,9 @@ use std::path::{Path, PathBuf};
 use std::thread::{Builder, ScopedJoinHandle};
 use std::time::{Duration, Instant};
 
-/// Lines that are parsed, traced and printed together, at most by some.
+/// Lines that are parsed, traced and printed together; a batch may exceed it by one piece of input.
 const BATCH: usize = 1 << 16;
-/// A thread isn't started for fewer lines: it would cost as much as it saves.
+/// Minimum number of lines per thread; for fewer, a thread costs as much as it saves.
 const LEAST_PER_THREAD: usize = 256;
 
 const ABOUT: &str = "\
@@ -31,34 +31,34 @@ Input: one ray per line, as six or eight numbers in the file's coordinates.
 
   ox oy oz dx dy dz [tmin tmax]
 
-The ray is the points o + t*d with tmin < t < tmax; without the last two numbers, 0 < t < infinity.
-d needn't have unit length. # starts a comment. Lines end in LF, CR or CRLF and have at most 65536
-bytes. Whenever no more input is waiting, the lines so far are answered.
+A ray is the points o + t*d with tmin < t < tmax, by default 0 < t < infinity. d needn't have unit
+length. # starts a comment. Lines end in LF, CR or CRLF and have at most 65536 bytes. Whenever no more
+input is available, all lines read so far are answered.
 
-Output: one JSON object per ray, in the order of the input. Blank lines and comments have none.
+Output: one JSON object per ray, in the order of the input. Blank lines and comments produce no output.
 
   {\"hit\":true,\"t\":2.0,\"barycentric\":[0.25,0.5,0.25],\"triangle\":10,\"face\":5,
    \"position\":[0.25,0.5,1.0],\"line\":1,\"ray_rounding\":0.0}
   {\"hit\":false,\"line\":2,\"ray_rounding\":0.0}
-  {\"error\":\"a ray has 6 or 8 numbers, here are 5\",\"line\":3}
+  {\"error\":\"expected 6 or 8 numbers, found 5\",\"line\":3}
 
-  t             in lengths of d, counted from o
-  barycentric   weights of the triangle's corners A, B and C; their weighted sum is the position
-  triangle      index of the triangle, counted from 0, in the order in which faces are triangulated
+  t             distance from o, in lengths of d
+  barycentric   barycentric coordinates for the triangle's corners A, B and C
+  triangle      index of the triangle, counted from 0, in the order of triangulation
   face          index of the face in the file, counted from 0
   position      in the file's coordinates
   line          number of the line in the input, counted from 1
   ray_rounding  in units of the file, see below
 
-Numbers read back to the same value as a double.
+Numbers parse as doubles without loss.
 
-Rounding: rays and meshes are traced as f32 numbers, about an origin near the mesh (--recentre). A
-ray with more digits, or from far away, is rounded. So that this loses as little as possible, the
-traced ray starts where the given ray comes near the mesh, or is traced in the file's coordinates,
-where that is more accurate. ray_rounding is what remains: the largest distance, in one coordinate,
-between the traced ray and the given ray at the same t, for all t at which they may meet the mesh.
-0 means that the ray is traced exactly as given. tmin and tmax are rounded outwards to f32. How far
-the mesh itself is rounded is shown by `hitscope info`.";
+Rounding: rays and meshes are traced as f32 numbers relative to an origin near the mesh (--recentre).
+A ray with more digits, or from far away, is rounded. To lose as little as possible, the traced ray
+starts where the given ray comes near the mesh, or is traced in the file's coordinates if that is more
+accurate. ray_rounding is the remaining error: the largest distance per coordinate between the traced
+and the given ray at the same t, over all t at which they may meet the mesh. 0 means that the ray is
+traced exactly as given. tmin and tmax are rounded outwards to f32. `hitscope info` shows how far the
+mesh itself is rounded.";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -68,9 +68,9 @@ Examples:
   hitscope trace bunny.obj --rays rays.txt --summary
 
 Exit status:
-  0  done, also if some lines are not rays: their answers say why
-  1  the mesh or the file of rays can't be read: one line on stderr says why
-  2  the command line is at fault";
+  0  success, even if some lines are not rays; their answers have the reason
+  1  the mesh or the file of rays can't be read; one line on stderr has the reason
+  2  the command line is wrong";
 
 /// Trace rays through a mesh and print one JSON object per ray
 #[derive(Args, Clone, Debug)]
@@ -87,7 +87,7 @@ pub struct TraceArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// Store positions relative to an origin near the mesh, which keeps their digits when they are rounded to f32
+    /// Store positions relative to an origin near the mesh, so that rounding to f32 loses fewer digits
     #[arg(long, default_value = "on")]
     pub recentre: RecentreArg,
     /// Print only whether anything is hit
@@ -96,7 +96,7 @@ pub struct TraceArgs {
     /// Print all hits, sorted by t, as {"hits":[...]}; "also" lists other triangles at the same t
     #[arg(long)]
     pub all: bool,
-    /// Print only counts, the time that tracing took, and the largest ray_rounding
+    /// Print only counts, the tracing time and the largest ray_rounding
     #[arg(long)]
     pub summary: bool,
     /// Threads.
@@ -104,12 +104,12 @@ pub struct TraceArgs {
     pub threads: ThreadsArg,
 }
 
-/// Whether to recentre.
+/// The origin relative to which positions are stored.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum RecentreArg {
-    /// About an origin near the mesh, if it is far from (0, 0, 0) for its size
+    /// An origin near the mesh, if the mesh is far from (0, 0, 0) for its size
     On,
-    /// About (0, 0, 0)
+    /// (0, 0, 0)
     Off,
 }
 
@@ -133,10 +133,10 @@ struct Summary {
 }
 
 impl TraceArgs {
-    /// Traces the rays and prints the answers in their order.
+    /// Traces the rays and prints the answers in the same order.
     ///
     /// # Errors
-    /// See [`CommandError`]. A ray that can't be traced is no error: its answer says why.
+    /// See [`CommandError`]. An invalid ray isn't an error; its answer has the reason.
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         if is_stdin(&self.file) && is_stdin(&self.rays) {
             let message = "the mesh and the rays can't both come from standard input";
@@ -146,7 +146,7 @@ impl TraceArgs {
             RecentreArg::On => Recentre::Auto,
             RecentreArg::Off => Recentre::Off,
         };
-        // Before the mesh is loaded: a file of rays that isn't there is told at once.
+        // Opened before the mesh is loaded, so that a missing file of rays is reported at once.
         let input = open(&self.rays)?;
         let scene = self.mesh.load(&self.file, recentre)?.scene;
         let frames = Frames::new(&scene, self.kernel.kernel(), self.mesh.memory.bytes());
@@ -200,7 +200,7 @@ struct Tracing<'a> {
 }
 
 impl Tracing<'_> {
-    /// Answers all lines. Whenever reading might block, those that are there are answered first.
+    /// Answers all lines. Before a read that might block, answers the lines read so far.
     fn run(
         &self,
         mut pieces: Pieces,
@@ -263,7 +263,7 @@ impl Tracing<'_> {
         Ok(())
     }
 
-    /// The answers as lines, none for a summary, and how many rays hit.
+    /// The answers as lines, empty for a summary, and the number of hits.
     fn answer_all(&self, requests: &[Request]) -> (String, u64) {
         let (mut text, mut hits) = (String::new(), 0);
         for request in requests {
@@ -281,7 +281,7 @@ impl Tracing<'_> {
         (text, hits)
     }
 
-    /// Cuts 0 to `count` into parts, works on each in a thread of its own, and returns the results in order.
+    /// Splits `0..count` into parts, processes each on its own thread, and returns the results in order.
     fn in_parallel<T: Send>(
         &self,
         count: usize,
@@ -291,7 +291,7 @@ impl Tracing<'_> {
         let size = count.div_ceil(self.threads).max(LEAST_PER_THREAD);
         let part = |start: usize| start..count.min(start + size);
         let mut parts = (0..count).step_by(size).map(part);
-        // The first part is this thread's.
+        // This thread processes the first part.
         let Some(first) = parts.next() else {
             return Vec::new();
         };
@@ -305,7 +305,7 @@ impl Tracing<'_> {
             let finish = |(part, thread): (Range<usize>, Option<ScopedJoinHandle<'_, T>>)| {
                 match thread {
                     Some(thread) => thread.join().expect("tracing doesn't panic"),
-                    // Where the system grants no more threads, this one does the work.
+                    // If the system grants no more threads, this one does the work.
                     None => work(part),
                 }
             };

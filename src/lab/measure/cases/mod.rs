@@ -1,8 +1,8 @@
 //! Extreme cases of a ray and a single triangle.
 //!
 //! A case is a recipe for a ray's origin and a triangle. The ray is then aimed at the triangle and slightly
-//! beyond, or exactly at its edges and corners. Recipes use only sums, products, quotients and roots, so the
-//! numbers are the same on every machine.
+//! past it, or exactly at its edges and corners. Recipes use only sums, products, quotients and roots, so
+//! that the numbers are the same on every machine.
 
 mod recipes;
 
@@ -27,12 +27,12 @@ pub struct Case {
 /// Makes an origin and a triangle.
 type Recipe = Box<dyn Fn(&mut Random) -> (Vec3, [Vec3; 3]) + Send + Sync>;
 
-/// Where a ray is aimed.
+/// What a ray is aimed at.
 #[derive(Clone, Copy, PartialEq, Eq)]
 enum Aim {
-    /// At the triangle and a tenth beyond it.
+    /// The triangle, and a tenth of its size beyond it.
     Spread,
-    /// At edges and corners: as exactly as f32 can, one ulp beside, and slightly inside or outside.
+    /// Edges and corners: as exactly as f32 allows, one ulp off, and slightly inside or outside.
     Edges,
 }
 
@@ -74,7 +74,7 @@ impl Case {
     }
 }
 
-/// Barycentric coordinates over the triangle, scaled by 1.2 about its centroid.
+/// Barycentric coordinates in the triangle scaled by 1.2 about its centroid.
 fn spread_weights(random: &mut Random) -> [f64; 3] {
     let (mut u, mut v) = (random.unit(), random.unit());
     if u + v > 1.0 {
@@ -96,7 +96,7 @@ fn edge_weights(random: &mut Random) -> ([f64; 3], i32) {
         0 | 1 => (weights[a], weights[b]) = (part, 1.0 - part),
         2 | 3 => weights[a] = 1.0,
         _ => {
-            // From 10⁻³ down to the last digit of f64, inside or outside.
+            // From 10⁻³ to the last digit of f64, inside or outside.
             let size = 2f64.powi(-10 - random.index(43) as i32);
             let beside = if random.index(2) == 0 { size } else { -size };
             weights[a] = part * (1.0 - beside);

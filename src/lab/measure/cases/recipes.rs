@@ -4,7 +4,7 @@ use super::{Aim, Case, Recipe};
 use glam::{DVec3, Vec3};
 use hitscope_core::random::Random;
 
-/// A recipe with its name.
+/// A recipe and its name.
 pub(super) struct NamedRecipe {
     name: String,
     about: &'static str,

@@ -1,6 +1,6 @@
 'use strict';
 
-// ---- Building nodes. Text always goes in as text nodes: names may hold `<` and `&`. ----
+// ---- Building nodes. Text is always added as text nodes: names may contain `<` and `&`. ----
 
 function build(node, attributes, children) {
   for (const [name, value] of Object.entries(attributes)) if (value != null && value !== false) node.setAttribute(name, value);
@@ -14,7 +14,7 @@ const section = id => document.getElementById(id);
 
 // ---- The data ----
 
-/** The report's JSON; an array that is missing counts as empty. */
+/** The report's JSON; missing arrays are treated as empty. */
 function readLab() {
   const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [] };
   const read = JSON.parse(section('lab').textContent);
@@ -29,14 +29,14 @@ const isAsPrinted = name => / as printed$/.test(name);
 // ---- Numbers ----
 
 const DASH = '–';
-const THIN_SPACE = '\u202f'; // the one that doesn't break
+const THIN_SPACE = '\u202f'; // non-breaking
 const grouped = digits => digits.replace(/\B(?=(\d{3})+$)/g, THIN_SPACE);
 const isNumber = value => typeof value === 'number' && Number.isFinite(value);
 
-/** A count, every digit of it. */
+/** A count with all its digits. */
 const count = value => isNumber(value) ? grouped(String(Math.round(value))) : DASH;
 
-/** A measured figure in three significant digits. */
+/** A measured figure with three significant digits. */
 function figure(value) {
   if (!isNumber(value)) return DASH;
   if (value === 0) return '0';
@@ -46,7 +46,7 @@ function figure(value) {
   return Number.isInteger(value) ? String(value) : rounded.toPrecision(3);
 }
 
-/** At most four or five characters, for the cells of a heat map. */
+/** A figure of at most five characters, for the cells of a heat map. */
 function short(value) {
   if (!isNumber(value)) return DASH;
   const size = Math.abs(value);
@@ -64,7 +64,7 @@ const perMillion = (value, row) => value === 0 ? below(boundOf(row)) : figure(va
 const sum = (a, b) => a == null && b == null ? null : (a ?? 0) + (b ?? 0);
 const wrongPerMillion = row => sum(row.missed_per_million, row.false_per_million);
 
-// ---- Columns: each figure is defined once, for its table and for the tooltips ----
+// ---- Columns: each figure is defined once, for tables and tooltips ----
 
 const column = (title, value, options = {}) => ({ title, value, text: figure, ...options });
 const words = (title, value, options = {}) => column(title, value, { isText: true, text: text => text ?? DASH, ...options });
@@ -108,7 +108,7 @@ const triangleFigures = [
   column('wrong /M', wrongPerMillion, { text: perMillion }),
   ...spread('t error, ulps', 't_ulps'),
   ...spread('barycentric error', 'barycentric_error'),
-  ...spread('weights against t', 'gap'),
+  ...spread('gap between barycentric point and t', 'gap'),
   column('count', row => row.non_finite, { text: count, group: 'non-finite' }),
   ...decidedIn(row => row),
 ];
@@ -134,7 +134,7 @@ const boxFigures = [
   column('lost /M', row => row.lost_per_million, { text: perMillion }),
 ];
 const spawningFigures = [
-  words('traced by', row => row.kernel, { style: 'name' }),
+  words('kernel', row => row.kernel, { style: 'name' }),
   column('n', row => row.n, { text: count }),
   column('self-hits', row => row.self_hits, { text: count }),
   column('self-hits /M', row => row.self_hits_per_million, { text: perMillion }),
@@ -142,7 +142,7 @@ const spawningFigures = [
   column('max', row => row.height_max, { group: 'height / size' }),
 ];
 
-// ---- Tooltips: { title, about, facts: [[label, text], …] }, made when they are shown ----
+// ---- Tooltips: { title, about, facts: [[label, text], …] }, built when shown ----
 
 const tips = new WeakMap();
 function withTip(node, tip) {
@@ -178,7 +178,7 @@ function listenForTips() {
   for (const name of ['pointerover', 'focusin']) document.addEventListener(name, follow);
   document.addEventListener('focusout', hide);
   document.documentElement.addEventListener('pointerleave', hide);
-  // Focus may scroll its target into view: then the tooltip goes along.
+  // Focus may scroll its target into view; the tooltip follows.
   const move = () => { if (tips.has(document.activeElement)) showTip(document.activeElement); else hide(); };
   document.addEventListener('scroll', move, { capture: true, passive: true });
   document.addEventListener('keydown', event => { if (event.key === 'Escape') hide(); });

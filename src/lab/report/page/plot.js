@@ -2,7 +2,7 @@
 
 const FRAME = { left: 96, right: 1176, top: 34, bottom: 470, width: 1200, height: 520 };
 const ZERO_BAND_PX = 44;
-const MARKS = { // by precision; any other is a diamond
+const MARKS = { // by precision; others are diamonds
   f32: 'M-5 0a5 5 0 1 0 10 0a5 5 0 1 0 -10 0z',
   f64: 'M-4.5 -4.5h9v9h-9z',
   other: 'M0 -6.5L6.5 0L0 6.5L-6.5 0z',
@@ -38,7 +38,7 @@ function logScale(values, from, to) {
   return { at, ticks: ticks.filter(tick => Math.log10(tick) >= low && Math.log10(tick) <= high), isLog: true };
 }
 
-/** The points that no other beats in both figures, from the fastest to the most accurate. */
+/** The points that no other point beats in both figures, from the fastest to the most accurate. */
 function paretoFront(points, isMoreBetter) {
   const slowness = point => isMoreBetter ? -point.x : point.x;
   let best = Infinity;
@@ -50,7 +50,7 @@ const overlap = (a, b) => Math.max(0, Math.min(a.x + a.width, b.x + b.width) - M
 
 const gap = (box, { px, py }) => Math.hypot(Math.max(box.x - px, 0, px - box.x - box.width), Math.max(box.y - py, 0, py - box.y - box.height));
 
-/** A rectangle for each label near its point, clear of the other labels, the points and the front as far as there is room. */
+/** A rectangle for each label near its point, away from other labels, points and the front if possible. */
 function placeLabels(points, obstacles) {
   const candidates = points.map(({ px, py, label }) => {
     const width = label.length * 7.2 + 2, height = 15, found = [];
@@ -59,7 +59,7 @@ function placeLabels(points, obstacles) {
       const x = px + cos * (distance + width / 2) - width / 2, y = py + sin * (distance + height / 2) - height / 2;
       const leader = [0.3, 0.5, 0.7, 0.9].map(part => ({ x: px + cos * distance * part - 1, y: py + sin * distance * part - 1, width: 2, height: 2 }));
       const isOutside = x < FRAME.left || x + width > FRAME.right || y < FRAME.top || y + height > FRAME.bottom;
-      // A label nearer to another point than to its own, or led to it through another, would be read as that point's.
+      // A label close to another point, or whose leader passes another point, would be read as that point's.
       const isMisread = other => gap({ x, y, width, height }, other) < Math.min(distance + 8, 24) || leader.some(dot => gap(dot, other) < 7);
       const strangers = points.filter(other => (other.px !== px || other.py !== py) && isMisread(other)).length;
       const hidden = obstacles.reduce((total, obstacle) => total + overlap({ x, y, width, height }, obstacle), 0);
@@ -71,7 +71,7 @@ function placeLabels(points, obstacles) {
   const clash = (a, b) => overlap(a, b) * 4 + (overlap(a, b) ? 200 : 0) + a.leader.filter(dot => overlap(dot, b)).length * 40
     + b.leader.filter(dot => overlap(dot, a)).length * 40;
   const cost = (candidate, own) => chosen.reduce((total, other, index) => total + (index === own ? 0 : clash(candidate, other)), candidate.cost);
-  // Later labels move the earlier ones in the second and third round.
+  // In the second and third round, earlier labels give way to later ones.
   for (let round = 0; round < 3; round++) candidates.forEach((found, own) => {
     const costs = found.map(candidate => cost(candidate, own));
     chosen[own] = found[costs.indexOf(Math.min(...costs))];
@@ -102,9 +102,9 @@ function axisNodes(x, y, horizontal, vertical, zero) {
   for (const tick of x.ticks) { line(`M${x.at(tick)} ${FRAME.top}V${FRAME.bottom}`); text(tickText(tick), x.at(tick), FRAME.bottom + 18, 'middle'); }
   for (const tick of y.ticks) { line(`M${FRAME.left} ${y.at(tick)}H${FRAME.right}`); text(tickText(tick), FRAME.left - 8, y.at(tick) + 4, 'end'); }
   if (zero) { line(`M${FRAME.left} ${zero.py}H${FRAME.right}`, 'zero-line'); text(zero.label, FRAME.left - 8, zero.py + 4, 'end'); }
-  const better = horizontal.isMoreBetter ? 'more is better →' : '← less is better';
+  const better = horizontal.isMoreBetter ? 'higher is better →' : '← lower is better';
   text(`${horizontal.title}${x.isLog ? ', logarithmic' : ''}  (${better})`, FRAME.right, FRAME.bottom + 40, 'end', 'axis');
-  text(`${vertical.title}, logarithmic  (↓ less is better)`, 8, 18, 'start', 'axis');
+  text(`${vertical.title}, logarithmic  (↓ lower is better)`, 8, 18, 'start', 'axis');
   return nodes;
 }
 
@@ -116,7 +116,7 @@ function drawPlot(horizontal, vertical) {
   const bound = Math.max(...zeros.map(point => boundOf(point.kernel.accuracy) ?? 0));
   const zero = zeros.length ? { py: FRAME.bottom - 16, label: vertical.isRate ? below(bound) : '0' } : null;
 
-  // Two kernels a decade apart would squeeze all others together on a linear axis.
+  // On a linear axis, a kernel ten times as slow would squeeze the others together.
   const xs = points.map(point => point.x), isWide = Math.min(...xs) > 0 && Math.max(...xs) > 10 * Math.min(...xs);
   const x = (isWide ? logScale : linearScale)(xs, FRAME.left + 12, FRAME.right - 12);
   const y = others.length ? logScale(others.map(point => point.y), FRAME.bottom - (zero ? ZERO_BAND_PX : 0), FRAME.top) : { ticks: [] };
@@ -145,7 +145,7 @@ function plotLegend(points, front) {
     svg('svg', { viewBox: '-11 -7 22 14', class: style }, svg('path', { class: style === 'front' ? 'front' : 'mark', d })), text);
   const absent = lab.kernels.filter(kernel => !points.some(point => point.kernel === kernel)).map(kernel => kernel.name);
   return element('div', {}, element('div', { class: 'legend' },
-    key('', MARKS.f32, 'f32'), key('', MARKS.f64, 'f64'), key('', MARKS.other, 'adaptive'), key('tier', MARKS.f32, 'filled, bold: serves a tier'),
+    key('', MARKS.f32, 'f32'), key('', MARKS.f64, 'f64'), key('', MARKS.other, 'adaptive'), key('tier', MARKS.f32, 'filled, bold: a tier’s kernel'),
     key('front', 'M-11 -5H0V5H11', `Pareto front: ${front.map(point => point.kernel.name).join(', ')}`)),
-  absent.length ? element('p', { class: 'aside' }, `Not in the plot, for want of a figure: ${absent.join(', ')}.`) : '');
+  absent.length ? element('p', { class: 'aside' }, `Not in the plot because a figure is missing: ${absent.join(', ')}.`) : '');
 }

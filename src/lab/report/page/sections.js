@@ -1,7 +1,7 @@
 // ---- The sections ----
 
 function showAbout() {
-  const about = lab.about, size = { quick: 'quick: fewer rays, so wider bounds', full: 'full' };
+  const about = lab.about, size = { quick: 'quick (fewer rays, wider bounds)', full: 'full' };
   const minutes = Math.floor(about.seconds / 60), seconds = Math.round(about.seconds % 60);
   const facts = [
     ['version', about.version], ['command', about.command], ['machine', about.machine],
@@ -18,16 +18,16 @@ function showPlot() {
   let [horizontal] = horizontalAxes(), [vertical] = verticalAxes;
   const redraw = () => place.replaceChildren(...drawPlot(horizontal, vertical));
   section('plot').append(element('div', { class: 'controls' },
-    choice('Across', horizontalAxes(), axis => { horizontal = axis; redraw(); }),
-    choice('Up', verticalAxes, axis => { vertical = axis; redraw(); })), place);
+    choice('x axis', horizontalAxes(), axis => { horizontal = axis; redraw(); }),
+    choice('y axis', verticalAxes, axis => { vertical = axis; redraw(); })), place);
 }
 
 function showKernels() {
   const scenes = [...new Set(lab.kernels.map(kernel => kernel.speed?.mesh).filter(Boolean))];
   const remarks = [
-    scenes.length ? `Speed was measured on: ${scenes.join('; ')}; Mrays/s are of one thread, ns/test leave out the tree, bytes hold it.` : '',
+    scenes.length ? `Speed was measured on: ${scenes.join('; ')}. Mrays/s are for one thread; ns/test exclude the tree, bytes/tri include it.` : '',
     lab.kernels.some(kernel => isAsPrinted(kernel.name))
-      ? 'A name that ends in “as printed” is a program of the lecture with its slips left in; its speed isn’t measured.' : '',
+      ? 'Names ending in “as printed” are the lecture’s programs, including their mistakes; their speed isn’t measured.' : '',
   ];
   section('kernels').append(element('p', { class: 'aside' }, remarks.filter(Boolean).join(' ')),
     scrollBox('Kernels', null, sortableTable(kernelColumns(), lab.kernels, 'dense').table));
@@ -50,17 +50,17 @@ const spawningMap = {
   entries: lab.spawning, infos: lab.policies, measures: spawningMeasures, figures: spawningFigures,
 };
 
-/** All cells of a map as one long table with a filter. */
+/** All cells of a map as a long table with a filter. */
 function cellTable({ section: caseSection, title, entries: cells, across, infos, figures }) {
   const name = words(across, row => row[across], { style: 'name', tip: row => infoTip(infos, row[across]) });
   const { table, entries } = sortableTable([caseColumn(caseSection), name, ...figures], cells);
   const box = scrollBox(`${title}, all figures`, 'long', table);
   const filter = filterField(entries, box, across, row => `${row.case} ${row[across]}`.toLowerCase());
-  return [filter, box, element('p', { class: 'aside print-only' }, 'This table is printed if a filter narrows it down.')];
+  return [filter, box, element('p', { class: 'aside print-only' }, 'This table is printed only if it is filtered.')];
 }
 
 function showBoxes() {
-  const about = words('what it is', row => infoOf(lab.cases.filter(each => each.section === 'boxes'), row.case)?.about, { style: 'prose' });
+  const about = words('description', row => infoOf(lab.cases.filter(each => each.section === 'boxes'), row.case)?.about, { style: 'prose' });
   section('boxes').append(scrollBox('Boxes', null, sortableTable([caseColumn('boxes'), ...boxFigures, about], lab.boxes).table));
 }
 
@@ -76,7 +76,7 @@ function showCases() {
   }
 }
 
-/** What a section needs to be there, and what draws it. */
+/** The data that a section needs, and the function that draws it. */
 const sections = {
   plot: { needs: () => lab.kernels.filter(kernel => kernel.speed), show: showPlot },
   kernels: { needs: () => lab.kernels, show: showKernels },

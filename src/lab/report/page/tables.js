@@ -2,7 +2,7 @@
 
 const collator = new Intl.Collator('en', { numeric: true });
 
-/** Sorts either way with nulls last; what compares equal keeps the report's order. */
+/** Compares in either direction with nulls last; equal values keep the report's order. */
 function compareBy(each, isAscending) {
   return (a, b) => {
     const [x, y] = [each.value(a.row) ?? null, each.value(b.row) ?? null];
@@ -24,14 +24,14 @@ function tableCell(each, row, isStart) {
 function groupRow(columns) {
   const cells = [];
   for (const [index, each] of columns.entries()) {
-    // The first column sticks while the others scroll, so it never shares a cell with them.
+    // The first column stays in place while the others scroll, so it never shares a cell with them.
     if (index > 1 && each.group === columns[index - 1].group) cells.at(-1).colSpan += 1;
     else cells.push(element('th', { scope: 'colgroup', class: classes(each.isHead && 'corner', each.group && 'starts') }, each.group ?? ''));
   }
   return element('tr', { class: 'groups' }, ...cells);
 }
 
-/** A table whose heads sort it, without the columns that have no figure at all. The caller may hide rows: `entries` holds them. */
+/** A table sorted by clicking its headers, without columns that have no figures. The caller may hide rows through `entries`. */
 function sortableTable(allColumns, rows, className = null) {
   const columns = allColumns.filter(each => !each.isTipOnly && rows.some(row => each.value(row) != null));
   const startsGroup = index => index > 0 && columns[index].group !== columns[index - 1].group;
@@ -39,7 +39,7 @@ function sortableTable(allColumns, rows, className = null) {
   const entries = rows.map((row, index) => ({ row, index, node: rowNode(row) }));
   const body = element('tbody', {}, ...entries.map(entry => entry.node));
   const heads = columns.map((each, index) => {
-    // Not a <button>: Chromium leaves those out where it repeats the head on a new printed page.
+    // Not a <button>: Chromium omits buttons when it repeats the header on a new printed page.
     const button = element('span', { role: 'button', tabindex: 0 }, each.title);
     const head = element('th', { scope: 'col', class: classes(each.isText && 'text', each.isHead && 'corner', each.isTurned && 'turned',
       startsGroup(index) && 'starts', isAsPrinted(each.title) && 'printed') }, button);
@@ -66,7 +66,7 @@ function sortableTable(allColumns, rows, className = null) {
 const scrollBox = (label, style, ...children) =>
   element('div', { class: classes('box', style), tabindex: 0, role: 'region', 'aria-label': label }, ...children);
 
-/** A search field that hides the rows of a table in which not all of its words occur. */
+/** A search field that hides the rows of a table that don't contain all of its words. */
 function filterField(entries, box, across, textOf) {
   const field = element('input', { type: 'search', placeholder: 'one or more words' });
   const status = element('span', { class: 'status', role: 'status' });
@@ -79,11 +79,11 @@ function filterField(entries, box, across, textOf) {
   };
   field.addEventListener('input', apply);
   apply();
-  return element('div', { class: 'controls' }, element('label', {}, `Only rows whose case or ${across} contains `, field), status);
+  return element('div', { class: 'controls' }, element('label', {}, `Filter by case or ${across}: `, field), status);
 }
 
 let choiceCount = 0;
-/** One of several options; calls `onChange` with it, at once for the first. */
+/** Radio buttons; calls `onChange` with the selected option, immediately with the first. */
 function choice(legend, options, onChange) {
   const name = `choice-${choiceCount++}`;
   const labels = options.map((option, index) => {
@@ -104,7 +104,7 @@ const triangleMeasures = [
   rate('false hits /M', row => row.false_per_million),
   { title: 't error p99, ulps', value: row => row.t_ulps?.p99, firstExponent: 0 },
   { title: 'barycentric error p99', value: row => row.barycentric_error?.p99, firstExponent: -7 },
-  { title: 'weights against t p99', value: row => row.gap?.p99, firstExponent: -7 },
+  { title: 'gap between barycentric point and t, p99', value: row => row.gap?.p99, firstExponent: -7 },
 ];
 const meshMeasures = [
   rate('missed /M', row => row.missed_per_million),
@@ -119,7 +119,7 @@ const spawningMeasures = [
   { title: 'largest height / size', value: row => row.height_max, firstExponent: -7 },
 ];
 
-/** 0 for a zero, then a level a decade from 1 to 7; level 2 begins at 10^firstExponent. */
+/** 0 for a zero, then one level per decade from 1 to 7; level 2 starts at 10^firstExponent. */
 function levelOf(value, firstExponent) {
   if (!isNumber(value)) return 'none';
   return value === 0 ? 0 : Math.max(1, Math.min(7, Math.floor(Math.log10(Math.abs(value))) - firstExponent + 2));
@@ -134,7 +134,7 @@ function levelLegend({ title, firstExponent }) {
   return [name, ...swatches, element('span', { class: 'level-none' }, `${DASH} not measured`)];
 }
 
-/** Case by kernel or policy (`map.across`), one of `map.measures` at a time. */
+/** A heat map of cases by kernel or policy (`map.across`), showing one of `map.measures` at a time. */
 function heatMap(map) {
   const names = [...new Set([...map.infos.map(info => info.name), ...map.entries.map(entry => entry[map.across])])]
     .filter(name => map.entries.some(entry => entry[map.across] === name));
@@ -154,7 +154,7 @@ function heatMap(map) {
   });
   const show = measure => {
     const fixed = [caseColumn(map.section), column('n', row => row.n, { text: count, style: 'plain' })];
-    if (measure.boundOf) fixed.push(column('0 means', measure.boundOf, { text: bound => `<\u00a0${figure(bound)}`, style: 'plain' }));
+    if (measure.boundOf) fixed.push(column('bound of 0', measure.boundOf, { text: bound => `<\u00a0${figure(bound)}`, style: 'plain' }));
     box.replaceChildren(sortableTable([...fixed, ...names.map(name => cellColumn(name, measure))], rows, 'heat').table);
     legend.replaceChildren(...levelLegend(measure));
   };
