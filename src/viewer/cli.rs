@@ -28,7 +28,7 @@ use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
-/// A ray-tracing mesh viewer that checks every hit against exact arithmetic
+/// A ray-tracing mesh viewer that compares hits with exact arithmetic
 ///
 /// Without a command, hitscope opens a window, or renders the file to hitscope.png if there is no display.
 #[derive(Parser, Debug)]
@@ -47,8 +47,8 @@ Examples:
 
 Exit status:
   0  success
-  1  bad input or a system error; stderr has one line with the reason
-  2  bad command line
+  1  bad input or a system error; one line on stderr has the reason
+  2  the command line is wrong
 
 Results go to stdout; warnings and errors go to stderr.
 
@@ -84,7 +84,7 @@ enum Command {
 }
 
 /// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
-/// stderr, and 2 for a bad command line.
+/// stderr, and 2 if the command line is wrong.
 pub fn run() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     if let Some(message) = misspelt_command(&arguments) {
