@@ -38,13 +38,13 @@ impl Names {
         }
     }
 
-    /// The path of the Wayland server's socket; an error if the name is relative and `XDG_RUNTIME_DIR` isn't set.
+    /// The path of the Wayland server's socket; an error if the name is relative and `XDG_RUNTIME_DIR` isn't absolute.
     fn socket(&self, name: &OsStr) -> Result<PathBuf, String> {
         let name = Path::new(name);
         match &self.runtime_dir {
             _ if name.is_absolute() => Ok(name.to_owned()),
             Some(folder) if Path::new(folder).is_absolute() => Ok(Path::new(folder).join(name)),
-            _ => Err("XDG_RUNTIME_DIR isn't set to a path".to_owned()),
+            _ => Err("XDG_RUNTIME_DIR isn't set to an absolute path".to_owned()),
         }
     }
 
@@ -201,7 +201,7 @@ mod tests {
         };
         assert_eq!(
             relative.explain(""),
-            "WAYLAND_DISPLAY=wayland-7 can't be used: XDG_RUNTIME_DIR isn't set to a path"
+            "WAYLAND_DISPLAY=wayland-7 can't be used: XDG_RUNTIME_DIR isn't set to an absolute path"
         );
     }
 

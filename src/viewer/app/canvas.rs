@@ -32,7 +32,7 @@ impl Canvas {
         }
     }
 
-    /// The strips of `available` outside the picture, which are filled with the background.
+    /// The strips of `available` outside the picture, which are filled with the panel colour.
     fn rest_of(&self, available: Rect) -> [Rect; 4] {
         let (min, max) = (self.rect.min, self.rect.max);
         [
