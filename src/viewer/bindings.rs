@@ -1,17 +1,17 @@
-//! The tables of key and pointer bindings. The help sheet is made from them.
+//! Tables of key and pointer bindings, which the help sheet lists.
 
 use egui::{Key, KeyboardShortcut, Modifiers};
 use hitscope_core::camera::{StandardView, UpAxis};
 use hitscope_core::mesh::Flaw;
 
-/// What keys, buttons and menu entries do.
+/// The action of a key, button or menu entry.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Action {
     /// Show the dialog that opens a file.
     Open,
     /// Reload the open file.
     Reload,
-    /// Show the whole mesh.
+    /// Frame the mesh.
     Frame,
     /// Mark the flaws of a kind and show one of them, counted from 0; or mark none.
     ShowFlaw(Option<(Flaw, usize)>),
@@ -19,17 +19,17 @@ pub enum Action {
     ToggleWatch,
     /// Look along an axis.
     LookFrom(StandardView),
-    /// Make an axis of the file point up.
+    /// Set the axis of the file that points up.
     SetUpAxis(UpAxis),
     /// Turn auto-rotation on or off.
     ToggleRotation,
-    /// Switch between perspective and orthographic projection.
+    /// Toggle orthographic projection.
     ToggleOrthographic,
     /// Show or hide the wireframe.
     ToggleWireframe,
     /// Show or hide normals.
     ToggleNormals,
-    /// Switch between flat and smooth shading.
+    /// Toggle smooth shading.
     ToggleSmooth,
     /// Pause or resume refinement.
     TogglePause,
@@ -45,7 +45,7 @@ pub enum Action {
 pub struct Binding {
     /// Alternative keys.
     pub keys: &'static [KeyboardShortcut],
-    /// The action of each of them.
+    /// The action that each key performs.
     pub action: Action,
     /// Description for the help sheet.
     pub about: &'static str,
@@ -71,11 +71,11 @@ const fn binding(
     }
 }
 
-/// All key bindings. Those with Ctrl come before those of the same key without it.
+/// All key bindings. A binding with Ctrl comes before the one of the same key without it.
 pub static KEYS: &[Binding] = &[
     binding(&[ctrl(Key::O)], Action::Open, "Open a file"),
     binding(&[key(Key::F5)], Action::Reload, "Reload the file"),
-    binding(&[key(Key::Home)], Action::Frame, "Show the whole mesh"),
+    binding(&[key(Key::Home)], Action::Frame, "Frame the mesh"),
     binding(
         &[ctrl(Key::Num1)],
         Action::LookFrom(StandardView::Back),
@@ -109,37 +109,37 @@ pub static KEYS: &[Binding] = &[
     binding(
         &[key(Key::Num5)],
         Action::ToggleOrthographic,
-        "Switch between perspective and orthographic projection",
+        "Toggle orthographic projection",
     ),
     binding(
         &[ctrl(Key::Y)],
         Action::SetUpAxis(UpAxis::Y),
-        "Y axis points up",
+        "Set Y as the up axis",
     ),
     binding(
         &[ctrl(Key::Z)],
         Action::SetUpAxis(UpAxis::Z),
-        "Z axis points up",
+        "Set Z as the up axis",
     ),
     binding(
         &[key(Key::T)],
         Action::ToggleRotation,
-        "Turn auto-rotation on or off",
+        "Toggle auto-rotation",
     ),
     binding(
         &[key(Key::W)],
         Action::ToggleWireframe,
-        "Show or hide the wireframe",
+        "Toggle the wireframe",
     ),
     binding(
         &[key(Key::N)],
         Action::ToggleNormals,
-        "Show or hide normals: of faces if flat, of vertices if smooth",
+        "Toggle normals: of faces (flat) or of vertices (smooth)",
     ),
     binding(
         &[key(Key::S)],
         Action::ToggleSmooth,
-        "Switch between flat and smooth shading",
+        "Toggle smooth shading",
     ),
     binding(
         &[key(Key::P)],
@@ -149,39 +149,35 @@ pub static KEYS: &[Binding] = &[
     binding(
         &[ctrl(Key::R)],
         Action::ToggleWatch,
-        "Turn automatic reloading on or off",
+        "Toggle automatic reloading",
     ),
-    binding(
-        &[key(Key::I)],
-        Action::TogglePanel,
-        "Show or hide the side panel",
-    ),
+    binding(&[key(Key::I)], Action::TogglePanel, "Toggle the side panel"),
     binding(
         &[key(Key::H), key(Key::Questionmark)],
         Action::ToggleHelp,
-        "Show or hide this help",
+        "Toggle this help",
     ),
     binding(
         &[key(Key::Escape)],
         Action::Dismiss,
-        "Cancel loading, close help or a message, or clear the pick",
+        "Cancel loading, close help or a message, or clear the picked pixel",
     ),
 ];
 
 /// Pointer bindings in the picture.
 pub static POINTER: &[(&str, &str)] = &[
-    ("Left drag", "Orbit"),
-    ("Shift, middle or right drag", "Pan"),
-    ("Wheel, pinch", "Zoom towards the pointer"),
+    ("Drag", "Orbit"),
+    ("Shift+drag, middle drag or right drag", "Pan"),
+    ("Scroll or pinch", "Zoom to the cursor"),
     ("Click", "Inspect the pixel"),
-    ("Double click", "Set the pivot"),
+    ("Double-click", "Set the pivot"),
     ("Drop a file", "Open it"),
 ];
 
 /// Keys that egui handles itself.
 pub static SYSTEM: &[(&str, &str)] = &[
     (
-        "Ctrl+Plus, Minus, 0",
+        "Ctrl+Plus, Ctrl+Minus, Ctrl+0",
         "Enlarge, shrink or reset the user interface",
     ),
     ("Ctrl+Q", "Quit"),
@@ -198,8 +194,8 @@ impl Binding {
     }
 }
 
-/// The actions of the keys pressed since the last frame; none while text is typed. Escape is left to an open
-/// drop-down, which egui then closes.
+/// The actions of the keys pressed since the last frame; none while a text field has the focus. Escape is left
+/// to an open drop-down, which egui then closes.
 pub fn pressed(ctx: &egui::Context) -> Vec<Action> {
     if ctx.egui_wants_keyboard_input() {
         return Vec::new();
@@ -225,13 +221,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn no_key_does_two_things_and_ctrl_comes_first() {
+    fn keys_are_unique_and_ctrl_bindings_come_first() {
         let all: Vec<&KeyboardShortcut> = KEYS.iter().flat_map(|b| b.keys).collect();
         for (i, a) in all.iter().enumerate() {
             for b in &all[i + 1..] {
                 assert_ne!(a, b);
                 let is_shadowed = a.logical_key == b.logical_key && a.modifiers.is_none();
-                assert!(!is_shadowed, "{a:?} would take what is meant for {b:?}");
+                assert!(!is_shadowed, "{a:?} shadows {b:?}");
             }
         }
     }

@@ -28,9 +28,9 @@ use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
-/// A ray-tracing mesh viewer that shows what a ray really does to your mesh
+/// A ray-tracing mesh viewer that compares hits with exact arithmetic
 ///
-/// Without a command, a window opens. Where there is no display, a picture of the file is written to hitscope.png.
+/// Without a command, hitscope opens a window, or renders the file to hitscope.png if there is no display.
 #[derive(Parser, Debug)]
 #[command(
     version,
@@ -42,13 +42,13 @@ Examples:
   hitscope bunny.obj                              open a file
   hitscope render bunny.obj -o bunny.png          render a picture without a window
   hitscope trace bunny.obj --rays rays.txt        trace rays and print JSON
-  hitscope inspect bunny.obj --pixel 640,360      show one ray under every kernel
-  hitscope COMMAND --help                         all options of a command
+  hitscope inspect bunny.obj --pixel 640,360      compare all kernels on one ray
+  hitscope COMMAND --help                         list all options of a command
 
 Exit status:
-  0  done
-  1  a file, or the machine, is at fault: one line on stderr says why
-  2  the command line is at fault
+  0  success
+  1  bad input or a system error; one line on stderr has the reason
+  2  the command line is wrong
 
 Results go to stdout; warnings and errors go to stderr.
 
@@ -58,13 +58,13 @@ Limits: 1.4 billion triangles; lines of 128 MB; pictures of 16384 x 16384 pixels
 struct Cli {
     /// OBJ file to open, plain or gzipped [default: the built-in scene]
     file: Option<PathBuf>,
-    /// Only there to be refused: the window shows one file.
+    /// Further files, which are refused: the window shows one file.
     #[arg(hide = true)]
     more: Vec<PathBuf>,
-    /// Save a picture of the window when rendering has converged, and quit
+    /// Save a screenshot of the window when rendering has converged, and quit
     #[arg(long, value_name = "OUT.png", value_parser = parse_png)]
     screenshot: Option<PathBuf>,
-    /// Take the picture after this time instead
+    /// Take the screenshot after this time instead
     #[arg(long, value_name = "SECONDS", requires = "screenshot", allow_negative_numbers = true, value_parser = parse_seconds)]
     after: Option<Duration>,
     #[command(flatten)]
@@ -83,8 +83,8 @@ enum Command {
     Bench(BenchArgs),
 }
 
-/// Runs the command line. The exit status is 0 when done, 1 if a file or the machine is at fault, with one line on
-/// stderr, and 2 if the command line is.
+/// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
+/// stderr, and 2 if the command line is wrong.
 pub fn run() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     if let Some(message) = misspelt_command(&arguments) {
@@ -104,7 +104,7 @@ pub fn run() -> ExitCode {
     });
     match result {
         Ok(()) => ExitCode::SUCCESS,
-        // The reader of our output has enough of it, as in `hitscope trace … | head`.
+        // The reader has closed our output, as in `hitscope trace … | head`.
         Err(CommandError::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
@@ -116,16 +116,16 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// Refuses the command line, as clap does.
+/// Prints a usage error in clap's format.
 fn refuse(message: String) -> ExitCode {
     let error = Cli::command().error(ErrorKind::ValueValidation, message);
     _ = error.print();
     ExitCode::from(2)
 }
 
-/// What is wrong if the first argument is a misspelt command: it would be taken for a file.
+/// The error if the first argument is a misspelt command, which would otherwise be taken for a file.
 fn misspelt_command(arguments: &[OsString]) -> Option<String> {
-    /// Letters that may be wrong, missing, too many or swapped.
+    /// Largest number of letters that are wrong, missing, superfluous or swapped.
     const MOST_ERRORS: usize = 2;
     let word = arguments.get(1)?.to_str()?;
     let is_word = word.len() > MOST_ERRORS && word.bytes().all(|b| b.is_ascii_alphabetic());
@@ -143,7 +143,7 @@ fn misspelt_command(arguments: &[OsString]) -> Option<String> {
 }
 
 impl Cli {
-    /// What is wrong with arguments that are right by themselves.
+    /// Checks combinations of arguments that are valid individually.
     fn check(&self) -> Result<(), String> {
         let file = self.file.as_deref();
         if file.is_some_and(is_stdin) {
@@ -176,7 +176,7 @@ impl Command {
 
 fn render(args: &RenderArgs) -> Result<(), CommandError> {
     let failed = |error: GpuError| CommandError::Other(error.to_string());
-    // Whatever can fail without the mesh fails before it is loaded.
+    // Do everything that can fail without the mesh before loading it.
     args.check()?;
     let output = Output::create(&args.output)?;
     let needs_gpu = args.wireframe || args.normals;
@@ -193,9 +193,9 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
     output.write_png(size, &pixels)
 }
 
-/// Opens the window, or renders a picture where there is no display.
+/// Opens the window, or renders a picture if there is no display.
 fn open_window(cli: &Cli) -> Result<(), CommandError> {
-    // Before the window opens: a picture that can't be written isn't worth waiting for.
+    // Open the output before the window, so that an unwritable path fails at once.
     let output = cli.screenshot.as_deref().map(Output::create).transpose()?;
     let outcome = Outcome::default();
     let load_options = LoadOptions {
@@ -204,7 +204,7 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
     };
     let start = StartOptions {
         file: cli.file.clone(),
-        // A picture of the window shows the defaults, whatever was used last.
+        // A screenshot uses the default settings, not the stored ones.
         settings: match cli.screenshot {
             Some(_) => Settings::default(),
             None => stored_settings(),
@@ -221,7 +221,7 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
         (Ok(()), None) => Ok(()),
         (Ok(()), Some(_)) => {
             let mut outcome = outcome.lock().unwrap_or_else(PoisonError::into_inner);
-            let closed = || Err("the window was closed before its picture was taken".to_owned());
+            let closed = || Err("the window was closed before the screenshot was taken".to_owned());
             outcome
                 .take()
                 .unwrap_or_else(closed)
@@ -235,8 +235,8 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
     }
 }
 
-/// As eframe makes it, but without what egui stored of its widgets: a bad number in there, as a zoom of 0, would end
-/// the program at each start.
+/// The context as eframe creates it, but without egui's stored widget state: a bad number in it, such as a zoom
+/// of 0, would make the program panic at each start.
 fn egui_context(zoom: f32) -> egui::Context {
     let ctx = egui::Context::default();
     ctx.set_embed_viewports(false);
@@ -247,7 +247,7 @@ fn egui_context(zoom: f32) -> egui::Context {
     ctx
 }
 
-/// Opens the window on the first display server and graphics backend that can be used, and runs it until it closes.
+/// Opens the window on the first usable display server and graphics backend, and runs it until it closes.
 fn run_window(start: &StartOptions) -> Result<(), eframe::Error> {
     let display = DisplayServer::from_env();
     if let DisplayServer::X11 { warning } = &display {
@@ -264,10 +264,10 @@ fn run_window(start: &StartOptions) -> Result<(), eframe::Error> {
                 ..WgpuConfiguration::default()
             },
             event_loop_builder: display.event_loop_builder(),
-            // The bytes of the picture must reach the screen unchanged.
+            // The picture's bytes must reach the screen unchanged.
             dithering: false,
             persist_window: !is_screenshot,
-            // A picture of the window doesn't depend on what was stored: nothing is read from nowhere.
+            // An empty path, so that a screenshot doesn't depend on stored state.
             persistence_path: is_screenshot.then(PathBuf::new),
             ..eframe::NativeOptions::default()
         };
@@ -279,12 +279,12 @@ fn run_window(start: &StartOptions) -> Result<(), eframe::Error> {
     BackendOrder::from_env().first_that_opens(is_graphics, run)
 }
 
-/// Why there is no window.
+/// The message if no window can be opened.
 fn no_window(error: &eframe::Error) -> String {
-    format!("no window: {}", display::explain(error))
+    format!("can't open a window: {}", display::explain(error))
 }
 
-/// Writes a picture of the file or of the embedded scene to the current directory.
+/// Renders the file or the built-in scene to a picture in the current directory.
 fn render_instead(cli: &Cli) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
     let PictureDefaults { mut picture } = PictureDefaults::parse_from(["hitscope"]);
@@ -306,14 +306,14 @@ fn render_instead(cli: &Cli) -> Result<(), CommandError> {
     Ok(())
 }
 
-/// A picture with all options at their defaults.
+/// Picture options at their defaults.
 #[derive(Parser)]
 struct PictureDefaults {
     #[command(flatten)]
     picture: PictureArgs,
 }
 
-/// eframe's setup with these backends, and with the limits that a large mesh needs.
+/// eframe's setup with these backends and the limits that a large mesh needs.
 fn wgpu_setup(backends: wgpu::Backends) -> WgpuSetupCreateNew {
     let mut setup = WgpuSetupCreateNew::without_display_handle();
     setup.instance_descriptor.backends = backends;
@@ -325,5 +325,5 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
     let seconds = text.parse().ok();
     seconds
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
-        .ok_or_else(|| "expected a number of seconds, 0 or more".to_owned())
+        .ok_or_else(|| "expected a non-negative number of seconds".to_owned())
 }

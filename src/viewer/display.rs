@@ -1,7 +1,7 @@
-//! The display server that the window opens on.
+//! The choice of the display server for the window.
 //!
-//! winit takes the Wayland server that the environment names, and gives up if it doesn't answer, even where there is
-//! an X server beside it. [`DisplayServer::from_env`] finds out before.
+//! winit uses the Wayland server that the environment names and fails if it doesn't answer, even if there is an X
+//! server. [`DisplayServer::from_env`] checks this beforehand.
 
 use std::ffi::{OsStr, OsString};
 use std::path::{Path, PathBuf};
@@ -9,16 +9,16 @@ use std::path::{Path, PathBuf};
 /// The display server to open a window on.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub enum DisplayServer {
-    /// The one that winit chooses.
+    /// The server that winit chooses.
     Any,
     /// The X server, because the Wayland server doesn't answer.
     X11 {
-        /// What is wrong with the Wayland server.
+        /// The fault of the Wayland server.
         warning: String,
     },
 }
 
-/// The variables that name display servers.
+/// The environment variables that name display servers.
 struct Names {
     wayland_display: Option<OsString>,
     wayland_socket: Option<OsString>,
@@ -28,7 +28,7 @@ struct Names {
 
 impl Names {
     fn from_env() -> Self {
-        // An empty name is none, as for winit.
+        // As in winit, an empty variable counts as unset.
         let name = |variable| std::env::var_os(variable).filter(|value| !value.is_empty());
         Self {
             wayland_display: name("WAYLAND_DISPLAY"),
@@ -38,19 +38,19 @@ impl Names {
         }
     }
 
-    /// Where the Wayland server listens; an error if the name is relative to nothing.
+    /// The path of the Wayland server's socket; an error if the name is relative and `XDG_RUNTIME_DIR` isn't absolute.
     fn socket(&self, name: &OsStr) -> Result<PathBuf, String> {
         let name = Path::new(name);
         match &self.runtime_dir {
             _ if name.is_absolute() => Ok(name.to_owned()),
             Some(folder) if Path::new(folder).is_absolute() => Ok(Path::new(folder).join(name)),
-            _ => Err("XDG_RUNTIME_DIR isn't set to a path".to_owned()),
+            _ => Err("XDG_RUNTIME_DIR isn't set to an absolute path".to_owned()),
         }
     }
 
-    /// What is wrong with the Wayland server that is named, if one is.
+    /// The fault of the named Wayland server, if there is one.
     fn wayland_fault(&self) -> Option<String> {
-        // An open socket that was handed down can't be tried without being used up.
+        // An inherited socket can't be tested without consuming it.
         if self.wayland_socket.is_some() {
             return None;
         }
@@ -70,7 +70,7 @@ impl Names {
         }
     }
 
-    /// Which servers there are, and why none of them can be used; `reason` is winit's for the last one that it tried.
+    /// Names the servers and explains why none can be used; `reason` is winit's error for the last one.
     fn explain(&self, reason: &str) -> String {
         let wayland = self.wayland_fault();
         let x11 = self.display.as_deref();
@@ -99,12 +99,12 @@ fn connect(_path: &Path) -> Result<(), String> {
 }
 
 impl DisplayServer {
-    /// The first server that the environment names and that answers.
+    /// The first server in the environment that answers.
     pub fn from_env() -> Self {
         Names::from_env().choose()
     }
 
-    /// Has winit use this server; `None` if winit chooses.
+    /// A hook that makes winit use this server; `None` if winit chooses.
     #[cfg(all(unix, not(target_os = "macos")))]
     pub fn event_loop_builder(&self) -> Option<eframe::EventLoopBuilderHook> {
         use winit::platform::x11::EventLoopBuilderExtX11 as _;
@@ -115,14 +115,14 @@ impl DisplayServer {
         })
     }
 
-    /// Has winit use this server; `None` if winit chooses.
+    /// A hook that makes winit use this server; `None` if winit chooses.
     #[cfg(not(all(unix, not(target_os = "macos"))))]
     pub fn event_loop_builder(&self) -> Option<eframe::EventLoopBuilderHook> {
         None
     }
 }
 
-/// Why there is no window.
+/// Explains why no window could be opened.
 pub fn explain(error: &eframe::Error) -> String {
     match error {
         eframe::Error::WinitEventLoop(error) => {
@@ -132,7 +132,7 @@ pub fn explain(error: &eframe::Error) -> String {
     }
 }
 
-/// What winit says after “os error at src/x.rs:123: ”.
+/// winit's message without its prefix “os error at src/x.rs:123: ”.
 fn without_source_location(message: &str) -> &str {
     let place = message.rsplit_once(".rs:");
     place
@@ -164,10 +164,10 @@ mod tests {
         names.wayland_display = Some("wayland-7".into());
         names.runtime_dir = Some(folder.path().into());
         assert_eq!(names.choose(), DisplayServer::Any);
-        // The socket of a server that was killed refuses.
+        // The socket of a killed server refuses connections.
         drop(server);
         let DisplayServer::X11 { warning } = names.choose() else {
-            panic!("nobody answers");
+            panic!("no server answers");
         };
         assert!(
             warning.starts_with("WAYLAND_DISPLAY=wayland-7 can't be used: "),
@@ -176,7 +176,7 @@ mod tests {
     }
 
     #[test]
-    fn without_an_x_server_nothing_else_is_tried_and_the_message_names_what_was() {
+    fn without_an_x_server_winit_chooses_and_the_message_names_the_servers() {
         let dead = OsStr::new("wayland-7");
         assert_eq!(names(Some(dead), None).choose(), DisplayServer::Any);
         assert_eq!(names(None, Some(":1")).choose(), DisplayServer::Any);
@@ -201,12 +201,12 @@ mod tests {
         };
         assert_eq!(
             relative.explain(""),
-            "WAYLAND_DISPLAY=wayland-7 can't be used: XDG_RUNTIME_DIR isn't set to a path"
+            "WAYLAND_DISPLAY=wayland-7 can't be used: XDG_RUNTIME_DIR isn't set to an absolute path"
         );
     }
 
     #[test]
-    fn winits_messages_lose_the_place_in_its_source_code() {
+    fn winits_source_location_is_removed_from_messages() {
         let message = "os error at /home/x/winit-0.30/src/mod.rs:787: Failed to open connection";
         assert_eq!(
             without_source_location(message),

@@ -16,31 +16,31 @@ use std::time::{Duration, Instant, SystemTime};
 pub(crate) const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
 
-/// Results of checking every triangle and edge.
+/// Results of checking all triangles and edges.
 #[derive(Clone, Debug)]
 pub struct MeshReport {
     /// The mesh's health.
     pub health: Arc<Health>,
     /// The tier that the scene requires.
     pub requirement: Requirement,
-    /// Bytes that the surface takes in each representation.
+    /// Size of the surface in each representation, in bytes.
     pub bytes_as: [(&'static str, usize); 3],
 }
 
-/// A scene that can be traced. A loading thread makes it.
+/// The open document: a scene ready to be traced. Created by a loading thread.
 pub struct Document {
-    /// The file; `None` for the embedded scene and where nothing is open.
+    /// The file; `None` for the built-in scene and if nothing is open.
     pub path: Option<PathBuf>,
-    /// Whether nothing is open: the scene is empty.
+    /// Whether nothing is open, and the scene is empty.
     pub is_blank: bool,
-    /// The scene, and facts about its file.
+    /// The scene and facts about its file.
     pub loaded: LoadedScene,
-    /// When loading began: later changes of the file aren't in it.
+    /// Time when loading began; the document doesn't contain later changes of the file.
     pub began: SystemTime,
     intersector: Arc<dyn Intersector>,
-    /// The intersector for another kernel, while it is being made.
+    /// The intersector for another kernel, while it is being built.
     packing: PackingTask,
-    /// The intersector that comparing views compare with, and the next one while it is being made.
+    /// The second intersector of comparing views, and the next one while it is being built.
     second: Option<Arc<dyn Intersector>>,
     packing_second: PackingTask,
     health: HealthState,
@@ -87,15 +87,15 @@ impl Document {
         Ok(document)
     }
 
-    /// The embedded scene.
+    /// The built-in scene.
     pub fn embedded(kernel: &'static TriangleKernel) -> Self {
         Self::new(None, embedded_scene(), kernel)
     }
 
-    /// An empty scene, for the time until the first file is there.
+    /// An empty scene, shown until the first file is loaded.
     pub fn blank(kernel: &'static TriangleKernel) -> Self {
         let mesh = TriangleMesh::default();
-        let scene = Scene::new(mesh, &Progress::default()).expect("nobody cancels");
+        let scene = Scene::new(mesh, &Progress::default()).expect("never cancelled");
         let loaded = LoadedScene {
             scene: Arc::new(scene),
             warnings: Vec::new(),
@@ -126,10 +126,10 @@ impl Document {
         }
     }
 
-    /// Starts building the scene's best tree, unless the scene has it. The scene takes it over by itself.
+    /// Starts to build the scene's best tree unless the scene has it. The scene switches to it when it is built.
     ///
     /// # Errors
-    /// [`TaskPanicked`], once, if building it failed; the first tree stays.
+    /// [`TaskPanicked`], once, if building failed; the first tree stays.
     pub fn improve(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
         match &self.improvement {
             Improvement::Unasked if self.loaded.scene.has_best_tree() => {
@@ -153,7 +153,7 @@ impl Document {
         Ok(())
     }
 
-    /// Ends the work on a better tree; the scene keeps the one that it has.
+    /// Cancels building the best tree; the scene keeps its current tree.
     pub fn stop_improving(&self) {
         self.progress.cancel();
     }
@@ -163,16 +163,16 @@ impl Document {
         matches!(self.improvement, Improvement::Over)
     }
 
-    /// The name for titles.
+    /// The document's name for titles.
     pub fn name(&self) -> String {
         match self.path.as_deref().and_then(Path::file_name) {
             Some(name) => name.to_string_lossy().into_owned(),
             None if self.is_blank => "No file".to_owned(),
-            None => "Default scene".to_owned(),
+            None => "Built-in scene".to_owned(),
         }
     }
 
-    /// Sets where smooth shading has edges.
+    /// Sets where smooth shading has creases.
     pub fn use_crease(&mut self, crease: Crease) {
         let scene = &mut self.loaded.scene;
         if scene.crease() != crease {
@@ -180,7 +180,7 @@ impl Document {
         }
     }
 
-    /// The intersector of the kernel that was last ready.
+    /// The intersector of the kernel that was packed last.
     pub fn intersector(&self) -> &Arc<dyn Intersector> {
         &self.intersector
     }
@@ -204,12 +204,12 @@ impl Document {
         Ok(())
     }
 
-    /// The intersector to compare with; the first one while there is no other.
+    /// The intersector to compare with; the first one if there is no second.
     pub fn second(&self) -> &Arc<dyn Intersector> {
         self.second.as_ref().unwrap_or(&self.intersector)
     }
 
-    /// Packs the scene for a second kernel; without one, drops what was packed.
+    /// Packs the scene for a second kernel; `None` drops the second intersector.
     ///
     /// # Errors
     /// [`TaskPanicked`] if packing failed.
@@ -233,7 +233,7 @@ impl Document {
         Ok(())
     }
 
-    /// The mesh's health and the tier that it requires. The first call starts the check; `None` until it is done.
+    /// The mesh's health and required tier. The first call starts the check; `None` until it is done.
     pub fn findings(&mut self, ctx: &egui::Context) -> Option<Arc<MeshReport>> {
         match &self.health {
             HealthState::Unasked => {
@@ -264,7 +264,7 @@ impl Document {
         matches!(self.health, HealthState::Failed)
     }
 
-    /// The same, without starting the check.
+    /// Like [`findings`](Self::findings), without starting the check.
     pub fn known_findings(&self) -> Option<Arc<MeshReport>> {
         match &self.health {
             HealthState::Known(findings) => Some(Arc::clone(findings)),
@@ -273,10 +273,10 @@ impl Document {
     }
 }
 
-/// A scene that is being packed for the kernel of a name.
+/// A task that packs the scene for a kernel, keyed by the kernel's name.
 type PackingTask = KeyedTask<&'static str, Box<dyn Intersector>>;
 
-/// The scene packed for a kernel, once it is done; the first call for a kernel starts it.
+/// The scene packed for a kernel, once ready. The first call for a kernel starts the packing.
 fn packed(
     packing: &mut PackingTask,
     scene: &Arc<Scene>,
@@ -288,14 +288,14 @@ fn packed(
     Ok(packing.get(kernel.info.name, pack)?.map(Arc::from))
 }
 
-/// The scene that is shown when no file is given.
+/// The built-in scene, which is shown if no file is given.
 pub fn embedded_scene() -> LoadedScene {
     let library = |name: &str| match name {
         "default.mtl" => Ok(DEFAULT_MTL.to_vec()),
         _ => Err(io::ErrorKind::NotFound.into()),
     };
     let (start, progress) = (Instant::now(), Progress::default());
-    let path = Path::new("the embedded scene");
+    let path = Path::new("the built-in scene");
     let loaded = obj::parse(
         || Ok(DEFAULT_OBJ.as_bytes()),
         path,
@@ -303,8 +303,8 @@ pub fn embedded_scene() -> LoadedScene {
         &library,
         &progress,
     );
-    let loaded = loaded.expect("a test opens the embedded scene");
-    LoadedScene::of(loaded, start, SceneOptions::default(), &progress).expect("nobody cancels")
+    let loaded = loaded.expect("a test opens the built-in scene");
+    LoadedScene::of(loaded, start, SceneOptions::default(), &progress).expect("never cancelled")
 }
 
 #[cfg(test)]
@@ -312,7 +312,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_embedded_scene_loads_without_a_warning() {
+    fn the_built_in_scene_loads_without_warnings() {
         let loaded = embedded_scene();
         assert_eq!(loaded.warnings, []);
         let mesh = loaded.scene.mesh();

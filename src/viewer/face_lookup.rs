@@ -1,4 +1,4 @@
-//! The picked face in its file, read again in the background.
+//! Lookup of the picked face in its file, in the background.
 
 use crate::task::{Task, TaskPanicked};
 use hitscope_core::obj::{FaceCorner, FaceSource, face_source};
@@ -9,22 +9,22 @@ use std::io::{self, Read};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
-/// The picked triangle as its file has it.
+/// The picked triangle in its file.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FaceInFile {
-    /// The file has it.
+    /// The face was found.
     Found {
         /// The statement of the face, shortened if it is long.
         statement: String,
         /// The corners of the triangle.
         corners: [FaceCorner; 3],
     },
-    /// It couldn't be read, and why.
+    /// The face couldn't be read, for this reason.
     Unknown(String),
 }
 
 impl FaceInFile {
-    /// Reads the face on a line of a file, or of the embedded scene, and compares it with a triangle of the mesh.
+    /// Reads the face at a line of a file or of the built-in scene, and compares it with a triangle of the mesh.
     fn read(
         path: Option<&Path>,
         mesh: &TriangleMesh,
@@ -32,7 +32,7 @@ impl FaceInFile {
         line: usize,
         progress: &Progress,
     ) -> Self {
-        let shown = path.unwrap_or(Path::new("the embedded scene"));
+        let shown = path.unwrap_or(Path::new("the built-in scene"));
         match face_source(|| open(path), shown, line, progress) {
             Ok(source) => source
                 .and_then(|source| Self::matched(source, mesh, triangle))
@@ -43,7 +43,7 @@ impl FaceInFile {
         }
     }
 
-    /// Finds the triangle's corners among those of the face; `None` if one isn't there.
+    /// Finds the triangle's corners among those of the face; `None` if one is missing.
     fn matched(source: FaceSource, mesh: &TriangleMesh, triangle: u32) -> Option<Self> {
         let mut left = source.corners;
         let corners = mesh.corners(triangle).map(|position| {
@@ -67,12 +67,12 @@ impl FaceInFile {
         }
     }
 
-    /// Index of a corner's `v` statement, counted from 1.
+    /// Index of a corner's `v` statement in the file, counted from 1.
     pub fn vertex(&self, corner: usize) -> Option<usize> {
         Some(self.corners()?[corner].vertex)
     }
 
-    /// The texture coordinates of a point; `None` if a corner has none.
+    /// The texture coordinates at barycentric coordinates; `None` if a corner has none.
     pub fn uv(&self, barycentric: [f32; 3]) -> Option<[f64; 2]> {
         let mut sum = glam::DVec2::ZERO;
         for (corner, weight) in self.corners()?.iter().zip(barycentric) {
@@ -82,12 +82,12 @@ impl FaceInFile {
     }
 }
 
-/// Opens a regular file, which can be read twice, or the embedded scene.
+/// Opens a regular file, which can be read twice, or the built-in scene.
 fn open(path: Option<&Path>) -> io::Result<Box<dyn Read>> {
     let Some(path) = path else {
         return Ok(Box::new(crate::document::DEFAULT_OBJ.as_bytes()));
     };
-    // Opening a pipe would wait for a writer.
+    // Opening a pipe would block until there is a writer.
     if !std::fs::metadata(path)?.is_file() {
         let why = "only a regular file can be read again";
         return Err(io::Error::new(io::ErrorKind::Unsupported, why));
@@ -95,14 +95,14 @@ fn open(path: Option<&Path>) -> io::Result<Box<dyn Read>> {
     Ok(Box::new(File::open(path)?))
 }
 
-/// A face that is being looked up; dropped, it stops.
+/// A lookup in progress, which dropping cancels.
 pub struct FaceLookup {
     task: Task<FaceInFile>,
     progress: Progress,
 }
 
 impl FaceLookup {
-    /// Starts to look up the face of a triangle, which begins on a line.
+    /// Starts to look up the face of a triangle; the face begins at `line`.
     pub fn start(
         path: Option<PathBuf>,
         scene: &Arc<Scene>,
@@ -141,7 +141,7 @@ mod tests {
     use hitscope_core::mesh::shapes::mesh;
 
     #[test]
-    fn a_triangles_corners_are_found_in_its_polygon_unless_the_file_changed() {
+    fn a_triangles_corners_are_found_in_its_polygon_unless_the_file_has_changed() {
         let corner = |vertex, position, uv: [f64; 2]| FaceCorner {
             vertex,
             position,

@@ -4,23 +4,23 @@ use glam::{DVec3, Vec3};
 use hitscope_core::mesh::{Flaw, FlawLocations, Health};
 use hitscope_core::{Aabb, TriangleMesh};
 
-/// One flaw, and what is around it.
+/// One flaw and its surroundings.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FlawPlace {
     /// The kind of flaw.
     pub flaw: Flaw,
-    /// Its index among the flaws of the kind, counted from 0.
+    /// Index among the flaws of the kind, counted from 0.
     pub index: usize,
-    /// The middle of it, in the scene's coordinates.
+    /// Its centre, in the scene's coordinates.
     pub point: DVec3,
-    /// The box around the triangles beside it.
+    /// Bounds of the adjacent triangles.
     pub bounds: Aabb,
-    /// A face beside it, counted from 0.
+    /// An adjacent face, counted from 0.
     pub face: Option<u32>,
 }
 
 impl FlawPlace {
-    /// Looks a flaw up in a mesh; `None` if there are fewer of the kind.
+    /// Finds a flaw in a mesh; `None` if the index is out of range.
     pub fn find(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> Option<Self> {
         let vertices = vertices(mesh, health, flaw, index)?;
         let positions = || {
@@ -52,7 +52,7 @@ impl FlawPlace {
     }
 }
 
-/// The middle of a flaw, in the scene's coordinates.
+/// The centre of a flaw, in the scene's coordinates.
 pub fn point(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> Option<DVec3> {
     let vertices = vertices(mesh, health, flaw, index)?;
     let positions = vertices
@@ -62,7 +62,7 @@ pub fn point(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> 
     Some(sum / vertices.len() as f64)
 }
 
-/// The vertices of a flaw: of a triangle, of an edge, or one alone.
+/// The vertices of a flaw: those of a triangle or an edge, or a single one.
 fn vertices(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> Option<Vec<u32>> {
     match health.places(flaw) {
         FlawLocations::Edges(edges) => edges.get(index).map(|edge| edge.to_vec()),
@@ -81,7 +81,7 @@ mod tests {
     use hitscope_core::mesh::shapes::mesh;
 
     #[test]
-    fn a_flaw_has_a_point_the_triangles_beside_it_and_a_face() {
+    fn a_flaw_has_a_centre_bounds_and_a_face() {
         let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, 10.0 * Vec3::Z, Vec3::ONE];
         let two = mesh(corners, vec![[0, 1, 2], [0, 1, 4]]);
         let health = Health::of(&two);

@@ -1,22 +1,22 @@
-//! hitscope's viewer: a progressively ray-traced picture, the mesh's lines over it, and the inspection of
-//! clicked pixels.
+//! hitscope's viewer: a progressively ray-traced picture with the mesh's lines over it, and inspection of clicked
+//! pixels.
 //!
 //! | module | contents |
 //! |---|---|
 //! | [`cli`] | the command line |
-//! | [`app`] | the app: its state and the order of a frame |
-//! | [`bindings`] | keys and pointer |
-//! | [`display`] | the display server of the window |
+//! | [`app`] | the app: its state and the order of work in a frame |
+//! | [`bindings`] | key and pointer bindings |
+//! | [`display`] | the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
-//! | [`tracer`] | the picture in progress |
+//! | [`tracer`] | tracing of the window's picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
-//! | [`task`] | background work |
-//! | [`overlay`], [`gpu`] | drawing the picture, and lines over it |
-//! | [`face_lookup`], [`flaw_place`] | the picked face in its file, and the place of a flaw |
-//! | [`numbers`], [`theme`] | numbers as text, and colours |
-//! | [`panels`], [`settings`] | the side panel and the settings |
-//! | [`storage`], [`window`] | settings kept between runs, and the window itself |
-//! | [`offscreen`], [`screenshot`] | pictures in files |
+//! | [`task`] | background tasks |
+//! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
+//! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
+//! | [`numbers`], [`theme`] | number formatting; colours |
+//! | [`panels`], [`settings`] | the tabs of the side panel; the settings |
+//! | [`storage`], [`window`] | storage of the settings; the window's size and end |
+//! | [`offscreen`], [`screenshot`] | the overlay without a window; `--screenshot` |
 
 pub mod app;
 pub mod bindings;
@@ -49,6 +49,6 @@ extern crate self as hitscope;
 #[path = "../../tests/viewer/harness.rs"]
 #[expect(
     dead_code,
-    reason = "its other functions are for the integration tests"
+    reason = "its other functions are used by the integration tests"
 )]
 mod harness;

@@ -1,8 +1,8 @@
-//! Numbers as text.
+//! Number formatting.
 
 use std::fmt::{Display, LowerExp};
 
-/// `1234567` as `1 234 567`, with narrow spaces.
+/// A number with its digits in groups of three, separated by narrow spaces: `1 234 567`.
 pub fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
@@ -15,13 +15,13 @@ pub fn grouped(number: usize) -> String {
     text
 }
 
-/// `1 triangle`, `2 triangles`.
+/// A number and its noun: `1 triangle`, `2 triangles`.
 pub fn counted(number: usize, noun: &str) -> String {
     let ending = if number == 1 { "" } else { "s" };
     format!("{} {noun}{ending}", grouped(number))
 }
 
-/// All digits of an f32 or f64, with an exponent where there would be many zeros; zero without a sign.
+/// All digits of an f32 or f64, with an exponent instead of many zeros; zero has no sign.
 pub fn number(x: impl Into<f64> + Display + LowerExp + Copy) -> String {
     let size = x.into().abs();
     if size == 0.0 {
@@ -33,7 +33,7 @@ pub fn number(x: impl Into<f64> + Display + LowerExp + Copy) -> String {
     }
 }
 
-/// A number rounded to significant digits, at least one; zero without a sign.
+/// A number rounded to significant digits, at least one; zero has no sign.
 pub fn significant(x: f64, digits: usize) -> String {
     if x == 0.0 {
         return "0".to_owned();
@@ -60,14 +60,14 @@ mod tests {
     }
 
     #[test]
-    fn one_is_singular() {
+    fn nouns_are_singular_after_one() {
         assert_eq!(counted(0, "triangle"), "0 triangles");
         assert_eq!(counted(1, "triangle"), "1 triangle");
         assert_eq!(counted(1200, "line"), "1\u{202f}200 lines");
     }
 
     #[test]
-    fn small_and_large_numbers_have_an_exponent_and_zero_no_sign() {
+    fn small_and_large_numbers_have_an_exponent_and_zero_has_no_sign() {
         assert_eq!(number(1.456_372_9e-12_f32), "1.4563729e-12");
         assert_eq!(number(-0.0_f32), "0");
         assert_eq!(number(0.25_f32), "0.25");

@@ -1,4 +1,4 @@
-//! The overlay without a window: for `render --wireframe` and `--normals`.
+//! Drawing of the overlay without a window, for `render --wireframe` and `--normals`.
 
 use crate::gpu::GpuError;
 use crate::gpu::adapter::Gpu;
@@ -16,7 +16,7 @@ use std::sync::Arc;
 /// Draws edges and normals over a rendered picture.
 ///
 /// # Errors
-/// See [`GpuError`]: without an adapter there is nothing to draw with.
+/// See [`GpuError`].
 pub fn draw_over(
     Gpu { device, queue, .. }: &Gpu,
     pixels: &mut [[u8; 4]],
@@ -76,7 +76,7 @@ pub fn draw_over(
     Ok(())
 }
 
-/// Whether the device takes a picture of this size, and gives it back.
+/// Checks that the device can hold a picture of this size and a buffer to read it back.
 fn require_size(device: &wgpu::Device, size: UVec2) -> Result<(), GpuError> {
     let (limits, side) = (device.limits(), size.max_element());
     let bytes = row_bytes(size.x) * u64::from(size.y);
@@ -91,12 +91,12 @@ fn require_size(device: &wgpu::Device, size: UVec2) -> Result<(), GpuError> {
     Ok(())
 }
 
-/// Bytes of a row in a buffer that a texture is copied to.
+/// Bytes per row of a buffer that a texture is copied to.
 fn row_bytes(width: u32) -> u64 {
     (4 * u64::from(width)).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT.into())
 }
 
-/// The pixels of a texture of four bytes each.
+/// Reads back the pixels of a texture with four bytes per pixel.
 ///
 /// # Errors
 /// [`GpuError::ReadBack`].
@@ -149,7 +149,7 @@ pub fn read_back(
     Ok(pixels.collect())
 }
 
-/// A pixel with alpha multiplied in over an opaque one, both sRGB-encoded.
+/// Blends a pixel with premultiplied alpha over an opaque one, both sRGB-encoded.
 fn blend(under: [u8; 4], over: [u8; 4]) -> [u8; 4] {
     let rest = 255 - u32::from(over[3]);
     let channel = |k: usize| {
@@ -164,7 +164,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn nothing_over_a_pixel_leaves_it_and_an_opaque_one_replaces_it() {
+    fn a_transparent_pixel_leaves_the_one_below_and_an_opaque_one_replaces_it() {
         let under = [10, 100, 255, 255];
         assert_eq!(blend(under, [0; 4]), under);
         assert_eq!(blend(under, [1, 2, 3, 255]), [1, 2, 3, 255]);

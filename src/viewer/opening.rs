@@ -1,4 +1,4 @@
-//! Opening files: the system's dialog, the field for a typed path, and the thread that loads.
+//! Opening files: the system's dialog, the path field, and the loading thread.
 
 use crate::document::Document;
 use crate::panels::progress::progress_ui;
@@ -10,22 +10,22 @@ use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
-/// A dialog that ends without a file in less time than this was never shown.
+/// A dialog that ends without a file in less than this time was never shown.
 const TOO_QUICK: Duration = Duration::from_millis(200);
 
-/// The dialog that Ctrl+O shows, or the field for a typed path.
+/// The system's file dialog, or the path field that replaces it.
 #[derive(Default)]
 pub struct OpenDialog {
     native: Option<Task<Choice>>,
-    /// Stands in for the system's dialog.
+    /// Replaces the system's dialog.
     field: Option<PathField>,
 }
 
-/// How the system's dialog ended.
+/// The result of the system's dialog.
 struct Choice {
     path: Option<PathBuf>,
-    /// Whether the dialog can have been on the screen: rfd returns the same for a dialog that the user cancelled
-    /// and for one that doesn't exist.
+    /// Whether the dialog may have been on the screen. rfd returns the same result for a cancelled dialog and for
+    /// a missing one.
     was_shown: bool,
 }
 
@@ -46,7 +46,7 @@ impl PathField {
 }
 
 impl OpenDialog {
-    /// Shows the system's dialog; if it is open already and perhaps lost, the field for a typed path.
+    /// Shows the system's dialog, or the path field if the dialog is already open and perhaps hidden.
     pub fn open(&mut self, ctx: &egui::Context, frame: &eframe::Frame, folder: Option<&Path>) {
         if self.native.is_some() {
             self.field.get_or_insert_with(|| {
@@ -64,7 +64,7 @@ impl OpenDialog {
         if let Some(folder) = folder {
             dialog = dialog.set_directory(folder);
         }
-        // The future is made here, as macOS demands, and waited for elsewhere.
+        // Created on this thread, as macOS requires, and awaited on another.
         let choice = dialog.pick_file();
         let wait = move || {
             let start = Instant::now();
@@ -77,7 +77,7 @@ impl OpenDialog {
         self.native = Some(Task::spawn("dialog", ctx, wait));
     }
 
-    /// The path that was chosen in the system's dialog, once.
+    /// Returns the path chosen in the system's dialog, once.
     pub fn poll(&mut self) -> Option<PathBuf> {
         let choice = match self.native.as_ref()?.poll() {
             Ok(None) => return None,
@@ -92,21 +92,21 @@ impl OpenDialog {
             self.field = None;
         } else if !choice.was_shown {
             self.field = Some(PathField::because(if cfg!(target_os = "linux") {
-                "This system shows no file dialog: xdg-desktop-portal or zenity would provide one. \
-                 Type a path, or drop a file on the window."
+                "This system has no file dialog; xdg-desktop-portal or zenity provides one. \
+                 Type a path or drop a file on the window."
             } else {
-                "The system's file dialog couldn't be shown. Type a path, or drop a file on the window."
+                "The system's file dialog couldn't be shown. Type a path or drop a file on the window."
             }));
         }
         choice.path
     }
 
-    /// Closes the field for a typed path; whether it was there.
+    /// Closes the path field. Returns whether it was open.
     pub fn dismiss(&mut self) -> bool {
         self.field.take().is_some()
     }
 
-    /// The field for a typed path, if it is needed; the path once it is entered.
+    /// Shows the path field if it is open. Returns the path once it is entered.
     pub fn field_ui(&mut self, ctx: &egui::Context) -> Option<PathBuf> {
         let field = self.field.as_mut()?;
         let mut is_open = true;
@@ -145,12 +145,12 @@ impl OpenDialog {
     }
 }
 
-/// Whether the system has a file dialog that rfd can show. Only Linux may lack one.
+/// Whether rfd can show a file dialog on this system. Only Linux may lack one.
 fn has_dialog() -> bool {
     !cfg!(target_os = "linux") || has_linux_dialog(&|name| std::env::var_os(name))
 }
 
-/// A portal that the session bus can start, or zenity.
+/// Whether there is a portal that the session bus can start, or zenity.
 fn has_linux_dialog(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> bool {
     const PORTAL: &str = "dbus-1/services/org.freedesktop.portal.Desktop.service";
     let any_holds = |folders: &OsStr, file: &str| {
@@ -160,7 +160,7 @@ fn has_linux_dialog(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> bo
         let folders = variable(name).filter(|folders| !folders.is_empty());
         any_holds(&folders.unwrap_or(default.into()), file)
     };
-    // A sandbox reaches the portal of the system around it.
+    // A sandboxed program uses the portal of the host system.
     let is_sandboxed = variable("SNAP").is_some() || Path::new("/.flatpak-info").exists();
     is_sandboxed
         || holds("PATH", "", "zenity")
@@ -168,7 +168,7 @@ fn has_linux_dialog(variable: &dyn Fn(&str) -> Option<std::ffi::OsString>) -> bo
         || holds("XDG_DATA_HOME", "", PORTAL)
 }
 
-/// A file on its way to the screen.
+/// A file that is being loaded.
 pub struct Loading {
     /// The file.
     pub path: PathBuf,
@@ -177,7 +177,7 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// Starts the thread that loads.
+    /// Starts the loading thread.
     pub fn start(
         path: PathBuf,
         load_options: LoadOptions,
@@ -195,7 +195,7 @@ impl Loading {
         }
     }
 
-    /// The document or what is wrong with the file, once it is known.
+    /// The document or the load error, once loading has finished.
     ///
     /// # Errors
     /// [`TaskPanicked`] if the thread panicked.
@@ -203,12 +203,12 @@ impl Loading {
         self.task.poll()
     }
 
-    /// Asks the thread to stop.
+    /// Signals the thread to stop.
     pub fn cancel(&self) {
         self.progress.cancel();
     }
 
-    /// The phase, the bytes read, and a button that cancels; whether it was pressed.
+    /// Shows the phase, the bytes read and a cancel button. Returns whether it was clicked.
     #[must_use]
     pub fn progress_ui(&self, ui: &mut egui::Ui) -> bool {
         let row = ui.horizontal(|ui| {
@@ -225,11 +225,11 @@ mod tests {
     use std::ffi::OsString;
 
     #[test]
-    fn zenity_or_a_portal_is_a_dialog_and_an_empty_system_has_none() {
+    fn a_file_dialog_requires_zenity_or_a_portal() {
         let folder = tempfile::tempdir().expect("a folder");
         let has = |name: &'static str, value: &Path| {
             let value: OsString = value.into();
-            // Nothing of this machine is looked at.
+            // Independent of this machine's environment.
             let empty =
                 |name: &str| matches!(name, "PATH" | "XDG_DATA_DIRS").then(|| "none".into());
             has_linux_dialog(&move |asked: &str| {

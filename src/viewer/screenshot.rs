@@ -1,25 +1,25 @@
-//! `--screenshot`: saves a picture of the window when rendering has converged, and quits.
+//! The `--screenshot` option: saves a picture of the window when rendering has converged, and quits.
 
 use glam::UVec2;
 use hitscope_lab::commands::Output;
 use std::sync::{Arc, Mutex, PoisonError};
 use std::time::{Duration, Instant};
 
-/// When a screenshot is taken, and where it goes.
+/// Time and destination of a screenshot.
 #[derive(Clone, Debug)]
 pub struct ScreenshotOptions {
     /// The PNG file to write.
     pub output: Output,
-    /// When it is taken; `None`: when rendering has converged.
+    /// Time from the start to the screenshot; `None` to wait until rendering has converged.
     pub after: Option<Duration>,
-    /// The result, for the caller to look at after the window has closed.
+    /// The result, which the caller reads after the window has closed.
     pub outcome: Outcome,
 }
 
-/// The result of a screenshot; `None` while it isn't done.
+/// The result of a screenshot; `None` until it is taken.
 pub type Outcome = Arc<Mutex<Option<Result<(), String>>>>;
 
-/// A screenshot to be taken.
+/// A pending screenshot.
 pub struct Screenshot {
     options: ScreenshotOptions,
     since: Instant,
@@ -36,7 +36,7 @@ impl Screenshot {
         }
     }
 
-    /// Gives up, and closes the window: there is nothing to take a picture of.
+    /// Sets the outcome to an error and closes the window.
     pub fn fail(&self, ctx: &egui::Context, message: String) {
         let mut outcome = self
             .options
@@ -47,7 +47,7 @@ impl Screenshot {
         ctx.send_viewport_cmd(egui::ViewportCommand::Close);
     }
 
-    /// Takes the picture when it is time, and closes the window when it has been written.
+    /// Requests the screenshot when it is due, and closes the window once the file is written.
     pub fn step(&mut self, ctx: &egui::Context, is_settled: bool) {
         if self.is_requested {
             let outcome = self.options.outcome.lock();

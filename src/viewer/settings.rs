@@ -20,16 +20,16 @@ pub enum Tab {
     /// View, shading, kernel, overlay, camera.
     #[serde(alias = "View")]
     Display,
-    /// Contents and flaws of the file.
+    /// Contents and flaws of the mesh.
     Mesh,
     /// Speed and accuracy of the kernels in this scene.
     Trade,
 }
 
-/// How wide the side panel may be, in points.
+/// Allowed widths of the side panel, in points.
 pub const PANEL_WIDTHS: RangeInclusive<f32> = 240.0..=460.0;
 
-/// See the [module](self). A name that this version doesn't know stands for the default.
+/// The settings of the window. Unknown names of views and kernels stand for the defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -37,12 +37,12 @@ pub struct Settings {
     pub view: String,
     /// Name of the kernel.
     pub kernel: String,
-    /// Name of a kernel to use instead until the program ends.
+    /// Name of a kernel to use instead for this session.
     #[serde(skip)]
     pub session_kernel: Option<String>,
-    /// Name of the kernel that the chosen one is compared with.
+    /// Name of the kernel that the selected kernel is compared with.
     pub against: String,
-    /// Whether normals are interpolated.
+    /// Whether shading is smooth.
     pub is_smooth: bool,
     /// Whether the wireframe is drawn.
     pub shows_wireframe: bool,
@@ -52,7 +52,7 @@ pub struct Settings {
     pub wire_colour: [u8; 3],
     /// Whether normals are drawn.
     pub shows_normals: bool,
-    /// Length of the normals, relative to the mesh's radius.
+    /// Length of the normals, as a fraction of the mesh's radius.
     pub normal_length: f32,
     /// Samples per pixel of the finished picture; a power of two.
     pub samples: u32,
@@ -70,11 +70,11 @@ pub struct Settings {
     pub shows_panel: bool,
     /// The tab of the side panel.
     pub tab: Tab,
-    /// Its width in points.
+    /// Width of the side panel in points.
     pub panel_width: f32,
-    /// Scale of everything but the picture.
+    /// Scale of the user interface, which excludes the picture.
     pub zoom: f32,
-    /// Dark, light, or the system's.
+    /// Dark, light, or the system's theme.
     pub theme: ThemePreference,
 }
 
@@ -119,18 +119,18 @@ impl Settings {
         triangle_kernel(name).unwrap_or_else(default_triangle_kernel)
     }
 
-    /// Uses a kernel until the program ends, without replacing the one that is kept between runs.
+    /// Uses a kernel for this session, without replacing the one that is kept between runs.
     pub fn use_for_session(&mut self, kernel: &str) {
         self.session_kernel = (kernel != self.kernel).then(|| kernel.to_owned());
     }
 
-    /// Uses a kernel, and keeps it between runs.
+    /// Uses a kernel and keeps it between runs.
     pub fn keep_kernel(&mut self, kernel: &str) {
         self.session_kernel = None;
         self.kernel = kernel.to_owned();
     }
 
-    /// Options for building a scene: the first picture soon, packed for speed or for memory.
+    /// Options for building a scene: quick first tree, packed for speed or for memory.
     pub fn scene_options(&self) -> SceneOptions {
         SceneOptions {
             first_tree: FirstTree::Quick,
@@ -142,13 +142,13 @@ impl Settings {
         }
     }
 
-    /// The kernel that the view compares the chosen one with, if it compares.
+    /// The kernel that a comparing view compares the selected kernel with.
     pub fn second_kernel(&self) -> Option<&'static TriangleKernel> {
         let chosen = triangle_kernel(&self.against).unwrap_or_else(exact_triangle_kernel);
         self.view().against.kernel(chosen)
     }
 
-    /// Flat or smooth.
+    /// Flat or smooth shading.
     pub fn shading(&self) -> Shading {
         if self.is_smooth {
             Shading::Smooth
@@ -157,7 +157,7 @@ impl Settings {
         }
     }
 
-    /// Where smooth shading has creases.
+    /// The creases of smooth shading.
     pub fn crease(&self) -> Crease {
         if self.has_crease {
             Crease::Above(self.crease_degrees.to_radians())
@@ -177,7 +177,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_kernel_for_the_session_is_used_but_not_kept() {
+    fn a_session_kernel_is_used_but_not_stored() {
         let mut settings = Settings::default();
         let kept = settings.kernel.clone();
         settings.use_for_session("exact");
@@ -192,7 +192,7 @@ mod tests {
     }
 
     #[test]
-    fn the_up_axis_is_kept() {
+    fn the_up_axis_is_stored() {
         let settings = Settings {
             is_z_up: true,
             ..Settings::default()

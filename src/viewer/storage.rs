@@ -1,7 +1,7 @@
-//! Settings kept between runs. Whatever the file holds, the settings read from it can be used.
+//! Storage of the settings between runs. Settings read from any file are valid.
 //!
-//! eframe writes the file `app.ron`, a table of texts by name, at the end and twice a minute. The settings are one of
-//! the texts, as JSON: each of them is read by itself, so that one bad value costs no other.
+//! eframe writes the file `app.ron`, a table of strings by name, at the end and twice per minute. The settings are one
+//! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
 use crate::settings::{PANEL_WIDTHS, Settings};
 use hitscope_core::integrator::integrator;
@@ -14,24 +14,24 @@ use std::io::Read as _;
 use std::ops::RangeInclusive;
 use std::path::Path;
 
-/// Names the folder of the file, and the program to the desktop.
+/// The name of the settings folder, and the program's name for the desktop.
 pub const APP_ID: &str = "hitscope";
 
-/// The settings' name in eframe's table.
+/// Name of the settings in eframe's table.
 const KEY: &str = "settings";
-/// The name of what egui remembers of its widgets, which earlier versions had it store.
+/// Name of egui's widget state, which earlier versions stored.
 const EGUI_KEY: &str = "egui";
-/// The file has some thousand bytes; a larger one isn't read.
+/// Size limit of the file, which usually has some thousand bytes; a larger one isn't read.
 const MAX_BYTES: u64 = 1 << 20;
 
-/// As far as Ctrl+Plus and Ctrl+Minus go.
+/// The range of Ctrl+Plus and Ctrl+Minus.
 const ZOOMS: RangeInclusive<f32> = 0.2..=5.0;
-/// As far as their controls go.
+/// The range of the control in the Display tab.
 const NORMAL_LENGTHS: RangeInclusive<f32> = 0.002..=0.5;
 const CREASES: RangeInclusive<f32> = 0.0..=180.0;
 const MAX_SAMPLES: u32 = 4096;
 
-/// What was stored last, or the defaults.
+/// The settings that were stored last, or the defaults.
 pub fn stored_settings() -> Settings {
     let folder = eframe::storage_dir(APP_ID);
     folder
@@ -47,7 +47,7 @@ fn read(path: &Path) -> Option<Settings> {
     Some(from_json(texts.get(KEY)?))
 }
 
-/// Hands the settings to eframe, which writes the file.
+/// Passes the settings to eframe, which writes the file.
 pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
     if let Ok(text) = serde_json::to_string(settings) {
         storage.set_string(KEY, text);
@@ -57,7 +57,7 @@ pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
     }
 }
 
-/// The settings that can be read and used; the default for any other.
+/// Parses the settings; a setting that is missing or invalid has its default.
 fn from_json(text: &str) -> Settings {
     let default = Settings::default();
     let (Ok(Value::Object(stored)), Ok(Value::Object(mut kept))) =
@@ -67,7 +67,7 @@ fn from_json(text: &str) -> Settings {
     };
     for (name, value) in stored {
         let Some(old) = kept.insert(name.clone(), value) else {
-            // A setting of another version.
+            // An unknown setting, from another version.
             kept.remove(&name);
             continue;
         };
@@ -78,7 +78,7 @@ fn from_json(text: &str) -> Settings {
     Settings::deserialize(Value::Object(kept)).map_or(default, usable)
 }
 
-/// Replaces values that nothing in the window could have set.
+/// Replaces values that the window can't have set by the defaults.
 fn usable(settings: Settings) -> Settings {
     let default = Settings::default();
     let number = |value: f32, range: RangeInclusive<f32>, default: f32| {
@@ -136,7 +136,7 @@ mod tests {
         }
     }
 
-    /// The chosen settings with other JSON in the place of a value.
+    /// The chosen settings with one value replaced by other JSON.
     fn with(name: &str, value: &str) -> Settings {
         let text = serde_json::to_string(&chosen()).expect("JSON");
         let mut fields: HashMap<String, Value> = serde_json::from_str(&text).expect("an object");
@@ -147,13 +147,13 @@ mod tests {
     }
 
     #[test]
-    fn settings_are_read_as_they_were_stored() {
+    fn stored_settings_are_read_back() {
         let text = serde_json::to_string(&chosen()).expect("JSON");
         assert_eq!(from_json(&text), chosen());
     }
 
     #[test]
-    fn a_bad_value_becomes_the_default_and_costs_no_other() {
+    fn a_bad_value_becomes_the_default_and_affects_no_other() {
         let default = Settings::default();
         for zoom in ["0", "-1", "NaN", "1000", "1e39", "null", "\"large\"", "[1]"] {
             let expected = Settings {
@@ -178,7 +178,7 @@ mod tests {
             let kept =
                 |settings: &Settings| serde_json::to_value(settings).expect("JSON")[name].clone();
             assert_eq!(kept(&read), kept(&default), "{name}");
-            assert!(read.is_smooth, "{name} costs no other");
+            assert!(read.is_smooth, "{name} affects no other");
         }
         for name in ["normal_length", "crease_degrees"] {
             let read = with(name, "-1");
@@ -194,7 +194,7 @@ mod tests {
     }
 
     #[test]
-    fn a_file_that_holds_no_settings_gives_the_defaults() {
+    fn a_file_without_settings_gives_the_defaults() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("app.ron");
         assert_eq!(read(&path), None, "no file");

@@ -1,19 +1,19 @@
-//! Work that the window doesn't wait for: one thread, one result.
+//! Background tasks: one thread, one result.
 
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 
-/// A result that a thread is working on.
+/// A thread and its future result.
 pub struct Task<T>(Receiver<T>);
 
-/// The thread ended without a result: it panicked.
+/// The error of a thread that ended without a result: it panicked.
 #[derive(Clone, Copy, Debug, thiserror::Error)]
-#[error("an internal error ended the work; the terminal has the details")]
+#[error("internal error; see the terminal for details")]
 pub struct TaskPanicked;
 
 impl<T: Send + 'static> Task<T> {
-    /// Starts a thread of this name; `ctx` is repainted when the result is there.
+    /// Starts a thread with this name. Requests a repaint of `ctx` when the thread ends.
     ///
-    /// If the system grants no thread, [`poll`](Self::poll) says [`TaskPanicked`].
+    /// If the thread can't be started, [`poll`](Self::poll) returns [`TaskPanicked`].
     pub fn spawn(
         name: &str,
         ctx: &egui::Context,
@@ -24,20 +24,20 @@ impl<T: Send + 'static> Task<T> {
         #[cfg(test)]
         let work = sabotage::wrap(name, work);
         let run = move || {
-            // Dropped last, after the result was sent or the work panicked.
+            // Dropped last, after the result is sent or the work panics.
             let _repaint = repaint;
-            // Nobody waits any more if the window is closed.
+            // The receiver is gone if the window has been closed.
             _ = sender.send(work());
         };
-        // Without a thread the sender is gone, which is what `poll` reports.
+        // Without a thread the sender is dropped, which `poll` reports.
         _ = std::thread::Builder::new().name(name.to_owned()).spawn(run);
         Self(receiver)
     }
 
-    /// The result, once it is there.
+    /// The result, once it is ready.
     ///
     /// # Errors
-    /// [`TaskPanicked`] if it will never be.
+    /// [`TaskPanicked`] if the thread panicked.
     pub fn poll(&self) -> Result<Option<T>, TaskPanicked> {
         match self.0.try_recv() {
             Ok(result) => Ok(Some(result)),
@@ -47,7 +47,7 @@ impl<T: Send + 'static> Task<T> {
     }
 }
 
-/// Work on one of several things that could be wanted.
+/// A task for one of several keys.
 pub struct KeyedTask<K, T>(Option<(K, Task<T>)>);
 
 impl<K, T> Default for KeyedTask<K, T> {
@@ -57,11 +57,11 @@ impl<K, T> Default for KeyedTask<K, T> {
 }
 
 impl<K: PartialEq, T: Send + 'static> KeyedTask<K, T> {
-    /// The result for `key`, once it is there. Starts the work unless it is under way; work for
-    /// another key is then forgotten.
+    /// The result for `key`, once it is ready. Starts the task unless it is running; a task for
+    /// another key is dropped.
     ///
     /// # Errors
-    /// [`TaskPanicked`] if it will never be; the next call starts anew.
+    /// [`TaskPanicked`] if the thread panicked; the next call starts again.
     pub fn get(
         &mut self,
         key: K,
@@ -91,7 +91,7 @@ impl Drop for RepaintOnDrop {
     }
 }
 
-/// Panics for tests of what a panic does.
+/// Deliberate panics for tests.
 #[cfg(test)]
 pub(crate) mod sabotage {
     use std::cell::RefCell;
@@ -100,16 +100,16 @@ pub(crate) mod sabotage {
         static NAME: RefCell<Option<&'static str>> = const { RefCell::new(None) };
     }
 
-    /// The next task of this name that the calling thread starts panics.
+    /// Makes the next task with this name that the calling thread starts panic.
     pub fn next(name: &'static str) {
         NAME.set(Some(name));
     }
 
-    /// The work of a task, or a panic in its place.
+    /// The work of a task, or a panic instead.
     pub fn wrap<T, W: FnOnce() -> T>(name: &str, work: W) -> impl FnOnce() -> T + use<T, W> {
         let panics = NAME.with_borrow_mut(|next| next.take_if(|next| *next == name).is_some());
         move || {
-            assert!(!panics, "a test lets this task panic");
+            assert!(!panics, "a test makes this task panic");
             work()
         }
     }
@@ -120,7 +120,7 @@ mod tests {
     use super::*;
     use std::time::Duration;
 
-    /// What a task ends with.
+    /// Waits for the result of a task.
     fn end<T: Send + 'static>(task: &Task<T>) -> Result<T, TaskPanicked> {
         loop {
             if let Some(result) = task.poll().transpose() {
@@ -131,9 +131,9 @@ mod tests {
     }
 
     #[test]
-    fn a_task_that_panics_says_so_and_asks_for_a_frame() {
+    fn a_task_that_panics_returns_an_error_and_requests_a_repaint() {
         let ctx = egui::Context::default();
-        // A new context wants frames anyway.
+        // A new context requests repaints anyway.
         for _ in 0..10 {
             let mut output = ctx.run_ui(egui::RawInput::default(), |_| ());
             // Nobody draws.
@@ -152,7 +152,7 @@ mod tests {
     }
 
     #[test]
-    fn a_keyed_task_starts_anew_after_a_panic_and_for_another_key() {
+    fn a_keyed_task_starts_again_after_a_panic_and_for_another_key() {
         let ctx = egui::Context::default();
         let mut keyed = KeyedTask::default();
         let mut get = |key: i32| loop {

@@ -23,7 +23,7 @@ pub fn apply(ctx: &egui::Context) {
     }
 }
 
-/// egui's colours, with those replaced that are hard to read.
+/// egui's colours, except those that are hard to read.
 fn visuals(theme: Theme) -> Visuals {
     match theme {
         Theme::Dark => Visuals {
@@ -41,8 +41,7 @@ fn visuals(theme: Theme) -> Visuals {
     }
 }
 
-/// The background of a view's picture, in linear RGB. Views that compare kernels have colours for a dark
-/// background.
+/// The background of a view's picture, in linear RGB. It is always dark for views that compare kernels.
 pub fn background(view: &Integrator, theme: Theme) -> Vec3 {
     let is_dark = theme == Theme::Dark || view.against != Comparison::Nothing;
     from_display(if is_dark {
@@ -52,7 +51,7 @@ pub fn background(view: &Integrator, theme: Theme) -> Vec3 {
     })
 }
 
-/// The colour of a kernel by its tier; grey for kernels of none.
+/// The colour of a kernel by its tier; grey if it has none.
 pub fn kernel_colour(tier: Option<Tier>, theme: Theme) -> Color32 {
     let [on_dark, on_light] = match tier {
         Some(Tier::Fast) => [[235, 135, 80], [165, 70, 10]],
@@ -89,16 +88,16 @@ mod tests {
     }
 
     #[test]
-    fn contrast_is_what_wcag_computes() {
-        // The weights of the channels are rounded to f32.
+    fn contrast_agrees_with_wcag() {
+        // The channels' coefficients are rounded to f32.
         assert!((contrast(Vec3::ZERO, Vec3::ONE) - 21.0).abs() < 1e-5);
         let grey = linear(Color32::from_gray(0x76));
-        // The well-known lightest grey of level AA on white.
+        // #767676 is the lightest grey of level AA on white.
         assert!((contrast(grey, Vec3::ONE) - 4.54).abs() < 0.005);
     }
 
     #[test]
-    fn text_can_be_read_in_both_themes() {
+    fn text_is_readable_in_both_themes() {
         for theme in [Theme::Dark, Theme::Light] {
             let visuals = visuals(theme);
             let widgets = &visuals.widgets;
@@ -148,7 +147,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_comparison_shows_stands_out_from_the_background() {
+    fn colours_of_comparing_views_differ_from_the_background() {
         for view in INTEGRATORS {
             if view.against == Comparison::Nothing {
                 continue;

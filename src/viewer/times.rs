@@ -1,17 +1,17 @@
-//! The last times of a repeated operation, and their quantiles.
+//! The most recent times of a repeated operation, and their quantiles.
 
 use std::collections::VecDeque;
 use std::time::Duration;
 
-/// The last times of a repeated operation.
+/// The most recent times of a repeated operation.
 #[derive(Debug, Default)]
 pub struct Times(VecDeque<Duration>);
 
 impl Times {
-    /// Number of times kept; one in a hundred of them is several.
+    /// Number of times kept; several of them are above the 99th percentile.
     const KEPT: usize = 500;
 
-    /// Adds a time and drops the oldest.
+    /// Adds a time and drops the oldest if there are too many.
     pub fn push(&mut self, time: Duration) {
         if self.0.len() == Self::KEPT {
             self.0.pop_front();
@@ -24,7 +24,7 @@ impl Times {
         self.0.clear();
     }
 
-    /// Quantiles at the given parts, from 0 to 1; `None` without times.
+    /// Quantiles at the given fractions from 0 to 1; `None` if there are no times.
     fn quantiles<const N: usize>(&self, parts: [f64; N]) -> Option<[Duration; N]> {
         let mut sorted: Vec<Duration> = self.0.iter().copied().collect();
         sorted.sort_unstable();
@@ -43,7 +43,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn quantiles_are_times_that_were_added() {
+    fn quantiles_are_added_times() {
         let mut times = Times::default();
         assert_eq!(times.quantiles([0.5]), None);
         for ms in (1..=100).rev() {

@@ -1,7 +1,7 @@
-//! The tracing of the window's picture: posts jobs to the threads and collects their tiles.
+//! Tracing of the window's picture: posts jobs to the threads and collects their tiles.
 //!
-//! While the camera moves, each new request waits for the first pass of the request before it. That pass is
-//! coarse enough to be quick.
+//! While the camera moves, each new request waits for the first pass of the previous request, which is coarse
+//! enough to be fast.
 
 use crate::times::Times;
 use glam::{UVec2, Vec3};
@@ -14,22 +14,22 @@ use std::ops::{Range, RangeInclusive};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Target time of a frame while the camera moves. Below 33 ms, as a late frame takes twice the interval.
+/// Target time of a frame while the camera moves. Less than 33 ms, as a late frame takes twice the interval.
 const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(30);
-/// Time of the first pass within a frame: drawing the window takes almost no time with a GPU, and half of the
-/// frame without one.
+/// Time of the first pass within a frame. Drawing the window takes almost no time with a GPU, and half of the frame
+/// without one.
 const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration::from_millis(20);
 /// Time limit for collecting tiles in one frame.
 const COLLECTING: Duration = Duration::from_millis(6);
-/// A picture that stays for longer ends a movement.
+/// A picture that stays longer than this ends a movement.
 const LOOK: Duration = Duration::from_millis(250);
-/// Refinement begins when nothing has changed for this long. Until then the processor is free for drawing the
-/// window, which takes most of its time where there is no GPU.
+/// Refinement begins when nothing has changed for this long. Until then the CPU is free to draw the window, which
+/// takes most of its time without a GPU.
 const REST: Duration = Duration::from_millis(80);
-/// Rays per second and thread, until they are measured.
+/// Rays per second per thread, until they are measured.
 const ASSUMED_SPEED: f64 = 1e6;
 
-/// A picture that the window wants.
+/// A request for a picture.
 #[derive(Clone)]
 pub struct Request {
     /// Scene, camera and kernels.
@@ -54,24 +54,24 @@ impl PartialEq for Request {
     }
 }
 
-/// The request that the threads work on.
+/// The request that the threads are working on.
 struct PostedRequest {
     request: Request,
     at: Instant,
-    /// Time from then to the newest tile.
+    /// Time from posting to the newest tile.
     lasted: Duration,
 }
 
 /// Figures for the status line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Status {
-    /// Samples that every pixel has; 0 while the picture consists of coarse blocks.
+    /// Number of samples that every pixel has; 0 while the picture consists of coarse blocks.
     pub samples: u32,
     /// Passes done.
     pub passes: usize,
-    /// Passes in all.
+    /// Total number of passes.
     pub pass_count: usize,
-    /// Rays per second of all threads together, while they trace.
+    /// Rays per second of all threads together, while they are tracing.
     pub rays_per_s: f64,
     /// Time from the last change to the newest tile.
     pub lasted: Duration,
@@ -89,19 +89,19 @@ pub struct Tracer {
     shown_at: Option<Instant>,
     /// Times between the pictures of a movement.
     frame_intervals: Times,
-    /// Time of the first pass with which frames meet their target.
+    /// Time of the first pass, adapted so that frames meet their target.
     first_pass: Duration,
     changed: Option<PixelRect>,
-    /// Rays traced and the seconds that threads spent on them; old ones fade.
+    /// Rays traced and the seconds that threads spent on them, with an exponential decay.
     rays: f64,
     busy_secs: f64,
     /// Paused by the user.
     is_paused: bool,
-    /// Refinement waits until nothing has changed for a while.
+    /// Whether refinement waits until nothing has changed for a while.
     is_held: bool,
-    /// Whether the last picture stayed for a while before the next request.
+    /// Whether the last picture stayed long enough before the next request to end a movement.
     has_rested: bool,
-    /// Whether tiles are shown before their pass is complete.
+    /// Whether tiles are shown before the first pass is complete.
     shows_parts: bool,
     non_finite: u64,
 }
@@ -129,7 +129,7 @@ impl Tracer {
         }
     }
 
-    /// Collects the tiles that the threads have sent; returns panics.
+    /// Collects the tiles that the threads have sent. Returns panics.
     pub fn collect(&mut self, ctx: &egui::Context) -> Vec<RenderPanic> {
         let start = Instant::now();
         let mut panics = Vec::new();
@@ -142,7 +142,7 @@ impl Tracer {
                 }
             }
             if start.elapsed() > COLLECTING {
-                // The rest waits for the next frame.
+                // The remaining tiles are collected in the next frame.
                 ctx.request_repaint();
                 break;
             }
@@ -159,7 +159,7 @@ impl Tracer {
         panics
     }
 
-    /// Notes the time since the picture before.
+    /// Records the time since the previous picture.
     fn count_frame(&mut self) {
         let now = Instant::now();
         let interval = self.shown_at.map(|last| now - last);
@@ -169,7 +169,7 @@ impl Tracer {
                 self.frame_intervals.push(interval);
                 self.adapt(interval);
             }
-            // After a rest another movement begins.
+            // A new movement begins after a rest.
             _ => self.frame_intervals.clear(),
         }
     }
@@ -205,7 +205,7 @@ impl Tracer {
     }
 
     fn add(&mut self, tile: &TileResult) {
-        /// Half of the measured speed is as old as this many seconds of one thread.
+        /// Half-life of the measurements, in seconds of one thread.
         const MEMORY_SECS: f64 = 0.5;
         let rect = self.film.add(&tile.samples);
         self.changed = Some(self.changed.map_or(rect, |changed| changed.union(rect)));
@@ -219,7 +219,7 @@ impl Tracer {
         }
     }
 
-    /// Traces this request: now, or once the first pass of the request before is done.
+    /// Traces a request, now or after the first pass of the previous request.
     pub fn request(&mut self, request: Request) {
         let is_news = self
             .posted
@@ -234,7 +234,7 @@ impl Tracer {
         let size = request.context.camera.resolution();
         let plan = Plan::new(size, self.first_step(size), request.samples);
         let background = request.context.background;
-        // The old picture of the same scene stays until the first pass of the new one is done.
+        // A picture of the same scene stays until the first pass of the new picture is done.
         if self.film.size() == size && is_same_scene {
             self.film.restart(plan.clone(), background);
         } else {
@@ -250,7 +250,7 @@ impl Tracer {
             self.shows_parts = true;
         }
         self.non_finite = 0;
-        // A slow first pass is a slow frame, no rest.
+        // A slow first pass is a slow frame, not a rest.
         self.has_rested = self.shown_at.is_none_or(|at| at.elapsed() > LOOK);
         self.is_held = true;
         self.apply_pause();
@@ -266,7 +266,7 @@ impl Tracer {
         });
     }
 
-    /// The smallest block size with which the first pass is quick enough.
+    /// The smallest block size with which the first pass is fast enough.
     fn first_step(&self, size: UVec2) -> u32 {
         let affordable = self.rays_per_s() * self.first_pass.as_secs_f64();
         let pixels = f64::from(size.x) * f64::from(size.y);
@@ -284,8 +284,8 @@ impl Tracer {
         speed * self.renderer.thread_count() as f64
     }
 
-    /// The picture and the rectangle that changed since the last call; `None` until its first pass is done, except
-    /// for the first picture of a scene.
+    /// The picture and the rectangle that has changed since the last call; `None` until the first pass is done,
+    /// except for the first picture of a scene.
     pub fn take_changes(&mut self) -> Option<(&Film, PixelRect)> {
         if self.film.passes_done() == 0 && !self.shows_parts {
             return None;
@@ -328,7 +328,7 @@ impl Tracer {
         &self.film
     }
 
-    /// Samples of this picture with a colour that isn't finite.
+    /// Number of samples of this picture with a non-finite colour.
     pub fn non_finite(&self) -> u64 {
         self.non_finite
     }

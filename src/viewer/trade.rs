@@ -1,4 +1,4 @@
-//! The measurement of the open scene, in the background.
+//! Background measurement of the kernels' speed and accuracy in the open scene.
 
 use crate::task::Task;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
@@ -18,7 +18,7 @@ pub enum Axis {
 }
 
 impl Axis {
-    /// The value of a kernel.
+    /// The value of a kernel on this axis.
     pub fn value(self, row: &SceneRow) -> f64 {
         match self {
             Self::ErrorOfT => row.t_ulps.map_or(0.0, |t| t.p99),
@@ -26,7 +26,7 @@ impl Axis {
         }
     }
 
-    /// The place of zero, which has no logarithm: below everything that can be measured.
+    /// The value that stands for zero on the logarithmic axis; it is below every measurable value.
     pub fn floor(self) -> f64 {
         match self {
             Self::ErrorOfT => 0.01,
@@ -38,17 +38,17 @@ impl Axis {
 /// The state of a measurement.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum TradeState {
-    /// Under way.
+    /// In progress.
     Measuring,
-    /// Every kernel is measured.
+    /// All kernels have been measured.
     Done,
-    /// Its thread panicked.
+    /// The thread panicked.
     Failed,
 }
 
 /// A measurement of one scene.
 pub struct Trade {
-    /// The rows so far; a longer list replaces it after each kernel, so that the window copies a pointer only.
+    /// The rows so far. A longer list replaces it after each kernel, so that the window only copies a pointer.
     rows: Arc<Mutex<Arc<[SceneRow]>>>,
     progress: Progress,
     task: Task<Result<(), Cancelled>>,
@@ -58,7 +58,7 @@ pub struct Trade {
 }
 
 impl Trade {
-    /// Starts to measure a scene with rays from a camera.
+    /// Starts the measurement of a scene with rays from a camera.
     pub fn start(scene: &Arc<Scene>, camera: Camera, axis: Axis, ctx: &egui::Context) -> Self {
         let rows: Arc<Mutex<Arc<[SceneRow]>>> = Arc::default();
         let progress = Progress::default();
@@ -88,12 +88,12 @@ impl Trade {
         Arc::clone(&self.rows.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
-    /// The number of rows in the end.
+    /// The final number of rows.
     pub fn kernel_count(&self) -> usize {
         TRIANGLE_KERNELS.len()
     }
 
-    /// Updates the state.
+    /// Updates the state from the thread.
     pub fn poll(&mut self) {
         if self.state == TradeState::Measuring {
             self.state = match self.task.poll() {

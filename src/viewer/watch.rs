@@ -1,8 +1,8 @@
-//! Notices that the open file, or one that it names, has changed.
+//! Watching of the open file and the files that it names for changes.
 //!
-//! A thread compares the files' metadata a few times a second. The system's events (inotify and its like) are
-//! quicker, but they end when the watched folder is deleted (`rm -rf out && make`), miss renamed parents and
-//! redirected links, and don't report what other machines write to a network drive.
+//! A thread compares the files' metadata several times per second. File system events (such as inotify's) are
+//! faster, but they end when the watched folder is deleted (`rm -rf out && make`), miss renamed parents and
+//! redirected links, and don't report writes by other machines to a network drive.
 
 use std::io;
 use std::path::{Path, PathBuf};
@@ -11,31 +11,31 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
 use std::time::{Duration, Instant, SystemTime};
 
-/// Programs write a file in several steps. It counts as whole once it has not changed for this long.
+/// Programs write a file in several steps. It counts as complete once it hasn't changed for this long.
 const QUIET: Duration = Duration::from_millis(300);
 /// Time between two comparisons.
 const INTERVAL: Duration = Duration::from_millis(150);
-/// Comparing takes at most one part in this many of the thread's time, however slow the drive is.
+/// The pause after a comparison is at least this many times its duration, for slow drives.
 const IDLE_FACTOR: u32 = 20;
-/// A file's time may be this much earlier than the clock when it was written: systems read the time from their last
-/// timer tick, of which there are at least 100 a second.
+/// A file's time may be this much earlier than the clock at the write: systems use the time of their last timer
+/// tick, of which there are at least 100 per second.
 const TICK: Duration = Duration::from_millis(10);
 
-/// Watches some files until it is dropped.
+/// A watch on some files, which ends when dropped.
 pub struct Watch {
     has_changed: Arc<AtomicBool>,
-    /// Never used to send: the thread ends when this is dropped.
+    /// Never sent to; the thread ends when this is dropped.
     _stop: Sender<()>,
 }
 
 impl Watch {
-    /// Watches a file and those that it names, whether or not they exist yet. A file that was written after
-    /// `since` counts as changed.
+    /// Watches a file and the files that it names, whether or not they exist. A file written after `since` counts as
+    /// changed.
     ///
-    /// A file that is deleted is reported when it is back.
+    /// A deleted file is reported when it exists again.
     ///
     /// # Errors
-    /// The system grants no thread.
+    /// If the thread can't be started.
     pub fn of(
         file: &Path,
         named: &[PathBuf],
@@ -73,7 +73,7 @@ impl Watch {
         })
     }
 
-    /// Whether files have changed since the last call, and are complete. A repaint is requested when they are.
+    /// Whether files have changed since the last call and are complete. A repaint is requested when this becomes true.
     pub fn poll(&self) -> bool {
         self.has_changed.swap(false, Relaxed)
     }
@@ -82,12 +82,12 @@ impl Watch {
 /// The metadata of all files, the mesh first; `None` for a file that doesn't exist.
 type Files = Vec<Option<FileState>>;
 
-/// What differs between two versions of a file.
+/// Metadata that differs between two versions of a file.
 #[derive(Clone, Debug, PartialEq, Eq)]
 struct FileState {
     bytes: u64,
     modified: Option<SystemTime>,
-    /// When the file got its name or its contents, which no program can set to an older time.
+    /// Time when the file's name or contents last changed, which programs can't set.
     changed: Option<SystemTime>,
     /// Device and inode.
     identity: (u64, u64),
@@ -123,20 +123,20 @@ fn identity_of(metadata: &std::fs::Metadata) -> ((u64, u64), Option<SystemTime>)
     ((0, 0), metadata.created().ok())
 }
 
-/// Decides when a change is to be reported.
+/// Decides when to report a change.
 struct Changes {
-    /// What was reported last, or loaded at first; `None` if what was loaded is out of date.
+    /// The state that was reported last, or loaded at first; `None` if the loaded state is out of date.
     reported: Option<Files>,
-    /// What the last comparison saw, and since when it has been so.
+    /// The state at the last comparison; `quiet_since` is the time since which it has been the same.
     last: Files,
     quiet_since: Instant,
 }
 
 impl Changes {
-    /// Files that were loaded at a time and are now in this state.
+    /// Files whose loading began at `since` and whose state is now `files`.
     fn since(since: SystemTime, files: Files, now: Instant) -> Self {
         let latest = SystemTime::now();
-        // A time yet to come, from another machine's clock, would be newer at each load.
+        // A time in the future, from another machine's clock, would be newer at each load.
         let is_newer = |time: SystemTime| time + TICK > since && time <= latest;
         let is_out_of_date = files.iter().flatten().any(|file| {
             let times = [file.modified, file.changed];
@@ -149,8 +149,8 @@ impl Changes {
         }
     }
 
-    /// Takes the files' state; whether the mesh exists, something differs from what was reported, and nothing
-    /// has changed for a while.
+    /// Updates the files' state. Returns whether the mesh exists, the state differs from the reported one, and
+    /// nothing has changed for a while.
     fn is_news(&mut self, files: Files, now: Instant) -> bool {
         if files != self.last {
             (self.last, self.quiet_since) = (files, now);

@@ -1,4 +1,4 @@
-//! The window: its size, which fits the screen, and its end, which may come from outside.
+//! The window: fitting it to the screen, and ending if another program destroys it.
 
 use crate::storage::APP_ID;
 use egui::{Vec2, ViewportBuilder, ViewportCommand, vec2};
@@ -8,13 +8,13 @@ use std::panic::{
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
-/// In points. With a title bar and a panel of the desktop it fits a screen of 1280 × 800.
+/// Initial size in points. With a title bar and a desktop panel it fits a screen of 1280 × 800.
 const SIZE: Vec2 = vec2(1200.0, 700.0);
 const MIN_SIZE: Vec2 = vec2(560.0, 320.0);
-/// What frames, title bars (up to 37 points) and panels (up to 48) of common desktops take of a screen.
+/// Space that frames, title bars (up to 37 points) and panels (up to 48) of common desktops take.
 const DESKTOP: Vec2 = vec2(4.0, 60.0);
 
-/// The window of the first start.
+/// The window at the first start.
 pub fn viewport() -> ViewportBuilder {
     ViewportBuilder::default()
         .with_app_id(APP_ID)
@@ -23,9 +23,10 @@ pub fn viewport() -> ViewportBuilder {
         .with_min_inner_size(MIN_SIZE)
 }
 
-/// The window that eframe restores, without values that could keep it off the screen.
+/// Removes values from a restored window that could put it off the screen.
 ///
-/// eframe checks a stored position only on Windows and macOS; elsewhere the window manager chooses a better one.
+/// eframe checks a stored position only on Windows and macOS; elsewhere the position is dropped, and the window
+/// manager chooses one.
 pub fn checked(viewport: ViewportBuilder) -> ViewportBuilder {
     let is_checked = cfg!(any(target_os = "windows", target_os = "macos"));
     let size = viewport.inner_size.filter(|size| size.is_finite());
@@ -38,7 +39,7 @@ pub fn checked(viewport: ViewportBuilder) -> ViewportBuilder {
     }
 }
 
-/// Maximizes a window, once, that leaves no room for its title bar and the desktop's panel: how much they take only
+/// Maximizes the window, once, if it leaves no room for its title bar and the desktop's panel, whose sizes only
 /// the window manager knows.
 #[derive(Default)]
 pub struct FitToScreen {
@@ -46,7 +47,7 @@ pub struct FitToScreen {
 }
 
 impl FitToScreen {
-    /// Called in each frame. Window managers ignore what is asked of a window that isn't shown yet.
+    /// Called in each frame, since window managers ignore requests of a window that isn't shown yet.
     pub fn step(&mut self, ctx: &egui::Context) {
         if self.is_done || ctx.cumulative_frame_nr() < 3 {
             return;
@@ -64,14 +65,15 @@ impl FitToScreen {
     }
 }
 
-/// Whether a window's contents leave room for the desktop.
+/// Whether a window's contents leave room for frames, title bar and panel.
 fn fits(size: Vec2, screen: Vec2) -> bool {
     (size + DESKTOP).x <= screen.x && (size + DESKTOP).y <= screen.y
 }
 
 /// Runs the window; `None` if another program destroyed it (`xdotool windowclose`, `xkill` by its window).
 ///
-/// X11 then refuses whatever the window is asked for, and winit 0.30 panics: here that is an end like any other.
+/// X11 then refuses every request for the window, and winit 0.30 panics; this function treats the panic as a
+/// normal end.
 pub fn run_until_destroyed<T>(run: impl FnOnce() -> T) -> Option<T> {
     let is_destroyed = Arc::new(AtomicBool::new(false));
     let (shared, report) = (Arc::clone(&is_destroyed), take_hook());
@@ -89,7 +91,7 @@ pub fn run_until_destroyed<T>(run: impl FnOnce() -> T) -> Option<T> {
     }
 }
 
-/// Whether winit panics because X11 doesn't know the window any more: BadWindow or BadDrawable.
+/// Whether winit panicked because the X11 window no longer exists (BadWindow or BadDrawable).
 fn is_of_destroyed_window(panic: &PanicHookInfo<'_>) -> bool {
     let message = panic.payload_as_str().unwrap_or_default();
     let kinds = ["error_kind: Window,", "error_kind: Drawable,"];
@@ -101,16 +103,16 @@ mod tests {
     use super::*;
 
     #[test]
-    fn the_first_window_fits_a_small_laptop_and_not_less() {
+    fn the_first_window_fits_a_small_laptop_but_no_smaller_screen() {
         assert!(fits(SIZE, vec2(1280.0, 800.0)));
         assert!(fits(SIZE, vec2(1366.0, 768.0)));
         assert!(!fits(SIZE, vec2(1280.0, 720.0)));
-        // As eframe limits it.
+        // As limited by eframe.
         assert!(!fits(vec2(800.0, 600.0), vec2(800.0, 600.0)));
     }
 
     #[test]
-    fn a_restored_window_has_a_size_and_a_place_that_can_be_seen() {
+    fn a_restored_window_has_a_valid_size_and_position() {
         for (stored, expected) in [
             (vec2(900.0, 640.0), vec2(900.0, 640.0)),
             (vec2(0.0, 64.0), MIN_SIZE),

@@ -1,4 +1,4 @@
-//! The real app, driven by label and key.
+//! Tests of the real app, driven by labels and keys.
 
 use crate::harness::{Window, app, bare, click, in_picture, press, say, wait};
 use egui::{Key, Modifiers};
@@ -16,7 +16,7 @@ fn write(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
 }
 
 #[test]
-fn a_file_opens_and_a_bad_one_leaves_it_in_place() {
+fn a_file_opens_and_stays_if_the_next_one_is_bad() {
     let folder = tempfile::tempdir().expect("a folder");
     let good = write(&folder, "good.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let bad = write(&folder, "bad.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n");
@@ -80,7 +80,7 @@ impl egui::DroppedFile for Dropped {
     }
 }
 
-/// As if the user had dropped a file on the window.
+/// Drops a file on the window.
 pub fn drop_file(window: &mut Window, path: PathBuf) {
     window
         .input_mut()
@@ -91,12 +91,12 @@ pub fn drop_file(window: &mut Window, path: PathBuf) {
 }
 
 #[test]
-fn the_dialog_falls_back_to_a_path_that_is_typed() {
+fn without_a_file_dialog_a_path_can_be_typed() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = write(&folder, "typed.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
     let Some(mut window) = bare() else { return };
     window.key_press_modifiers(Modifiers::COMMAND, Key::O);
-    // A machine with a portal shows its dialog instead, which nobody answers here.
+    // A machine with a portal shows its own dialog, which this test can't answer.
     for _ in 0..200 {
         window.step();
         if window.query_by_label("Path").is_some() {
@@ -120,7 +120,7 @@ fn the_dialog_falls_back_to_a_path_that_is_typed() {
 }
 
 #[test]
-fn every_switch_of_the_tool_bar_switches_and_so_does_its_key() {
+fn every_toggle_of_the_tool_bar_works_by_button_and_by_key() {
     let Some(mut window) = bare() else { return };
     type State = fn(&App) -> bool;
     let switches: [(&str, Key, State); 6] = [
@@ -190,7 +190,7 @@ fn number_keys_look_along_the_axes() {
 }
 
 #[test]
-fn help_names_every_key() {
+fn help_lists_every_key() {
     let Some(mut window) = bare() else { return };
     press(&mut window, Key::H);
     for binding in hitscope::bindings::KEYS {
@@ -207,11 +207,11 @@ fn help_names_every_key() {
 }
 
 #[test]
-fn every_tab_can_be_read() {
+fn every_tab_can_be_opened() {
     let Some(mut window) = app(None) else { return };
     for (tab, sign) in [
         ("Mesh", "Flaws"),
-        ("Inspect", "Click a pixel to see what its ray hits."),
+        ("Inspect", "Click a pixel to inspect its ray."),
         ("Display", "Theme"),
     ] {
         window.get_by_label(tab).click();
@@ -227,7 +227,7 @@ fn every_tab_can_be_read() {
 }
 
 #[test]
-fn another_kernel_traces_once_it_is_packed() {
+fn a_selected_kernel_is_used_once_it_is_packed() {
     let Some(mut window) = app(None) else { return };
     assert_eq!(
         window.state().document().intersector().kernel().name,
@@ -246,7 +246,7 @@ fn another_kernel_traces_once_it_is_packed() {
 }
 
 #[test]
-fn the_picture_converges_and_pause_holds_it() {
+fn the_picture_converges_unless_paused() {
     let Some(mut window) = bare() else { return };
     press(&mut window, Key::P);
     wait(&mut window, "the pause", App::is_paused);
@@ -284,8 +284,8 @@ fn t_toggles_auto_rotation() {
 }
 
 #[test]
-fn a_window_of_one_pixel_lives_and_the_picture_comes_back_as_it_was() {
-    // A side panel would stay as narrow as the window made it.
+fn a_window_can_shrink_to_one_pixel_and_the_old_size_restores_the_picture() {
+    // Without the side panel, which would stay narrow.
     let Some(mut window) = bare() else { return };
     wait(&mut window, "all samples", App::is_settled);
     let before = window.state().film().clone();
@@ -301,7 +301,7 @@ fn a_window_of_one_pixel_lives_and_the_picture_comes_back_as_it_was() {
 }
 
 #[test]
-fn the_window_shows_the_traced_picture_pixel_by_pixel() {
+fn the_window_shows_the_exact_pixels_of_the_traced_picture() {
     let Some(mut window) = app(None) else { return };
     wait(&mut window, "all samples", App::is_settled);
     window.step();
@@ -317,7 +317,7 @@ fn the_window_shows_the_traced_picture_pixel_by_pixel() {
 }
 
 #[test]
-fn escape_closes_an_open_menu_and_only_then_clears_the_pick() {
+fn escape_closes_an_open_menu_before_it_clears_the_pick() {
     let Some(mut window) = app(None) else { return };
     let corner = in_picture(&window, 0.01, 0.01);
     click(&mut window, corner);
@@ -336,7 +336,7 @@ fn escape_closes_an_open_menu_and_only_then_clears_the_pick() {
 }
 
 #[test]
-fn keys_choose_the_up_axis() {
+fn keys_set_the_up_axis() {
     let Some(mut window) = bare() else { return };
     for (key, axis) in [(Key::Z, UpAxis::Z), (Key::Y, UpAxis::Y)] {
         window.key_press_modifiers(Modifiers::COMMAND, key);

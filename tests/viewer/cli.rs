@@ -1,9 +1,9 @@
-//! The built program's exit statuses, and what it does without a display.
+//! Tests of the program's exit statuses and of its behaviour without a display.
 
 use crate::program::{Program, assert_fails, stderr, stdout};
 
 #[test]
-fn exit_statuses_tell_done_from_bad_input_from_bad_usage() {
+fn exit_statuses_distinguish_success_bad_input_and_bad_usage() {
     let program = Program::new();
     for (line, status, message) in [
         (
@@ -24,7 +24,7 @@ fn exit_statuses_tell_done_from_bad_input_from_bad_usage() {
 }
 
 #[test]
-fn without_a_display_the_picture_goes_to_a_file() {
+fn without_a_display_a_picture_is_written_to_a_file() {
     let program = Program::new();
     for (line, name) in [("", "the built-in scene"), ("good.obj", "good.obj")] {
         let ran = program.run(line);
@@ -45,7 +45,7 @@ fn without_a_display_the_picture_goes_to_a_file() {
 }
 
 #[test]
-fn a_simd_level_that_the_machine_does_not_have_is_refused() {
+fn an_unavailable_simd_level_is_refused() {
     let program = Program::new();
     let run = |level: &str| {
         let mut command = program.command();

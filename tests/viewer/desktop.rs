@@ -1,4 +1,4 @@
-//! The built program beside others on a display: the clipboard, closing, and what is stored between runs.
+//! Tests of the program on a display: clipboard, closing, stored settings and fonts.
 
 use crate::harness::{gpu, require};
 use crate::window::Xvfb;
@@ -7,7 +7,7 @@ use std::process::{Child, Command, Stdio};
 use std::time::{Duration, Instant};
 use tempfile::TempDir;
 
-/// What the slowest machine may take to do one thing.
+/// Time limit of a step on the slowest machine.
 const PATIENCE: Duration = Duration::from_secs(120);
 
 /// The program in its window.
@@ -15,18 +15,18 @@ struct Program<'a> {
     xvfb: &'a Xvfb,
     folder: &'a TempDir,
     child: Child,
-    /// The window's number, for xdotool.
+    /// The window's id, for xdotool.
     id: String,
 }
 
 impl<'a> Program<'a> {
-    /// Starts the program, and waits for its window.
+    /// Starts the program and waits for its window.
     fn start(xvfb: &'a Xvfb, folder: &'a TempDir) -> Self {
         let stderr = std::fs::File::create(folder.path().join("stderr")).expect("made");
         let mut command = Command::new(env!("CARGO_BIN_EXE_hitscope"));
         let child = xvfb
             .environment(&mut command, folder)
-            // Neither zenity nor a portal is found.
+            // Hides zenity and portals from the program.
             .env("PATH", folder.path())
             .env("XDG_DATA_DIRS", folder.path())
             .env_remove("DBUS_SESSION_BUS_ADDRESS")
@@ -44,7 +44,7 @@ impl<'a> Program<'a> {
         program
     }
 
-    /// The number of the window whose title has this in it.
+    /// The id of a visible window whose title contains this.
     fn find_window(&self, title: &str) -> Option<String> {
         let found = self.xdotool(&["search", "--onlyvisible", "--name", title]);
         found.lines().next().map(str::to_owned)
@@ -55,14 +55,14 @@ impl<'a> Program<'a> {
         String::from_utf8_lossy(&output.expect("xdotool runs").stdout).into_owned()
     }
 
-    /// A program on the same display.
+    /// Another program on the same display.
     fn tool(&self, name: &str) -> Command {
         let mut command = Command::new(name);
         self.xvfb.environment(&mut command, self.folder);
         command
     }
 
-    /// Asks until there is an answer.
+    /// Polls until there is an answer.
     fn wait<T>(&mut self, what: &str, answer: impl Fn(&Self) -> Option<T>) -> T {
         let start = Instant::now();
         loop {
@@ -71,17 +71,17 @@ impl<'a> Program<'a> {
             }
             let ended = self.child.try_wait().expect("a child");
             assert!(ended.is_none(), "{what}: {ended:?}: {}", self.said());
-            assert!(start.elapsed() < PATIENCE, "waited in vain for {what}");
+            assert!(start.elapsed() < PATIENCE, "timed out waiting for {what}");
             std::thread::sleep(Duration::from_millis(50));
         }
     }
 
-    /// What the program wrote to stderr.
+    /// The program's stderr.
     fn said(&self) -> String {
         std::fs::read_to_string(self.folder.path().join("stderr")).unwrap_or_default()
     }
 
-    /// Ends the program by its key, pressed until the window listens.
+    /// Quits the program with Ctrl+Q, pressed until the window reacts.
     fn quit(mut self) {
         let start = Instant::now();
         while self.child.try_wait().expect("a child").is_none() && start.elapsed() < PATIENCE {
@@ -91,7 +91,7 @@ impl<'a> Program<'a> {
         self.ends_well("Ctrl+Q");
     }
 
-    /// Waits for the end, which must be a good one.
+    /// Waits until the program ends; fails if it ends with an error or a panic.
     fn ends_well(mut self, after: &str) {
         let start = Instant::now();
         let status = loop {
@@ -114,7 +114,7 @@ impl Drop for Program<'_> {
     }
 }
 
-/// A display and a folder, or `None` where the test is to be skipped.
+/// A display and a folder, or `None` if the test is skipped.
 fn desktop(tools: &[&str]) -> Option<(Xvfb, TempDir)> {
     gpu()?;
     for tool in tools {
@@ -129,11 +129,11 @@ fn desktop(tools: &[&str]) -> Option<(Xvfb, TempDir)> {
     Some((Xvfb::start()?, tempfile::tempdir().expect("a folder")))
 }
 
-/// Puts a text into the clipboard.
+/// Copies a text file to the clipboard.
 fn copy(program: &Program<'_>, text: &Path) {
     let mut xclip = program.tool("xclip");
     xclip.args(["-selection", "clipboard", "-in"]).arg(text);
-    // It goes on in the background to serve the text.
+    // xclip continues in the background to serve the text.
     let status = xclip.stdout(Stdio::null()).stderr(Stdio::null()).status();
     assert!(status.expect("xclip runs").success());
 }
@@ -145,7 +145,7 @@ fn pasted(program: &Program<'_>) -> String {
 }
 
 #[test]
-fn a_path_is_pasted_and_an_inspection_is_copied() {
+fn a_path_can_be_pasted_and_an_inspection_can_be_copied() {
     let Some((xvfb, folder)) = desktop(&["xclip", "xdotool"]) else {
         return;
     };
@@ -184,7 +184,7 @@ fn a_path_is_pasted_and_an_inspection_is_copied() {
 }
 
 #[test]
-fn a_window_that_is_destroyed_from_outside_ends_the_program_well_as_quitting_does() {
+fn destroying_the_window_from_outside_ends_the_program_without_error_and_so_does_quitting() {
     let Some((xvfb, folder)) = desktop(&["xdotool"]) else {
         return;
     };
@@ -196,7 +196,7 @@ fn a_window_that_is_destroyed_from_outside_ends_the_program_well_as_quitting_doe
 }
 
 #[test]
-fn what_is_stored_can_not_keep_the_window_from_opening() {
+fn bad_stored_settings_do_not_keep_the_window_from_opening() {
     let Some((xvfb, folder)) = desktop(&["xdotool"]) else {
         return;
     };
@@ -209,7 +209,7 @@ fn what_is_stored_can_not_keep_the_window_from_opening() {
             "settings": "{\"zoom\":1000.0,\"kernel\":\"none\",\"view\":\"none\",\"panel_width\":-1.0}",
             "window": "(normal_geometry:(outer_position_pixels:Some((x:1e9,y:NaN)),scale_factor:0.0,inner_size_points:(x:NaN,y:inf)),fullscreen:false,maximized:false)",
         }"#,
-        "no RON",
+        "not RON",
     ] {
         std::fs::write(&stored, text).expect("written");
         let mut program = Program::start(&xvfb, &folder);
@@ -231,14 +231,14 @@ fn what_is_stored_can_not_keep_the_window_from_opening() {
 const ARABIC_FONT: &str = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 
 #[test]
-fn names_in_other_scripts_are_drawn_with_fonts_of_the_system() {
+fn file_names_in_other_scripts_are_drawn_with_system_fonts() {
     let Some((xvfb, folder)) = desktop(&[]) else {
         return;
     };
     if !require(ARABIC_FONT, Path::new(ARABIC_FONT).exists()) {
         return;
     }
-    // A bad face, so that a note with the file's name is shown. Without a font both letters are the same box.
+    // A bad face shows a warning with the file's name. Without a font both letters are the same box.
     let notes = ["\u{634}", "\u{639}"].map(|letter| {
         let mesh = folder.path().join(format!("{letter}.obj"));
         std::fs::write(&mesh, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n").expect("written");
@@ -248,7 +248,7 @@ fn names_in_other_scripts_are_drawn_with_fonts_of_the_system() {
         let status = command.args(["--screenshot", "window.png"]).status();
         assert!(status.expect("the program runs").success());
         let image = image::open(output).expect("a PNG").to_rgba8();
-        // The note is at the top left of the picture.
+        // The warning is at the top left of the picture.
         image::imageops::crop_imm(&image, 10, 40, 300, 60).to_image()
     });
     assert!(notes[0] != notes[1], "both letters look the same");

@@ -1,4 +1,4 @@
-//! The overlay in slices, and on a GPU with small buffers.
+//! Tests of the overlay in slices and on a GPU with small buffers.
 
 use crate::harness::{app_on, gpu, press, wait};
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
@@ -29,7 +29,7 @@ const STYLE: StyleUniform = StyleUniform {
     padding: 0.0,
 };
 
-/// A device of the shared adapter whose buffers are no larger than this. It is never closed.
+/// A device of the shared adapter with this limit on buffer sizes. It is never closed.
 fn small_device(max_buffer_size: u64) -> Option<(wgpu::Device, wgpu::Queue)> {
     let limits = wgpu::Limits {
         max_buffer_size,
@@ -45,7 +45,7 @@ fn small_device(max_buffer_size: u64) -> Option<(wgpu::Device, wgpu::Queue)> {
     Some((device, queue))
 }
 
-/// A ball's edges, half of them behind it.
+/// A drawing of a scene with its lines, hidden and through the mesh.
 fn drawing(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -71,7 +71,7 @@ fn drawing(
     })
 }
 
-/// The pixels, and in how many slices the lines were drawn.
+/// Returns the pixels and the number of slices of lines.
 fn draw(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -96,7 +96,7 @@ fn canvas(device: &wgpu::Device, drawing: &Drawing) -> Canvas {
     }
 }
 
-/// The smallest slices.
+/// Paces with the smallest slices.
 fn slowest() -> Paces {
     let mut pace = Pace::default();
     (0..40).for_each(|_| pace.adapt(Duration::from_secs(1)));
@@ -107,7 +107,7 @@ fn slowest() -> Paces {
 }
 
 #[test]
-fn an_overlay_in_slices_has_the_bits_of_one_drawn_at_once() {
+fn an_overlay_in_slices_is_identical_to_one_drawn_at_once() {
     let Some(gpu) = gpu() else { return };
     let (device, queue) = (&gpu.device, &gpu.queue);
     let scene = scene(sphere(24, Placement::UNIT));
@@ -142,12 +142,12 @@ fn a_cancelled_drawing_ends_after_its_slice() {
 }
 
 #[test]
-fn lines_take_as_many_buffers_as_they_need_and_a_mesh_that_needs_a_larger_one_is_refused() {
+fn lines_are_split_across_buffers_and_a_mesh_that_needs_a_larger_buffer_is_refused() {
     const GRANTED: u64 = 128 << 10;
     let Some((device, queue)) = small_device(GRANTED) else {
         return;
     };
-    // Its vertices fit into one buffer, its lines don't.
+    // The vertices fit into one buffer, the lines don't.
     let small = scene(sphere(24, Placement::UNIT));
     let lines = wireframe::lines(small.mesh(), WireframeEdges::Triangles);
     assert!(size_of_val(lines.as_slice()) as u64 > 2 * GRANTED);
@@ -184,7 +184,7 @@ fn lines_take_as_many_buffers_as_they_need_and_a_mesh_that_needs_a_larger_one_is
     );
 }
 
-/// A square of this many quads a side.
+/// An OBJ file of a square with this many quads per side.
 fn grid(folder: &tempfile::TempDir, side: u32) -> std::path::PathBuf {
     let mut text = String::new();
     for y in 0..=side {
@@ -203,7 +203,7 @@ fn grid(folder: &tempfile::TempDir, side: u32) -> std::path::PathBuf {
 }
 
 #[test]
-fn a_mesh_too_large_for_the_gpu_is_traced_and_the_window_says_why_it_has_no_lines() {
+fn a_mesh_too_large_for_the_gpu_is_traced_with_a_message_that_there_is_no_overlay() {
     /// Enough for the window itself.
     const GRANTED: u64 = 2 << 20;
     let Some((device, queue)) = small_device(GRANTED) else {
@@ -223,12 +223,12 @@ fn a_mesh_too_large_for_the_gpu_is_traced_and_the_window_says_why_it_has_no_line
         app.document().name() == "grid.obj"
     });
     press(&mut window, Key::W);
-    let refusal = "the overlay needs a buffer of 2126892 bytes; this GPU grants 2097152";
+    let refusal = "the overlay needs a buffer of 2126892 bytes; this GPU allows 2097152";
     wait(&mut window, "the refusal", |app| {
         app.notice() == Some(refusal)
     });
     assert!(!window.state().settings().shows_wireframe);
     press(&mut window, Key::Escape);
     wait(&mut window, "the picture", |app| app.film().samples() > 0);
-    assert_eq!(window.state().notice(), None, "it is said once");
+    assert_eq!(window.state().notice(), None, "shown once");
 }

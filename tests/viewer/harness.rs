@@ -1,4 +1,4 @@
-//! The app in a harness, and the gate for tests that need a GPU.
+//! The app in a test harness, and the gate for tests that need a GPU.
 
 use eframe::egui_wgpu::{WgpuSetup, WgpuSetupExisting};
 use egui::{Event, Key, Modifiers, PointerButton, Pos2};
@@ -11,11 +11,11 @@ use std::path::PathBuf;
 use std::sync::OnceLock;
 use std::time::{Duration, Instant};
 
-/// The app, and what it would be given by a window.
+/// The app in a harness that replaces the window.
 pub type Window = Harness<'static, App>;
 
-/// Whether a test that needs something may run. With `HITSCOPE_REQUIRE_GPU=1` it must; without, the
-/// test is skipped, and says so.
+/// Whether a test that needs something can run. If not, the test is skipped with a message; with
+/// `HITSCOPE_REQUIRE_GPU=1` it fails.
 pub fn require(what: &str, is_there: bool) -> bool {
     if !is_there {
         let is_required = std::env::var_os("HITSCOPE_REQUIRE_GPU").is_some_and(|v| v == "1");
@@ -28,12 +28,12 @@ pub fn require(what: &str, is_there: bool) -> bool {
     is_there
 }
 
-/// To the terminal itself: the test runner hides what passing tests print.
+/// Prints to the terminal directly: the test runner hides the output of passing tests.
 pub fn say(text: &str) {
     _ = writeln!(std::io::stderr(), "{text}");
 }
 
-/// The device that all tests share, or `None` where the test is to be skipped. It is never closed.
+/// The device that all tests share, or `None` if the test is skipped. It is never closed.
 pub fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Option<Gpu>> = OnceLock::new();
     let gpu = GPU.get_or_init(|| Gpu::open().ok()).as_ref();
@@ -44,7 +44,7 @@ pub fn gpu() -> Option<&'static Gpu> {
     gpu
 }
 
-/// The shared device, for a harness.
+/// The shared device as a harness's setup.
 pub fn shared_setup(gpu: &Gpu) -> WgpuSetup {
     WgpuSetup::Existing(WgpuSetupExisting {
         instance: gpu.instance.clone(),
@@ -54,19 +54,19 @@ pub fn shared_setup(gpu: &Gpu) -> WgpuSetup {
     })
 }
 
-/// The app in a window of 800 × 600 points, once its first picture is there.
+/// The app in a window of 800 × 600 points, after its first picture.
 pub fn app(file: Option<PathBuf>) -> Option<Harness<'static, App>> {
     app_scaled(file, 1.0)
 }
 
-/// The same at another scale of the window.
+/// Like [`app`] at another scale of the window.
 pub fn app_scaled(file: Option<PathBuf>, pixels_per_point: f32) -> Option<Harness<'static, App>> {
     let gpu = gpu()?;
     let size = egui::vec2(800.0, 600.0);
     Some(app_on(shared_setup(gpu), file, size, pixels_per_point))
 }
 
-/// The same on a device of its own, in a window of this size.
+/// Like [`app_scaled`] on another device, in a window of this size.
 pub fn app_on(
     setup: WgpuSetup,
     file: Option<PathBuf>,
@@ -80,7 +80,7 @@ pub fn app_on(
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(pixels_per_point)
-        // As on a screen: a double click is two clicks within 0.3 s.
+        // At screen frame rates, so that a double click is two clicks within 0.3 s.
         .with_step_dt(1.0 / 60.0)
         .wgpu_setup(setup)
         .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
@@ -90,15 +90,15 @@ pub fn app_on(
     harness
 }
 
-/// A test that waits for longer has failed, however busy the machine is.
+/// A test that waits longer has failed, even on a busy machine.
 const PATIENCE: Duration = Duration::from_secs(300);
 
-/// Draws frames until something is the case; panics if it isn't within [`PATIENCE`].
+/// Draws frames until a condition holds; panics after [`PATIENCE`].
 pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> bool) {
     let start = Instant::now();
     harness.step();
     while !is_so(harness.state()) {
-        assert!(start.elapsed() < PATIENCE, "waited in vain for {what}");
+        assert!(start.elapsed() < PATIENCE, "timed out waiting for {what}");
         std::thread::sleep(Duration::from_millis(5));
         harness.step();
     }
@@ -110,7 +110,7 @@ pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> Pos2 {
     rect.lerp_inside(egui::vec2(x, y))
 }
 
-/// The window without its side panel, whose switches have the tool bar's names.
+/// The window without its side panel, whose labels would duplicate those of the tool bar.
 pub fn bare() -> Option<Window> {
     let mut window = app(None)?;
     press(&mut window, Key::I);
@@ -125,7 +125,7 @@ pub fn press(window: &mut Window, key: Key) {
     window.run_steps(2);
 }
 
-/// Presses or releases a button of the pointer.
+/// Presses or releases a pointer button.
 pub fn pointer(
     window: &Window,
     pos: Pos2,

@@ -1,12 +1,13 @@
-//! Standard input, warnings, and a machine that lacks memory or threads.
+//! Tests of standard input, warnings, and machines that lack memory or threads.
 
 use crate::program::{Program, assert_fails, stderr, stdout};
 
-/// Three faults that don't keep it from loading: a library and a material that aren't there, a face without area.
+/// A mesh with three faults that don't keep it from loading: a missing library, a missing material, a face of zero
+/// area.
 const ODD: &str = "mtllib none.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nusemtl red\nf 1 2 3\nf 1 1 2\n";
 
 #[test]
-fn warnings_are_printed_one_in_a_line_though_stderr_is_no_terminal() {
+fn warnings_are_printed_one_per_line_even_if_stderr_is_not_a_terminal() {
     let program = Program::new();
     program.write("odd.obj", ODD);
     program.write("rays.txt", "0.2 0.2 1 0 0 -1\n");
@@ -32,7 +33,7 @@ fn warnings_are_printed_one_in_a_line_though_stderr_is_no_terminal() {
 }
 
 #[test]
-fn a_mesh_comes_from_standard_input() {
+fn a_mesh_can_be_read_from_standard_input() {
     let program = Program::new();
     program.write("rays.txt", "0.2 0.2 1 0 0 -1\n");
     let good = std::fs::read_to_string(program.path("good.obj")).expect("there");
@@ -64,7 +65,7 @@ fn a_mesh_comes_from_standard_input() {
 }
 
 #[test]
-fn a_machine_without_threads_is_reported_in_one_line() {
+fn a_lack_of_threads_is_reported_in_one_line() {
     let program = Program::new();
     for line in [
         "info good.obj",
@@ -72,7 +73,7 @@ fn a_machine_without_threads_is_reported_in_one_line() {
         "render good.obj -o out.png",
         "good.obj",
     ] {
-        // No address space has room for such a stack, so no thread can be started.
+        // No address space can hold such a stack, so no thread can be started.
         let mut command = program.command();
         command.env("RUST_MIN_STACK", (1_u64 << 60).to_string());
         let ran = command.args(line.split_whitespace()).output();
@@ -84,7 +85,7 @@ fn a_machine_without_threads_is_reported_in_one_line() {
 #[test]
 fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
     let program = Program::new();
-    // 19 bytes for each of 268 million pixels, of 3 GB in all.
+    // 19 bytes for each of 268 million pixels, with a limit of 3 GB.
     let ran = program.shell(
         "ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 16384x16384",
     );
@@ -93,14 +94,14 @@ fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
 }
 
 #[test]
-fn the_memory_limit_covers_the_picture_and_refuses_nothing_that_fits() {
+fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
     let program = Program::new();
     // 19 bytes for each of 180 000 pixels: 3.3 MB.
     let render = |more: &str| program.run(&format!("render {more} -o out.png --size 600x300"));
     assert!(render("good.obj --max-memory 4").status.success());
     let ran = render("none.obj --max-memory 3");
     assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 4 MB");
-    // The picture that stands in for the window: 19 bytes for each of 1280 by 720 pixels, 16.7 MB.
+    // The picture that replaces the window: 19 bytes for each of 1280 × 720 pixels, 16.7 MB.
     let ran = program.run("good.obj --max-memory 16");
     assert_eq!(ran.status.code(), Some(2), "{}", stderr(&ran));
     let ran = program.run("good.obj --max-memory 18");

@@ -1,44 +1,44 @@
 //! Integration tests of the viewer.
 
-// The real app, driven by label and key.
+// The real app, driven by labels and keys.
 mod app;
-// The built program's exit statuses, and what it does without a display.
+// The program's exit statuses and its behaviour without a display.
 mod cli;
-// The built program beside others on a display.
+// The program on a display: clipboard, closing, stored settings and fonts.
 mod desktop;
-// The overlay in slices, and on a GPU with small buffers.
+// The overlay in slices and on a GPU with small buffers.
 mod gpu;
-// What is done about names in the environment that can't be used.
+// Unusable graphics backends and display servers in the environment.
 mod environment;
-// The app in a harness, and the gate for tests that need a GPU.
+// The app in a test harness, and the gate for tests that need a GPU.
 mod harness;
-// Standard input, warnings, and a machine that lacks memory or threads.
+// Standard input, warnings, and machines that lack memory or threads.
 #[cfg(unix)]
 mod machine;
-// What is made of the file: flaws, changes, creases.
+// Flaws, reloading and creases of the open mesh.
 mod mesh;
-// Before, while and after a file is opened.
+// The window before, during and after opening a file.
 mod opening;
-// Files that the program writes.
+// The files that the program writes.
 #[cfg(unix)]
 mod outputs;
-// What the overlay draws.
+// The overlay's lines, places and colours.
 mod overlay;
-// The pointer on its picture.
+// The pointer on the picture.
 mod pointer;
-// The built program, run in a folder.
+// The program, run in a folder.
 mod program;
-// `render --wireframe` and `--normals`, pixel by pixel.
+// The pixels of `render --wireframe` and `--normals`.
 mod render_lines;
-// Every shader parses and validates, without a GPU.
+// Validation of the shaders without a GPU.
 mod shaders;
-// The built program's answers to rays that come through a pipe.
+// `trace` on a pipe.
 mod trace;
-// What the rasterizer draws is what the rays hit, pixel by pixel.
+// Comparison of rasterized and traced triangles.
 mod triangle_ids;
-// Faults of the command line.
+// Usage errors.
 mod usage;
-// The built program in a real window.
+// The program in a real window.
 mod window;
 // Views that compare kernels, and the Trade tab.
 mod trade;

@@ -1,4 +1,4 @@
-//! What the window makes of the file: its flaws, its changes, its edges in smooth shading.
+//! Tests of flaws, reloading and creases of the open mesh.
 
 use crate::harness::{Window, app, click, in_picture, press, wait};
 use egui::{Key, Modifiers};
@@ -14,7 +14,7 @@ fn write(folder: &tempfile::TempDir, text: &str) -> PathBuf {
     path
 }
 
-/// The window once a mesh is open, and the folder with its file; `None` where the test is to be skipped.
+/// The window with an open mesh, and the folder with its file; `None` if the test is skipped.
 fn opened(text: &str) -> Option<(Window, tempfile::TempDir)> {
     let folder = tempfile::tempdir().expect("a folder");
     let file = write(&folder, text);
@@ -25,11 +25,11 @@ fn opened(text: &str) -> Option<(Window, tempfile::TempDir)> {
     Some((window, folder))
 }
 
-/// A square, and a face that names nothing.
+/// A square and a face with an invalid index.
 const FLAWED: &str = "v 0 0 0\nv 1 0 0\nv 1 1 0\nv 0 1 0\nf 1 2 3\nf 1 3 4\nf 1 2 9\n";
 
 #[test]
-fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
+fn flaws_are_marked_and_listed_and_a_bad_face_gives_a_warning() {
     let Some((mut window, _folder)) = opened(FLAWED) else {
         return;
     };
@@ -42,7 +42,7 @@ fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
         window.query_by_label("Checking…").is_some()
     });
     assert!(is_checking);
-    wait(&mut window, "what is known of the mesh", |app| {
+    wait(&mut window, "the check of the mesh", |app| {
         app.document().known_findings().is_some()
     });
     window.run_steps(3);
@@ -54,7 +54,7 @@ fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
         place.index
     };
     assert_eq!(shown(&window), 0);
-    // Each edge is a side of the square, and of the face on one of two lines.
+    // Each edge is a side of the square and of a face on one of two lines.
     let point = window.state().flaw().expect("a flaw").point.truncate();
     assert_eq!((point - 0.5).abs().max_element(), 0.5);
     window.get_by_label("1 of 4");
@@ -68,7 +68,7 @@ fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
     window.get_by_label("Open edges  4").click();
     window.run_steps(3);
     assert!(window.state().flaw().is_none());
-    // Where there is nothing to be shown, there is nothing to be pressed.
+    // The button of a kind without flaws is disabled.
     assert!(
         window
             .get_by_label("Slivers  0")
@@ -78,7 +78,7 @@ fn flaws_are_marked_and_shown_and_a_bad_face_is_told() {
 }
 
 #[test]
-fn a_watched_file_is_loaded_again_with_the_camera_and_the_pick_where_they_were() {
+fn reloading_a_watched_file_keeps_the_camera_and_the_pick() {
     let Some((mut window, folder)) = opened(FLAWED) else {
         return;
     };
@@ -105,9 +105,9 @@ fn a_watched_file_is_loaded_again_with_the_camera_and_the_pick_where_they_were()
     assert_eq!(of(after), of(before));
 }
 
-/// A mesh far away is traced about an origin that depends on where it ends.
+/// A mesh far away is stored relative to an origin that depends on its bounds.
 #[test]
-fn the_camera_stays_where_it_is_in_the_file_when_the_origin_moves() {
+fn the_camera_keeps_its_place_in_the_file_when_the_origin_moves() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = |x: u32| format!("v 500000 0 0\nv {x} 0 0\nv 500000 1 0\nf 1 2 3\n");
     let file = write(&folder, &text(500_001));
@@ -130,7 +130,7 @@ fn the_camera_stays_where_it_is_in_the_file_when_the_origin_moves() {
     wait(&mut window, "the pick in it", |app| ray(app).is_some());
     let eye_again = ray(window.state()).expect("a ray");
     let moved = (0..3).map(|axis| (eye[axis] - eye_again[axis]).abs());
-    // The ray's origin is f32 about the mesh's, some 20 units away.
+    // The ray's origin is an f32 relative to the mesh's origin, some 20 units away.
     assert!(moved.fold(0.0, f64::max) < 1e-5, "{eye:?}, {eye_again:?}");
 }
 

@@ -1,4 +1,4 @@
-//! What the window shows before, while and after a file is opened.
+//! Tests of the window before, during and after opening a file.
 
 use crate::harness::{Window, bare, gpu, press, shared_setup, wait};
 use egui::{Key, Modifiers};
@@ -26,7 +26,7 @@ fn open(window: &mut Window, path: PathBuf, name: &str) {
 }
 
 #[test]
-fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
+fn a_window_opened_with_a_file_never_shows_the_built_in_scene() {
     let Some(gpu) = gpu() else { return };
     let folder = tempfile::tempdir().expect("a folder");
     for (file, is_good) in [("flat.obj", true), ("none.obj", false)] {
@@ -43,7 +43,7 @@ fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
             .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
         for _ in 0..10_000 {
             let app = window.state();
-            assert_ne!(app.document().name(), "Default scene");
+            assert_ne!(app.document().name(), "Built-in scene");
             if app.notice().is_some() || app.document().name() == file {
                 break;
             }
@@ -53,17 +53,17 @@ fn a_window_that_is_given_a_file_never_shows_the_built_in_scene() {
         assert_eq!(window.state().document().is_blank, !is_good, "{file}");
         if !is_good {
             window.run_steps(2);
-            window.get_by_label("No file is open. Drop one here, or press Ctrl+O.");
+            window.get_by_label("No file is open. Drop a file here or press Ctrl+O.");
         }
     }
 }
 
 #[test]
-fn the_picture_before_goes_as_soon_as_another_file_is_open() {
+fn the_old_picture_disappears_as_soon_as_another_file_is_open() {
     let folder = tempfile::tempdir().expect("a folder");
     let Some(mut window) = bare() else { return };
     wait(&mut window, "the built-in scene", App::is_settled);
-    // Nothing moves any more, so that only the new file can ask for a frame.
+    // Nothing moves, so that only the new file can request a repaint.
     window.run_steps(60);
     crate::app::drop_file(&mut window, write(&folder, "flat.obj", FLAT));
     wait(&mut window, "the file", |app| {
@@ -76,7 +76,7 @@ fn the_picture_before_goes_as_soon_as_another_file_is_open() {
 }
 
 #[test]
-fn another_file_is_seen_from_the_default_direction_and_a_reloaded_one_from_where_it_was() {
+fn another_file_resets_the_direction_and_reloading_keeps_the_camera() {
     let folder = tempfile::tempdir().expect("a folder");
     let Some(mut window) = bare() else { return };
     let default = *window.state().turntable();
@@ -94,7 +94,7 @@ fn another_file_is_seen_from_the_default_direction_and_a_reloaded_one_from_where
     );
     assert!(
         window.state().turntable().is_orthographic,
-        "no matter of the file"
+        "independent of the file"
     );
     assert_eq!(window.state().turntable().up_axis, UpAxis::Y);
 
@@ -112,33 +112,29 @@ fn another_file_is_seen_from_the_default_direction_and_a_reloaded_one_from_where
 }
 
 #[test]
-fn a_picture_without_the_mesh_says_so_and_home_brings_the_mesh_back() {
+fn a_hint_appears_if_the_mesh_is_not_visible_and_home_frames_it() {
     let folder = tempfile::tempdir().expect("a folder");
     let Some(mut window) = bare() else { return };
     open(&mut window, write(&folder, "flat.obj", FLAT), "flat.obj");
     assert!(!window.state().shows_nothing());
-    // Edge-on: parallel rays in the triangle's plane.
+    // Edge-on: orthographic rays in the triangle's plane.
     press(&mut window, Key::Num5);
     press(&mut window, Key::Num1);
     wait(&mut window, "an empty picture", App::shows_nothing);
     window.run_steps(2);
-    window.get_by_label("Nothing of the mesh is in view.");
+    window.get_by_label("The mesh isn't visible.");
     press(&mut window, Key::Home);
     wait(&mut window, "the mesh", |app| !app.shows_nothing());
     window.run_steps(2);
-    assert!(
-        window
-            .query_by_label("Nothing of the mesh is in view.")
-            .is_none()
-    );
+    assert!(window.query_by_label("The mesh isn't visible.").is_none());
 }
 
 #[test]
-fn the_field_for_a_path_comes_also_in_a_window_that_is_slow() {
+fn the_path_field_appears_even_in_a_slow_window() {
     let Some(mut window) = bare() else { return };
     window.key_press_modifiers(Modifiers::COMMAND, Key::O);
     window.run_steps(2);
-    // The window's thread does something else for longer than it takes to see that there is no dialog.
+    // The window's thread is busy for longer than it takes to find out that there is no dialog.
     std::thread::sleep(Duration::from_millis(600));
     for _ in 0..1000 {
         if window.query_by_label("Path").is_some() {
@@ -147,7 +143,7 @@ fn the_field_for_a_path_comes_also_in_a_window_that_is_slow() {
         std::thread::sleep(Duration::from_millis(5));
         window.step();
     }
-    // A dialog that is on the screen stays there, and the second press shows the field.
+    // If there is a dialog, it stays open, and the second press shows the field.
     window.key_press_modifiers(Modifiers::COMMAND, Key::O);
     window.run_steps(2);
     window.get_by_label("Path");

@@ -1,18 +1,18 @@
-//! Files that the program writes: whole or not at all.
+//! Tests of the files that the program writes, completely or not at all.
 
 use crate::program::{Program, assert_fails, stderr, stdout};
 use std::fs;
 use std::os::unix::fs::{FileTypeExt as _, PermissionsExt as _, symlink};
 
-/// Any text that is no PNG.
+/// A text that isn't a PNG.
 const OLD: &str = "an older file";
-/// Renders in no time, and into more bytes than the limits below.
+/// Options that render quickly, into more bytes than the limits below.
 const SMALL: &str = "--size 300x200 --samples 1 --view barycentric";
 
 #[test]
-fn a_place_that_can_not_be_written_is_refused_before_the_mesh_is_loaded() {
+fn an_unwritable_path_is_refused_before_the_mesh_is_loaded() {
     let program = Program::new();
-    // There is no such mesh, which would be the error otherwise.
+    // The mesh doesn't exist, which would be the error otherwise.
     let ran = program.run("render none.obj -o no/out.png");
     assert_fails(&ran, 1, "hitscope: no/out.png: ");
     let ran = program.run("render none.obj -o /proc/out.png");
@@ -22,7 +22,7 @@ fn a_place_that_can_not_be_written_is_refused_before_the_mesh_is_loaded() {
     let lines = stderr(&ran);
     assert!(lines.contains("hitscope: hitscope.png: "), "{lines}");
     assert!(!lines.contains("none.obj"), "{lines}");
-    // Not after the half minute that the measurement takes.
+    // Before the measurement, which takes half a minute.
     let ran = program.run("lab --quick --out good.obj");
     assert_fails(&ran, 1, "hitscope: good.obj: ");
     fs::create_dir_all(program.path("report/lab.json")).expect("made");
@@ -39,13 +39,13 @@ fn a_full_device_is_an_error() {
         let ran = program.shell(&format!("\"$hitscope\" {command} > /dev/full"));
         assert_fails(&ran, 1, "hitscope: stdout: No space left");
     }
-    // The error itself can't be printed; the status still tells.
+    // The error message can't be printed, but the exit status is right.
     let ran = program.shell("\"$hitscope\" info bad.obj 2> /dev/full");
     assert_eq!(ran.status.code(), Some(1));
 }
 
 #[test]
-fn a_program_killed_while_it_writes_leaves_the_older_file_and_no_other() {
+fn a_program_killed_while_writing_leaves_the_old_file_and_no_other() {
     let program = Program::new();
     program.write("out.png", OLD);
     let before = program.names();
@@ -59,7 +59,7 @@ fn a_program_killed_while_it_writes_leaves_the_older_file_and_no_other() {
         OLD
     );
     assert_eq!(program.names(), before);
-    // Where it isn't killed, it reports the error.
+    // If it isn't killed, it reports the error.
     let ran = program.shell(&format!(
         "trap '' XFSZ; ulimit -f 8; exec \"$hitscope\" render good.obj -o out.png {SMALL}"
     ));
@@ -72,7 +72,7 @@ fn a_program_killed_while_it_writes_leaves_the_older_file_and_no_other() {
 }
 
 #[test]
-fn the_lab_prints_its_tables_even_if_its_files_can_not_be_written() {
+fn the_lab_prints_its_tables_even_if_its_files_cannot_be_written() {
     let program = Program::new();
     let ran = program.shell(
         "trap '' XFSZ; ulimit -f 0; exec \"$hitscope\" lab --quick --case order-edge --out report",
@@ -85,7 +85,7 @@ fn the_lab_prints_its_tables_even_if_its_files_can_not_be_written() {
 }
 
 #[test]
-fn links_and_permissions_stay_as_they_are() {
+fn links_and_permissions_are_preserved() {
     let program = Program::new();
     program.write("old.png", OLD);
     let permissions = fs::Permissions::from_mode(0o604);
@@ -114,7 +114,7 @@ fn links_and_permissions_stay_as_they_are() {
 }
 
 #[test]
-fn pictures_go_to_pipes_and_devices() {
+fn pictures_can_be_written_to_pipes_and_devices() {
     let program = Program::new();
     let picture = |output: &std::process::Output| {
         assert!(output.status.success(), "{}", stderr(output));
@@ -123,7 +123,7 @@ fn pictures_go_to_pipes_and_devices() {
     };
     let ran = program.run(&format!("render good.obj -o /dev/stdout {SMALL}"));
     assert_eq!(picture(&ran), (300, 200));
-    // What stdout goes to is written to, not replaced.
+    // The file that stdout is redirected to is appended to, not replaced.
     let ran = program.shell(&format!(
         "(printf before; \"$hitscope\" render good.obj -o /dev/stdout {SMALL}) >> out.bin"
     ));
@@ -157,7 +157,7 @@ fn a_mesh_is_not_overwritten_by_a_picture_of_it() {
 }
 
 #[test]
-fn a_reader_that_has_enough_ends_the_program_quietly() {
+fn a_closed_stdout_ends_the_program_quietly() {
     let program = Program::new();
     program.write("rays.txt", "0.2 0.2 1 0 0 -1\n".repeat(100_000));
     let ran = program

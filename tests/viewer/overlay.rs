@@ -1,4 +1,4 @@
-//! What the overlay draws: which lines, where, in which colours.
+//! Tests of the overlay's lines, their places and colours.
 
 use crate::harness::{gpu, shared_setup};
 use eframe::egui_wgpu::{RenderState, RendererOptions};
@@ -19,7 +19,7 @@ const SIZE: UVec2 = UVec2::new(200, 200);
 const BACKGROUND: [u8; 4] = [0; 4];
 const WIRE: [u8; 3] = [200, 100, 50];
 
-/// Fifty pixels a unit, (0, 0) in the middle of the picture: y points upwards.
+/// A camera with 50 pixels per unit, (0, 0) in the middle of the picture, and y upwards.
 fn camera() -> Camera {
     let projection = Projection::Orthographic { height: 4.0 };
     Camera::look_at(
@@ -32,8 +32,8 @@ fn camera() -> Camera {
     .expect("a camera")
 }
 
-/// A square, a triangle behind it, a triangle seen edge-on at its right, and a line in front of it. What is vertical or
-/// horizontal runs through the centres of pixels.
+/// A square, a triangle behind it, an edge-on triangle to its right, and a line in front of it. Vertical and horizontal
+/// edges run through the centres of pixels.
 ///
 /// ```text
 ///   3───────────2   8      The square's left edge is at x = 50.5 pixels, its right one at 150.5,
@@ -71,7 +71,7 @@ fn marked_scene() -> Arc<Scene> {
 
 const BEHIND: u32 = 2;
 
-/// Draws until everything is there.
+/// Draws until the overlay is complete.
 fn drawn(
     layer: &mut OverlayLayer,
     gpu: &Gpu,
@@ -89,7 +89,7 @@ fn drawn(
             let texture = texture.expect("something is drawn");
             return read_back(&gpu.device, &gpu.queue, &texture).expect("read back");
         }
-        assert!(start.elapsed() < Duration::from_secs(300), "waited in vain");
+        assert!(start.elapsed() < Duration::from_secs(300), "timed out");
         std::thread::sleep(Duration::from_millis(1));
     }
 }
@@ -100,7 +100,7 @@ fn layer() -> Option<(OverlayLayer, &'static Gpu)> {
     Some((OverlayLayer::new(&state), gpu))
 }
 
-/// A colour of alpha 0 … 1 as the texture holds it: multiplied in.
+/// A colour with premultiplied alpha, as in the texture.
 fn premultiplied(colour: [f32; 3], alpha: f32) -> [u8; 4] {
     let byte = |x: f32| (255.0 * x).round() as u8;
     [
@@ -129,7 +129,7 @@ const ON_THE_LINE: [u32; 2] = [100, 60];
 const ON_THE_NORMAL: [u32; 2] = [180, 100];
 
 #[test]
-fn the_wireframe_shows_the_edges_of_faces_or_of_triangles_unless_the_mesh_hides_them() {
+fn the_wireframe_shows_visible_edges_of_polygons_or_of_triangles() {
     let Some((mut layer, gpu)) = layer() else {
         return;
     };
@@ -219,7 +219,7 @@ fn marks_are_strong_on_the_mesh_and_faint_behind_it() {
 }
 
 #[test]
-fn the_last_overlay_stays_until_the_next_is_drawn_but_not_for_another_view() {
+fn the_last_overlay_stays_until_the_next_is_drawn_unless_the_camera_changes() {
     let Some((mut layer, gpu)) = layer() else {
         return;
     };
@@ -247,7 +247,7 @@ fn the_last_overlay_stays_until_the_next_is_drawn_but_not_for_another_view() {
             &pixels,
             ON_THE_SQUARES_EDGE,
             BACKGROUND,
-            "where the edge was",
+            "the edge's old place",
         );
     }
 }

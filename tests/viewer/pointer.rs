@@ -1,4 +1,4 @@
-//! The pointer on the picture of the real app.
+//! Tests of the pointer on the real app's picture.
 
 use crate::harness::{Window, app, app_scaled, bare, click, in_picture, pointer, press, wait};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton};
@@ -7,7 +7,7 @@ use glam::{DVec2, Vec2, Vec3};
 use hitscope::app::App;
 use hitscope_core::Camera;
 
-/// Drags from the picture's middle by (60, 30) points.
+/// Drags by (60, 30) points from the middle of the picture.
 fn drag(window: &mut Window, button: PointerButton, modifiers: Modifiers) {
     let from = in_picture(window, 0.5, 0.5);
     window.event(Event::PointerMoved(from));
@@ -69,17 +69,17 @@ fn drags_orbit_and_pan_and_the_wheel_zooms() {
     assert_eq!(window.state().turntable().pivot, start.pivot);
 }
 
-/// A place of the picture where the mesh is.
+/// A place in the picture where the mesh is visible, as fractions of its size.
 fn on_the_mesh(window: &Window) -> (f32, f32) {
     on(window, |_| true)
 }
 
-/// A place of the picture where smooth shading changes normals.
+/// A place in the picture where smooth shading changes the normal.
 fn on_the_knot(window: &Window) -> (f32, f32) {
     on(window, |material| material == "knot")
 }
 
-/// A place of the picture where a material is that passes a test.
+/// A place in the picture whose material satisfies a condition.
 fn on(window: &Window, is_wanted: impl Fn(&str) -> bool) -> (f32, f32) {
     let app = window.state();
     let size = app.film().size();
@@ -93,7 +93,7 @@ fn on(window: &Window, is_wanted: impl Fn(&str) -> bool) -> (f32, f32) {
         material.is_some_and(|material| is_wanted(&material.name))
     };
     let places = (1..20).flat_map(|i| (1..20).map(move |k| (i as f32 / 20.0, k as f32 / 20.0)));
-    // One well inside, so that a pixel more or less doesn't matter.
+    // A place well inside, so that a pixel more or less doesn't matter.
     let hits: Vec<(f32, f32)> = places.filter(is_hit).collect();
     hits[hits.len() / 2]
 }
@@ -114,21 +114,21 @@ fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
         let expected = (film.as_vec2() * Vec2::new(x, y)).as_uvec2();
         let pixel = glam::UVec2::from_array(found.pixel);
         let off = pixel.max(expected) - pixel.min(expected);
-        // egui rounds the rectangle of a widget, as the harness knows it, to 1/32 point: a place near the edge
-        // of a pixel may fall into its neighbour.
+        // egui rounds the rectangle of a widget in the harness to 1/32 point, so a place near the edge of a pixel
+        // may fall into its neighbour.
         assert!(
             off.max_element() <= 1,
             "pixel {:?} of {film} at {scale}",
             found.pixel
         );
-        let hit = found.hit.expect("a ray was tried there");
-        // What the panel says is what the kernels say, and exact arithmetic agrees.
+        let hit = found.hit.expect("a place on the mesh");
+        // The inspection agrees with the current kernel and with exact arithmetic.
         let exact = found.exact.expect("it is hit");
         assert_eq!(hit.triangle, exact.triangle);
         let row = found.kernels.iter().find(|row| row.name == found.kernel);
         let row = row.expect("a row of the current kernel");
         assert_eq!((row.t, row.triangle), (Some(hit.t), Some(hit.triangle)));
-        // Of the watertight kernel on a mesh seen from a few times its size; see tests/core/conformance.rs.
+        // The bound of the watertight kernel for a mesh seen from a few times its size; see tests/core/conformance.rs.
         assert!(row.t_error_ulps.expect("the same triangle") < 32.0);
         window.get_by_label("Copy as JSON");
         window.get_by_label("Kernels compared with exact arithmetic");
@@ -141,22 +141,22 @@ fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
         let size = in_picture(&window, 1.0, 1.0) - in_picture(&window, 0.0, 0.0);
         let part = (place - in_picture(&window, 0.0, 0.0)) / size;
         let expected = film.as_dvec2() * DVec2::new(part.x.into(), part.y.into());
-        // egui rounds the rectangle of a widget to 1/32 point, so that the harness knows each of the two corners
-        // to half of that only. The ray's rounding to f32 is some 1e-4 of a pixel.
+        // egui rounds the rectangle of a widget to 1/32 point, so each of the two corners is off by up to half of
+        // that. The ray's rounding to f32 is some 1e-4 of a pixel.
         let tolerance = 2.0 * f64::from(scale) / 64.0 + 1e-3;
         let off = (clicked - expected).abs().max_element();
         assert!(off < tolerance, "{clicked}, {expected} at {scale}");
     }
 }
 
-/// Waits until a click can't become the first half of a double click any more.
+/// Waits until a click can no longer become a double click.
 fn rest(window: &mut Window) {
-    // Of 1/60 s each; egui's double clicks take at most 0.3 s.
+    // A step takes 1/60 s; egui's double clicks take at most 0.3 s.
     window.run_steps(30);
 }
 
 #[test]
-fn a_double_click_sets_the_pivot_and_neither_picks_nor_changes_the_tab_or_sizes() {
+fn a_double_click_sets_the_pivot_without_picking_or_changing_the_tab_or_sizes() {
     let Some(mut window) = app(None) else { return };
     let tab = window.state().settings().tab;
     let (x, y) = on_the_mesh(&window);
@@ -177,7 +177,7 @@ fn a_double_click_sets_the_pivot_and_neither_picks_nor_changes_the_tab_or_sizes(
     for corner in [bounds.min, bounds.max] {
         let [old, new] =
             cameras.map(|camera| camera.pixel_size_at(camera.depth_of(corner.as_dvec3())));
-        // The eye's coordinates are rounded to f32: 2⁻²⁴ of a few times the depth.
+        // The eye's coordinates are rounded to f32, by 2⁻²⁴ of a few times the depth.
         assert!((new / old - 1.0).abs() < 1e-6, "{corner}: {old}, {new}");
     }
 }
@@ -193,7 +193,7 @@ fn button(window: &Window, pos: egui::Pos2, pressed: bool) {
 }
 
 #[test]
-fn clicks_and_the_wheel_mean_the_picture_that_is_on_the_screen_while_the_camera_moves() {
+fn clicks_and_the_wheel_refer_to_the_picture_on_the_screen_while_the_camera_moves() {
     let Some(mut window) = bare() else { return };
     let (x, y) = on_the_mesh(&window);
     let place = in_picture(&window, x, y);
@@ -206,7 +206,7 @@ fn clicks_and_the_wheel_mean_the_picture_that_is_on_the_screen_while_the_camera_
         assert_ne!(
             camera,
             app.turntable().camera(app.film().size()),
-            "it moves on"
+            "the camera keeps moving"
         );
         camera
     };
@@ -228,7 +228,7 @@ fn clicks_and_the_wheel_mean_the_picture_that_is_on_the_screen_while_the_camera_
     let ray = camera.ray(glam::UVec2::from_array(found.pixel), Vec2::splat(0.5));
     assert_eq!(found.ray.direction, ray.dir.to_array());
 
-    // A pinch, which zooms at once and not over several frames.
+    // A pinch, which zooms at once instead of over several frames.
     rest(&mut window);
     let camera = on_screen(&window);
     let anchor = surface(&window, &camera).unwrap_or_else(|| {
@@ -272,7 +272,7 @@ fn clicks_and_the_wheel_mean_the_picture_that_is_on_the_screen_while_the_camera_
 }
 
 #[test]
-fn a_pick_is_inspected_again_with_another_kernel_and_shading() {
+fn a_pick_is_inspected_again_when_kernel_or_shading_change() {
     let Some(mut window) = app(None) else { return };
     let (x, y) = on_the_knot(&window);
     let place = in_picture(&window, x, y);
@@ -324,7 +324,7 @@ fn rows_of_a_pick_do_not_overlap_in_any_frame() {
         assert!(labels.len() > 10, "{} rows", labels.len());
         for (i, (name, a)) in labels.iter().enumerate() {
             for (other, b) in &labels[i + 1..] {
-                // Rectangles that touch may overlap by a rounding.
+                // Adjacent rectangles may overlap by a rounding error.
                 let overlap = a.intersect(*b).size();
                 let is_apart = overlap.x < 0.5 || overlap.y < 0.5;
                 assert!(is_apart, "frame {frame}: {name} {a:?} and {other} {b:?}");
@@ -353,15 +353,11 @@ fn the_face_of_a_pick_is_read_from_the_file() {
     let found = window.state().inspection().expect("a pick");
     let normal = found.hit.as_ref().expect("a hit").geometric_normal;
     let is_behind = Vec3::from_array(normal).dot(Vec3::from_array(found.ray.direction)) > 0.0;
-    window.get_by_label(if is_behind {
-        "back: hit from behind"
-    } else {
-        "front"
-    });
+    window.get_by_label(if is_behind { "back" } else { "front" });
 }
 
 #[test]
-fn a_miss_is_inspected_too_and_escape_clears_it() {
+fn a_miss_can_be_inspected_and_escape_clears_it() {
     let Some(mut window) = app(None) else { return };
     let corner = in_picture(&window, 0.01, 0.01);
     click(&mut window, corner);

@@ -1,4 +1,4 @@
-//! The built program, run in a folder with some meshes and without a display.
+//! The program, run in a folder with some meshes and without a display.
 
 use std::fs;
 use std::io::Write as _;
@@ -27,7 +27,7 @@ impl Program {
         fs::write(self.path(name), content).expect("written");
     }
 
-    /// The names of all files in the folder, hidden ones too.
+    /// The names of all files in the folder, including hidden ones.
     pub fn names(&self) -> Vec<String> {
         let entries = fs::read_dir(self.0.path()).expect("a folder");
         let name = |entry: std::io::Result<fs::DirEntry>| {
@@ -39,7 +39,7 @@ impl Program {
         names
     }
 
-    /// The program, to be given arguments.
+    /// The program's command, without arguments.
     pub fn command(&self) -> Command {
         self.in_folder(Path::new(env!("CARGO_BIN_EXE_hitscope")))
     }
@@ -51,14 +51,14 @@ impl Program {
         command.output().expect("the program runs")
     }
 
-    /// Runs the program with a text on standard input.
+    /// Runs the program with this standard input.
     pub fn run_with_input(&self, line: &str, input: &str) -> Output {
         let mut command = self.command();
         command.args(line.split_whitespace());
         let pipe = command.stdin(Stdio::piped()).stdout(Stdio::piped());
         let mut child = pipe.stderr(Stdio::piped()).spawn().expect("it runs");
         let mut stdin = child.stdin.take().expect("piped");
-        // It may end without reading, if it refuses its arguments.
+        // The program may end without reading, if it refuses its arguments.
         _ = stdin.write_all(input.as_bytes());
         drop(stdin);
         child.wait_with_output().expect("it ends")
@@ -90,7 +90,7 @@ pub fn stdout(output: &Output) -> String {
     String::from_utf8_lossy(&output.stdout).into_owned()
 }
 
-/// Checks the exit status, and that stderr is one line that begins so.
+/// Checks the exit status, and that stderr is one line that starts with `message`.
 #[track_caller]
 pub fn assert_fails(output: &Output, status: i32, message: &str) {
     let said = stderr(output);

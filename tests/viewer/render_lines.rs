@@ -1,4 +1,4 @@
-//! `render --wireframe` and `--normals`: which pixels they change, and to what.
+//! Tests of the pixels that `render --wireframe` and `--normals` change.
 
 use crate::harness::gpu;
 use glam::DVec2;
@@ -7,8 +7,8 @@ use image::RgbaImage;
 use std::fmt::Write as _;
 use std::process::Command;
 
-/// A square that faces the camera, and at its right a triangle that is seen edge-on, whose normal points to the right.
-/// Of the picture's pixels, 50 are a unit; edges run through the centres of pixels.
+/// A square that faces the camera, and to its right an edge-on triangle whose normal points to the right. A unit is
+/// 50 pixels; edges run through the centres of pixels.
 fn mesh() -> String {
     let mut text = String::new();
     for (x, y, z) in [
@@ -26,7 +26,7 @@ fn mesh() -> String {
     text + "f 1 2 3 4\nf 5 6 7\n"
 }
 
-/// The picture with these options.
+/// Renders the picture with these options.
 fn render(folder: &tempfile::TempDir, overlay: &[&str]) -> RgbaImage {
     let line = "render mesh.obj -o out.png --size 200x200 --samples 1 --eye 0,0,5 --target 0,0,0 --ortho 4";
     let output = Command::new(env!("CARGO_BIN_EXE_hitscope"))
@@ -51,7 +51,7 @@ fn distance(p: DVec2, [a, b]: Segment) -> f64 {
     (a + part * along - p).length()
 }
 
-/// A colour of alpha 0 … 1 over an opaque pixel.
+/// A colour with alpha over an opaque pixel.
 fn over(under: [u8; 4], colour: [f32; 3], alpha: f32) -> [u8; 4] {
     let channel = |k: usize| {
         let under = f32::from(under[k]) / 255.0;
@@ -60,8 +60,8 @@ fn over(under: [u8; 4], colour: [f32; 3], alpha: f32) -> [u8; 4] {
     [channel(0), channel(1), channel(2), 255]
 }
 
-/// Lines change the pixels on these segments to their colour, and no pixel that is further away than their quads reach:
-/// half a line's width, and half a pixel of soft edge.
+/// Checks that lines set the pixels on these segments to their colour and change no pixel beyond their reach: half a
+/// line's width plus half a pixel of soft edge.
 fn assert_lines(
     plain: &RgbaImage,
     drawn: &RgbaImage,
@@ -83,7 +83,7 @@ fn assert_lines(
                 continue;
             };
             let expected = over(before.0, colour, alpha);
-            // The GPU rounds colour and alpha to a byte each, the blend rounds, and so does the line above.
+            // Colour, alpha and blend are each rounded to a byte, and so is the expected value.
             let off = (0..4).map(|k| after.0[k].abs_diff(expected[k])).max();
             assert!(off <= Some(2), "pixel {x}, {y}: {after:?} for {expected:?}");
         }
@@ -92,7 +92,7 @@ fn assert_lines(
 }
 
 #[test]
-fn edges_and_normals_are_drawn_over_a_render_and_nothing_else_changes() {
+fn edges_and_normals_are_drawn_over_the_picture_and_nothing_else_changes() {
     if gpu().is_none() {
         return;
     }
@@ -108,19 +108,19 @@ fn edges_and_normals_are_drawn_over_a_render_and_nothing_else_changes() {
     ];
     let square = (0..4).map(|k| [corners[k], corners[(k + 1) % 4]]);
     let edge_on = [at(170.5, 70.5), at(170.5, 130.5)];
-    // The edge-on triangle has three edges in one place, two of them drawn over the third.
+    // The three edges of the edge-on triangle coincide; two of them are drawn over the third.
     let edges: Vec<Segment> = square.chain([edge_on, edge_on]).collect();
     let settings = Settings::default();
     let wire = settings.wire_colour.map(|c| f32::from(c) / 255.0);
     let drawn = render(&folder, &["--wireframe"]);
     assert_lines(&plain, &drawn, &edges, Some((wire, 0.85)));
 
-    // The normals' length is a part of the radius of the bounds.
+    // The normals' length is a fraction of the radius of the bounds.
     let radius = 0.5 * DVec2::new(2.4, 2.0).extend(1.0).length();
     let length_px = 50.0 * radius * f64::from(settings.normal_length);
     let normal = [at(170.5, 100.5), at(170.5 + length_px, 100.5)];
     let drawn = render(&folder, &["--normals"]);
     assert!((2.0..20.0).contains(&length_px), "{length_px} of 29 pixels");
-    // So short a line fades.
+    // Such a short line fades.
     assert_lines(&plain, &drawn, &[normal], None);
 }

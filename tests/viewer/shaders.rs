@@ -1,4 +1,4 @@
-//! Every shader parses and validates, without a GPU.
+//! Validation of the shaders without a GPU.
 
 use hitscope::gpu::{picture, view};
 use naga::valid::{Capabilities, ValidationFlags, Validator};

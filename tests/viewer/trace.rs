@@ -1,4 +1,4 @@
-//! The built program's `trace` at the end of a pipe.
+//! Tests of `trace` on a pipe.
 
 use serde_json::Value;
 use std::io::{BufRead, BufReader, Write};
@@ -7,10 +7,10 @@ use std::sync::mpsc::{Receiver, channel};
 use std::time::Duration;
 
 const PLANE: &str = "v -2 -2 0\nv 4 -2 0\nv -2 4 0\nf 1 2 3\n";
-/// Never waited for by a program that answers; one that doesn't is to fail, not to hang.
-const FOR_EVER: Duration = Duration::from_secs(300);
+/// Time limit for an answer, so that a program that doesn't answer fails instead of hanging.
+const TIMEOUT: Duration = Duration::from_secs(300);
 
-/// `hitscope trace` as another program would talk to it.
+/// A dialogue with `hitscope trace` over pipes.
 struct Talk {
     child: Child,
     input: ChildStdin,
@@ -54,11 +54,11 @@ impl Talk {
     }
 
     fn answer(&self) -> Value {
-        let line = self.answers.recv_timeout(FOR_EVER).expect("an answer");
+        let line = self.answers.recv_timeout(TIMEOUT).expect("an answer");
         serde_json::from_str(&line).expect("JSON")
     }
 
-    /// What it says after the end of its input.
+    /// Closes the input. Returns the remaining answers.
     fn end(mut self) -> Vec<String> {
         drop(self.input);
         assert!(self.child.wait().expect("it ends").success());
@@ -67,7 +67,7 @@ impl Talk {
 }
 
 #[test]
-fn a_program_that_waits_for_each_answer_gets_it() {
+fn each_ray_is_answered_without_waiting_for_more_input() {
     let mut talk = Talk::begin(&[]);
     for k in 1..=50 {
         talk.say(format!("0.25 0.5 {k} 0 0 -1\n").as_bytes());
@@ -77,19 +77,19 @@ fn a_program_that_waits_for_each_answer_gets_it() {
             (&f64::from(k).into(), &k.into())
         );
     }
-    // In two halves, of which the first is no line yet; several at once; a line that only a CR ends.
+    // A line in two halves, several lines at once, and a line that ends with CR only.
     talk.say(b"0.25 0.5 7 0");
     talk.say(b" 0 -1\n0 0 1 0 0 1\r");
     assert_eq!(talk.answer()["t"], 7.0);
     assert_eq!(talk.answer()["hit"], false);
-    // Without an end.
+    // A last line without a line end.
     talk.say(b"0.25 0.5 9 0 0 -1");
     let rest = talk.end();
     assert!(rest.len() == 1 && rest[0].contains("\"t\":9.0"), "{rest:?}");
 }
 
 #[test]
-fn a_line_without_end_is_refused_while_it_goes_on() {
+fn a_line_that_is_too_long_is_refused_before_it_ends() {
     let mut talk = Talk::begin(&[]);
     talk.say(&[b'7'; 1 << 17]);
     let answer = talk.answer();
@@ -103,7 +103,7 @@ fn a_line_without_end_is_refused_while_it_goes_on() {
 }
 
 #[test]
-fn a_large_input_is_answered_whole_and_in_order() {
+fn a_large_input_is_answered_completely_and_in_order() {
     let mut talk = Talk::begin(&["--threads", "2"]);
     let count = 200_000;
     let rays: String = (0..count)

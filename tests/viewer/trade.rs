@@ -1,4 +1,4 @@
-//! Views that compare kernels, and the tab that measures them.
+//! Tests of the views that compare kernels and of the Trade tab.
 
 use crate::harness::{app, press, wait};
 use egui::Key;
@@ -7,9 +7,9 @@ use hitscope::trade::{Trade, TradeState};
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 
 #[test]
-fn the_trade_tab_measures_every_kernel_and_its_rows_choose_one() {
+fn the_trade_tab_measures_every_kernel_and_its_rows_select_one() {
     let Some(mut window) = app(None) else { return };
-    assert!(window.state().trade().is_none(), "nobody has asked yet");
+    assert!(window.state().trade().is_none(), "not requested yet");
     window.get_by_label("Trade").click();
     wait(&mut window, "the measurement", |app| {
         app.trade().map(Trade::state) == Some(TradeState::Done)
@@ -37,7 +37,7 @@ fn the_trade_tab_measures_every_kernel_and_its_rows_choose_one() {
         app.settings().kernel().info.name == "edge-planes"
             && app.document().intersector().kernel().name == "edge-planes"
     });
-    // It isn't kept between runs, unless the user wants that.
+    // It isn't kept between runs unless the user clicks “Keep”.
     assert_eq!(window.state().settings().kernel, kept);
     window.get_by_label_contains("edge-planes kernel");
     window.get_by_label("Keep").click();
@@ -46,7 +46,7 @@ fn the_trade_tab_measures_every_kernel_and_its_rows_choose_one() {
 }
 
 #[test]
-fn another_file_is_measured_only_when_the_user_asks() {
+fn another_file_is_measured_only_on_request() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("one.obj");
     let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
@@ -73,7 +73,7 @@ fn another_file_is_measured_only_when_the_user_asks() {
 }
 
 #[test]
-fn a_view_that_compares_packs_a_second_kernel_and_others_drop_it() {
+fn comparing_views_pack_a_second_kernel_and_others_drop_it() {
     let Some(mut window) = app(None) else { return };
     let chosen = window.state().document().intersector().kernel().name;
     for (view, second) in [

@@ -1,8 +1,8 @@
-//! What the rasterizer draws is what the rays hit, pixel by pixel.
+//! Comparison of rasterized and traced triangles, pixel by pixel.
 //!
-//! Triangle numbers are rasterized with the overlay's own view and compared with those that the
-//! renderer's rays hit. The two may differ only where a pixel's centre lies on an edge: GPUs place
-//! vertices on a grid of 1/256 pixel, rays don't.
+//! Triangle numbers are rasterized with the overlay's view and compared with the triangles that the
+//! renderer's rays hit. They may differ only where a pixel's centre lies on an edge: GPUs snap
+//! vertices to a grid of 1/256 pixel.
 
 use crate::harness::{gpu, say};
 use glam::{DVec2, DVec3, UVec2, Vec2, Vec3};
@@ -20,10 +20,10 @@ use std::path::Path;
 use wgpu::util::DeviceExt as _;
 
 const SIZE: UVec2 = UVec2::new(768, 480);
-/// Vertices snap to 1/256 of a pixel in each axis; twice that moves an edge, and f32 adds a little.
+/// Vertices snap to 1/256 pixel on each axis; an edge moves by up to twice that, plus rounding in f32.
 const ON_EDGE_PX: f64 = 4.0 / 256.0;
 
-/// Behind the overlay's view: each triangle in the colour of its number.
+/// Appended to the overlay's view shader: draws each triangle in the colour of its number.
 const SHADER: &str = "
 struct Fragment { @builtin(position) position: vec4f, @location(0) @interpolate(flat) id: u32 };
 @vertex fn vs_main(@location(0) position: vec3f, @builtin(vertex_index) index: u32) -> Fragment {
@@ -60,14 +60,14 @@ fn far_blob() -> Scene {
         &library,
         &progress,
     );
-    Scene::new(loaded.expect("good").mesh, &progress).expect("nobody cancels")
+    Scene::new(loaded.expect("good").mesh, &progress).expect("never cancelled")
 }
 
-/// An overview, a close look, and parallel rays.
+/// A camera for an overview, one close to the surface, and an orthographic one.
 fn cameras(scene: &Scene) -> [Camera; 3] {
     let (middle, r) = (scene.bounds().centre().as_dvec3(), scene.bounds().radius());
     let perspective = Projection::Perspective { fov_y_radians: 0.7 };
-    let parallel = Projection::Orthographic { height: 1.7 * r };
+    let orthographic = Projection::Orthographic { height: 1.7 * r };
     [
         (DVec3::new(1.3, 1.1, 2.4), DVec3::ZERO, perspective),
         (
@@ -75,7 +75,7 @@ fn cameras(scene: &Scene) -> [Camera; 3] {
             DVec3::new(0.1, 0.1, 0.0),
             perspective,
         ),
-        (DVec3::new(2.0, 1.5, -1.7), DVec3::ZERO, parallel),
+        (DVec3::new(2.0, 1.5, -1.7), DVec3::ZERO, orthographic),
     ]
     .map(|(eye, target, projection)| {
         let (eye, target) = (middle + r * eye, middle + r * target);
@@ -83,7 +83,7 @@ fn cameras(scene: &Scene) -> [Camera; 3] {
     })
 }
 
-/// For each pixel the number of the triangle drawn there, from 1; 0 for none.
+/// The number of the triangle drawn at each pixel, counted from 1; 0 for none.
 fn rasterized(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
@@ -188,7 +188,7 @@ fn pipeline(device: &wgpu::Device, view: &ViewBinding) -> wgpu::RenderPipeline {
     })
 }
 
-/// The smallest distance from a pixel's centre to an edge of a triangle (numbered from 1).
+/// The smallest distance from a pixel's centre to an edge of a triangle (counted from 1).
 fn distance_to_edge(scene: &Scene, camera: &Camera, pixel: UVec2, id: u32) -> f64 {
     let Some(triangle) = id.checked_sub(1) else {
         return f64::INFINITY;
@@ -213,7 +213,7 @@ fn distance_to_edge(scene: &Scene, camera: &Camera, pixel: UVec2, id: u32) -> f6
 }
 
 #[test]
-fn rasterized_triangles_are_those_that_rays_hit() {
+fn rasterized_triangles_are_the_triangles_that_rays_hit() {
     let Some(Gpu { device, queue, .. }) = gpu() else {
         return;
     };

@@ -1,11 +1,11 @@
-//! Faults of the command line: exit status 2, before the mesh is loaded.
+//! Tests of usage errors: exit status 2, before the mesh is loaded.
 
 use crate::program::{Program, assert_fails, stderr, stdout};
 
 #[test]
-fn impossible_arguments_are_refused_before_the_mesh_is_loaded() {
+fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
     let program = Program::new();
-    // There is no such mesh, which would be the error otherwise.
+    // The mesh doesn't exist, which would be the error otherwise.
     let render = "render none.obj -o out.png";
     let cases = [
         (&*format!("{render} --ortho 0"), "expected a height above 0"),
@@ -96,7 +96,7 @@ fn options_without_effect_are_refused() {
 }
 
 #[test]
-fn a_camera_that_does_not_fit_the_mesh_is_the_command_lines_fault() {
+fn a_camera_that_does_not_fit_the_mesh_is_a_usage_error() {
     let program = Program::new();
     // The middle of the mesh.
     let ran = program.run("inspect good.obj --pixel 0,0 --eye 0.5,0.5,0");
@@ -104,7 +104,7 @@ fn a_camera_that_does_not_fit_the_mesh_is_the_command_lines_fault() {
 }
 
 #[test]
-fn up_vectors_of_any_length_have_a_direction() {
+fn up_vectors_may_have_any_length() {
     let program = Program::new();
     let inspect = "inspect good.obj --pixel 3,3 --size 8x8 --eye 0.2,0.2,3 --json --up";
     let usual = program.run(&format!("{inspect} 1,1,0"));
@@ -128,7 +128,7 @@ fn misspelt_commands_and_several_files_get_a_hint() {
         assert_fails(&ran, 2, "error: ");
         assert!(stderr(&ran).contains(hint), "{line}: {}", stderr(&ran));
     }
-    // A file that is there isn't a misspelt command.
+    // An existing file isn't a misspelt command.
     std::fs::rename(program.path("bad.obj"), program.path("rander")).expect("renamed");
     let ran = program.run("rander");
     assert_eq!(ran.status.code(), Some(1));

@@ -1,4 +1,4 @@
-//! The built program in a real window: under Xvfb, with software Vulkan.
+//! Tests of the program in a real window, under Xvfb with software Vulkan.
 
 use crate::harness::{app_on, gpu, require, shared_setup, wait};
 use egui_kittest::kittest::Queryable as _;
@@ -7,14 +7,14 @@ use std::io::{BufRead as _, BufReader};
 use std::process::{Child, Command, Output, Stdio};
 use tempfile::TempDir;
 
-/// A display of its own; gone when dropped.
+/// A separate display, which is closed when dropped.
 pub struct Xvfb {
     server: Child,
     display: String,
 }
 
 impl Xvfb {
-    /// A display without a window manager; `None` where Xvfb is missing and the test is to be skipped.
+    /// A display without a window manager; `None` if Xvfb is missing and the test is skipped.
     pub fn start() -> Option<Self> {
         let server = Command::new("Xvfb")
             .args([
@@ -35,7 +35,7 @@ impl Xvfb {
         let stdout = server.stdout.take().expect("piped");
         BufReader::new(stdout)
             .read_line(&mut number)
-            .expect("Xvfb says its display");
+            .expect("Xvfb prints its display");
         Some(Self {
             server,
             display: format!(":{}", number.trim()),
@@ -49,7 +49,7 @@ impl Xvfb {
         command.output().expect("the program runs")
     }
 
-    /// Has a program run on this display, with a folder for all its files.
+    /// Sets up a program to run on this display, with a folder for all its files.
     pub fn environment<'a>(&self, command: &'a mut Command, folder: &TempDir) -> &'a mut Command {
         command
             .current_dir(folder.path())
@@ -84,7 +84,7 @@ fn the_window_opens_and_its_screenshot_shows_the_scene() {
     let image = image::open(folder.path().join("window.png")).expect("a PNG");
     let image = image.to_rgba8();
     assert_eq!(image.dimensions(), (1200, 700));
-    // What a window of this size shows in this process.
+    // The expected picture, from a window of the same size in this process.
     let Some(gpu) = gpu() else { return };
     let mut window = app_on(shared_setup(gpu), None, egui::vec2(1200.0, 700.0), 1.0);
     wait(&mut window, "all samples", App::is_settled);
@@ -94,11 +94,11 @@ fn the_window_opens_and_its_screenshot_shows_the_scene() {
     let cropped =
         image::imageops::crop_imm(&image, corner.x as u32, corner.y as u32, size.x, size.y);
     let shown: Vec<[u8; 4]> = cropped.to_image().pixels().map(|pixel| pixel.0).collect();
-    assert!(shown == film.pixels(), "another picture of {size}");
+    assert!(shown == film.pixels(), "a different picture of {size}");
 }
 
 #[test]
-fn a_screenshot_of_what_can_not_be_loaded_fails_and_says_why() {
+fn a_screenshot_of_an_unreadable_file_fails_with_a_reason() {
     if gpu().is_none() {
         return;
     }

@@ -19,7 +19,7 @@ impl App {
                     self.load(path, ctx);
                 }
             }
-            // From its direction the mesh can't be seen: a flat one edge-on.
+            // The mesh can't be seen from this direction, such as a flat mesh edge-on.
             Action::Frame if self.shows_nothing() => self.use_default_view(),
             Action::Frame => {
                 let bounds = self.document.loaded.scene.bounds_with_elements();
@@ -46,7 +46,7 @@ impl App {
         ctx.request_repaint();
     }
 
-    /// Marks the flaws of a kind and frames the triangles around one of them.
+    /// Marks the flaws of a kind and frames the triangles around one of them; `None` clears the mark.
     fn show_flaw(&mut self, shown: Option<(Flaw, usize)>) {
         let findings = self.document.known_findings();
         self.flaw = shown.zip(findings).and_then(|((flaw, index), findings)| {
@@ -58,7 +58,8 @@ impl App {
         }
     }
 
-    /// Cancels loading, or closes the topmost thing that can be closed.
+    /// Cancels loading, closes the topmost message or window, clears the marked flaw, or clears the pick: the first
+    /// of these that applies.
     fn dismiss(&mut self) {
         if let Some(loading) = &self.loading {
             loading.cancel();

@@ -1,4 +1,4 @@
-//! The picture and what is drawn over it.
+//! The picture with its overlay and marks.
 
 use super::App;
 use crate::overlay::Options;
@@ -11,7 +11,8 @@ use hitscope_core::Camera;
 use hitscope_core::integrator::Context;
 use std::sync::Arc;
 
-/// Place of the picture in the window: whole physical pixels, so that each of its pixels is one of the screen's.
+/// Place of the picture in the window. It covers whole physical pixels, so that each pixel of the picture is one
+/// pixel of the screen.
 #[derive(Clone, Copy)]
 pub(super) struct Canvas {
     rect: Rect,
@@ -31,7 +32,7 @@ impl Canvas {
         }
     }
 
-    /// The strips beside whole pixels; what the picture covers needn't be filled first.
+    /// The strips of `available` outside the picture, which are filled with the panel colour.
     fn rest_of(&self, available: Rect) -> [Rect; 4] {
         let (min, max) = (self.rect.min, self.rect.max);
         [
@@ -54,14 +55,14 @@ impl Canvas {
         ]
     }
 
-    /// A position on the screen, in pixels of a camera's picture from its top left corner. That picture is
-    /// stretched over the canvas while its size differs.
+    /// Converts a position on the screen to pixels of a camera's picture, from its top left corner. A picture of
+    /// another size is stretched over the canvas.
     pub fn pixel_of(&self, pos: Pos2, camera: &Camera) -> DVec2 {
         let part = (pos - self.rect.min) / self.rect.size();
         DVec2::new(part.x.into(), part.y.into()) * camera.resolution().as_dvec2()
     }
 
-    /// The position on the screen of a pixel of a camera's picture.
+    /// Converts a pixel of a camera's picture to a position on the screen.
     pub fn pos_of(&self, pixel: DVec2, camera: &Camera) -> Pos2 {
         let part = pixel / camera.resolution().as_dvec2();
         self.rect
@@ -96,9 +97,9 @@ impl App {
         });
     }
 
-    /// Rotates the camera about the mesh.
+    /// Auto-rotates the camera about the mesh.
     fn rotate(&mut self, ui: &egui::Ui) {
-        /// One turn in twelve seconds; a long frame turns no further than one of [`LONGEST_S`].
+        /// One turn per twelve seconds; a frame longer than [`LONGEST_S`] counts as that long.
         const RADIANS_PER_S: f64 = std::f64::consts::TAU / 12.0;
         const LONGEST_S: f64 = 0.2;
         if self.is_rotating {
@@ -108,7 +109,7 @@ impl App {
         }
     }
 
-    /// The picture to be traced.
+    /// The request for the current camera and settings.
     fn wanted(&self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let background = theme::background(self.settings.view(), ctx.theme());
         Request {
@@ -126,7 +127,7 @@ impl App {
         }
     }
 
-    /// Draws traced picture, overlay and marks.
+    /// Draws the traced picture, the overlay and the marks.
     fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
         if let Some((film, changed)) = self.tracer.take_changes() {
             self.picture.upload(film, changed);
@@ -195,7 +196,7 @@ impl App {
     }
 }
 
-/// A mark at a point of the mesh, which follows it while the camera moves.
+/// Draws a cross hair at a point on the screen.
 fn cross_hair(painter: &egui::Painter, at: Pos2, colour: Color32) {
     for (colour, width) in [(Color32::BLACK, 3.0), (colour, 1.3)] {
         let stroke = egui::Stroke::new(width, colour);
@@ -213,7 +214,7 @@ mod tests {
     use hitscope_core::camera::Turntable;
 
     #[test]
-    fn the_canvas_lies_on_whole_pixels_at_any_scale() {
+    fn the_canvas_covers_whole_pixels_at_any_scale() {
         let available = Rect::from_min_max(Pos2::new(0.0, 31.3), Pos2::new(901.7, 640.2));
         for scale in [1.0, 1.25, 1.5, 2.0] {
             let canvas = Canvas::new(available, scale);

@@ -1,4 +1,4 @@
-//! The parts of the window around the picture: tool bar, side panel, status line, messages, help.
+//! The window around the picture: tool bar, side panel, status line, messages and help.
 
 use super::App;
 use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
@@ -15,12 +15,14 @@ impl App {
         let frame =
             egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 4));
         egui::Panel::top("toolbar").frame(frame).show(ui, |ui| {
-            // A narrow window has several rows.
+            // Wraps to several rows in a narrow window.
             ui.horizontal_wrapped(|ui| {
                 ui.spacing_mut().item_spacing.x = 4.0;
                 self.tools_ui(ui, actions);
                 self.switches_ui(ui, actions);
-                let help = ui.button("Help").on_hover_text("Show keys (H)");
+                let help = ui
+                    .button("Help")
+                    .on_hover_text("Keyboard and mouse controls (H)");
                 if help.clicked() {
                     actions.push(Action::ToggleHelp);
                 }
@@ -38,7 +40,7 @@ impl App {
         }
         if ui
             .button("Frame")
-            .on_hover_text("Show the whole mesh (Home)")
+            .on_hover_text("Frame the mesh (Home)")
             .clicked()
         {
             actions.push(Action::Frame);
@@ -65,7 +67,7 @@ impl App {
 
     fn switches_ui(&self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let settings = &self.settings;
-        // Label, state, action, hint, whether it can be pressed.
+        // Label, state, action, tooltip, whether it is enabled.
         let switches = [
             (
                 "Smooth",
@@ -186,7 +188,7 @@ impl App {
             });
         self.settings.shows_panel = is_expanded;
         if let Some(shown) = shown {
-            // While the panel slides in or out, its width is another in each frame.
+            // The width changes from frame to frame while the panel slides in or out.
             let width = shown.response.rect.width();
             let last = std::mem::replace(&mut self.panel_width, width);
             if last == width && PANEL_WIDTHS.contains(&width) {
@@ -195,7 +197,7 @@ impl App {
         }
     }
 
-    /// Measures the scene when the tab is first shown; after that, only when the user asks for it.
+    /// Measures the scene when the tab is first shown, and later only on request.
     fn trade_ui(&mut self, ui: &mut egui::Ui) {
         let is_wanted = match &mut self.trade {
             Some(trade) => {
@@ -205,7 +207,7 @@ impl App {
             None if self.has_measured => panels::trade::measure_ui(ui),
             None => true,
         };
-        // From the camera of the picture, and with the final tree.
+        // Requires the picture's camera and the final tree.
         let is_ready = self.resolution != UVec2::ZERO && !self.is_unframed;
         if is_wanted && is_ready && self.document.has_last_tree() {
             let camera = self.turntable.camera(self.resolution);
@@ -227,7 +229,7 @@ impl App {
         });
     }
 
-    /// The most important first: a narrow window cuts off the rest.
+    /// The parts of the status line, most important first: a narrow window truncates it.
     fn status_parts(&self) -> Vec<String> {
         let status = self.tracer.status();
         let scene = &self.document.loaded.scene;
@@ -270,12 +272,12 @@ impl App {
             parts.insert(2, format!("{} not finite", counted(count, "sample")));
         }
         if self.document.is_blank {
-            parts = vec!["no file is open".to_owned()];
+            parts = vec!["no file open".to_owned()];
         }
         parts
     }
 
-    /// The windows over the picture.
+    /// Shows the windows over the picture.
     pub(super) fn windows_ui(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
         if let Some(path) = self.open_dialog.field_ui(ctx) {
             self.load(path, ctx);
@@ -300,9 +302,9 @@ impl App {
             });
     }
 
-    /// Loading progress and the notice.
+    /// Shows the loading progress and the notice.
     fn notices_ui(&mut self, ctx: &egui::Context) {
-        // Where nothing is open, progress stands in the middle of the picture.
+        // Without an open document, `hints_ui` shows the progress.
         let loading = self.loading.as_ref().filter(|_| !self.document.is_blank);
         if loading.is_none() && self.notice.is_none() {
             return;
@@ -311,7 +313,7 @@ impl App {
         egui::Area::new(egui::Id::unique("notices"))
             .fixed_pos(self.canvas_rect.min + egui::vec2(10.0, 10.0))
             .show(ctx, |ui| {
-                // Beside the panel, not over it.
+                // Don't overlap the side panel.
                 ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(120.0, 560.0));
                 if let Some(loading) = loading {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
@@ -325,7 +327,7 @@ impl App {
                         let (title, colour) = if notice.is_error {
                             ("Error", visuals.error_fg_color)
                         } else {
-                            ("Note", visuals.warn_fg_color)
+                            ("Warning", visuals.warn_fg_color)
                         };
                         ui.horizontal(|ui| {
                             ui.label(RichText::new(title).color(colour).strong());
@@ -350,7 +352,7 @@ impl App {
             return;
         }
         let response = egui::Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
-            ui.heading("Keys and pointer");
+            ui.heading("Keyboard and mouse");
             ui.add_space(4.0);
             let height = ui.ctx().content_rect().height() - 120.0;
             egui::ScrollArea::vertical()

@@ -1,4 +1,4 @@
-//! Loading files, taking over the result, and reloading what has changed.
+//! Loading files, showing the result, and reloading changed files.
 
 use super::{App, Notice};
 use crate::document::Document;
@@ -15,14 +15,14 @@ impl App {
         self.loading = Some(Loading::start(path, self.load_options, &self.settings, ctx));
     }
 
-    /// Its thread ends by itself; the window goes on at once.
+    /// Cancels loading without waiting for its thread.
     pub(super) fn cancel_loading(&mut self) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
         }
     }
 
-    /// Takes over a document that is ready. If the file can't be loaded, the old document stays.
+    /// Shows a document that has been loaded. If the file can't be loaded, the old document stays.
     pub(super) fn poll_loading(&mut self, ctx: &egui::Context) {
         if let Some(path) = self.open_dialog.poll() {
             self.load(path, ctx);
@@ -30,7 +30,7 @@ impl App {
         let Some(loading) = &self.loading else { return };
         let result = match loading.poll() {
             Ok(None) => return,
-            // The user cancelled it.
+            // Cancelled by the user.
             Ok(Some(Err(LoadError::Cancelled { .. }))) => {
                 self.loading = None;
                 return;
@@ -64,7 +64,7 @@ impl App {
         if is_same_file {
             self.turntable
                 .set_scene(self.document.loaded.scene.bounds_with_elements());
-            // The camera stays where it is in the file.
+            // Keep the camera's place in the file's coordinates.
             self.turntable.pivot += shift;
             if let Some(mut pick) = pick {
                 pick.camera = pick.camera.moved(shift);
@@ -73,7 +73,7 @@ impl App {
         } else {
             self.use_default_view();
         }
-        // The next frame drops the old scene's picture, without waiting for this scene's first rays.
+        // The next frame drops the old scene's picture without waiting for the first rays in the new scene.
         ctx.request_repaint();
         let title = format!("{} – hitscope", self.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
@@ -81,7 +81,7 @@ impl App {
         if let Some(first) = warnings.first() {
             let more = match warnings.len() - 1 {
                 0 => String::new(),
-                n => format!(" (and {n} more, in the Mesh tab)"),
+                n => format!(" (and {n} more; see the Mesh tab)"),
             };
             self.notice = Some(Notice {
                 text: format!("{}: {first}{more}", self.document.name()),
@@ -90,8 +90,8 @@ impl App {
         }
     }
 
-    /// Looks at the scene from the default direction. What is no matter of the mesh stays: the up axis, the
-    /// projection and its angle.
+    /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up
+    /// axis, projection and field of view.
     pub(super) fn use_default_view(&mut self) {
         let bounds = self.document.loaded.scene.bounds_with_elements();
         let mut turntable = Turntable::framing(bounds, self.resolution);
@@ -102,7 +102,7 @@ impl App {
         self.is_unframed = true;
     }
 
-    /// Loads the file again when it has changed, if the user wants that.
+    /// Reloads the file if it has changed and automatic reloading is on.
     pub(super) fn poll_watch(&mut self, ctx: &egui::Context) {
         let Some(path) = self.document.path.clone().filter(|_| self.settings.watches) else {
             self.watch = None;

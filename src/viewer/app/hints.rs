@@ -1,5 +1,5 @@
-//! The message in the middle of an empty picture: progress, how to open a file, or how to get the mesh back into
-//! view.
+//! The message in the middle of an empty picture: loading progress, how to open a file, or how to frame the
+//! mesh.
 
 use super::App;
 use crate::bindings::Action;
@@ -14,20 +14,20 @@ impl App {
         self.shows_nothing
     }
 
-    /// Checks the picture as soon as every pixel has a ray of its own. While the camera moves, the last answer
-    /// stands.
+    /// Updates `shows_nothing` once every pixel has its own ray. Until then, as while the camera moves, the
+    /// previous value stays.
     pub(super) fn check_view(&mut self) {
         let (film, Some(posted)) = (self.tracer.film(), self.tracer.posted()) else {
             return;
         };
         let context = &posted.context;
-        // Lines and points are drawn over the picture, which doesn't show them itself.
+        // Lines and points are drawn by the overlay; the film doesn't contain them.
         if self.document.is_blank || context.scene.mesh().has_elements() {
             self.shows_nothing = false;
         } else if film.samples() > 0 {
             let background = Film::new(Plan::new(UVec2::ONE, 1, 1), context.background);
             let (above, below) = film.pixels().split_at(film.pixels().len() / 2);
-            // From the middle, where a mesh is found soonest.
+            // Starts in the middle, where a mesh is found soonest.
             let mut pixels = below.iter().chain(above);
             self.shows_nothing = pixels.all(|pixel| *pixel == background.pixels()[0]);
         }
@@ -51,11 +51,11 @@ impl App {
                         is_cancelled = loading.progress_ui(ui);
                     }
                     _ if self.document.is_blank => {
-                        ui.label("No file is open. Drop one here, or press Ctrl+O.");
+                        ui.label("No file is open. Drop a file here or press Ctrl+O.");
                     }
                     _ => {
-                        ui.label("Nothing of the mesh is in view.");
-                        if ui.button("Show the whole mesh (Home)").clicked() {
+                        ui.label("The mesh isn't visible.");
+                        if ui.button("Frame the mesh (Home)").clicked() {
                             actions.push(Action::Frame);
                         }
                     }

@@ -1,13 +1,13 @@
-//! The app: its state, and the order of a frame.
+//! The app: its state and the order of work in a frame.
 //!
 //! | file | part |
 //! |---|---|
-//! | this one | state, and the order of a frame |
+//! | this file | state and the order of work in a frame |
 //! | `actions` | effects of keys and buttons |
-//! | `canvas` | the picture, and what is drawn over it |
-//! | `pointer`, `pick` | drags, wheel and clicks on it; the picked pixel |
+//! | `canvas` | the picture with its overlay and marks |
+//! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
 //! | `files` | loading and reloading |
-//! | `hints` | messages in the middle of an empty picture |
+//! | `hints` | the message in the middle of an empty picture |
 //! | `chrome` | tool bar, status line, messages, help |
 
 mod actions;
@@ -47,16 +47,16 @@ use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
-/// How the window starts.
+/// Options for starting the window.
 #[derive(Clone, Debug)]
 pub struct StartOptions {
-    /// A file to load; the embedded scene without one.
+    /// The file to load; `None` for the built-in scene.
     pub file: Option<PathBuf>,
     /// The settings at the start.
     pub settings: Settings,
     /// How files are loaded.
     pub load_options: LoadOptions,
-    /// Save a picture of the window, and close it.
+    /// If set, saves a screenshot and closes the window.
     pub screenshot: Option<crate::screenshot::ScreenshotOptions>,
 }
 
@@ -65,7 +65,7 @@ impl Default for StartOptions {
         Self {
             file: None,
             settings: Settings::default(),
-            // Who looks at a mesh wants to see what can be seen of it.
+            // The viewer shows as much of a faulty mesh as it can.
             load_options: LoadOptions {
                 faults: FaultPolicy::Lenient,
                 ..LoadOptions::default()
@@ -75,7 +75,7 @@ impl Default for StartOptions {
     }
 }
 
-/// Why the window can't start.
+/// The error if eframe runs without wgpu.
 #[derive(Debug, thiserror::Error)]
 #[error("the window needs wgpu, but eframe runs without it")]
 pub struct NoWgpu;
@@ -98,43 +98,43 @@ pub struct App {
     tracer: Tracer,
     picture: Picture,
     overlay: OverlayLayer,
-    /// Scene and camera of the picture on the screen.
+    /// Scene and camera of the picture that is on the screen.
     on_screen: Option<(Arc<Scene>, Camera)>,
     clicks: Clicks,
     pick: Option<Pick>,
-    /// The next pick, while it is inspected.
+    /// The next pick, while it is being inspected.
     picking: Option<Task<Pick>>,
-    /// The face of the pick, while it is read from the file.
+    /// The lookup of the pick's face in the file, while it runs.
     face_lookup: Option<FaceLookup>,
     /// The flaw that is shown; all of its kind are marked.
     flaw: Option<FlawPlace>,
-    /// The measurement of this scene, if there is one.
+    /// The measurement of this scene, if it was started.
     trade: Option<Trade>,
-    /// Whether a scene was measured since the start.
+    /// Whether any scene has been measured since the start.
     has_measured: bool,
     notice: Option<Notice>,
     shows_help: bool,
     /// Whether the camera rotates around the mesh.
     is_rotating: bool,
-    /// The picture as it was last laid out: its place in points, and its size in physical pixels.
+    /// The picture's place in points, at the last layout. `resolution` is its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
-    /// Whether the camera must still be framed: the picture's size is known after the layout.
+    /// Whether the camera has yet to frame the mesh, which requires the picture's size from the first layout.
     is_unframed: bool,
-    /// Whether the last complete picture is nothing but background.
+    /// Whether the last complete picture shows only background.
     shows_nothing: bool,
     fit_to_screen: FitToScreen,
-    /// The side panel's, in the last frame.
+    /// The side panel's width in the last frame.
     panel_width: f32,
     /// Uncaught errors of the GPU, from any thread.
     gpu_errors: Arc<Mutex<Vec<String>>>,
-    /// Time of the UI thread per frame.
+    /// UI thread times per frame.
     ui_times: Times,
     screenshot: Option<Screenshot>,
 }
 
 impl App {
-    /// Starts the threads and shows the embedded scene, or loads a file and shows nothing until it is there.
+    /// Starts the threads. Shows the built-in scene, or loads a file and shows nothing until it is loaded.
     ///
     /// # Errors
     /// [`NoWgpu`].
@@ -184,12 +184,12 @@ impl App {
         })
     }
 
-    /// The picture in its present state.
+    /// The film of the picture being traced.
     pub fn film(&self) -> &Film {
         self.tracer.film()
     }
 
-    /// Whether the picture has all its samples, the overlay all its lines, and nothing is being loaded.
+    /// Whether the picture has all samples, the overlay has all lines, and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
         let is_wanted = |request: &Request| {
             Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
@@ -207,13 +207,13 @@ impl App {
         self.settings.view().depends_on_tree() && self.document.has_last_tree()
     }
 
-    /// The scene that the picture is of.
+    /// The scene of the picture.
     pub fn traced_scene(&self) -> Option<&Scene> {
         let posted = self.tracer.posted()?;
         Some(&posted.context.scene)
     }
 
-    /// Whether the camera rotates about the mesh by itself.
+    /// Whether auto-rotation is on.
     pub fn is_rotating(&self) -> bool {
         self.is_rotating
     }
@@ -248,7 +248,7 @@ impl App {
         self.flaw.as_ref()
     }
 
-    /// The measurement of this scene, if there is one.
+    /// The measurement of this scene, if it was started.
     pub fn trade(&self) -> Option<&Trade> {
         self.trade.as_ref()
     }
@@ -265,7 +265,7 @@ impl App {
         });
     }
 
-    /// Ends all work in the background: closing the window needs the processor.
+    /// Stops all background work, so that the window closes without delay.
     fn stop_work(&mut self) {
         if let Some(loading) = self.loading.take() {
             loading.cancel();
@@ -290,7 +290,7 @@ impl App {
 }
 
 impl eframe::App for App {
-    /// Runs also while the window is hidden, so that results are collected.
+    /// Also called while the window is hidden, so that results are collected.
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         if let Some(secs) = frame.info().cpu_usage {
             self.ui_times.push(Duration::from_secs_f32(secs));
@@ -307,7 +307,7 @@ impl eframe::App for App {
             let packed = self.document.intersector().kernel().name;
             self.settings.use_for_session(packed);
         }
-        // Not while a slider is dragged: each step would compute all normals.
+        // Not while a slider is dragged: each step would recompute all normals.
         if !ctx.egui_is_using_pointer() {
             self.document.use_crease(self.settings.crease());
         }
@@ -349,20 +349,20 @@ impl eframe::App for App {
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
-        // A picture of the window is taken with the defaults, which aren't the user's settings.
+        // A screenshot uses the defaults, which must not replace the user's settings.
         if self.screenshot.is_none() {
             storage::store(&self.settings, storage);
         }
     }
 
-    /// What egui remembers of its widgets could make it panic at the next start; the settings hold what is worth
-    /// keeping.
+    /// No: egui's stored widget state could make it panic at the next start, and the settings hold all that should
+    /// be kept.
     fn persist_egui_memory(&self) -> bool {
         false
     }
 }
 
-/// Collects errors that wgpu would otherwise panic on.
+/// Installs handlers that collect wgpu's errors, on which wgpu would otherwise panic.
 fn catch_gpu_errors(render_state: &RenderState, ctx: &egui::Context) -> Arc<Mutex<Vec<String>>> {
     let errors: Arc<Mutex<Vec<String>>> = Arc::default();
     let (shared, ctx) = (Arc::clone(&errors), ctx.clone());
@@ -377,7 +377,7 @@ fn catch_gpu_errors(render_state: &RenderState, ctx: &egui::Context) -> Arc<Mute
     let device = &render_state.device;
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| push(error.to_string())));
     device.set_device_lost_callback(move |reason, message| {
-        // Closing the window loses the device as well.
+        // Closing the window also loses the device, with reason `Destroyed`.
         if reason != wgpu::DeviceLostReason::Destroyed {
             lost(format!("the device was lost: {message}"));
         }

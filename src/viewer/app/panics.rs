@@ -1,4 +1,4 @@
-//! Tests: a panic in the background is told, and the window goes on.
+//! Tests: a panic in a background task shows a message, and the window continues to work.
 
 use super::App;
 use crate::harness::{Window, app, click, in_picture, press, wait};
@@ -8,7 +8,7 @@ use crate::trade::{Axis, Trade, TradeState};
 use egui::Key;
 use glam::UVec2;
 
-const MESSAGE: &str = "an internal error ended the work; the terminal has the details";
+const MESSAGE: &str = "internal error; see the terminal for details";
 
 fn wait_for_message(window: &mut Window) {
     wait(window, "the message", |app| app.notice() == Some(MESSAGE));
@@ -17,26 +17,26 @@ fn wait_for_message(window: &mut Window) {
 }
 
 #[test]
-fn a_pick_that_panics_is_told_and_the_next_one_works() {
+fn a_panic_while_picking_is_reported_and_the_next_pick_works() {
     let Some(mut window) = app(None) else { return };
     let at = in_picture(&window, 0.5, 0.5);
     sabotage::next("inspect");
     click(&mut window, at);
     wait_for_message(&mut window);
     assert!(window.state().inspection().is_none());
-    // Two clicks in 0.3 s would be a double click.
+    // Two clicks within 0.3 s would be a double-click.
     window.run_steps(30);
     click(&mut window, at);
     wait(&mut window, "the pick", |app| app.inspection().is_some());
 }
 
 #[test]
-fn lines_that_panic_are_told_and_switched_off_and_can_be_switched_on_again() {
+fn a_panic_in_the_overlay_is_reported_and_lines_are_turned_off_and_can_be_turned_on_again() {
     let Some(mut window) = app(None) else { return };
     for task in ["overlay upload", "overlay"] {
         sabotage::next(task);
         press(&mut window, Key::W);
-        // Only a software GPU draws in the background.
+        // The overlay is drawn in the background only on a software GPU.
         if task == "overlay" && !window.state().overlay.rests_while_moving() {
             continue;
         }
@@ -49,7 +49,7 @@ fn lines_that_panic_are_told_and_switched_off_and_can_be_switched_on_again() {
 }
 
 #[test]
-fn a_kernel_whose_packing_panics_is_told_and_the_one_before_stays() {
+fn a_panic_while_packing_a_kernel_is_reported_and_the_previous_kernel_stays() {
     let Some(mut window) = app(None) else { return };
     sabotage::next("pack");
     window
@@ -72,7 +72,7 @@ fn a_kernel_whose_packing_panics_is_told_and_the_one_before_stays() {
 }
 
 #[test]
-fn a_comparing_view_whose_packing_panics_is_told_and_the_usual_view_comes_back() {
+fn a_panic_while_packing_for_a_comparing_view_is_reported_and_the_default_view_is_restored() {
     let Some(mut window) = app(None) else { return };
     sabotage::next("pack");
     window.state_mut().settings.view = "error-t".to_owned();
@@ -82,7 +82,7 @@ fn a_comparing_view_whose_packing_panics_is_told_and_the_usual_view_comes_back()
 }
 
 #[test]
-fn a_file_whose_loading_panics_is_told_and_the_old_one_stays() {
+fn a_panic_while_loading_is_reported_and_the_old_file_stays() {
     let Some(mut window) = app(None) else { return };
     let name = window.state().document().name();
     let ctx = window.ctx.clone();
@@ -95,7 +95,7 @@ fn a_file_whose_loading_panics_is_told_and_the_old_one_stays() {
 }
 
 #[test]
-fn a_measurement_that_panics_has_failed() {
+fn a_measurement_that_panics_is_reported_as_failed() {
     let Some(mut window) = app(None) else { return };
     let ctx = window.ctx.clone();
     let camera = window.state().turntable().camera(UVec2::new(64, 64));

@@ -1,4 +1,4 @@
-//! The picked pixel: inspected in the background, and again when what it depends on changes.
+//! The picked pixel, which is inspected in the background, and again when kernel, shading or tree change.
 
 use super::App;
 use crate::document::Document;
@@ -13,30 +13,30 @@ use hitscope_core::{Camera, TriangleMesh};
 use hitscope_lab::inspection::{HitReport, Inspection};
 use std::sync::Arc;
 
-/// A pixel that was clicked.
+/// A clicked pixel and its inspection.
 pub(super) struct Pick {
     pub inspection: Inspection,
-    /// The camera of the picture in which it was clicked.
+    /// The camera of the picture that was clicked.
     pub camera: Camera,
     /// The hit point, in the scene's coordinates.
     pub point: Option<DVec3>,
-    /// The face that was hit, once it has been read from the file again.
+    /// The face that was hit, once it has been read from the file.
     face: Option<FaceInFile>,
     basis: InspectionBasis,
 }
 
-/// What an inspection depends on besides mesh and ray.
+/// The settings and state that an inspection depends on, besides mesh and ray.
 #[derive(Clone, Copy, PartialEq)]
 struct InspectionBasis {
     kernel: &'static str,
     shading: Shading,
     crease: Crease,
-    /// The number of tests depends on the tree.
+    /// Whether the tree is final; the number of tests depends on the tree.
     has_last_tree: bool,
 }
 
 impl Pick {
-    /// What the Inspect tab shows of it.
+    /// The contents of the Inspect tab.
     pub fn view(&self, document: &Document) -> PickView<'_> {
         let hit = self.inspection.hit.as_ref();
         PickView {
@@ -60,19 +60,19 @@ fn colour_at(mesh: &TriangleMesh, hit: &HitReport) -> Option<[f32; 3]> {
 }
 
 impl App {
-    /// Inspects a pixel and shows what is found.
+    /// Inspects a pixel and opens the Inspect tab.
     pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
         self.start_picking(camera, pixel, ctx);
         self.settings.tab = Tab::Inspect;
     }
 
-    /// Inspects a picked pixel again.
+    /// Inspects a picked pixel again, with its camera.
     pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
         let pixel = UVec2::from_array(pick.inspection.pixel);
         self.start_picking(pick.camera, pixel, ctx);
     }
 
-    /// Inspects the picked pixel again if the kernel, the shading or the tree has changed since.
+    /// Inspects the picked pixel again if the kernel, the shading or the tree has changed.
     pub(super) fn refresh_pick(&mut self, ctx: &egui::Context) {
         if self.picking.is_some() {
             return;
@@ -97,7 +97,7 @@ impl App {
         let basis = self.inspection_basis();
         let scene = Arc::clone(&self.document.loaded.scene);
         let intersector = Arc::clone(self.document.intersector());
-        // Each kernel tests every triangle near the ray; in a hostile mesh, these are a million.
+        // In the background: each kernel tests every triangle near the ray, which may be a million in a bad mesh.
         let inspect = move || {
             let shading = basis.shading;
             let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
@@ -136,7 +136,7 @@ impl App {
         }
     }
 
-    /// Takes over the result of the last inspection.
+    /// Shows the result of the last inspection once it is ready.
     pub(super) fn poll_picking(&mut self, ctx: &egui::Context) {
         self.poll_face_lookup();
         let result = match self.picking.as_ref().map(Task::poll) {
@@ -156,7 +156,7 @@ impl App {
                 self.pick = Some(pick);
             }
             Err(panicked) => {
-                // The old result is of another question.
+                // The old result is outdated.
                 self.pick = None;
                 self.error(panicked);
             }

@@ -1,7 +1,7 @@
-//! The pointer on the picture: drags, wheel and clicks.
+//! Pointer input on the picture: drags, wheel and clicks.
 //!
-//! What is under the pointer is decided by the camera of the picture that is on the screen. While the camera
-//! moves, that isn't the newest one.
+//! The camera of the picture on the screen determines the point under the pointer. While the camera moves, that
+//! picture lags behind the newest camera.
 
 use super::App;
 use super::canvas::Canvas;
@@ -9,12 +9,12 @@ use egui::{PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
 use hitscope_core::Camera;
 
-/// Single and double clicks. egui counts the clicks of a longer time than a double click takes.
+/// Recognizes single and double clicks. egui's own click count covers a longer time than a double click takes.
 #[derive(Default)]
 pub(super) struct Clicks {
     /// A click that may still become a double click.
     pub pending: Option<PendingClick>,
-    /// When the last double click was, by egui's clock.
+    /// Time of the last double click, by egui's clock.
     last_double_secs: Option<f64>,
 }
 
@@ -23,7 +23,7 @@ pub(super) struct PendingClick {
     camera: Camera,
     pixel: UVec2,
     pos: Pos2,
-    /// When it has become a single click, by egui's clock.
+    /// Time when it becomes a single click, by egui's clock.
     due_secs: f64,
 }
 
@@ -47,9 +47,9 @@ impl App {
         self.end_click(ui.ctx());
     }
 
-    /// Zooms about the point under the pointer.
+    /// Zooms to the point under the pointer.
     fn wheel(&mut self, ui: &egui::Ui, pos: Pos2, canvas: Canvas) {
-        /// A notch of a wheel, about 50 points, zooms by a fifth.
+        /// Scrolling by this zooms by a factor of e. A notch of the wheel, about 50 points, zooms by a fifth.
         const POINTS_PER_E: f32 = 220.0;
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
         let factor = (-(scroll.y + scroll.x) / POINTS_PER_E).exp() / pinch;
@@ -63,7 +63,7 @@ impl App {
         }
     }
 
-    /// Sets the pivot on a double click; keeps a single click until it can't become a double click.
+    /// Sets the pivot on a double click; holds back a single click until it can't become a double click.
     fn click(&mut self, ui: &egui::Ui, response: &Response, pos: Pos2, canvas: Canvas) {
         if !response.clicked() {
             return;
@@ -99,7 +99,7 @@ impl App {
         }
     }
 
-    /// Inspects the pixel of a click that can't become a double click any more.
+    /// Inspects the pixel of a click that can no longer become a double click.
     fn end_click(&mut self, ctx: &egui::Context) {
         let Some(click) = &self.clicks.pending else {
             return;
@@ -114,14 +114,14 @@ impl App {
         self.inspect(camera, pixel, ctx);
     }
 
-    /// The camera of the picture on the screen; `None` while that shows another mesh, or none.
+    /// The camera of the picture on the screen; `None` while the screen shows another mesh or nothing.
     pub fn shown_camera(&self) -> Option<Camera> {
         let (scene, camera) = self.on_screen.as_ref()?;
         let is_current = std::ptr::eq(scene.mesh(), self.document.loaded.scene.mesh());
         is_current.then_some(*camera)
     }
 
-    /// The point of the mesh under a pixel, in the scene's coordinates.
+    /// The point of the mesh at a pixel, in the scene's coordinates.
     fn surface_at(&self, camera: &Camera, at_px: DVec2) -> Option<DVec3> {
         let ray = camera.ray_through(at_px);
         let hit = self.document.intersector().closest_hit(&ray)?;

@@ -1,28 +1,29 @@
-//! Graphics adapters: which backends are tried in which order, and the device of a program without a window.
+//! Graphics adapters: the order of backends, and the device of a program without a window.
 
 use super::GpuError;
 use hitscope_lab::commands::print_line;
 use std::sync::atomic::{AtomicBool, Ordering};
 use wgpu::Backends;
 
-/// Backends in the order in which they are tried. OpenGL comes last, because asking for it next to Vulkan has
-/// a driver set up both: it looks for a display server, and NVIDIA's can deadlock when it closes them.
+/// Backends in the order in which they are tried. OpenGL comes last and alone: requested together with Vulkan, it
+/// makes a driver set up both, which looks for a display server, and NVIDIA's driver can deadlock when it closes
+/// them.
 const DEFAULT_ORDER: [Backends; 2] = [Backends::PRIMARY, Backends::GL];
 
-/// The environment variable that names the backends to try first, as `vulkan,gl`. wgpu's name.
+/// wgpu's environment variable for the backends to try first, such as `vulkan,gl`.
 const VARIABLE: &str = "WGPU_BACKEND";
 
-/// Sets of backends, to be tried one after the other until one has an adapter.
+/// Sets of backends, which are tried in order until one has an adapter.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BackendOrder {
     /// The sets, best first.
     pub sets: Vec<Backends>,
-    /// What is wrong with the value of the environment variable.
+    /// A warning if the environment variable has a bad value.
     pub warning: Option<String>,
 }
 
 impl BackendOrder {
-    /// The order for this program's environment.
+    /// The order for the process's environment.
     pub fn from_env() -> Self {
         let value = std::env::var_os(VARIABLE);
         Self::new(
@@ -33,7 +34,7 @@ impl BackendOrder {
         )
     }
 
-    /// The order if the environment variable has this value: the named backends, then the others.
+    /// The order for this value of the environment variable: the named backends, then the others.
     pub fn new(value: Option<&str>) -> Self {
         let mut order = Self {
             sets: DEFAULT_ORDER.to_vec(),
@@ -59,22 +60,22 @@ impl BackendOrder {
         order.warning = is_bad.then(|| {
             let what = match unknown.as_slice() {
                 [] => "it names no graphics backend".to_owned(),
-                [word] => format!("“{}” is no graphics backend", word.escape_debug()),
+                [word] => format!("“{}” isn't a graphics backend", word.escape_debug()),
                 [word, ..] => format!(
-                    "“{}” and others are no graphics backends",
+                    "“{}” and others aren't graphics backends",
                     word.escape_debug()
                 ),
             };
-            format!("{VARIABLE} is ignored in part or whole: {what} (vulkan, metal, dx12 or gl)")
+            format!("{VARIABLE} is partly or wholly ignored: {what} (expected vulkan, metal, dx12 or gl)")
         });
         order
     }
 
-    /// Opens something with the first set that works. A set without an adapter gives an error for which `is_graphics`
-    /// holds; any other error ends the search. The last error tells of what was tried last.
+    /// Calls `open` with each set until it succeeds. A set without an adapter gives an error for which `is_graphics`
+    /// holds; any other error ends the search.
     ///
     /// # Errors
-    /// Those of `open`.
+    /// The last error of `open`.
     pub fn first_that_opens<T, E: std::fmt::Display>(
         &self,
         is_graphics: impl Fn(&E) -> bool,
@@ -83,7 +84,7 @@ impl BackendOrder {
         if let Some(warning) = &self.warning {
             print_line(format_args!("hitscope: {warning}"));
         }
-        // An order has a set, whatever the environment says.
+        // An order always has at least one set.
         let (&last, others) = self.sets.split_last().unwrap_or((&Backends::GL, &[]));
         for &backends in others {
             match open(backends) {
@@ -100,7 +101,7 @@ impl BackendOrder {
         open(last)
     }
 
-    /// Whether the environment asks for these.
+    /// Whether the environment variable names these.
     fn is_named(&self, backends: Backends) -> bool {
         self.sets.first() == Some(&backends) && self.sets != DEFAULT_ORDER
     }
@@ -108,15 +109,15 @@ impl BackendOrder {
 
 /// A graphics device without a window.
 ///
-/// A process has one at a time: NVIDIA's driver can deadlock where several come and go at the same time.
+/// A process has one at a time: NVIDIA's driver can deadlock if several are created and dropped concurrently.
 pub struct Gpu {
     /// The connection to the drivers.
     pub instance: wgpu::Instance,
-    /// The GPU, or software that acts as one.
+    /// The GPU or software renderer.
     pub adapter: wgpu::Adapter,
-    /// Makes buffers, textures and pipelines.
+    /// Creates buffers, textures and pipelines.
     pub device: wgpu::Device,
-    /// Takes commands.
+    /// Executes commands.
     pub queue: wgpu::Queue,
 }
 
@@ -124,13 +125,13 @@ pub struct Gpu {
 static IS_OPEN: AtomicBool = AtomicBool::new(false);
 
 impl Gpu {
-    /// Opens the first adapter that a backend has, with the largest buffers that it grants.
+    /// Opens the first adapter that a backend has, with its largest buffer limits.
     ///
     /// # Errors
     /// [`GpuError::NoAdapter`].
     ///
     /// # Panics
-    /// In debug builds, if the process has one already.
+    /// In debug builds, if the process already has one.
     pub fn open() -> Result<Self, GpuError> {
         let was_open = IS_OPEN.swap(true, Ordering::Relaxed);
         debug_assert!(!was_open, "a process has one wgpu::Instance at a time");
@@ -176,10 +177,10 @@ async fn open(backends: Backends) -> Result<Gpu, String> {
     })
 }
 
-/// A device with the largest buffers and textures that the adapter grants: a mesh or a picture may need them.
+/// A device with the adapter's largest limits on buffers and textures, which a mesh or a picture may need.
 pub fn device_descriptor(adapter: &wgpu::Adapter) -> wgpu::DeviceDescriptor<'static> {
     let granted = adapter.limits();
-    // What egui asks for.
+    // The base that egui requests.
     let base = if adapter.get_info().backend == wgpu::Backend::Gl {
         wgpu::Limits::downlevel_webgl2_defaults()
     } else {
@@ -219,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn sets_are_tried_in_order_until_one_opens_and_the_last_error_is_returned() {
+    fn sets_are_tried_in_order_and_the_last_error_is_returned() {
         let order = BackendOrder::new(Some("vulkan"));
         let mut tried = Vec::new();
         let opened = order.first_that_opens(
@@ -236,13 +237,13 @@ mod tests {
         assert_eq!((opened, tried.as_slice()), (Ok(7), order.sets.as_slice()));
         let failed = order.first_that_opens(|_| true, |backends| Err::<(), _>(backends.bits()));
         assert_eq!(failed, Err(Backends::GL.bits()));
-        // What isn't about graphics isn't better with other graphics.
+        // Other backends don't help with an error that isn't about graphics.
         let failed = order.first_that_opens(|_| false, |backends| Err::<(), _>(backends.bits()));
         assert_eq!(failed, Err(Backends::VULKAN.bits()));
     }
 
     #[test]
-    fn a_value_without_a_usable_name_leaves_the_order_and_is_told() {
+    fn a_value_without_a_valid_name_keeps_the_default_order_and_gives_a_warning() {
         for value in ["", " ,", "glide", "glide,3dfx"] {
             let order = BackendOrder::new(Some(value));
             assert_eq!(order.sets, DEFAULT_ORDER, "{value:?}");

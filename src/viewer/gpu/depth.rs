@@ -1,4 +1,4 @@
-//! The mesh's depth, which hides lines behind it.
+//! The depth pass of the mesh, which hides the lines behind it.
 
 use super::upload::{buffer, buffers};
 use super::view::ViewBinding;
@@ -6,25 +6,25 @@ use super::{GpuError, shader};
 use hitscope_core::TriangleMesh;
 use std::ops::Range;
 
-/// Comes behind [`view::SHADER`](super::view::SHADER).
+/// Appended to [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/depth.wgsl");
 
-/// Triangles are pushed back by this many times their slope, in depth a pixel, so that a line on a
-/// surface isn't hidden by it: half a line's width, and the half pixel of its soft edge, and some
-/// for the picked triangle's wider outline.
+/// Triangles are pushed back by this many times their slope, in depth per pixel, so that a surface doesn't hide
+/// the lines on it: half a line's width, half a pixel of soft edge, and a margin for the picked triangle's wider
+/// outline.
 const SLOPE_BIAS: f32 = -2.5;
-/// And by this many of the smallest steps of depth.
+/// Triangles are also pushed back by this many of the smallest steps of depth.
 const CONSTANT_BIAS: i32 = -16;
 
 /// The vertices and indices of a mesh on the GPU.
 pub struct DepthMesh {
     positions: wgpu::Buffer,
-    /// Three indices for each triangle, and how many triangles.
+    /// Buffers of three indices per triangle, each with its number of triangles.
     triangles: Vec<(wgpu::Buffer, u32)>,
 }
 
 impl DepthMesh {
-    /// Uploads a mesh. For a thread that may wait.
+    /// Uploads a mesh. Blocks.
     ///
     /// # Errors
     /// [`GpuError::TooLarge`].
@@ -41,13 +41,13 @@ impl DepthMesh {
         })
     }
 
-    /// Triangles of each buffer.
+    /// The number of triangles in each buffer.
     pub(super) fn triangle_counts(&self) -> Vec<u32> {
         self.triangles.iter().map(|(_, count)| *count).collect()
     }
 }
 
-/// Draws depth and no colour.
+/// The pipeline that draws depth and no colour.
 pub struct DepthPipeline(wgpu::RenderPipeline);
 
 impl DepthPipeline {

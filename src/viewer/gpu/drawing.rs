@@ -1,7 +1,7 @@
-//! The overlay: lines over a mesh, hidden where the mesh is in front of them.
+//! Drawing of the overlay: lines over a mesh, hidden where the mesh is in front of them.
 //!
-//! It is drawn into a colour and a depth texture of its own, so that the result doesn't depend on the window's: the
-//! mesh's depth first, then the lines. Depth is reversed (1 near, 0 far), which keeps its precision far away.
+//! The overlay has its own colour and depth textures, so that the result doesn't depend on the window's. The mesh's
+//! depth is drawn first, then the lines. Depth is reversed (1 near, 0 far), which keeps precision at a distance.
 
 use super::depth::{DepthMesh, DepthPipeline};
 use super::lines::{LineOcclusion, LinePipelines, LineSet, LineStyle, StyleUniform};
@@ -12,25 +12,25 @@ use glam::UVec2;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-/// Lines of one look.
+/// Lines with one style.
 #[derive(Clone)]
 pub struct DrawnLines {
     /// The lines.
     pub lines: Arc<LineSet>,
-    /// Their look.
+    /// Their style.
     pub style: StyleUniform,
     /// Whether the mesh hides them.
     pub occlusion: LineOcclusion,
 }
 
-/// What an overlay shows.
+/// The contents of an overlay.
 #[derive(Clone)]
 pub struct Drawing {
-    /// From where, and the size.
+    /// The camera and the size.
     pub view: ViewUniform,
-    /// What hides lines.
+    /// The mesh that hides lines.
     pub mesh: Arc<DepthMesh>,
-    /// The lines, later ones over earlier ones.
+    /// The lines; later sets are drawn over earlier ones.
     pub sets: Vec<DrawnLines>,
 }
 
@@ -46,12 +46,12 @@ impl PartialEq for Drawing {
 }
 
 impl Drawing {
-    /// Whether the mesh has the same depth in both.
+    /// Whether both have the same depth of the mesh.
     pub fn has_depth_of(&self, other: &Self) -> bool {
         self.view == other.view && Arc::ptr_eq(&self.mesh, &other.mesh)
     }
 
-    /// Whether it has more lines that `other` hasn't than `other` has.
+    /// Whether most of its lines aren't in `other`.
     pub fn is_mostly_new_to(&self, other: &Self) -> bool {
         let is_old = |set: &DrawnLines| {
             let lines = other.sets.iter().map(|set| &set.lines);
@@ -69,13 +69,13 @@ impl Drawing {
 /// Textures of the picture's size.
 pub struct Targets {
     size: UVec2,
-    /// One to be shown while the other is drawn.
+    /// One texture is shown while the other is drawn.
     colours: [wgpu::Texture; 2],
     depth: wgpu::Texture,
 }
 
 impl Targets {
-    /// Makes the textures.
+    /// Creates the textures.
     pub fn new(device: &wgpu::Device, size: UVec2) -> Self {
         use wgpu::TextureUsages as Usage;
         let usage = Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
@@ -99,7 +99,7 @@ impl Targets {
     }
 }
 
-/// How a drawing is cut into slices.
+/// The slice sizes of a drawing.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Paces {
     /// Of the mesh's triangles.
@@ -109,34 +109,34 @@ pub struct Paces {
 }
 
 impl Paces {
-    /// Everything at once, without waiting for it.
+    /// Everything in one slice, without waiting for it.
     pub const UNLIMITED: Self = Self {
         triangles: Pace::UNLIMITED,
         lines: Pace::UNLIMITED,
     };
 }
 
-/// What a drawing is drawn into.
+/// The render targets of a drawing.
 #[derive(Clone)]
 pub struct Canvas {
     /// The textures.
     pub targets: Arc<Targets>,
-    /// Which of the colour textures.
+    /// Index of the colour texture.
     pub colour: usize,
-    /// Whether the depth texture holds the mesh's depth already.
+    /// Whether the depth texture already holds the mesh's depth.
     pub has_depth: bool,
 }
 
-/// What others may see and do while a drawing is drawn.
+/// State of a drawing in progress, shared with other threads.
 #[derive(Default)]
 pub struct DrawingState {
     /// Ends the drawing after the slice that is being drawn.
     pub is_cancelled: AtomicBool,
-    /// Whether the colour texture is cleared, and has some lines.
+    /// Whether the colour texture has been cleared and has some lines.
     pub has_lines: AtomicBool,
 }
 
-/// The pipelines of the overlay. Live as long as the device.
+/// The pipelines of the overlay, which live as long as the device.
 pub struct Overlay {
     device: wgpu::Device,
     queue: wgpu::Queue,
@@ -158,14 +158,14 @@ impl Overlay {
         }
     }
 
-    /// The device, and the queue that everything is submitted to.
+    /// The device and its queue.
     pub fn gpu(&self) -> (&wgpu::Device, &wgpu::Queue) {
         (&self.device, &self.queue)
     }
 
-    /// Draws over a transparent ground. Returns whether all was drawn: it wasn't if it was cancelled.
+    /// Draws on a transparent background. Returns false if it was cancelled.
     ///
-    /// One drawing at a time: they share the view's buffer.
+    /// Only one drawing may run at a time, as drawings share the view's buffer.
     pub fn draw(
         &self,
         drawing: &Drawing,
@@ -227,7 +227,7 @@ impl Overlay {
             .iter()
             .map(|set| self.lines.style(&self.device, &set.style));
         let styles: Vec<LineStyle> = styles.collect();
-        // Parts: every buffer of every set.
+        // A part is a buffer of a set.
         let parts = (0..drawing.sets.len())
             .flat_map(|set| (0..drawing.sets[set].lines.buffers().len()).map(move |k| (set, k)));
         let parts: Vec<(usize, usize)> = parts.collect();

@@ -7,39 +7,39 @@ use bytemuck::{Pod, Zeroable};
 use glam::Vec3;
 use std::ops::Range;
 
-/// Comes behind [`view::SHADER`](super::view::SHADER).
+/// Appended to [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/lines.wgsl");
 
-/// A line of the mesh's space. Twin of `Line` in shaders/lines.wgsl.
+/// A line in the mesh's space. Twin of `Line` in shaders/lines.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct Line {
-    /// Where it starts.
+    /// Start point.
     pub start: Vec3,
-    /// Where it ends.
+    /// End point.
     pub end: Vec3,
-    /// From it to where the next one is to be expected; lines fade by how long that looks.
+    /// Vector to the expected place of the next line. Lines fade where its projection is short.
     pub gap: Vec3,
 }
 
-/// How a set of lines looks. Twin of `Style` in shaders/lines.wgsl.
+/// The style of a set of lines. Twin of `Style` in shaders/lines.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 pub struct StyleUniform {
-    /// sRGB and alpha, from 0 to 1, alpha not multiplied in.
+    /// sRGB and alpha, from 0 to 1, not premultiplied.
     pub colour: [f32; 4],
     /// Half the width in pixels.
     pub half_width_px: f32,
-    /// The end is moved to this many times its distance from the start.
+    /// Factor of the line's length; the start stays in place.
     pub stretch: f32,
-    /// 1: lines fade where they are dense; 0: they don't.
+    /// 1 if lines fade where they are dense, else 0.
     pub fade: f32,
-    /// Rounds the size up to what WGSL demands.
+    /// Pads the struct to the size that WGSL requires.
     pub padding: f32,
 }
 
 impl StyleUniform {
-    /// Where its members lie, for the test that compares them with WGSL's.
+    /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
     pub(super) const OFFSETS: [usize; 4] = [
         std::mem::offset_of!(Self, colour),
@@ -52,9 +52,9 @@ impl StyleUniform {
 /// Whether the mesh hides lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineOcclusion {
-    /// Lines behind the mesh don't show.
+    /// Lines behind the mesh are hidden.
     HiddenByMesh,
-    /// They do.
+    /// Lines behind the mesh are visible.
     ThroughMesh,
 }
 
@@ -62,10 +62,10 @@ pub enum LineOcclusion {
 pub struct LineSet(Vec<(wgpu::Buffer, u32)>);
 
 impl LineSet {
-    /// Uploads lines. For a thread that may wait.
+    /// Uploads lines. Blocks.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`] if the device grants no buffer for even one line.
+    /// [`GpuError::TooLarge`] if the device allows no buffer for even one line.
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
@@ -81,10 +81,10 @@ impl LineSet {
     }
 }
 
-/// A look of lines on the GPU.
+/// A style on the GPU.
 pub(super) struct LineStyle(wgpu::BindGroup);
 
-/// Draws sets of lines.
+/// The pipelines that draw sets of lines.
 pub struct LinePipelines {
     style_layout: wgpu::BindGroupLayout,
     hidden: wgpu::RenderPipeline,
@@ -151,7 +151,7 @@ impl LinePipelines {
         }
     }
 
-    /// Uploads a look.
+    /// Uploads a style.
     pub(super) fn style(&self, device: &wgpu::Device, style: &StyleUniform) -> LineStyle {
         use wgpu::util::DeviceExt as _;
         let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

@@ -1,4 +1,4 @@
-//! What the GPU draws: the traced picture ([`picture`]), and the overlay ([`drawing`]), which consists of the mesh's
+//! GPU drawing: the traced picture ([`picture`]) and the overlay ([`drawing`]), which consists of the mesh's
 //! depth ([`depth`]) and [`lines`], both for the same [`view`].
 
 pub mod adapter;
@@ -12,19 +12,19 @@ pub mod view;
 
 use glam::UVec2;
 
-/// The colour target: sRGB-encoded, alpha multiplied in, as egui's textures are.
+/// The colour target: sRGB-encoded with premultiplied alpha, as egui's textures.
 const COLOUR_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
-/// Reversed depth needs a float to be precise.
+/// Reversed depth needs a float format to be precise.
 const DEPTH_FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Depth32Float;
 
-/// Why something can't be drawn.
+/// A drawing error.
 #[derive(Debug, thiserror::Error)]
 pub enum GpuError {
-    /// There is no GPU, nor software that acts as one.
+    /// There is no GPU and no software renderer.
     #[error("no graphics adapter was found: {0}")]
     NoAdapter(String),
-    /// The mesh needs a larger buffer than the GPU grants.
-    #[error("the overlay needs a buffer of {needed} bytes; this GPU grants {granted}")]
+    /// The mesh needs a larger buffer than the GPU allows.
+    #[error("the overlay needs a buffer of {needed} bytes; this GPU allows {granted}")]
     TooLarge {
         /// Bytes needed.
         needed: u64,
@@ -33,7 +33,7 @@ pub enum GpuError {
     },
     /// The picture is larger than the GPU's textures or buffers.
     #[error(
-        "a picture of {width}x{height} is too large to be drawn over: this GPU grants {side} pixels a side and {bytes} bytes"
+        "a picture of {width}x{height} is too large for the overlay: this GPU allows {side} pixels per side and {bytes} bytes"
     )]
     PictureTooLarge {
         /// Of the picture.
@@ -50,7 +50,7 @@ pub enum GpuError {
     ReadBack(String),
 }
 
-/// A plain texture: one level, one sample.
+/// Creates a texture with one mip level and one sample per pixel.
 pub fn texture(
     device: &wgpu::Device,
     label: &str,
@@ -78,7 +78,7 @@ fn extent(size: UVec2) -> wgpu::Extent3d {
     }
 }
 
-/// A bind group layout of one uniform for vertex and fragment shaders.
+/// The layout of a bind group with one uniform for vertex and fragment shaders.
 fn uniform_layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some(label),
@@ -95,7 +95,7 @@ fn uniform_layout(device: &wgpu::Device, label: &str) -> wgpu::BindGroupLayout {
     })
 }
 
-/// The group that binds a uniform buffer.
+/// A bind group of one uniform buffer.
 fn uniform_group(
     device: &wgpu::Device,
     label: &str,
@@ -112,7 +112,7 @@ fn uniform_group(
     })
 }
 
-/// A shader behind the part that all share.
+/// Compiles a shader, appended to the part that all shaders share.
 fn shader(device: &wgpu::Device, label: &str, source: &str) -> wgpu::ShaderModule {
     device.create_shader_module(wgpu::ShaderModuleDescriptor {
         label: Some(label),
@@ -133,14 +133,14 @@ mod tests {
             .find(|(_, ty)| ty.name.as_deref() == Some(name))
             .expect(name);
         let naga::TypeInner::Struct { members, span } = &found.inner else {
-            panic!("{name} is no structure");
+            panic!("{name} isn't a structure");
         };
         let offsets = members.iter().map(|member| member.offset as usize);
         (*span as usize, offsets.collect())
     }
 
     #[test]
-    fn uniforms_are_laid_out_as_their_twins_in_wgsl() {
+    fn uniforms_have_the_layout_of_their_twins_in_wgsl() {
         let (size, offsets) = layout(view::SHADER, "View");
         assert_eq!(size, size_of::<ViewUniform>());
         assert_eq!(offsets, ViewUniform::OFFSETS);

@@ -1,8 +1,8 @@
-//! The traced picture on the screen, with the overlay on it.
+//! Drawing of the traced picture and the overlay on the screen.
 //!
-//! Drawn by a pipeline of its own instead of egui's, whose shader costs a software rasterizer more than
-//! the rays do: while the camera moved, frames came every 156 ms with it and every 97 ms with this one
-//! (bunny, 1280 × 800, 2 cores, lavapipe, 2026-11).
+//! Uses a separate pipeline instead of egui's, whose shader takes a software rasterizer more time than the rays
+//! take: while the camera moved, a frame took 156 ms with egui's pipeline and 97 ms with this one (bunny,
+//! 1280 × 800, 2 cores, lavapipe, 2026-11).
 
 use super::{extent, texture};
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState};
@@ -11,10 +11,10 @@ use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::film::PixelRect;
 
-/// Stands alone: a picture has no view.
+/// A complete shader, without [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/picture.wgsl");
 
-/// sRGB-encoded bytes that no one decodes: what the film holds, and what egui's target takes.
+/// sRGB-encoded bytes without decoding, as in the film and in egui's target.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
 
 /// Written by the CPU, read by the shader.
@@ -25,13 +25,13 @@ const USAGE: wgpu::TextureUsages =
 pub struct Picture {
     device: wgpu::Device,
     queue: wgpu::Queue,
-    /// Without and with an overlay.
+    /// The pipelines without and with an overlay.
     pipelines: [wgpu::RenderPipeline; 2],
     layout: wgpu::BindGroupLayout,
-    /// Stands for an overlay where there is none.
+    /// A placeholder texture if there is no overlay.
     nothing: wgpu::Texture,
     picture: Option<wgpu::Texture>,
-    /// Binds the picture and this overlay.
+    /// The bind group of the picture and this overlay.
     bound: Option<(wgpu::Texture, wgpu::BindGroup)>,
 }
 
@@ -43,7 +43,7 @@ impl Picture {
         Self {
             pipelines: [Layers::Picture, Layers::PictureAndOverlay]
                 .map(|layers| pipeline(&device, &layout, render_state.target_format, layers)),
-            // wgpu clears what is never written: one transparent pixel.
+            // One transparent pixel: wgpu clears textures that are never written.
             nothing: texture(&device, "nothing", UVec2::ONE, FORMAT, USAGE),
             queue: render_state.queue.clone(),
             layout,
@@ -53,7 +53,7 @@ impl Picture {
         }
     }
 
-    /// Uploads the pixels that changed; all of them if the size did.
+    /// Uploads the changed pixels, or all pixels if the size changed.
     pub fn upload(&mut self, film: &Film, changed: PixelRect) {
         let size = film.size();
         let is_same_size =
@@ -93,7 +93,7 @@ impl Picture {
         self.picture = Some(texture);
     }
 
-    /// What draws the picture and an overlay of its size into `rect`; `None` before the first upload.
+    /// A shape that draws the picture and an overlay of its size into `rect`; `None` before the first upload.
     pub fn shape(&mut self, rect: Rect, overlay: Option<&wgpu::Texture>) -> Option<Shape> {
         let picture = self.picture.as_ref()?;
         let pipeline = &self.pipelines[usize::from(overlay.is_some())];
@@ -115,14 +115,14 @@ impl Picture {
     }
 }
 
-/// What a pipeline draws. The number is what the shader knows it by.
+/// The layers that a pipeline draws. The discriminant is the shader's `HAS_OVERLAY`.
 #[derive(Clone, Copy)]
 enum Layers {
     Picture = 0,
     PictureAndOverlay = 1,
 }
 
-/// Handles of what a frame needs.
+/// The GPU resources of a frame.
 struct Draw {
     pipeline: wgpu::RenderPipeline,
     group: wgpu::BindGroup,

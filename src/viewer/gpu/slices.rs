@@ -1,25 +1,25 @@
-//! Work for the GPU, cut into slices that each take a bounded time.
+//! GPU work in slices of bounded time.
 //!
-//! A queue runs its submissions one after the other. A frame of the window waits for whatever was submitted before
-//! it, so what takes long is submitted in slices, and the next slice only when the one before is done.
+//! A queue runs its submissions in order, so a frame of the window waits for all earlier submissions. Long work is
+//! therefore submitted in slices, each when the previous one is done.
 
 use std::ops::Range;
 use std::sync::mpsc::{RecvTimeoutError, sync_channel};
 use std::time::{Duration, Instant};
 
-/// What a slice should take: short beside a frame of 33 ms, long beside the cost of a submission.
+/// Target time of a slice: less than a frame of 33 ms, and much more than a submission takes.
 const SLICE: Range<Duration> = Duration::from_millis(8)..Duration::from_millis(25);
-/// Slices of no more primitives than this take as long as a submission if they cover few pixels: lavapipe draws one or
-/// two a µs (2 cores, 2026-11). On a busy machine shorter ones would only add submissions.
+/// Slices of up to this many primitives take as long as a submission if they cover few pixels: lavapipe draws one or
+/// two per µs (2 cores, 2026-11). On a busy machine shorter slices would only add submissions.
 const SMALL: u32 = 1 << 14;
-/// What a small slice may take. Only primitives that cover many pixels take longer.
+/// Target time of a small slice. Only primitives that cover many pixels take longer.
 const SMALL_SLICE: Range<Duration> = Duration::from_millis(100)..Duration::from_millis(250);
-/// Primitives in the first slice, before anything is measured.
+/// Primitives in the first slice, before any measurement.
 const FIRST: u32 = 1 << 15;
-/// The smallest slice, which keeps the number of submissions in bounds.
+/// Primitives in the smallest slice, which bounds the number of submissions.
 const LEAST: u32 = 1 << 6;
 
-/// How many primitives a slice has, adapted to what the slices before it took.
+/// The number of primitives per slice, adapted to the times of earlier slices.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Pace(u32);
 
@@ -30,7 +30,7 @@ impl Default for Pace {
 }
 
 impl Pace {
-    /// All at once: for a GPU that is quick, or where nobody waits for a frame.
+    /// One slice for everything, for a fast GPU or without a window.
     pub const UNLIMITED: Self = Self(u32::MAX);
 
     /// Primitives of the next slice.
@@ -38,7 +38,7 @@ impl Pace {
         self.0
     }
 
-    /// Takes into account what a slice took.
+    /// Adapts to the time that a slice took.
     pub fn adapt(&mut self, took: Duration) {
         if *self == Self::UNLIMITED {
             return;
@@ -61,7 +61,7 @@ pub struct Slices {
 }
 
 impl Slices {
-    /// Parts of these sizes.
+    /// Slices of parts with these sizes.
     pub fn new(sizes: Vec<u32>) -> Self {
         Self {
             sizes,
@@ -70,7 +70,7 @@ impl Slices {
         }
     }
 
-    /// The next slice: ranges of parts, together `most` primitives or the rest. Empty once all are handed out.
+    /// The next slice: ranges of parts with `most` primitives in total, or the remaining ones. Empty at the end.
     pub fn take(&mut self, most: u32) -> Vec<(usize, Range<u32>)> {
         let (mut ranges, mut left) = (Vec::new(), most);
         while let Some(&size) = self.sizes.get(self.part) {
@@ -89,14 +89,14 @@ impl Slices {
     }
 }
 
-/// Submits commands, and returns what they took once they are done. The wait is for the calling thread, which isn't
-/// the window's; other threads may submit meanwhile.
+/// Submits commands, waits until they are done, and returns the time that they took. Must not be called on the
+/// window's thread; other threads may submit meanwhile.
 pub fn submit_and_wait(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
     commands: Option<wgpu::CommandBuffer>,
 ) -> Duration {
-    // What others submitted before isn't measured.
+    // Exclude earlier submissions from the measurement.
     wait(device, queue);
     let start = Instant::now();
     queue.submit(commands);
@@ -104,13 +104,13 @@ pub fn submit_and_wait(
     start.elapsed()
 }
 
-/// Waits for all that was submitted so far. wgpu's own wait with a timeout fails an assertion of wgpu-core 30 if
-/// another thread's submission ends meanwhile, and one without keeps other threads from freeing what they made.
+/// Waits for all submissions so far. wgpu's own wait with a timeout fails an assertion in wgpu-core 30 if another
+/// thread's submission ends meanwhile, and its wait without a timeout keeps other threads from freeing resources.
 fn wait(device: &wgpu::Device, queue: &wgpu::Queue) {
     const STEP: Duration = Duration::from_millis(1);
     let (sender, done) = sync_channel(1);
     queue.on_submitted_work_done(move || _ = sender.send(()));
-    // If the device is lost, of which its owner is told, the sender is dropped.
+    // If the device is lost, which is reported elsewhere, the sender is dropped.
     while device.poll(wgpu::PollType::Poll).is_ok() {
         if done.recv_timeout(STEP) != Err(RecvTimeoutError::Timeout) {
             return;
@@ -148,7 +148,7 @@ mod tests {
     }
 
     #[test]
-    fn slow_slices_shrink_quick_ones_grow_and_neither_ends_the_work() {
+    fn slow_slices_shrink_and_fast_ones_grow_within_bounds() {
         let mut pace = Pace::default();
         for _ in 0..100 {
             pace.adapt(Duration::from_secs(1));
@@ -157,11 +157,11 @@ mod tests {
         for _ in 0..100 {
             pace.adapt(Duration::ZERO);
         }
-        // It stays a pace that adapts.
+        // It remains adaptive.
         assert!(pace != Pace::UNLIMITED && pace.primitives() > u32::MAX / 2);
         pace.adapt(Duration::from_secs(1));
         assert!(pace.primitives() < u32::MAX / 2 + 1);
-        // Few primitives are given more time: nothing is won by even fewer.
+        // Small slices get more time, as smaller ones would gain nothing.
         let mut few = Pace(SMALL);
         few.adapt(SMALL_SLICE.end);
         assert_eq!(few, Pace(SMALL));

@@ -1,12 +1,12 @@
-//! Buffers filled in pieces, so that copying doesn't keep the queue busy for long.
+//! Uploads of buffers in pieces, so that copying doesn't block the queue for long.
 
 use super::GpuError;
 use super::slices::submit_and_wait;
 
-/// Bytes of a piece: some milliseconds of copying on a software GPU.
+/// Bytes per piece: some milliseconds of copying on a software GPU.
 const PIECE: usize = 4 << 20;
 
-/// A buffer with these contents. For a thread that may wait: the next piece is copied when the last one is done.
+/// A buffer with these contents. Blocks: each piece is copied when the previous one is done.
 ///
 /// # Errors
 /// [`GpuError::TooLarge`].
@@ -34,11 +34,10 @@ pub(super) fn buffer(
     Ok(buffer)
 }
 
-/// Buffers with these items, as many as it takes for each to be no larger than the device grants; each with the
-/// number of its items.
+/// Buffers with these items, each within the device's size limit and with the number of its items.
 ///
 /// # Errors
-/// [`GpuError::TooLarge`] if the device grants none for even one item.
+/// [`GpuError::TooLarge`] if the device allows no buffer for even one item.
 pub(super) fn buffers<T: bytemuck::NoUninit>(
     device: &wgpu::Device,
     queue: &wgpu::Queue,

@@ -1,4 +1,4 @@
-//! Which view is drawn: the camera, as shaders see it.
+//! The camera as a uniform of the shaders.
 
 use super::{uniform_group, uniform_layout};
 use bytemuck::{Pod, Zeroable};
@@ -21,7 +21,7 @@ pub struct ViewUniform {
 }
 
 impl ViewUniform {
-    /// Where its members lie, for the test that compares them with WGSL's.
+    /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
     pub(super) const OFFSETS: [usize; 4] = [
         std::mem::offset_of!(Self, clip_from_eye),
@@ -30,12 +30,12 @@ impl ViewUniform {
         std::mem::offset_of!(Self, viewport),
     ];
 
-    /// The view of a camera on a scene with these bounds.
+    /// The uniform for a camera and a scene with these bounds.
     pub fn new(camera: &Camera, bounds: &Aabb) -> Self {
         let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
         let reach = from_eye.length() + bounds.radius();
-        // Reversed float depth stays precise whatever the near plane. This one is nearer than f32
-        // tells a point from the eye. Parallel rays start at the eye's plane.
+        // Reversed float depth stays precise for any near plane. This plane is so near that an f32 can't
+        // distinguish a nearer point from the eye. Orthographic rays start at the eye's plane.
         let (near, near_w) = match camera.projection() {
             Projection::Perspective { .. } => (1e-6 * reach, 1e-6 * reach),
             Projection::Orthographic { .. } => (0.0, 0.0),
@@ -64,7 +64,7 @@ pub struct ViewBinding {
 }
 
 impl ViewBinding {
-    /// Makes the buffer; [`upload`](Self::upload) fills it.
+    /// Creates the buffer; [`upload`](Self::upload) fills it.
     pub fn new(device: &wgpu::Device) -> Self {
         let layout = uniform_layout(device, "view");
         let buffer = device.create_buffer(&wgpu::BufferDescriptor {
@@ -81,17 +81,17 @@ impl ViewBinding {
         }
     }
 
-    /// Sets the view for what is submitted next.
+    /// Sets the view for later submissions.
     pub fn upload(&self, queue: &wgpu::Queue, view: &ViewUniform) {
         queue.write_buffer(&self.buffer, 0, bytemuck::bytes_of(view));
     }
 
-    /// For pipelines' layouts.
+    /// The bind group's layout.
     pub fn layout(&self) -> &wgpu::BindGroupLayout {
         &self.layout
     }
 
-    /// For passes.
+    /// The bind group.
     pub fn group(&self) -> &wgpu::BindGroup {
         &self.group
     }

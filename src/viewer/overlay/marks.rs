@@ -1,4 +1,4 @@
-//! Where are the file's own lines and points, and where flaws?
+//! Marks at the file's lines and points, and at flaws.
 
 use super::wireframe;
 use crate::gpu::lines::Line;
@@ -6,10 +6,10 @@ use glam::Vec3;
 use hitscope_core::mesh::{Flaw, FlawLocations, Health};
 use hitscope_core::{Scene, TriangleMesh};
 
-/// Half the length of a cross, as a part of the scene's radius: some 5 pixels where all of it is seen.
+/// Half the length of a cross, as a fraction of the scene's radius: some 5 pixels if the whole scene is in view.
 const CROSS: f32 = 0.008;
 
-/// The file's `l` and `p`: lines as they are, points as crosses.
+/// The file's lines (`l`), and crosses at its points (`p`).
 pub fn elements(scene: &Scene) -> Vec<Line> {
     let mesh = scene.mesh();
     let lines = mesh.lines.iter().map(|&ends| between(mesh, ends));
@@ -17,7 +17,7 @@ pub fn elements(scene: &Scene) -> Vec<Line> {
     lines.chain(points).collect()
 }
 
-/// Where flaws of a kind are: their edges, the outlines of their triangles, crosses at their vertices.
+/// Marks at all flaws of a kind: edges, outlines of triangles, or crosses at vertices.
 pub fn flaws(scene: &Scene, health: &Health, flaw: Flaw) -> Vec<Line> {
     let mesh = scene.mesh();
     match health.places(flaw) {

@@ -1,11 +1,11 @@
-//! The overlay on the traced picture: wireframe, normals, flaws, and the picked triangle.
+//! The overlay on the traced picture: wireframe, normals, flaws and the picked triangle.
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`options`] | what is drawn, and how it looks |
+//! | [`options`] | contents and styles of the overlay |
 //! | [`wireframe`], [`normals`], [`marks`] | the lines of a mesh |
-//! | `uploaded` | lines that threads gather and upload |
-//! | `painter` | the drawn overlay |
+//! | `uploaded` | gathering and uploading lines in the background |
+//! | `painter` | drawing in the background |
 
 pub mod marks;
 pub mod normals;
@@ -31,16 +31,16 @@ use std::sync::Arc;
 use uploaded::{Readiness, Uploaded};
 use wireframe::WireframeEdges;
 
-/// Marks are drawn twice: faint where the mesh hides them, strong where it doesn't.
+/// Marks are drawn twice, so that they are faint where the mesh hides them and strong elsewhere.
 const FAINT_AND_STRONG: [(LineOcclusion, f32); 2] = [
     (LineOcclusion::ThroughMesh, 0.3),
     (LineOcclusion::HiddenByMesh, 1.0),
 ];
 
-/// Why the overlay can't be drawn.
+/// An error that keeps the overlay from being drawn.
 #[derive(Debug, thiserror::Error)]
 pub enum OverlayError {
-    /// The GPU refuses.
+    /// A GPU error.
     #[error(transparent)]
     Gpu(#[from] GpuError),
     /// A thread that gathers or draws lines panicked.
@@ -61,7 +61,7 @@ pub struct OverlayLayer {
     flaws: Uploaded<Flaw, LineSet>,
     picked: Uploaded<u32, LineSet>,
     painter: Painter,
-    /// What was asked for last.
+    /// The options of the last call.
     options: Options,
     is_complete: bool,
 }
@@ -70,7 +70,7 @@ pub struct OverlayLayer {
 #[derive(Default)]
 struct Ready {
     sets: Vec<DrawnLines>,
-    /// Whether more will come.
+    /// Whether more lines are being prepared.
     is_pending: bool,
 }
 
@@ -112,8 +112,8 @@ impl OverlayLayer {
         }
     }
 
-    /// The overlay for a camera, as a texture of the picture's size; `None` if nothing is drawn. What isn't ready yet is
-    /// missing, and a repaint comes when it is.
+    /// The overlay for a camera, as a texture of the picture's size; `None` if nothing is drawn. Lines that aren't
+    /// ready are omitted; a repaint is requested when they are.
     ///
     /// # Errors
     /// See [`OverlayError`].
@@ -132,7 +132,7 @@ impl OverlayLayer {
             return Ok(None);
         }
         self.use_scene(scene);
-        self.retry_what_is_asked_for_anew(options);
+        self.retry_if_turned_on(options);
         let shared = Arc::clone(scene);
         let upload = move |device: &_, queue: &_| DepthMesh::new(device, queue, shared.mesh());
         let mesh = match self.mesh.get((), &self.overlay, ctx, upload)? {
@@ -156,17 +156,17 @@ impl OverlayLayer {
         Ok(texture)
     }
 
-    /// Whether the last texture shows all that it is to show.
+    /// Whether the last texture shows everything that was requested.
     pub fn is_complete(&self) -> bool {
         self.is_complete
     }
 
-    /// Whether lines are left out while the camera moves, so that the picture can follow it.
+    /// Whether lines are omitted while the camera moves, so that the picture can keep up.
     pub fn rests_while_moving(&self) -> bool {
         self.is_software
     }
 
-    /// Starts anew for another scene.
+    /// Discards the old scene's lines if the scene is another.
     fn use_scene(&mut self, scene: &Arc<Scene>) {
         if self
             .scene
@@ -177,7 +177,7 @@ impl OverlayLayer {
         }
         let old = self.scene.replace(Arc::clone(scene));
         self.normals = Uploaded::default();
-        // With the same mesh only the edges of smooth shading moved.
+        // If the mesh is the same, only the creases of smooth shading have changed.
         if old.is_none_or(|old| !std::ptr::eq(old.mesh(), scene.mesh())) {
             self.mesh = Uploaded::default();
             self.wireframe = Uploaded::default();
@@ -187,19 +187,19 @@ impl OverlayLayer {
         }
     }
 
-    /// Lets what failed be tried again when the user switches lines on again.
-    fn retry_what_is_asked_for_anew(&mut self, options: &Options) {
+    /// Allows a retry of failed uploads when the user turns lines on again.
+    fn retry_if_turned_on(&mut self, options: &Options) {
         let before = std::mem::replace(&mut self.options, *options);
-        let asks_for_wireframe = options.wireframe.is_some() && before.wireframe.is_none();
-        let asks_for_normals = options.normals.is_some() && before.normals.is_none();
-        if asks_for_wireframe || asks_for_normals {
+        let turns_on_wireframe = options.wireframe.is_some() && before.wireframe.is_none();
+        let turns_on_normals = options.normals.is_some() && before.normals.is_none();
+        if turns_on_wireframe || turns_on_normals {
             self.mesh.forget_failure();
             self.wireframe.forget_failure();
             self.normals.forget_failure();
         }
     }
 
-    /// What the settings ask for.
+    /// Prepares the lines that the settings turn on.
     fn prepare_lines(
         &mut self,
         ready: &mut Ready,
@@ -229,7 +229,7 @@ impl OverlayLayer {
         Ok(())
     }
 
-    /// What the user pointed at.
+    /// Prepares the marks of the selected flaws and the picked triangle.
     fn prepare_marks(
         &mut self,
         ready: &mut Ready,
@@ -257,7 +257,7 @@ impl OverlayLayer {
     }
 }
 
-/// Gathers lines and uploads them.
+/// A closure that gathers lines and uploads them.
 fn uploader(
     gather: impl FnOnce() -> Vec<Line> + Send + 'static,
 ) -> impl FnOnce(&wgpu::Device, &wgpu::Queue) -> Result<LineSet, GpuError> + Send + 'static {

@@ -1,11 +1,11 @@
-//! Normals as lines, of the length of the mesh's radius; the style shortens them.
+//! Normals as lines. Their length is the mesh's radius; the style shortens them.
 
 use crate::gpu::lines::Line;
 use glam::Vec3;
 use hitscope_core::Scene;
 use hitscope_core::scene::Shading;
 
-/// Of the faces in flat shading, of the vertices in smooth shading.
+/// Normals of the faces for flat shading, of the vertices for smooth shading.
 pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
     let mesh = scene.mesh();
     let length = scene.bounds().radius() as f32;
@@ -32,7 +32,7 @@ pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
                     corners.push((vertices[k], bits, triangle as u32, k));
                 }
             }
-            // A vertex has one line for each of its normals.
+            // One line per distinct normal of a vertex.
             corners.sort_unstable();
             corners.dedup_by_key(|(vertex, normal, ..)| (*vertex, *normal));
             let from_corner = |&(_, normal, triangle, k): &(u32, [u32; 3], u32, usize)| {

@@ -1,24 +1,24 @@
-//! What is drawn over the picture, and how it looks.
+//! Contents and styles of the overlay.
 
 use super::wireframe::WireframeEdges;
 use crate::gpu::lines::StyleUniform;
 use hitscope_core::mesh::Flaw;
 use hitscope_core::scene::Shading;
 
-/// What is drawn over the picture. Lengths are in physical pixels.
+/// Contents and styles of the overlay. Widths are in physical pixels.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Options {
     /// The mesh's edges.
     pub wireframe: Option<WireframeEdges>,
     /// sRGB of the edges.
     pub wire_colour: [u8; 3],
-    /// Normals, of which kind.
+    /// Normals of faces (flat) or of vertices (smooth).
     pub normals: Option<Shading>,
-    /// Length of the normals, as a part of the mesh's radius.
+    /// Length of the normals, as a fraction of the mesh's radius.
     pub normal_length: f32,
-    /// The file's own lines and points.
+    /// The file's lines and points.
     pub elements: bool,
-    /// Where flaws of this kind are.
+    /// The flaws of this kind.
     pub flaw: Option<Flaw>,
     /// The picked triangle.
     pub picked: Option<u32>,

@@ -1,4 +1,5 @@
-//! Draws the overlay, on a software GPU in the background, and keeps the last one until the next is done.
+//! The overlay's painter: draws in the background on a software GPU, and shows the last drawing until the next one
+//! is done.
 
 use crate::gpu::drawing::{Canvas, Drawing, DrawingState, Overlay, Paces, Targets};
 use crate::task::{Task, TaskPanicked};
@@ -7,34 +8,34 @@ use std::sync::Arc;
 use std::sync::atomic::Ordering;
 use std::time::{Duration, Instant};
 
-/// How often the window shows what is drawn of an overlay that takes long.
+/// Interval at which the window shows the progress of a slow drawing.
 const PROGRESS: Duration = Duration::from_millis(100);
 
-/// A drawing that a thread is working on.
+/// A drawing in progress.
 struct Running {
     drawing: Drawing,
     canvas: Canvas,
     state: Arc<DrawingState>,
-    /// Whether it was finished, and what it taught about the GPU's speed.
+    /// Returns whether the drawing was finished, and the adapted slice sizes.
     task: Task<(bool, Paces)>,
 }
 
 /// The drawn overlay.
 pub struct Painter {
     overlay: Arc<Overlay>,
-    /// Whether drawings are cut into slices, in the background.
+    /// Whether drawings are made in slices, in the background.
     is_sliced: bool,
     paces: Paces,
     targets: Option<Arc<Targets>>,
-    /// The last one that is whole, and its texture's number.
+    /// The last complete drawing and the index of its texture.
     shown: Option<(Drawing, usize)>,
-    /// What the depth texture holds.
+    /// The drawing whose depth the depth texture holds.
     depth_of: Option<Drawing>,
     running: Option<Running>,
 }
 
 impl Painter {
-    /// Draws with these pipelines; in slices if the GPU is slow.
+    /// A painter with these pipelines; draws in slices if `is_sliced`.
     pub fn new(overlay: Arc<Overlay>, is_sliced: bool) -> Self {
         Self {
             overlay,
@@ -47,11 +48,11 @@ impl Painter {
         }
     }
 
-    /// The texture that shows a drawing. While it is being drawn: the last one of the same view, or as much of the new
-    /// one as there is if that is mostly new lines, or `None`.
+    /// The texture of a drawing. While the drawing is in progress: the last drawing of the same view; or the incomplete
+    /// new one, if its lines are mostly new; or `None`.
     ///
     /// # Errors
-    /// [`TaskPanicked`]; the next call starts anew.
+    /// [`TaskPanicked`]; the next call starts again.
     pub fn draw(
         &mut self,
         drawing: &Drawing,
@@ -63,7 +64,7 @@ impl Painter {
         } else {
             match &self.running {
                 Some(running) if running.drawing == *drawing => {}
-                // The textures are free once it has ended.
+                // The textures are in use until it has ended.
                 Some(_) => self.cancel(),
                 None => self.start(drawing, ctx),
             }
@@ -71,21 +72,21 @@ impl Painter {
         Ok(self.texture(drawing))
     }
 
-    /// Whether the texture shows exactly this.
+    /// Whether the texture shows exactly this drawing.
     pub fn is_shown(&self, drawing: &Drawing) -> bool {
         self.shown
             .as_ref()
             .is_some_and(|(shown, _)| shown == drawing)
     }
 
-    /// Ends the drawing that is being drawn.
+    /// Cancels the drawing in progress.
     pub fn cancel(&self) {
         if let Some(running) = &self.running {
             running.state.is_cancelled.store(true, Ordering::Relaxed);
         }
     }
 
-    /// Takes over what the thread has finished.
+    /// Takes the thread's result, if it has finished.
     fn finish(&mut self) -> Result<(), TaskPanicked> {
         let result = match &self.running {
             Some(running) => running.task.poll(),

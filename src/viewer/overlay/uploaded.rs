@@ -1,4 +1,4 @@
-//! Meshes and lines that threads gather and upload.
+//! Meshes and lines that are gathered and uploaded in the background.
 
 use super::OverlayError;
 use crate::gpu::GpuError;
@@ -6,9 +6,9 @@ use crate::gpu::drawing::Overlay;
 use crate::task::{KeyedTask, Task};
 use std::sync::Arc;
 
-/// Something on the GPU, of one of several kinds, made in the background when it is first asked for.
+/// A GPU resource of one of several kinds, created in the background on first use.
 pub struct Uploaded<K, T> {
-    /// `None` if making it failed, which isn't tried again.
+    /// The kind and its resource, or `None` if creating it failed, which isn't retried.
     made: Option<(K, Option<Arc<T>>)>,
     making: KeyedTask<K, Result<T, GpuError>>,
 }
@@ -22,21 +22,21 @@ impl<K, T> Default for Uploaded<K, T> {
     }
 }
 
-/// Whether something is there.
+/// The state of a resource.
 pub enum Readiness<T> {
-    /// It is.
+    /// Ready.
     Ready(Arc<T>),
-    /// Not yet; a repaint comes when it is.
+    /// Being created; a repaint is requested when it is ready.
     Pending,
-    /// It will never be; the error was returned.
+    /// Creating it failed; the error was returned.
     Failed,
 }
 
 impl<K: Copy + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
-    /// The thing of this kind. Starts making it unless that is under way.
+    /// The resource of this kind. Starts to create it unless that is in progress.
     ///
     /// # Errors
-    /// See [`OverlayError`]; once, then it is [`Readiness::Failed`].
+    /// See [`OverlayError`]; returned once, later calls return [`Readiness::Failed`].
     pub fn get(
         &mut self,
         kind: K,
@@ -66,7 +66,7 @@ impl<K: Copy + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
         made.map(Readiness::Ready)
     }
 
-    /// Lets something that failed be tried again.
+    /// Allows a retry after a failure.
     pub fn forget_failure(&mut self) {
         if matches!(self.made, Some((_, None))) {
             self.made = None;

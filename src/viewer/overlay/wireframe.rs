@@ -4,16 +4,16 @@ use crate::gpu::lines::Line;
 use glam::Vec3;
 use hitscope_core::TriangleMesh;
 
-/// Which edges are drawn.
+/// The edges that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum WireframeEdges {
-    /// Those of the file's polygons.
+    /// Edges of the file's polygons.
     Polygons,
-    /// Those of all triangles, diagonals included.
+    /// Edges of all triangles, including diagonals.
     Triangles,
 }
 
-/// Each edge once, with the smaller height of its triangles as the gap to the next line.
+/// Lines for all edges, each once, with the smaller height of its triangles as the gap to the next line.
 pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
     let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles.len());
     for (triangle, corners) in mesh.triangles.iter().enumerate() {
@@ -33,7 +33,7 @@ pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
         let each = uses
             .iter()
             .map(|&(_, triangle, k)| edge(mesh, triangle, k.into()));
-        // In f64, where squares of f32 numbers neither under- nor overflow.
+        // In f64, in which squares of f32 numbers neither under- nor overflow.
         let length = |line: &Line| line.gap.as_dvec3().length_squared();
         each.min_by(|a, b| length(a).total_cmp(&length(b)))
     };
@@ -45,7 +45,7 @@ pub fn triangle_lines(mesh: &TriangleMesh, triangle: u32) -> [Line; 3] {
     [0, 1, 2].map(|k| edge(mesh, triangle, k))
 }
 
-/// Edge k of a triangle, with the height on it.
+/// Edge k of a triangle, with the triangle's height on it as the gap.
 fn edge(mesh: &TriangleMesh, triangle: u32, k: usize) -> Line {
     let corners = mesh.corners(triangle);
     let (start, end, opposite) = (corners[k], corners[(k + 1) % 3], corners[(k + 2) % 3]);

@@ -1,4 +1,4 @@
-//! The flaws of the mesh: a button for each kind, and a list of those of the marked kind.
+//! The flaws of the mesh: a button for each kind, and a list of the flaws of the marked kind.
 
 use super::mesh::on_one_line;
 use crate::bindings::Action;
@@ -8,7 +8,7 @@ use egui::RichText;
 use hitscope_core::mesh::{FLAWS, Health};
 use hitscope_core::scene::LoadedScene;
 
-/// Shows the flaws; a click marks those of a kind or shows one of them.
+/// Shows the flaws. A click marks all flaws of a kind or shows one of them.
 pub fn flaws_ui(
     ui: &mut egui::Ui,
     loaded: &LoadedScene,
@@ -20,7 +20,7 @@ pub fn flaws_ui(
     chosen.or(shown)
 }
 
-/// A button for each kind, with the number of flaws.
+/// Shows a button for each kind with the number of flaws.
 fn kinds_ui(ui: &mut egui::Ui, health: &Health, marked: Option<&FlawPlace>) -> Option<Action> {
     let mut action = None;
     ui.horizontal_wrapped(|ui| {
@@ -49,14 +49,14 @@ fn kinds_ui(ui: &mut egui::Ui, health: &Health, marked: Option<&FlawPlace>) -> O
     action
 }
 
-/// The flaws of the marked kind with their coordinates, and buttons for the next and the previous one.
+/// Shows the flaws of the marked kind with their coordinates, and buttons for the next and the previous one.
 fn list_ui(
     ui: &mut egui::Ui,
     loaded: &LoadedScene,
     health: &Health,
     place: &FlawPlace,
 ) -> Option<Action> {
-    /// Rows of the list that are visible at a time.
+    /// Number of visible rows of the list.
     const ROWS: f32 = 6.0;
     let count = health.places(place.flaw).count().unwrap_or(0);
     let mesh = loaded.scene.mesh();

@@ -1,4 +1,4 @@
-//! The Inspect tab: the hit of the picked pixel's ray, and every kernel's answer.
+//! The Inspect tab: the hit of the picked pixel's ray and the answers of all kernels.
 
 use super::table::{dash, table_ui};
 use super::{kernel_name, lines, row_ui, section_ui};
@@ -7,11 +7,11 @@ use crate::numbers::{counted, number, significant};
 use egui::{CollapsingHeader, RichText};
 use hitscope_lab::inspection::{ExactReport, HitReport, Inspection, KernelRow};
 
-/// What the tab shows of a pick.
+/// The contents of the tab for a pick.
 pub struct PickView<'p> {
     /// The ray, its hit and the kernels' answers.
     pub inspection: &'p Inspection,
-    /// Name of the kernel, as menus have it.
+    /// Name of the kernel, as shown in menus.
     pub kernel: &'p str,
     /// The face's line in the file, counted from 1; `None` for a miss.
     pub line: Option<usize>,
@@ -21,13 +21,13 @@ pub struct PickView<'p> {
     pub colour: Option<[f32; 3]>,
 }
 
-/// Shows a pick, or how to pick; `is_busy` while a pixel is being inspected.
+/// Shows a pick, or how to pick a pixel; `is_busy` while a pixel is being inspected.
 pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) {
     let Some(pick) = pick else {
         if is_busy {
             ui.spinner();
         } else {
-            ui.label("Click a pixel to see what its ray hits.");
+            ui.label("Click a pixel to inspect its ray.");
         }
         return;
     };
@@ -37,7 +37,7 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong());
         let copy = ui.button("Copy as JSON");
         if copy
-            .on_hover_text("As `hitscope inspect --json` prints it; indices are counted from 0")
+            .on_hover_text("The output of `hitscope inspect --json`; indices start at 0")
             .clicked()
         {
             ui.ctx().copy_text(inspection.to_json());
@@ -75,7 +75,7 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
         row_ui(ui, "t", number(hit.t));
         row_ui(ui, "position", lines(hit.position));
         row_ui(ui, "side", side(pick.inspection, hit));
-        row_ui(ui, "l1, l2, l3", lines(hit.barycentric));
+        row_ui(ui, "barycentric", lines(hit.barycentric));
         if let Some([u, v]) = pick.face.and_then(|face| face.uv(hit.barycentric)) {
             let text = format!("{}\n{}", significant(u, 7), significant(v, 7));
             row_ui(ui, "uv", text);
@@ -89,24 +89,20 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     });
 }
 
-/// The side of the triangle that the ray comes from.
+/// The side of the triangle that the ray hits.
 fn side(inspection: &Inspection, hit: &HitReport) -> &'static str {
     let direction = inspection.ray.direction.map(f64::from);
     let normal = hit.geometric_normal.map(f64::from);
     let along: f64 = direction.iter().zip(normal).map(|(d, n)| d * n).sum();
-    if along > 0.0 {
-        "back: hit from behind"
-    } else {
-        "front"
-    }
+    if along > 0.0 { "back" } else { "front" }
 }
 
-/// The triangle, and the face that it is part of as the file has it.
+/// Shows the triangle and its face in the file.
 fn element_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     section_ui(ui, "Triangle", |ui| {
-        row_ui(ui, "triangle", format!("{} (counted from 0)", hit.triangle));
+        row_ui(ui, "triangle", format!("{} (0-based)", hit.triangle));
         let face = u64::from(hit.face) + 1;
-        row_ui(ui, "face", format!("{face} (counted from 1)"));
+        row_ui(ui, "face", format!("{face} (1-based)"));
         if let Some(line) = pick.line.filter(|&line| line > 0) {
             row_ui(ui, "line", line);
         }
@@ -123,7 +119,7 @@ fn element_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     });
 }
 
-/// The exact answer, and behind a summary each kernel's.
+/// Shows the exact answer, a summary of all kernels, and each kernel's answer.
 fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
     let (exact, kernels) = (inspection.exact.as_ref(), &inspection.kernels[..]);
     ui.label(RichText::new("Kernels compared with exact arithmetic").strong());
@@ -154,7 +150,7 @@ fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
     ui.add_space(4.0);
 }
 
-/// How many kernels decide as exact arithmetic does, and the largest error of t.
+/// The number of kernels that agree with exact arithmetic, and the largest error of t.
 fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
     let is_right = |kernel: &&KernelRow| kernel.triangle == exact.map(|exact| exact.triangle);
     let right = kernels.iter().filter(is_right).count();
@@ -165,7 +161,7 @@ fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
     };
     let errors = kernels.iter().filter_map(|kernel| kernel.t_error_ulps);
     let worst = errors.reduce(f64::max).map_or_else(String::new, |ulps| {
-        format!("; t off by at most {} ulps", significant(ulps, 3))
+        format!("; largest error of t: {} ulps", significant(ulps, 3))
     });
     let count = kernels.len();
     if right == count {
@@ -179,29 +175,29 @@ fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[K
     egui::ScrollArea::horizontal()
         .id_salt("kernel tables")
         .show(ui, |ui| {
-            let columns = ["", "t", "t error, ulps", "l error", "triangle"];
+            let columns = ["", "t", "t error, ulps", "bary. error", "triangle"];
             let rows = kernels.iter().map(kernel_distance);
             table_ui(
                 ui,
                 columns,
                 std::iter::once(exact_distance(exact)).chain(rows),
             );
-            // Without a hit there are no weights.
+            // A miss has no barycentric coordinates.
             if exact.is_none() && kernels.iter().all(|kernel| !kernel.hit) {
                 return;
             }
             ui.add_space(4.0);
             let columns = ["", "l1", "l2", "l3"];
-            let rows = kernels.iter().map(kernel_weights);
+            let rows = kernels.iter().map(kernel_barycentric);
             table_ui(
                 ui,
                 columns,
-                std::iter::once(exact_weights(exact)).chain(rows),
+                std::iter::once(exact_barycentric(exact)).chain(rows),
             );
         });
 }
 
-/// The exact numbers as fractions of up to some hundred digits.
+/// Shows the exact numbers as fractions of up to some hundred digits.
 fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
     CollapsingHeader::new("As fractions")
         .id_salt("fractions")
@@ -219,7 +215,7 @@ fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
 fn exact_distance(exact: Option<&ExactReport>) -> [String; 5] {
     [
         "exact answer".to_owned(),
-        // Two digits more than f32 ever needs.
+        // Two digits more than an f32 needs.
         exact.map_or("miss".to_owned(), |exact| significant(exact.t, 11)),
         dash(),
         dash(),
@@ -238,19 +234,25 @@ fn kernel_distance(kernel: &KernelRow) -> [String; 5] {
     ]
 }
 
-fn exact_weights(exact: Option<&ExactReport>) -> [String; 4] {
-    let weight = |k: usize| exact.map_or_else(dash, |exact| significant(exact.barycentric[k], 9));
-    ["exact answer".to_owned(), weight(0), weight(1), weight(2)]
+fn exact_barycentric(exact: Option<&ExactReport>) -> [String; 4] {
+    let coordinate =
+        |k: usize| exact.map_or_else(dash, |exact| significant(exact.barycentric[k], 9));
+    [
+        "exact answer".to_owned(),
+        coordinate(0),
+        coordinate(1),
+        coordinate(2),
+    ]
 }
 
-fn kernel_weights(kernel: &KernelRow) -> [String; 4] {
-    let weights = kernel.barycentric;
-    let weight = |k: usize| weights.map_or_else(dash, |l| significant(l[k].into(), 9));
+fn kernel_barycentric(kernel: &KernelRow) -> [String; 4] {
+    let barycentric = kernel.barycentric;
+    let coordinate = |k: usize| barycentric.map_or_else(dash, |l| significant(l[k].into(), 9));
     [
         kernel_name(kernel.name).to_owned(),
-        weight(0),
-        weight(1),
-        weight(2),
+        coordinate(0),
+        coordinate(1),
+        coordinate(2),
     ]
 }
 

@@ -1,8 +1,8 @@
-//! Labels beside the points of a plot, none over another.
+//! Placement of labels beside the points of a plot, without overlaps.
 
 use egui::{Pos2, Rect, Vec2};
 
-/// A place for each label, as near to its point as there is room beside all points and the labels before it.
+/// Places each label as close to its point as possible without covering a point or an earlier label.
 pub fn place(points: &[Pos2], sizes: &[Vec2], all_points: &[Pos2], within: Rect) -> Vec<Rect> {
     /// Half the size of a point.
     const RADIUS: f32 = 5.0;
@@ -16,7 +16,7 @@ pub fn place(points: &[Pos2], sizes: &[Vec2], all_points: &[Pos2], within: Rect)
                 && placed.iter().all(is_clear)
                 && obstacles.iter().all(is_clear)
         };
-        // Where no place is free, the label stands where it hides the fewest others.
+        // If no place is free, the label goes where it hides the fewest others.
         let hidden = |rect: &Rect| {
             placed
                 .iter()
@@ -30,9 +30,9 @@ pub fn place(points: &[Pos2], sizes: &[Vec2], all_points: &[Pos2], within: Rect)
     placed
 }
 
-/// Places around a point, from near to far.
+/// Candidate places around a point, from near to far.
 fn candidates(point: Pos2, size: Vec2) -> impl Iterator<Item = Rect> {
-    /// Between a point's middle and its label, in points.
+    /// Distance from a point's centre to its label, in points.
     const GAP: f32 = 8.0;
     const SIDES: [[f32; 2]; 8] = [
         [1.0, 0.0],
@@ -90,7 +90,7 @@ mod tests {
     }
 
     #[test]
-    fn a_lone_label_stands_right_beside_its_point() {
+    fn a_single_label_is_placed_next_to_its_point() {
         let [label] = place(
             &[Pos2::new(100.0, 100.0)],
             &[Vec2::new(40.0, 14.0)],

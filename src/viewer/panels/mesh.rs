@@ -10,7 +10,7 @@ use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::scene::LoadedScene;
 
-/// Shows the tab; `flaw` is the one that is marked.
+/// Shows the tab; `flaw` is the selected flaw.
 pub fn mesh_ui(
     ui: &mut egui::Ui,
     document: &mut Document,
@@ -39,10 +39,10 @@ pub fn mesh_ui(
         row_ui(ui, "zero area", counted(mesh.dropped.zero_area, "triangle"));
         row_ui(
             ui,
-            "not finite",
+            "non-finite",
             counted(mesh.dropped.non_finite, "triangle"),
         );
-        row_ui(ui, "bad index", counted(mesh.dropped.bad_index, "face"));
+        row_ui(ui, "invalid index", counted(mesh.dropped.bad_index, "face"));
     });
     ui.label(RichText::new("Flaws").strong());
     match &findings {
@@ -57,7 +57,7 @@ pub fn mesh_ui(
             }
         }
         None if document.has_failed_check() => {
-            ui.label("The check failed; the terminal has the details.");
+            ui.label("The check failed; see the terminal for details.");
         }
         None => {
             ui.horizontal(|ui| {
@@ -86,24 +86,24 @@ fn contents_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
     });
 }
 
-/// How the file is loaded.
+/// Shows the options for loading the file.
 fn options_ui(
     ui: &mut egui::Ui,
     document: &Document,
     settings: &mut Settings,
     actions: &mut Vec<Action>,
 ) {
-    // The built-in scene isn't loaded again.
+    // The built-in scene can't be reloaded.
     let is_file = document.path.is_some();
     let watch = egui::Checkbox::new(&mut settings.watches, "Reload when the file changes");
     ui.add_enabled(is_file, watch).on_hover_text(
-        "Also when its materials or textures change. The camera and the picked pixel stay. (Ctrl+R)",
+        "Also when its materials or textures change. Keeps the camera and the picked pixel. (Ctrl+R)",
     );
     let compact = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
     let is_changed = ui
         .add_enabled(is_file, compact)
         .on_hover_text(
-            "Tree and triangles take a third less memory, and rays take longer. Reloads the file.",
+            "Tree and triangles take a third less memory, but tracing is slower. Reloads the file.",
         )
         .changed();
     if is_changed {
@@ -116,8 +116,8 @@ fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
     section_ui(ui, "Bounds", |ui| {
         let bounds = scene.bounds();
         let corner = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
-        row_ui(ui, "lowest", lines(corner(bounds.min)));
-        row_ui(ui, "highest", lines(corner(bounds.max)));
+        row_ui(ui, "minimum", lines(corner(bounds.min)));
+        row_ui(ui, "maximum", lines(corner(bounds.max)));
         row_ui(ui, "origin", lines(mesh.origin.to_array()));
         let rounding = significant(loaded.max_rounding, 2);
         row_ui(ui, "rounded by", format!("at most {rounding}"));
@@ -142,7 +142,7 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
         row_ui(ui, "packed triangles", kb(document.intersector().bytes()));
     });
     if let Some(findings) = findings {
-        section_ui(ui, "Memory of the surface alone", |ui| {
+        section_ui(ui, "Memory of the surface by format", |ui| {
             for (way, bytes) in findings.bytes_as {
                 row_ui(ui, &format!("as {way}"), kb(bytes));
             }

@@ -14,10 +14,10 @@ use egui::RichText;
 use hitscope_core::kernel::triangle_kernel;
 use std::fmt::{Display, LowerExp};
 
-/// Width of the names of values, in points. It is fixed, so that rows are right in the first frame.
+/// Width of the column of names, in points. It is fixed so that rows are aligned in the first frame.
 const NAME_WIDTH: f32 = 104.0;
 
-/// A name, and a value that can be selected and copied.
+/// Shows a name and a value that can be selected and copied.
 fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) {
     ui.horizontal_top(|ui| {
         let right = ui.cursor().min.x + NAME_WIDTH;
@@ -29,7 +29,7 @@ fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) {
     });
 }
 
-/// Rows of [`row_ui`] under a heading.
+/// Shows rows of [`row_ui`] under a heading.
 fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) {
     ui.add_space(2.0);
     ui.label(RichText::new(title).strong());
@@ -41,12 +41,12 @@ fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) 
     ui.add_space(4.0);
 }
 
-/// The name of a kernel in the window: what `--kernel` takes, of a tier if it serves one.
+/// The name of a kernel in the window: its tier if it has one, else its name. `--kernel` takes both.
 pub fn kernel_name(name: &'static str) -> &'static str {
     triangle_kernel(name).map_or(name, |kernel| kernel.info.short_name())
 }
 
-/// Three numbers, each on a line of its own.
+/// Three numbers, one per line.
 fn lines<T: Into<f64> + Display + LowerExp + Copy>(v: [T; 3]) -> String {
     v.map(number).join("\n")
 }

@@ -1,11 +1,11 @@
-//! The progress of a load: the phase, and the part of it that is done.
+//! The progress of loading: the phase and its completed fraction.
 
 use hitscope_core::progress::{Phase, Progress};
 use std::time::Duration;
 
-/// A bar for the current phase; a spinner where the part that is done isn't known.
+/// Shows a bar for the current phase, or a spinner if its completed fraction is unknown.
 pub fn progress_ui(ui: &mut egui::Ui, progress: &Progress) {
-    // The bar moves without any event.
+    // The bar moves without input events.
     ui.ctx().request_repaint_after(Duration::from_millis(50));
     match progress.part_of_phase() {
         Some(part) => {

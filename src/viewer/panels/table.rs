@@ -1,8 +1,8 @@
-//! A table as lines of monospaced text: its columns are right in the first frame, and it can be copied.
+//! Tables as lines of monospaced text: aligned in the first frame, and selectable.
 
 use egui::RichText;
 
-/// The first column is aligned left, the others right.
+/// Shows a table. The first column is aligned left, the others right.
 pub fn table_ui<const N: usize>(
     ui: &mut egui::Ui,
     columns: [&str; N],

@@ -11,13 +11,13 @@ use hitscope_core::kernel::{KernelInfo, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
 
-/// Offers to measure the scene; whether the user wants that.
+/// Offers to measure the scene. Returns whether the user accepts.
 pub fn measure_ui(ui: &mut egui::Ui) -> bool {
     ui.label("Speed and accuracy of every kernel, measured in this scene from the current camera.");
     ui.button("Measure").clicked()
 }
 
-/// The plot and its table; a click on a point or a row chooses the kernel. Returns whether the
+/// Shows the plot and its table; a click on a point or a row selects the kernel. Returns whether the
 /// user wants to measure again.
 pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -> bool {
     let rows = trade.rows();
@@ -38,7 +38,7 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
                 .clicked();
         }
         TradeState::Failed => {
-            ui.label("The measurement failed; the terminal has the details.");
+            ui.label("The measurement failed; see the terminal for details.");
             is_wanted_again = ui.button("Measure again").clicked();
         }
     });
@@ -65,12 +65,12 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     is_wanted_again
 }
 
-/// A kernel that was chosen here is used until the program ends, unless the user keeps it.
+/// Offers to keep a kernel that was selected here for this session.
 fn keep_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     let info = settings.kernel().info;
     ui.horizontal(|ui| {
         ui.label(format!(
-            "{} is used until hitscope ends.",
+            "{} is used for this session only.",
             info.short_name()
         ));
         if ui.button("Keep").clicked() {
@@ -79,7 +79,8 @@ fn keep_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
 }
 
-/// Speed relative to `fast`, which was measured in turns with this kernel: other load slows down both.
+/// Speed relative to `fast`, which was measured alternately with this kernel, so that other load slows down
+/// both.
 fn speed(row: &SceneRow) -> f64 {
     1.0 / row.speed.time_relative_to_fast.max(1e-3)
 }
@@ -143,7 +144,7 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
         let nearest = rows
             .iter()
             .min_by(|a, b| distance(a).total_cmp(&distance(b)))?;
-        // The width of a finger.
+        // About the width of a fingertip, in points.
         (distance(nearest) < 20.0).then_some(nearest)
     });
     let painter = ui.painter_at(response.response.rect);
@@ -170,7 +171,7 @@ fn draw_point(plot: &mut PlotUi<'_>, row: &SceneRow, at: [f64; 2], is_current: b
     plot.points(points);
 }
 
-/// Names beside the points of the tiers and of the current kernel.
+/// Draws names beside the points of the tiers and of the current kernel.
 fn draw_labels(
     painter: &egui::Painter,
     labelled: &[(&KernelInfo, Pos2)],
@@ -193,7 +194,7 @@ fn draw_labels(
     }
 }
 
-/// A row for each kernel; a click chooses it.
+/// Shows a row for each kernel; a click selects it.
 fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
     const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps"];
     let cells: Vec<[String; 5]> = std::iter::once(COLUMNS.map(str::to_owned))
@@ -212,7 +213,7 @@ fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
             ui.spacing_mut().button_padding.x = 2.0;
             ui.spacing_mut().item_spacing.y = 1.0;
             ui.spacing_mut().interact_size.y = 0.0;
-            // A row that can't be pressed, so that it is aligned with the others.
+            // A button that can't be clicked, so that it aligns with the other rows.
             let header = egui::Button::new(text(&cells[0]).strong())
                 .frame(false)
                 .wrap_mode(egui::TextWrapMode::Extend);
@@ -268,7 +269,7 @@ fn info(row: &SceneRow) -> &'static KernelInfo {
     kernel.expect("rows are of kernels in the table").info
 }
 
-/// The label of a place on the logarithmic axis: `0`, `0.1`, `10`, `1e5`; empty between powers of ten.
+/// The label of a mark on the logarithmic axis: `0`, `0.1`, `10`, `1e5`; empty between powers of ten.
 fn power_text(exponent: f64, floor: f64) -> String {
     if (exponent - floor).abs() < 1e-6 {
         "0".to_owned()

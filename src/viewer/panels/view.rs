@@ -67,8 +67,8 @@ fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_crease, "Crease above")
             .on_hover_text(
-                "Smooth shading has a crease where triangles meet at a larger angle. \
-             Otherwise the file's normals and smoothing groups decide.",
+                "Smooth shading has creases where triangles meet at a larger angle. \
+             If off, the file's normals and smoothing groups determine the creases.",
             );
         let degrees = egui::DragValue::new(&mut settings.crease_degrees)
             .range(0.0..=180.0)
@@ -86,7 +86,7 @@ fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
 }
 
-/// The legend of the view, line by line.
+/// Shows the legend of the view.
 fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
     for line in legend {
         ui.horizontal(|ui| {
@@ -118,13 +118,13 @@ fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         settings.keep_kernel(kernel);
     }
     if settings.session_kernel.is_some() {
-        ui.label("Chosen in Trade, until hitscope ends.");
+        ui.label("Selected in the Trade tab for this session only.");
     }
     ui.label(RichText::new(info.summary).weak())
         .on_hover_text(info.source);
 }
 
-/// A menu of all kernels by their names, with their algorithms; the one that was chosen now.
+/// Shows a menu of all kernels with their algorithms. Returns the kernel selected in this frame.
 fn kernel_combo_ui(
     ui: &mut egui::Ui,
     id: &str,
@@ -160,7 +160,7 @@ fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     });
     ui.checkbox(&mut settings.shows_normals, "Normals");
     ui.horizontal(|ui| {
-        let label = ui.label("Length of normals");
+        let label = ui.label("Normal length");
         let slider = egui::Slider::new(&mut settings.normal_length, 0.002..=0.5)
             .logarithmic(true)
             .custom_formatter(|part, _| format!("{:.1} %", 100.0 * part))

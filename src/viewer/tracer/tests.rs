@@ -1,4 +1,4 @@
-//! What a movement does to the picture: how coarse it gets, when it refines, and when it is shown.
+//! Tests: coarseness, refinement and display of the picture during and after a movement.
 
 use super::*;
 use glam::DVec3;
@@ -9,19 +9,19 @@ use hitscope_core::mesh::shapes::{Placement, scene, sphere};
 use hitscope_core::scene::Shading;
 
 const SIZE: UVec2 = UVec2::new(96, 64);
-/// A test that waits for longer has failed.
+/// A test that waits longer has failed.
 const PATIENCE: Duration = Duration::from_secs(300);
 
 fn tracer() -> Tracer {
     Tracer::new(1, &egui::Context::default())
 }
 
-/// A ball of its own.
+/// A new sphere scene.
 fn ball() -> Arc<Scene> {
     Arc::new(scene(sphere(4, Placement::UNIT)))
 }
 
-/// A view of the scene, with so many samples, from a place that depends on `x`.
+/// A request for the scene with a number of samples, from a place that depends on `x`.
 fn request(scene: &Arc<Scene>, x: f64, samples: u32) -> Request {
     let kernel = triangle_kernel("watertight").expect("in the table");
     let intersector: Arc<dyn hitscope_core::Intersector> = Arc::from(scene.intersector(kernel));
@@ -43,7 +43,7 @@ fn request(scene: &Arc<Scene>, x: f64, samples: u32) -> Request {
     }
 }
 
-/// Collects until something is the case.
+/// Collects tiles until a condition holds.
 fn collect_until(tracer: &mut Tracer, mut is_so: impl FnMut(&mut Tracer) -> bool) {
     let (ctx, start) = (egui::Context::default(), Instant::now());
     loop {
@@ -51,18 +51,18 @@ fn collect_until(tracer: &mut Tracer, mut is_so: impl FnMut(&mut Tracer) -> bool
         if is_so(tracer) {
             return;
         }
-        assert!(start.elapsed() < PATIENCE, "waited in vain");
+        assert!(start.elapsed() < PATIENCE, "timed out");
         std::thread::sleep(Duration::from_millis(1));
     }
 }
 
 #[test]
-fn slow_frames_shorten_the_first_pass_and_quick_ones_lengthen_it_within_bounds() {
+fn slow_frames_shorten_the_first_pass_and_fast_frames_lengthen_it_within_bounds() {
     let mut tracer = tracer();
     let usual = tracer.first_pass;
     tracer.adapt(FRAME.start);
     tracer.adapt(FRAME.end);
-    assert_eq!(tracer.first_pass, usual, "as it should be");
+    assert_eq!(tracer.first_pass, usual, "within the target");
     tracer.adapt(FRAME.end + Duration::from_millis(1));
     assert!(tracer.first_pass < usual);
     for _ in 0..100 {
@@ -78,7 +78,7 @@ fn slow_frames_shorten_the_first_pass_and_quick_ones_lengthen_it_within_bounds()
 }
 
 #[test]
-fn the_first_pass_has_the_smallest_blocks_that_its_time_allows() {
+fn the_first_pass_has_the_smallest_blocks_that_fit_its_time() {
     let mut tracer = tracer();
     let pixels = f64::from(SIZE.element_product());
     tracer.first_pass = Duration::from_millis(10);
@@ -88,7 +88,7 @@ fn the_first_pass_has_the_smallest_blocks_that_its_time_allows() {
         (pixels / 4.0, 2),
         (pixels / 4.0 - 1.0, 3),
         (pixels / 255.0, 16),
-        // The coarsest there is.
+        // The coarsest step.
         (1.0, 16),
     ] {
         (tracer.rays, tracer.busy_secs) = (rays_per_first_pass, 0.01);
@@ -101,7 +101,7 @@ fn the_first_pass_has_the_smallest_blocks_that_its_time_allows() {
 }
 
 #[test]
-fn only_frames_of_a_movement_are_counted() {
+fn only_frames_during_a_movement_are_counted() {
     let mut tracer = tracer();
     let long_ago = Duration::from_millis(100);
     tracer.has_rested = false;
@@ -111,7 +111,7 @@ fn only_frames_of_a_movement_are_counted() {
     assert!(tracer.first_pass < before, "a frame of 100 ms is slow");
     let [median, _] = tracer.frame_intervals.median_and_99th().expect("one frame");
     assert!(median >= long_ago);
-    // The first view after a rest shows nothing of what a frame takes.
+    // The first picture after a rest says nothing about frame times.
     tracer.has_rested = true;
     tracer.shown_at = Instant::now().checked_sub(long_ago);
     let before = tracer.first_pass;
@@ -121,7 +121,7 @@ fn only_frames_of_a_movement_are_counted() {
 }
 
 #[test]
-fn refinement_waits_until_the_view_has_been_at_rest() {
+fn refinement_waits_until_the_camera_has_been_at_rest() {
     let (mut tracer, scene) = (tracer(), ball());
     let requested = Instant::now();
     tracer.request(request(&scene, 0.0, 4));
@@ -134,7 +134,7 @@ fn refinement_waits_until_the_view_has_been_at_rest() {
     });
     assert!(requested.elapsed() >= REST);
     collect_until(&mut tracer, |tracer| tracer.film().is_complete());
-    // Another view holds it again, and each further one anew.
+    // Each change of the camera restarts the hold.
     for x in [1.0, 2.0] {
         tracer.request(request(&scene, x, 4));
         assert!(tracer.is_moving());
@@ -153,17 +153,17 @@ fn a_pause_outlasts_the_hold() {
     collect_until(&mut tracer, |tracer| {
         !tracer.is_moving() && tracer.film().passes_done() > 0
     });
-    // Paused threads have nothing to do, so there is nothing to come.
+    // Paused threads are idle, so no more tiles arrive.
     assert!(tracer.is_paused() && tracer.film().passes_done() == 1);
     tracer.toggle_pause();
     collect_until(&mut tracer, |tracer| tracer.film().is_complete());
 }
 
 #[test]
-fn parts_are_shown_of_a_new_scene_and_whole_passes_of_a_new_view() {
+fn a_new_scene_is_shown_in_parts_and_a_new_camera_after_a_complete_pass() {
     let (mut tracer, first, second) = (tracer(), ball(), ball());
     tracer.request(request(&first, 0.0, 1));
-    // No tile is collected yet: the picture of the new scene starts empty.
+    // No tile has been collected yet: the picture of the new scene starts empty.
     let (film, changed) = tracer.take_changes().expect("at once");
     assert_eq!(
         (film.passes_done(), changed.min, changed.max),
@@ -178,7 +178,11 @@ fn parts_are_shown_of_a_new_scene_and_whole_passes_of_a_new_view() {
     assert_eq!(tracer.shown().map(|(_, camera)| camera.eye().x), Some(0.0));
     collect_until(&mut tracer, |tracer| {
         let is_done = tracer.film().passes_done() > 0;
-        assert_eq!(tracer.take_changes().is_some(), is_done, "half a view");
+        assert_eq!(
+            tracer.take_changes().is_some(),
+            is_done,
+            "an incomplete pass"
+        );
         is_done
     });
     assert_eq!(tracer.shown().map(|(_, camera)| camera.eye().x), Some(1.0));
@@ -187,7 +191,7 @@ fn parts_are_shown_of_a_new_scene_and_whole_passes_of_a_new_view() {
     tracer.request(request(&second, 0.0, 1));
     assert!(
         tracer.take_changes().is_some(),
-        "the old scene goes at once"
+        "the old scene disappears at once"
     );
     assert!(
         tracer

@@ -1,4 +1,4 @@
-//! Changes of real files, and when they are reported.
+//! Tests: changes of files and when they are reported.
 
 use super::*;
 use std::fs::{create_dir, create_dir_all, remove_dir_all, rename, write};
@@ -12,8 +12,8 @@ fn folder() -> (tempfile::TempDir, PathBuf) {
     (folder, mesh)
 }
 
-/// A watch that has seen the files as they are. It was told that they were loaded before they were written, so that
-/// it reports them once.
+/// A watch that knows the current files. It is created as if they had been loaded before they were written, so that it
+/// reports them once.
 fn watch(mesh: &Path, named: &[PathBuf]) -> Watch {
     let modified = mesh.metadata().and_then(|info| info.modified());
     let since = modified.expect("a time") - QUIET;
@@ -35,7 +35,7 @@ fn wait(watch: &Watch, what: &str) {
 }
 
 #[test]
-fn a_deleted_folder_that_is_made_again_is_noticed_each_time() {
+fn a_deleted_and_recreated_folder_is_noticed_each_time() {
     let (folder, mesh) = folder();
     let watch = watch(&mesh, &[]);
     for text in ["v 1 0 0", "v 2 0 0 # longer"] {
@@ -51,7 +51,7 @@ fn a_deleted_folder_that_is_made_again_is_noticed_each_time() {
 }
 
 #[test]
-fn a_renamed_parent_and_its_successor_are_noticed() {
+fn a_renamed_parent_and_its_replacement_are_noticed() {
     let (folder, mesh) = folder();
     let (first, second) = (folder.path().join("out"), folder.path().join("new"));
     let watch = watch(&mesh, &[]);
@@ -98,7 +98,7 @@ fn a_link_that_is_redirected_and_a_change_behind_it_are_noticed() {
     wait(&watch, "a change behind the redirected link");
 }
 
-/// A mesh that exists, in a version that `bytes` tells apart.
+/// The state of an existing mesh in a version identified by `bytes`.
 fn file(bytes: u64) -> Option<FileState> {
     Some(FileState {
         bytes,
@@ -109,7 +109,7 @@ fn file(bytes: u64) -> Option<FileState> {
 }
 
 #[test]
-fn a_change_is_reported_once_and_only_when_nothing_changes_any_more() {
+fn a_change_is_reported_once_and_only_after_the_last_write() {
     let start = Instant::now();
     let at = |step: u32| start + step * INTERVAL;
     let quiet_steps = QUIET.div_duration_f64(INTERVAL).ceil() as u32;
@@ -126,7 +126,7 @@ fn a_change_is_reported_once_and_only_when_nothing_changes_any_more() {
 }
 
 #[test]
-fn a_file_of_the_future_is_not_loaded_for_ever() {
+fn a_file_with_a_future_time_is_not_reloaded_forever() {
     let (now, start) = (SystemTime::now(), Instant::now());
     let from_tomorrow = Some(FileState {
         modified: Some(now + Duration::from_secs(86400)),
@@ -137,14 +137,14 @@ fn a_file_of_the_future_is_not_loaded_for_ever() {
 }
 
 #[test]
-fn a_file_written_while_it_was_being_loaded_is_loaded_again() {
+fn a_file_written_while_being_loaded_is_reloaded() {
     let (now, start) = (SystemTime::now(), Instant::now());
     let written = |at: SystemTime| {
         let mut file = file(1).expect("a file");
         file.modified = Some(at);
         vec![Some(file)]
     };
-    // The second time lies before the load's, by the tick that the file system's clock lags behind.
+    // The second time precedes the load by less than the tick by which the file system's clock may lag.
     for (at, is_news) in [(now, true), (now - TICK / 2, true), (now - 2 * TICK, false)] {
         let mut changes = Changes::since(now, written(at), start);
         assert_eq!(changes.is_news(written(at), start + QUIET), is_news);
