@@ -39,7 +39,7 @@ use glam::UVec2;
 use hitscope_core::camera::Turntable;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_core::{Camera, Film, Scene};
-use hitscope_lab::commands::default_thread_count;
+use hitscope_lab::commands::{default_thread_count, print_line};
 use hitscope_lab::inspection::Inspection;
 use pick::Pick;
 use pointer::Clicks;
@@ -367,7 +367,7 @@ fn catch_gpu_errors(render_state: &RenderState, ctx: &egui::Context) -> Arc<Mute
     let errors: Arc<Mutex<Vec<String>>> = Arc::default();
     let (shared, ctx) = (Arc::clone(&errors), ctx.clone());
     let push = move |message: String| {
-        eprintln!("hitscope: graphics: {message}");
+        print_line(format_args!("hitscope: graphics: {message}"));
         if let Ok(mut errors) = shared.lock() {
             errors.push(message);
         }
