@@ -64,7 +64,7 @@ pub(super) fn look_up(
     warnings.extend(unknown.first().map(|first| {
         let count = unknown.len();
         let message = format!(
-            "{count} material(s) without a definition, “{}” first",
+            "{count} material(s) without a definition, the first is “{}”",
             shortened(first)
         );
         Warning::of_file(message)

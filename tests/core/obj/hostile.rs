@@ -80,12 +80,12 @@ fn an_index_of_a_billion_is_out_of_range() {
 fn a_line_of_a_gigabyte_is_refused_early() {
     let open = || Ok(Repeated::new(b"v 1 2 3 ", 1 << 30));
     let error = message(parse_with(open, 1 << 30));
-    assert_eq!(error, "x.obj:1: a line of more than 128 MB");
+    assert_eq!(error, "x.obj:1: the line is longer than 128 MB");
     // The limit is lower with less memory, also for a line with continuations.
     for bytes in [&b"v 1 2 3 "[..], b"v 1 2 3 \\\n"] {
         let open = || Ok(Repeated::new(bytes, 1 << 30));
         let error = message(parse_with(open, 64 << 20));
-        assert_eq!(error, "x.obj:1: a line of more than 16 MB");
+        assert_eq!(error, "x.obj:1: the line is longer than 16 MB");
     }
 }
 
@@ -106,7 +106,7 @@ fn a_load_beyond_the_memory_limit_is_refused_with_the_options_name() {
         let text = String::from_utf8_lossy(line);
         assert_eq!(
             error,
-            "x.obj: loading takes more than the 64 MB of memory that it may use (--max-memory)",
+            "x.obj: loading needs more than the 64 MB of memory allowed (--max-memory)",
             "{text:?}"
         );
     }
