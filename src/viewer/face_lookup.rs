@@ -17,7 +17,7 @@ pub enum FaceInFile {
         /// The statement of the face, shortened if it is long.
         statement: String,
         /// The corners of the triangle.
-        corners: [FaceCorner; 3],
+        corners: Box<[FaceCorner; 3]>,
     },
     /// The face couldn't be read, for this reason.
     Unknown(String),
@@ -56,7 +56,7 @@ impl FaceInFile {
         };
         Some(Self::Found {
             statement: source.statement,
-            corners: [a, b, c],
+            corners: Box::new([a, b, c]),
         })
     }
 

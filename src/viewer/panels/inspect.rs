@@ -107,8 +107,8 @@ fn element_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
             row_ui(ui, "line", line);
         }
         match pick.face {
-            Some(FaceInFile::Found { statement, .. }) => _ = row_ui(ui, "statement", statement),
-            Some(FaceInFile::Unknown(why)) => _ = row_ui(ui, "statement", why),
+            Some(FaceInFile::Found { statement, .. }) => row_ui(ui, "statement", statement),
+            Some(FaceInFile::Unknown(why)) => row_ui(ui, "statement", why),
             None => {}
         }
         for (k, (name, vertex)) in ["A", "B", "C"].into_iter().zip(hit.vertices).enumerate() {

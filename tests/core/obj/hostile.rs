@@ -105,8 +105,7 @@ fn a_load_beyond_the_memory_limit_is_refused_with_the_options_name() {
         let error = message(parse_with(open, 64 * MB));
         let text = String::from_utf8_lossy(line);
         assert_eq!(
-            error,
-            "x.obj: loading needs more than the 64 MB of memory allowed (--max-memory)",
+            error, "x.obj: loading needs more than the 64 MB of memory allowed (--max-memory)",
             "{text:?}"
         );
     }
