@@ -263,6 +263,9 @@ fn the_interval_is_that_of_the_ray_as_given() {
         ([t - 0.5, t], false),
         ([t, t + 0.5], false),
         ([0.0, 5.0], false),
+        // Ends before the mesh by less than the rounding of the origin.
+        ([0.0, t - 12.0], false),
+        ([-5.0, t - 1.0], false),
         ([t - 1e-6, f64::INFINITY], true),
         ([f64::NEG_INFINITY, f64::INFINITY], true),
         ([t + 5.0, t + 6.0], false),

@@ -14,7 +14,7 @@ pub(super) fn cost() -> Legend {
 }
 
 pub(super) fn error_t() -> Legend {
-    let ulps = [0.05, 0.5, 5.0, 50.0, 500.0, 5e4];
+    let ulps = [0.05, 0.5, 5.0, 50.0, 500.0, 5e3, 5e4];
     let entry = |x: f64| (log_colour(x, T_RANGE), x.to_string());
     vec![ulps.map(entry).into(), decisions().remove(0)]
 }

@@ -13,6 +13,7 @@ use crate::obj::{self, LoadError, LoadOptions, Loaded, Warning};
 use crate::progress::{BackgroundError, Cancelled, Phase, Progress};
 use crate::simd::SimdLevel;
 use glam::Vec3;
+use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
@@ -229,7 +230,10 @@ impl LoadedScene {
                     BackgroundError::Cancelled => cancelled(path),
                     BackgroundError::NoThread(source) => LoadError::Unreadable {
                         path: path.to_owned(),
-                        source,
+                        source: io::Error::new(
+                            source.kind(),
+                            format!("the system grants no thread to load it: {source}"),
+                        ),
                     },
                 })
             })
@@ -276,7 +280,6 @@ fn size_warning(bounds: Aabb) -> Option<Warning> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::io;
 
     #[test]
     fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {

@@ -195,7 +195,7 @@ impl Frame {
     }
 
     /// Places a ray with its start near the mesh, or at the beginning of its interval if that is later. `None` if
-    /// that is the given origin or lies behind the interval's end.
+    /// that is the given origin.
     fn place_near_mesh(&self, given: &GivenRay) -> Option<Result<PlacedRay, RayError>> {
         let [entry, exit] = self.reach(given);
         // Rounded to a sixteenth of the way through the ball: a start with few digits keeps t = start + t′ exact
@@ -203,7 +203,7 @@ impl Frame {
         let exponent = (exit - entry).log2().floor() as i32;
         let step = 2f64.powi(exponent.saturating_sub(4));
         let start = ((entry / step).floor() * step).max(given.t_min);
-        if !start.is_finite() || start == 0.0 || start >= given.t_max {
+        if !start.is_finite() || start == 0.0 {
             return None;
         }
         let end = if exit < given.t_max {
@@ -211,8 +211,14 @@ impl Frame {
         } else {
             f32_above(given.t_max - start)
         };
-        // Hits before the start also lie before the interval.
-        Some(self.place(given, start, [0.0, end]))
+        // Hits before the start also lie before the interval. If the interval ends before the mesh, the traced one
+        // ends at or before the start, where there are none.
+        let begin = if start < given.t_max {
+            0.0
+        } else {
+            f32_below(given.t_min - start)
+        };
+        Some(self.place(given, start, [begin, end]))
     }
 
     fn place(

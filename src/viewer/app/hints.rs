@@ -7,6 +7,7 @@ use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::render::plan::Plan;
 use std::path::Path;
+use std::sync::Arc;
 
 impl App {
     /// Whether the picture shows nothing of the mesh.
@@ -14,22 +15,27 @@ impl App {
         self.shows_nothing
     }
 
-    /// Updates `shows_nothing` once every pixel has its own ray. Until then, as while the camera moves, the
-    /// previous value stays.
+    /// Updates `shows_nothing`: a pixel that shows the mesh clears it at once; it is set only when every pixel has
+    /// its own ray. Until then, as while the camera moves, the previous value stays.
     pub(super) fn check_view(&mut self) {
         let (film, Some(posted)) = (self.tracer.film(), self.tracer.posted()) else {
             return;
         };
         let context = &posted.context;
         // Lines and points are drawn by the overlay; the film doesn't contain them.
-        if self.document.is_blank || context.scene.mesh().has_elements() {
+        let is_shown = Arc::ptr_eq(&context.scene, &self.document.loaded.scene);
+        if self.document.is_blank || !is_shown || context.scene.mesh().has_elements() {
+            self.shows_nothing = false;
+            return;
+        }
+        let background = Film::new(Plan::new(UVec2::ONE, 1, 1), context.background);
+        let (above, below) = film.pixels().split_at(film.pixels().len() / 2);
+        // Starts in the middle, where a mesh is found soonest.
+        let mut pixels = below.iter().chain(above);
+        if pixels.any(|pixel| *pixel != background.pixels()[0]) {
             self.shows_nothing = false;
         } else if film.samples() > 0 {
-            let background = Film::new(Plan::new(UVec2::ONE, 1, 1), context.background);
-            let (above, below) = film.pixels().split_at(film.pixels().len() / 2);
-            // Starts in the middle, where a mesh is found soonest.
-            let mut pixels = below.iter().chain(above);
-            self.shows_nothing = pixels.all(|pixel| *pixel == background.pixels()[0]);
+            self.shows_nothing = true;
         }
     }
 
