@@ -35,6 +35,8 @@ use std::time::Duration;
 #[command(
     version,
     propagate_version = true,
+    // The texts are broken at this width.
+    term_width = 112,
     args_conflicts_with_subcommands = true,
     after_help = "\
 Examples:

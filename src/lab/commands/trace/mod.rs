@@ -46,7 +46,8 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
   barycentric   barycentric coordinates for the triangle's corners A, B and C
   triangle      index of the triangle, counted from 0, in the order of triangulation
   face          index of the face in the file, counted from 0
-  position      in the file's coordinates
+  position      in the file's coordinates, from the barycentric coordinates; in large triangles less
+                accurate than o + t*d
   line          number of the line in the input, counted from 1
   ray_rounding  in units of the file, see below
 
@@ -55,9 +56,9 @@ Numbers parse as doubles without loss.
 Rounding: rays and meshes are traced as f32 numbers relative to an origin near the mesh (--recentre).
 A ray with more digits, or from far away, is rounded. To lose as little as possible, the traced ray
 starts where the given ray comes near the mesh, or is traced in the file's coordinates if that is more
-accurate. ray_rounding is the remaining error: the largest distance per coordinate between the traced
-and the given ray at the same t, over all t at which they may meet the mesh. 0 means that the ray is
-traced exactly as given. tmin and tmax are rounded outwards to f32. `hitscope info` shows how far the
+accurate. ray_rounding bounds the remaining error: the largest distance per coordinate between the
+traced and the given ray at the same t, over the part of the ray within the mesh's bounding sphere. 0
+means that the ray is traced exactly as given. tmin and tmax are rounded outwards to f32. `hitscope info` shows how far the
 mesh itself is rounded.";
 
 const EXAMPLES: &str = "\
