@@ -16,7 +16,7 @@
 //! | [`spawn`] | origins of rays that leave a surface |
 //! | [`film`] | accumulation of samples |
 //! | [`render`] | progressive rendering on several threads |
-//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`] | shared types |
+//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`] | shared types |
 //!
 //! Meshes and rays consist of f32 numbers; a mesh is stored relative to an f64 origin. Nothing here
 //! depends on a scene's size, position or units.
@@ -24,6 +24,7 @@
 pub mod aabb;
 pub mod bvh;
 pub mod camera;
+pub mod counts;
 pub mod film;
 pub mod integrator;
 pub mod interaction;

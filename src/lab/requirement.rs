@@ -6,6 +6,7 @@
 use glam::UVec2;
 use hitscope_core::Scene;
 use hitscope_core::camera::Turntable;
+use hitscope_core::counts::{counted, grouped};
 use hitscope_core::kernel::Tier;
 use hitscope_core::mesh::{Flaw, Health, SAFE_SIZE, SLIVER_ASPECT};
 use serde::Serialize;
@@ -37,27 +38,32 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
         let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
         found.add(Tier::Precise, format!(
-            "the mesh is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and `watertight` tests nearly every triangle again in f64, one by one"
+            "The mesh is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and watertight tests nearly every triangle again in f64, one by one."
         ));
     }
     if health.max_aspect > SLIVER_ASPECT {
-        found.add(Tier::Watertight, format!(
-            "{} sliver(s) with aspect ratios up to {:.0e}: `fast` decides some of their rays wrongly",
-            health.places(Flaw::Sliver).count().unwrap_or(0), health.max_aspect
-        ));
+        found.add(
+            Tier::Watertight,
+            format!(
+                "{} with aspect ratios up to {}: fast decides some of their rays wrongly.",
+                counted(health.places(Flaw::Sliver).count().unwrap_or(0), "sliver"),
+                rounded(health.max_aspect)
+            ),
+        );
     }
     if let Some(distance) = distance_in_triangles(scene)
         && distance > FAR_FOR_F32
     {
         found.add(Tier::Watertight, format!(
-            "the distance of the starting view is {distance:.0e} times the median triangle size: `fast` decides some rays wrongly"
+            "The distance of the starting view is {} times the median triangle size: fast decides some rays wrongly.",
+            rounded(distance)
         ));
     }
     let offset = mesh.origin.length();
     if size > 0.0 && offset > FAR_OUT * size {
         found.push(None, format!(
-            "the mesh lies {:.0e} times its size from (0, 0, 0): it is traced relative to an origin nearby, which costs no kernel accuracy",
-            offset / size
+            "The mesh lies {} times its size from (0, 0, 0): it is traced relative to an origin nearby, which costs no kernel accuracy.",
+            rounded(offset / size)
         ));
     }
     // The highest tier comes first.
@@ -85,17 +91,17 @@ impl TierReasons {
             if triangles > 0 && health.places(Flaw::OpenEdge).count() == Some(3 * triangles) {
                 (
                     Tier::Fast,
-                    "no two triangles share an edge: gaps can't show",
+                    "No two triangles share an edge: gaps can't show.",
                 )
             } else if health.is_closed() {
                 (
                     Tier::Watertight,
-                    "the mesh is closed: a gap between triangles would show",
+                    "The mesh is closed: a gap between triangles would show.",
                 )
             } else {
                 (
                     Tier::Watertight,
-                    "triangles share edges: a gap between them would show",
+                    "Triangles share edges: a gap between them would show.",
                 )
             };
         self.add(tier, reason);
@@ -107,6 +113,16 @@ impl TierReasons {
 
     fn push(&mut self, tier: Option<Tier>, reason: impl Into<String>) {
         self.reasons.push((tier, reason.into()));
+    }
+}
+
+/// A ratio with one significant digit.
+fn rounded(ratio: f64) -> String {
+    if ratio < 1e6 {
+        let step = 10_f64.powf(ratio.log10().floor());
+        grouped(((ratio / step).round() * step) as usize)
+    } else {
+        format!("{ratio:.0e}")
     }
 }
 

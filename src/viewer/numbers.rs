@@ -2,25 +2,6 @@
 
 use std::fmt::{Display, LowerExp};
 
-/// A number with its digits in groups of three, separated by narrow spaces: `1 234 567`.
-pub fn grouped(number: usize) -> String {
-    let digits = number.to_string();
-    let mut text = String::new();
-    for (i, digit) in digits.chars().enumerate() {
-        if i > 0 && (digits.len() - i).is_multiple_of(3) {
-            text.push('\u{202f}');
-        }
-        text.push(digit);
-    }
-    text
-}
-
-/// A number and its noun: `1 triangle`, `2 triangles`.
-pub fn counted(number: usize, noun: &str) -> String {
-    let ending = if number == 1 { "" } else { "s" };
-    format!("{} {noun}{ending}", grouped(number))
-}
-
 /// All digits of an f32 or f64, with an exponent instead of many zeros; zero has no sign.
 pub fn number(x: impl Into<f64> + Display + LowerExp + Copy) -> String {
     let size = x.into().abs();
@@ -51,20 +32,6 @@ pub fn significant(x: f64, digits: usize) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-
-    #[test]
-    fn digits_are_grouped_by_three() {
-        assert_eq!(grouped(7), "7");
-        assert_eq!(grouped(69451), "69\u{202f}451");
-        assert_eq!(grouped(1_111_216), "1\u{202f}111\u{202f}216");
-    }
-
-    #[test]
-    fn nouns_are_singular_after_one() {
-        assert_eq!(counted(0, "triangle"), "0 triangles");
-        assert_eq!(counted(1, "triangle"), "1 triangle");
-        assert_eq!(counted(1200, "line"), "1\u{202f}200 lines");
-    }
 
     #[test]
     fn small_and_large_numbers_have_an_exponent_and_zero_has_no_sign() {

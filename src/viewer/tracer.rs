@@ -104,6 +104,8 @@ pub struct Tracer {
     /// Whether tiles are shown before the first pass is complete.
     shows_parts: bool,
     non_finite: u64,
+    /// Number of the picture's rays that hit the scene.
+    hits: u64,
 }
 
 impl Tracer {
@@ -126,6 +128,7 @@ impl Tracer {
             has_rested: true,
             shows_parts: false,
             non_finite: 0,
+            hits: 0,
         }
     }
 
@@ -210,6 +213,7 @@ impl Tracer {
         let rect = self.film.add(&tile.samples);
         self.changed = Some(self.changed.map_or(rect, |changed| changed.union(rect)));
         self.non_finite += u64::from(tile.non_finite);
+        self.hits += u64::from(tile.hits);
         let busy = tile.busy.as_secs_f64();
         let fade = (-busy / MEMORY_SECS).exp2();
         self.rays = self.rays * fade + f64::from(tile.rays);
@@ -250,6 +254,7 @@ impl Tracer {
             self.shows_parts = true;
         }
         self.non_finite = 0;
+        self.hits = 0;
         // A slow first pass is a slow frame, not a rest.
         self.has_rested = self.shown_at.is_none_or(|at| at.elapsed() > LOOK);
         self.is_held = true;
@@ -321,6 +326,12 @@ impl Tracer {
     /// The request that is being traced.
     pub fn posted(&self) -> Option<&Request> {
         self.posted.as_ref().map(|posted| &posted.request)
+    }
+
+    /// Whether the picture shows part of a surface; `None` as long as a pixel without its own ray may still show it.
+    pub fn shows_surface(&self) -> Option<bool> {
+        let is_shown = self.hits > 0;
+        (is_shown || self.film.samples() > 0).then_some(is_shown)
     }
 
     /// The picture so far.

@@ -1,6 +1,8 @@
 //! Tests of the real app, driven by labels and keys.
 
-use crate::harness::{Window, app, bare, click, in_picture, press, say, wait};
+use crate::harness::{
+    Window, app, bare, choose_kernel, choose_view, click, in_picture, press, say, wait,
+};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec3;
@@ -40,7 +42,7 @@ fn a_file_opens_and_stays_if_the_next_one_is_bad() {
     for (path, message) in [
         (
             bad,
-            "bad.obj:4: no faces left: 1 have an index that is out of range",
+            "bad.obj:4: no faces left: 1 with an index that is out of range",
         ),
         (folder.path().join("none.obj"), "none.obj: "),
         (folder.path().to_owned(), "this is a directory"),
@@ -146,14 +148,7 @@ fn every_view_changes_the_picture() {
     let Some(mut window) = bare() else { return };
     let mut seen: Vec<Vec<[u8; 4]>> = Vec::new();
     for view in INTEGRATORS {
-        window.get_by_role(egui::accesskit::Role::ComboBox).click();
-        window.run_steps(2);
-        window
-            .get_all_by_label(view.title)
-            .last()
-            .expect("in the menu")
-            .click();
-        window.run_steps(2);
+        choose_view(&mut window, view.title);
         wait(&mut window, view.name, |app| {
             app.settings().view == view.name && app.film().samples() >= 1
         });
@@ -233,13 +228,7 @@ fn a_selected_kernel_is_used_once_it_is_packed() {
         window.state().document().intersector().kernel().name,
         "watertight"
     );
-    let combo = window
-        .get_all_by_role(egui::accesskit::Role::ComboBox)
-        .last()
-        .expect("of kernels");
-    combo.click();
-    window.run_steps(2);
-    window.get_by_label("fast – Möller–Trumbore").click();
+    choose_kernel(&mut window, "fast – Möller–Trumbore");
     wait(&mut window, "the other kernel", |app| {
         app.document().intersector().kernel().name == "moller-trumbore"
     });

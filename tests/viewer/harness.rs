@@ -125,6 +125,27 @@ pub fn press(window: &mut Window, key: Key) {
     window.run_steps(2);
 }
 
+/// Chooses a view in the tool bar of a window without its side panel.
+pub fn choose_view(window: &mut Window, title: &str) {
+    let combo = window.get_by_role(egui::accesskit::Role::ComboBox);
+    combo.click();
+    window.run_steps(2);
+    let entry = window.get_all_by_label(title).last();
+    entry.expect("in the menu").click();
+    window.run_steps(2);
+}
+
+/// Chooses a kernel by its text in the list of the Display tab, which must be open.
+pub fn choose_kernel(window: &mut Window, text: &str) {
+    let combo = window
+        .get_all_by_role(egui::accesskit::Role::ComboBox)
+        .last()
+        .expect("of kernels");
+    combo.click();
+    window.run_steps(2);
+    window.get_by_label(text).click();
+}
+
 /// Presses or releases a pointer button.
 pub fn pointer(
     window: &Window,

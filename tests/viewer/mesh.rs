@@ -34,7 +34,7 @@ fn flaws_are_marked_and_listed_and_a_bad_face_gives_a_warning() {
         return;
     };
     let notice = window.state().notice().expect("a warning").to_owned();
-    assert!(notice.contains("line 7: 1 face(s) dropped"), "{notice}");
+    assert!(notice.contains("line 7: 1 face dropped"), "{notice}");
     window.get_by_label("Mesh").click();
     // The tab appears in one of the next frames; the check begins in that one.
     let is_checking = (0..3).any(|_| {

@@ -1,6 +1,6 @@
 //! Tests of the window before, during and after opening a file.
 
-use crate::harness::{Window, bare, gpu, press, shared_setup, wait};
+use crate::harness::{Window, bare, choose_view, gpu, press, shared_setup, wait};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
@@ -127,6 +127,10 @@ fn a_hint_appears_if_the_mesh_is_not_visible_and_home_frames_it() {
     wait(&mut window, "the mesh", |app| !app.shows_nothing());
     window.run_steps(2);
     assert!(window.query_by_label("The mesh isn't visible.").is_none());
+    // Also in a view whose background isn't plain.
+    choose_view(&mut window, "Cost");
+    press(&mut window, Key::Num1);
+    wait(&mut window, "no cost but that of boxes", App::shows_nothing);
 }
 
 #[test]

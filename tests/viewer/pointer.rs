@@ -1,6 +1,8 @@
 //! Tests of the pointer on the real app's picture.
 
-use crate::harness::{Window, app, app_scaled, bare, click, in_picture, pointer, press, wait};
+use crate::harness::{
+    Window, app, app_scaled, bare, choose_kernel, click, in_picture, pointer, press, wait,
+};
 use egui::{Event, Key, Modifiers, MouseWheelUnit, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec2, Vec2, Vec3};
@@ -291,13 +293,7 @@ fn a_pick_is_inspected_again_when_kernel_or_shading_change() {
     });
     window.get_by_label("Display").click();
     window.run_steps(2);
-    let combo = window
-        .get_all_by_role(egui::accesskit::Role::ComboBox)
-        .last()
-        .expect("of kernels");
-    combo.click();
-    window.run_steps(2);
-    window.get_by_label("exact – Exact, adaptive").click();
+    choose_kernel(&mut window, "exact – Exact, adaptive");
     wait(&mut window, "the exact kernel's answer", |app| {
         app.inspection()
             .is_some_and(|inspection| inspection.kernel == "exact")

@@ -45,15 +45,9 @@ pub struct Integrator {
     pub against: Comparison,
     /// The legend.
     pub legend: fn() -> Legend,
-    colour: Colour,
-}
-
-/// The input of a view.
-enum Colour {
-    /// The first hit of the chosen kernel.
-    OfHit(fn(&Context, &Ray, Option<Hit>) -> Vec3),
-    /// The ray itself; the view traces it and measures its cost.
-    OfRay(fn(&Context, &Ray) -> Vec3),
+    /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
+    pub depends_on_tree: bool,
+    colour: fn(&Context, &Ray, Option<Hit>) -> Vec3,
 }
 
 /// The kernel that a view compares the chosen one with.
@@ -96,25 +90,9 @@ impl Integrator {
         )
     }
 
-    /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
-    pub fn depends_on_tree(&self) -> bool {
-        matches!(self.colour, Colour::OfRay(_))
-    }
-
-    /// The first hits of rays, if the view needs them. Fastest for coherent rays.
-    pub fn first_hits(&self, context: &Context, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        match self.colour {
-            Colour::OfHit(_) => context.intersector.coherent_hits(rays, hits),
-            Colour::OfRay(_) => {}
-        }
-    }
-
-    /// The colour of a ray in linear RGB, given its hit from [`first_hits`](Self::first_hits).
+    /// The colour of a ray in linear RGB, given the first hit of [`Context::intersector`].
     pub fn radiance(&self, context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
-        match self.colour {
-            Colour::OfHit(colour) => colour(context, ray, hit),
-            Colour::OfRay(colour) => colour(context, ray),
-        }
+        (self.colour)(context, ray, hit)
     }
 }
 
@@ -126,7 +104,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Lit by a studio light that moves with the camera.",
         against: Comparison::Nothing,
         legend: legend::none,
-        colour: Colour::OfHit(shaded::radiance),
+        depends_on_tree: false,
+        colour: shaded::radiance,
     },
     Integrator {
         name: "normal",
@@ -134,7 +113,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "The shading normal: x, y, z from −1 to 1 as red, green, blue.",
         against: Comparison::Nothing,
         legend: legend::none,
-        colour: Colour::OfHit(views::normal),
+        depends_on_tree: false,
+        colour: views::normal,
     },
     Integrator {
         name: "barycentric",
@@ -142,7 +122,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "The barycentric coordinates of the three corners as red, green, blue.",
         against: Comparison::Nothing,
         legend: legend::none,
-        colour: Colour::OfHit(views::barycentric),
+        depends_on_tree: false,
+        colour: views::barycentric,
     },
     Integrator {
         name: "depth",
@@ -150,7 +131,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Distance from the eye: white at the near side of the scene's bounding sphere, dark at the far side.",
         against: Comparison::Nothing,
         legend: legend::none,
-        colour: Colour::OfHit(views::depth),
+        depends_on_tree: false,
+        colour: views::depth,
     },
     Integrator {
         name: "triangle",
@@ -158,7 +140,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "A colour for each triangle.",
         against: Comparison::Nothing,
         legend: legend::none,
-        colour: Colour::OfHit(views::triangle),
+        depends_on_tree: false,
+        colour: views::triangle,
     },
     Integrator {
         name: "cost",
@@ -166,7 +149,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Boxes and triangles tested for the ray, on a logarithmic scale.",
         against: Comparison::Nothing,
         legend: legend::cost,
-        colour: Colour::OfRay(views::cost),
+        depends_on_tree: true,
+        colour: views::cost,
     },
     Integrator {
         name: "error-t",
@@ -174,7 +158,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Error of t of the chosen kernel, in f32 ulps, on a logarithmic scale.",
         against: Comparison::Exact,
         legend: legend::error_t,
-        colour: Colour::OfHit(compare::error_t),
+        depends_on_tree: false,
+        colour: compare::error_t,
     },
     Integrator {
         name: "error-barycentric",
@@ -182,7 +167,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Largest error of a barycentric coordinate of the chosen kernel, on a logarithmic scale.",
         against: Comparison::Exact,
         legend: legend::error_barycentric,
-        colour: Colour::OfHit(compare::error_barycentric),
+        depends_on_tree: false,
+        colour: compare::error_barycentric,
     },
     Integrator {
         name: "disagreement",
@@ -190,7 +176,8 @@ pub static INTEGRATORS: &[Integrator] = &[
         about: "Where the chosen kernel and a second one hit different triangles, or only one of them hits.",
         against: Comparison::Second,
         legend: legend::decisions,
-        colour: Colour::OfHit(compare::disagreement),
+        depends_on_tree: false,
+        colour: compare::disagreement,
     },
 ];
 

@@ -1,13 +1,14 @@
 //! Assembles a mesh from the file's numbers.
 
 use super::error::{Problem, Warning};
-use super::facts::{Element, Facts, Tally};
+use super::facts::{Element, Facts, Tally, lines_or_points};
 use super::numbers::Numbers;
 use super::outline::Outline;
 use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
 use super::referenced_files::ReferencedFiles;
 use super::{LoadOptions, Loaded, materials};
+use crate::counts::{counted, grouped};
 use crate::mesh::{Dropped, Runs, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
 use glam::DVec3;
@@ -215,19 +216,24 @@ impl Oddities {
         let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
         let elements = self.not_finite_elements;
         let of_elements = (elements > 0).then(|| {
-            let message = format!(
-                "{elements} line(s) or point(s) dropped: a vertex is not finite or too large"
-            );
-            Warning::of_file(message)
+            let elements = lines_or_points(elements);
+            Warning::of_file(format!(
+                "{elements} dropped: a vertex is not finite or too large"
+            ))
         });
         [
-            self.non_finite
-                .warning(|_| format!("{non_finite} triangle(s) dropped: a corner is not finite or too large")),
-            self.zero_area
-                .warning(|_| format!("{zero_area} triangle(s) dropped: their area is zero")),
+            self.non_finite.warning(|_| {
+                let triangles = counted(non_finite, "triangle");
+                format!("{triangles} dropped: a corner is not finite or too large")
+            }),
+            self.zero_area.warning(|_| {
+                let triangles = counted(zero_area, "triangle");
+                format!("{triangles} dropped: zero area")
+            }),
             self.fan.warning(|fans| {
+                let polygons = counted(fans, "polygon");
                 format!(
-                    "{fans} polygon(s) triangulated as fans: they intersect themselves, have no plane or have too many corners"
+                    "{polygons} triangulated as fans: intersecting themselves, without a plane or with too many corners"
                 )
             }),
             of_elements,
@@ -258,24 +264,26 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
         ..
     } = mesh.dropped;
     let message = if zero_area + non_finite > 0 {
+        let (zero_area, non_finite) = (grouped(zero_area), grouped(non_finite));
         let message = format!(
-            "no triangles left: {zero_area} have zero area, {non_finite} have a corner that is NaN, infinite or too large for f32"
+            "no triangles left: {zero_area} with zero area, {non_finite} with a corner that is NaN, infinite or too large for f32"
         );
         return Err(Problem::line(facts.face_line(0), message));
     } else if bad_index > 0 {
         let message = format!(
-            "no faces left: {bad_index} have an index that is out of range or fewer than three corners"
+            "no faces left: {} with an index that is out of range or fewer than three corners",
+            grouped(bad_index)
         );
         return Err(Problem::line(facts.dropped_faces.first_line, message));
     } else if facts.element_count > 0 {
         format!(
             "there are lines or points ({}), but no faces: nothing to trace",
-            facts.element_count
+            grouped(facts.element_count)
         )
     } else if facts.counts[0] > 0 {
         format!(
             "there are vertices ({}), but no faces: nothing to show",
-            facts.counts[0]
+            grouped(facts.counts[0])
         )
     } else {
         "no vertices and no faces: this is not an OBJ file".to_owned()

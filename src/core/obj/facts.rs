@@ -4,6 +4,7 @@ use super::copies::Copies;
 use super::corner::List;
 use super::error::{Warning, printable};
 use super::names::{Libraries, NamedRuns};
+use crate::counts::{counted, counted_as};
 use glam::Vec3;
 use std::collections::BTreeMap;
 
@@ -206,23 +207,37 @@ impl Facts {
     /// Warnings about everything ignored or dropped, in the order of their first lines.
     pub(super) fn warnings(&self) -> Vec<Warning> {
         let ignored = self.ignored.iter().filter_map(|(keyword, tally)| {
-            tally.warning(|count| format!("{count} “{keyword}” statement(s) ignored"))
+            tally.warning(|count| {
+                let statements = counted(count, &format!("“{keyword}” statement"));
+                format!("{statements} ignored")
+            })
         });
         let colourless = self.counts[0] - self.coloured;
-        let uncoloured = (self.coloured > 0 && colourless > 0)
-            .then(|| Warning::of_file(format!("{colourless} vertices without a colour are white")));
+        let uncoloured = (self.coloured > 0 && colourless > 0).then(|| {
+            let vertices = counted_as(
+                colourless,
+                "vertex without a colour is",
+                "vertices without a colour are",
+            );
+            Warning::of_file(format!("{vertices} white"))
+        });
         let why = "dropped: an index is out of range, or there are too few corners";
         let mut warnings: Vec<Warning> = ignored
             .chain(
                 self.dropped_faces
-                    .warning(|count| format!("{count} face(s) {why}")),
+                    .warning(|count| format!("{} {why}", counted(count, "face"))),
             )
             .chain(
                 self.dropped_others
-                    .warning(|count| format!("{count} line(s) or point(s) {why}")),
+                    .warning(|count| format!("{} {why}", lines_or_points(count))),
             )
             .chain(self.bare.warning(|count| {
-                format!("{count} texture or normal indices ignored: they are out of range")
+                let indices = counted_as(
+                    count,
+                    "texture or normal index",
+                    "texture or normal indices",
+                );
+                format!("{indices} ignored: out of range")
             }))
             .chain(self.idle_textures_line.map(|line| {
                 Warning::at(
@@ -239,10 +254,9 @@ impl Facts {
                 Warning::of_file("vertex colours above 1: interpreted as bytes".to_owned())
             }))
             .chain((self.useless_normals > 0).then(|| {
-                let count = self.useless_normals;
-                let message =
-                    format!("{count} normal(s) computed: those in the file are zero or not finite");
-                Warning::of_file(message)
+                let normals = counted(self.useless_normals, "normal");
+                let why = "zero or not finite in the file";
+                Warning::of_file(format!("{normals} computed: {why}"))
             }))
             .collect();
         warnings.sort_by_key(|warning| warning.line.unwrap_or(usize::MAX));
@@ -253,6 +267,11 @@ impl Facts {
     pub(super) fn triangle_count(&self) -> usize {
         self.corners[0].len().saturating_sub(2 * self.face_count)
     }
+}
+
+/// The number of elements that aren't faces, with their noun.
+pub(super) fn lines_or_points(count: usize) -> String {
+    counted_as(count, "line or point", "lines or points")
 }
 
 /// Counts a statement by its keyword. Files of random bytes have many keywords: all after the first 40 share

@@ -7,6 +7,7 @@ use super::mtl::{self, Definition, MapFile, MaterialLibrary};
 use super::picture::{Picture, decoded};
 use super::referenced_files::ReferencedFiles;
 use super::words::before_comment;
+use crate::counts::{counted, grouped};
 use crate::mesh::{Material, Texture, TextureMap};
 use crate::progress::Progress;
 use std::collections::{HashMap, HashSet};
@@ -62,9 +63,9 @@ pub(super) fn look_up(
     let mut warnings = libraries.missing.warnings("material libraries");
     warnings.extend(textures.odd.warnings("textures"));
     warnings.extend(unknown.first().map(|first| {
-        let count = unknown.len();
         let message = format!(
-            "{count} material(s) without a definition, the first is “{}”",
+            "{} without a definition, the first is “{}”",
+            counted(unknown.len(), "material"),
             shortened(first)
         );
         Warning::of_file(message)
@@ -100,8 +101,9 @@ impl LimitedWarnings {
     }
 
     fn warnings(self, what: &str) -> Vec<Warning> {
-        let more = (self.unlisted > 0)
-            .then(|| Warning::of_file(format!("{} more {what} like these", self.unlisted)));
+        let more = (self.unlisted > 0).then(|| {
+            Warning::of_file(format!("{} more {what} like these", grouped(self.unlisted)))
+        });
         self.told.into_iter().chain(more).collect()
     }
 }

@@ -10,6 +10,7 @@ use super::error::Problem;
 use super::facts::{Tally, count_by_keyword, shortened};
 use super::lines::{Lines, Statement};
 use super::words::{name, without_comment};
+use crate::counts::counted;
 use crate::mesh::{Illumination, Material};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3};
@@ -122,11 +123,13 @@ pub(super) fn parse(
     let about = format!("material library “{}”", shortened(library));
     let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
         let Tally { count, first_line } = tally;
-        format!("{about}: {count} “{keyword}” statement(s) skipped, the first on line {first_line}")
+        let statements = counted(count, &format!("“{keyword}” statement"));
+        format!("{about}: {statements} skipped, the first on line {first_line}")
     });
     let unknown = (parser.unknown.count > 0).then(|| {
         let Tally { count, first_line } = parser.unknown;
-        format!("{about}: {count} unknown statement(s) skipped, the first on line {first_line}")
+        let statements = counted(count, "unknown statement");
+        format!("{about}: {statements} skipped, the first on line {first_line}")
     });
     let warnings = skipped.chain(unknown).chain(failure);
     Ok(Some(MaterialLibrary {

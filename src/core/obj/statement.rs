@@ -11,6 +11,7 @@ use super::lines::Statement;
 use super::words::{
     WordCount, Words, count_words, is_long_number, name, number, text, without_comment,
 };
+use crate::counts::{counted, grouped};
 use crate::mesh::NO_INDEX;
 use std::io::Write as _;
 
@@ -104,7 +105,9 @@ impl StatementRouter {
         };
         if count < least {
             return Err(statement.problem(format!(
-                "“{keyword}” needs {least} number(s), found {count}"
+                "“{keyword}” needs {}, found {}",
+                counted(least, "number"),
+                grouped(count)
             )));
         }
         if is_plain && count == used {

@@ -60,7 +60,7 @@ fn errors_name_the_line_and_the_word() {
             "x.obj:4: a face needs three corners, this one has 2",
         ),
         ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5:5: “1,5” is not a number"),
-        ("v 0 1\nf 1 2 3", "x.obj:4: “v” needs 3 number(s), found 2"),
+        ("v 0 1\nf 1 2 3", "x.obj:4: “v” needs 3 numbers, found 2"),
         ("vn a b c", "x.obj:4:4: “a” is not a number"),
         (
             " v 0 1.2.3 0\nf 1 2 3",
@@ -78,11 +78,11 @@ fn errors_name_the_line_and_the_word() {
         ),
         (
             "f 1 1 2",
-            "x.obj:4: no triangles left: 1 have zero area, 0 have a corner that is NaN, infinite or too large for f32",
+            "x.obj:4: no triangles left: 1 with zero area, 0 with a corner that is NaN, infinite or too large for f32",
         ),
         (
             "v nan 0 0\nf 1 2 4",
-            "x.obj:5: no triangles left: 0 have zero area, 1 have a corner that is NaN, infinite or too large for f32",
+            "x.obj:5: no triangles left: 0 with zero area, 1 with a corner that is NaN, infinite or too large for f32",
         ),
     ];
     for (statement, expected) in cases {
@@ -152,11 +152,11 @@ fn faces_get_their_names_normals_and_materials() {
     let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
     assert_eq!(mesh.lines, [[0, 1], [1, 2]]);
     assert_eq!(warnings.len(), 3, "{warnings:?}");
-    assert_eq!(warnings[0], "line 15: 1 “curv” statement(s) ignored");
+    assert_eq!(warnings[0], "line 15: 1 “curv” statement ignored");
     assert!(warnings[1].starts_with("line 2: material library “missing.mtl”: "));
     assert_eq!(
         warnings[2],
-        "1 material(s) without a definition, the first is “blue”"
+        "1 material without a definition, the first is “blue”"
     );
 }
 

@@ -35,6 +35,8 @@ pub struct TileResult {
     pub non_finite: u32,
     /// Number of rays traced.
     pub rays: u32,
+    /// Number of these rays that hit the scene.
+    pub hits: u32,
     /// Time it took.
     pub busy: Duration,
 }
@@ -92,6 +94,7 @@ impl Job {
             places: Vec::with_capacity(RAYS_AT_ONCE),
             sums: Vec::new(),
             non_finite: 0,
+            hits: 0,
         };
         let mut rays = 0;
         for pixel in self.plan.pixels(unit) {
@@ -109,13 +112,14 @@ impl Job {
             }
         }
         batch.trace();
-        let SampleBatch {
-            sums, non_finite, ..
-        } = batch;
         Some(TileResult {
-            samples: TileSamples { unit, sums },
-            non_finite,
+            samples: TileSamples {
+                unit,
+                sums: batch.sums,
+            },
+            non_finite: batch.non_finite,
             rays,
+            hits: batch.hits,
             busy: start.elapsed(),
         })
     }
@@ -134,6 +138,7 @@ struct SampleBatch<'a> {
     places: Vec<(usize, UVec2, u32)>,
     sums: Vec<FixedRgb>,
     non_finite: u32,
+    hits: u32,
 }
 
 impl SampleBatch<'_> {
@@ -149,18 +154,21 @@ impl SampleBatch<'_> {
         let (context, integrator) = (&self.job.context, self.job.integrator);
         let mut hits = [None; RAYS_AT_ONCE];
         let hits = &mut hits[..self.rays.len()];
-        let together = || integrator.first_hits(context, &self.rays, hits);
+        let together = || context.intersector.coherent_hits(&self.rays, hits);
         if let Err(panic) = catch_unwind(AssertUnwindSafe(together)) {
             // Trace the rays one by one to find the sample that panics.
             for (ray, &(_, pixel, sample)) in self.rays.iter().zip(&self.places) {
                 self.at.set((pixel, sample));
-                integrator.first_hits(context, from_ref(ray), &mut [None]);
+                context
+                    .intersector
+                    .coherent_hits(from_ref(ray), &mut [None]);
             }
             resume_unwind(panic);
         }
         let rays = self.rays.drain(..).zip(self.places.drain(..)).zip(hits);
         for ((ray, (index, pixel, sample)), hit) in rays {
             self.at.set((pixel, sample));
+            self.hits += u32::from(hit.is_some());
             match fixed(integrator.radiance(context, &ray, *hit)) {
                 Some(colour) => (0..3).for_each(|k| self.sums[index][k] += colour[k]),
                 None => self.non_finite += 1,

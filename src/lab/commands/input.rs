@@ -2,6 +2,7 @@
 
 use super::CommandError;
 use super::stderr::{ProgressLine, print_line};
+use hitscope_core::counts::counted;
 use hitscope_core::obj::{self, FaultPolicy, LoadOptions, shown};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::{LoadedScene, SceneOptions};
@@ -35,12 +36,9 @@ pub(super) fn load(
         let loaded = LoadedScene::load(path, load_options, options, &Progress::default())?;
         (path, loaded)
     };
-    let triangles = loaded.scene.mesh().triangles.len();
+    let triangles = counted(loaded.scene.mesh().triangles.len(), "triangle");
     let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;
-    ProgressLine::new().print(format_args!(
-        "{}: {triangles} triangles in {ms:.0} ms",
-        shown(name)
-    ));
+    ProgressLine::new().print(format_args!("{}: {triangles} in {ms:.0} ms", shown(name)));
     for warning in &loaded.warnings {
         print_line(format_args!("{}: warning: {warning}", shown(name)));
     }

@@ -2,12 +2,12 @@
 
 use super::App;
 use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
-use crate::numbers::counted;
 use crate::panels;
 use crate::settings::{PANEL_WIDTHS, Tab};
 use crate::trade::Trade;
 use egui::{Align, Layout, RichText};
 use glam::UVec2;
+use hitscope_core::counts::counted;
 use hitscope_core::integrator::INTEGRATORS;
 
 impl App {

@@ -3,9 +3,6 @@
 
 use super::App;
 use crate::bindings::Action;
-use glam::UVec2;
-use hitscope_core::Film;
-use hitscope_core::render::plan::Plan;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -15,27 +12,18 @@ impl App {
         self.shows_nothing
     }
 
-    /// Updates `shows_nothing`: a pixel that shows the mesh clears it at once; it is set only when every pixel has
-    /// its own ray. Until then, as while the camera moves, the previous value stays.
+    /// Updates `shows_nothing`. While the camera moves, the previous value stays until it is known to be wrong.
     pub(super) fn check_view(&mut self) {
-        let (film, Some(posted)) = (self.tracer.film(), self.tracer.posted()) else {
+        let Some(posted) = self.tracer.posted() else {
             return;
         };
-        let context = &posted.context;
-        // Lines and points are drawn by the overlay; the film doesn't contain them.
-        let is_shown = Arc::ptr_eq(&context.scene, &self.document.loaded.scene);
-        if self.document.is_blank || !is_shown || context.scene.mesh().has_elements() {
+        let scene = &posted.context.scene;
+        let is_shown = Arc::ptr_eq(scene, &self.document.loaded.scene);
+        // Lines and points are drawn by the overlay; rays don't hit them.
+        if self.document.is_blank || !is_shown || scene.mesh().has_elements() {
             self.shows_nothing = false;
-            return;
-        }
-        let background = Film::new(Plan::new(UVec2::ONE, 1, 1), context.background);
-        let (above, below) = film.pixels().split_at(film.pixels().len() / 2);
-        // Starts in the middle, where a mesh is found soonest.
-        let mut pixels = below.iter().chain(above);
-        if pixels.any(|pixel| *pixel != background.pixels()[0]) {
-            self.shows_nothing = false;
-        } else if film.samples() > 0 {
-            self.shows_nothing = true;
+        } else if let Some(shows_surface) = self.tracer.shows_surface() {
+            self.shows_nothing = !shows_surface;
         }
     }
 

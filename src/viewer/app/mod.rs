@@ -204,7 +204,7 @@ impl App {
 
     /// Whether the view shows the cost of rays in the final tree.
     fn shows_last_tree(&self) -> bool {
-        self.settings.view().depends_on_tree() && self.document.has_last_tree()
+        self.settings.view().depends_on_tree && self.document.has_last_tree()
     }
 
     /// The scene of the picture.

@@ -3,8 +3,8 @@
 use super::mesh::on_one_line;
 use crate::bindings::Action;
 use crate::flaw_place::{self, FlawPlace};
-use crate::numbers::grouped;
 use egui::RichText;
+use hitscope_core::counts::grouped;
 use hitscope_core::mesh::{FLAWS, Health};
 use hitscope_core::scene::LoadedScene;
 

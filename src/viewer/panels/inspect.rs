@@ -3,8 +3,9 @@
 use super::table::{dash, table_ui};
 use super::{kernel_name, lines, row_ui, section_ui};
 use crate::face_lookup::FaceInFile;
-use crate::numbers::{counted, number, significant};
+use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
+use hitscope_core::counts::{counted, counted_as};
 use hitscope_lab::inspection::{ExactReport, HitReport, Inspection, KernelRow};
 
 /// The contents of the tab for a pick.
@@ -62,9 +63,9 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
     }
     section_ui(ui, "Ray", |ui| {
         let cost = inspection.cost;
-        let boxes = if cost.boxes == 1 { "box" } else { "boxes" };
+        let boxes = counted_as(cost.boxes as usize, "box", "boxes");
         let triangles = counted(cost.triangles as usize, "triangle");
-        row_ui(ui, "tested", format!("{} {boxes}\n{triangles}", cost.boxes));
+        row_ui(ui, "tested", format!("{boxes}\n{triangles}"));
         row_ui(ui, "origin", lines(inspection.ray.origin));
         row_ui(ui, "direction", lines(inspection.ray.direction));
     });
@@ -171,11 +172,13 @@ fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
     }
 }
 
+/// Shows all answers in tables that are narrow enough for the panel's default width.
 fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[KernelRow]) {
     egui::ScrollArea::horizontal()
         .id_salt("kernel tables")
         .show(ui, |ui| {
-            let columns = ["", "t", "t error, ulps", "bary. error", "triangle"];
+            ui.label("Distance, with its error in f32 ulps");
+            let columns = ["", "t", "error", "triangle"];
             let rows = kernels.iter().map(kernel_distance);
             table_ui(
                 ui,
@@ -187,7 +190,8 @@ fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[K
                 return;
             }
             ui.add_space(4.0);
-            let columns = ["", "l1", "l2", "l3"];
+            ui.label("Barycentric coordinates, with the largest error");
+            let columns = ["", "l1", "l2", "l3", "error"];
             let rows = kernels.iter().map(kernel_barycentric);
             table_ui(
                 ui,
@@ -212,48 +216,49 @@ fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
         });
 }
 
-fn exact_distance(exact: Option<&ExactReport>) -> [String; 5] {
+fn exact_distance(exact: Option<&ExactReport>) -> [String; 4] {
     [
-        "exact answer".to_owned(),
+        EXACT.to_owned(),
         // Two digits more than an f32 needs.
         exact.map_or("miss".to_owned(), |exact| significant(exact.t, 11)),
-        dash(),
         dash(),
         exact.map_or_else(dash, |exact| exact.triangle.to_string()),
     ]
 }
 
-fn kernel_distance(kernel: &KernelRow) -> [String; 5] {
-    let rounded = |error: Option<f64>| error.map_or_else(dash, |error| significant(error, 3));
+fn kernel_distance(kernel: &KernelRow) -> [String; 4] {
     [
         kernel_name(kernel.name).to_owned(),
         kernel.t.map_or("miss".to_owned(), number),
-        rounded(kernel.t_error_ulps),
-        rounded(kernel.barycentric_error),
+        rounded_error(kernel.t_error_ulps),
         kernel.triangle.map_or_else(dash, |t| t.to_string()),
     ]
 }
 
-fn exact_barycentric(exact: Option<&ExactReport>) -> [String; 4] {
-    let coordinate =
-        |k: usize| exact.map_or_else(dash, |exact| significant(exact.barycentric[k], 9));
-    [
-        "exact answer".to_owned(),
-        coordinate(0),
-        coordinate(1),
-        coordinate(2),
-    ]
+fn exact_barycentric(exact: Option<&ExactReport>) -> [String; 5] {
+    let [l1, l2, l3] = coordinates(exact.map(|exact| exact.barycentric));
+    [EXACT.to_owned(), l1, l2, l3, dash()]
 }
 
-fn kernel_barycentric(kernel: &KernelRow) -> [String; 4] {
-    let barycentric = kernel.barycentric;
-    let coordinate = |k: usize| barycentric.map_or_else(dash, |l| significant(l[k].into(), 9));
-    [
-        kernel_name(kernel.name).to_owned(),
-        coordinate(0),
-        coordinate(1),
-        coordinate(2),
-    ]
+fn kernel_barycentric(kernel: &KernelRow) -> [String; 5] {
+    let [l1, l2, l3] = coordinates(kernel.barycentric.map(|l| l.map(f64::from)));
+    let name = kernel_name(kernel.name).to_owned();
+    [name, l1, l2, l3, rounded_error(kernel.barycentric_error)]
+}
+
+/// The row of the exact numbers.
+const EXACT: &str = "exact answer";
+
+/// Barycentric coordinates with the digits that fit; *Copy as JSON* has them all.
+fn coordinates(barycentric: Option<[f64; 3]>) -> [String; 3] {
+    barycentric.map_or_else(
+        || std::array::from_fn(|_| dash()),
+        |l| l.map(|l| significant(l, 7)),
+    )
+}
+
+fn rounded_error(error: Option<f64>) -> String {
+    error.map_or_else(dash, |error| significant(error, 3))
 }
 
 fn or_dash(name: &str) -> &str {

@@ -5,9 +5,10 @@ use super::{lines, row_ui, section_ui};
 use crate::bindings::Action;
 use crate::document::{Document, MeshReport};
 use crate::flaw_place::FlawPlace;
-use crate::numbers::{counted, grouped, number, significant};
+use crate::numbers::{number, significant};
 use crate::settings::Settings;
 use egui::RichText;
+use hitscope_core::counts::{counted, grouped};
 use hitscope_core::scene::LoadedScene;
 
 /// Shows the tab; `flaw` is the selected flaw.
@@ -53,7 +54,7 @@ pub fn mesh_ui(
                 row_ui(ui, "tier", findings.requirement.tier);
             });
             for reason in &findings.requirement.reasons {
-                ui.label(RichText::new(format!("{reason}.")).weak().size(11.5));
+                ui.label(RichText::new(reason).weak().size(11.5));
             }
         }
         None if document.has_failed_check() => {

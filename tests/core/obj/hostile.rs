@@ -197,7 +197,7 @@ fn of_thousands_of_warnings_some_are_listed_and_the_rest_counted() {
     for expected in [
         "2980 more material libraries like these",
         "2980 more textures like these",
-        "2960 “…” statement(s) ignored",
+        "2\u{202f}960 “…” statements ignored",
     ] {
         assert!(warnings.iter().any(|w| w.contains(expected)), "{expected}");
     }

@@ -31,8 +31,7 @@ fn unusual_materials_are_read_and_skipped_statements_are_reported() {
     let warnings = warnings(&loaded);
     assert_eq!(warnings.len(), skipped.len(), "{warnings:?}");
     for (warning, keyword) in warnings.iter().zip(skipped) {
-        let expected =
-            format!("material library “unusual.mtl”: 1 “{keyword}” statement(s) skipped");
+        let expected = format!("material library “unusual.mtl”: 1 “{keyword}” statement skipped");
         assert!(warning.starts_with(&expected), "{warning}");
     }
 }
@@ -77,7 +76,7 @@ fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
     );
     assert_eq!(
         warnings[2],
-        "1 material(s) without a definition, the first is “nobody”"
+        "1 material without a definition, the first is “nobody”"
     );
     // Missing files are listed, so that they can be watched.
     let looked_for = |name: &str| loaded.files.iter().any(|path| path.ends_with(name));
@@ -143,8 +142,8 @@ fn quirks_of_programs_are_understood() {
         warnings,
         [
             "vertex colours above 1: interpreted as bytes",
-            "1 normal(s) computed: those in the file are zero or not finite",
-            "material library “a.mtl”: 1 unknown statement(s) skipped, the first on line 5",
+            "1 normal computed: zero or not finite in the file",
+            "material library “a.mtl”: 1 unknown statement skipped, the first on line 5",
         ]
     );
 }

@@ -78,7 +78,7 @@ fn non_planar_polygons_are_triangulated_the_same_way_each_time() {
     assert_eq!(
         warnings(&first),
         [
-            "line 11: 1 polygon(s) triangulated as fans: they intersect themselves, have no plane or have too many corners"
+            "line 11: 1 polygon triangulated as fans: intersecting themselves, without a plane or with too many corners"
         ]
     );
     assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);
@@ -147,7 +147,7 @@ fn faces_with_a_non_finite_vertex_are_dropped_and_counted() {
     assert_eq!(loaded.mesh.dropped.non_finite, 4);
     assert_eq!(
         warnings(&loaded),
-        ["line 8: 4 triangle(s) dropped: a corner is not finite or too large"]
+        ["line 8: 4 triangles dropped: a corner is not finite or too large"]
     );
 }
 
@@ -164,7 +164,8 @@ fn free_form_statements_are_named_and_counted() {
         (11, 1, "surf"),
     ];
     let expected = ignored.map(|(line, count, keyword)| {
-        format!("line {line}: {count} “{keyword}” statement(s) ignored")
+        let ending = if count == 1 { "" } else { "s" };
+        format!("line {line}: {count} “{keyword}” statement{ending} ignored")
     });
     assert_eq!(warnings(&loaded), expected);
 }
