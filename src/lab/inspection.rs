@@ -8,6 +8,7 @@ use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Cost;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::obj::LineRuns;
 use hitscope_core::ray::ulp_at;
 use hitscope_core::scene::{Scene, Shading};
 use hitscope_core::{Camera, Hit, Intersector, Ray};
@@ -55,6 +56,11 @@ pub struct HitReport {
     pub triangle: u32,
     /// Index of the face in the file, counted from 0.
     pub face: u32,
+    /// The face's line in the file, counted from 1, once [`Inspection::find_line`] has found it.
+    pub line: Option<usize>,
+    /// The side of the triangle that the ray hits: `front` if the corners run anticlockwise as seen from the ray's
+    /// origin, else `back`.
+    pub side: &'static str,
     /// The position l1·A + l2·B + l3·C.
     pub position: [f64; 3],
     /// Unit length, by the right-hand rule.
@@ -157,7 +163,7 @@ impl Inspection {
                 ray_rounding: frames::rounding(scene, &ray, camera.ray_before_rounding(at)),
             },
             kernel: intersector.kernel().name,
-            hit: hit.map(|hit| HitReport::new(scene, hit, shading)),
+            hit: hit.map(|hit| HitReport::new(scene, &ray, hit, shading)),
             exact: ExactReport::nearest(mesh, &ray, &candidates),
             kernels: TRIANGLE_KERNELS
                 .iter()
@@ -169,6 +175,14 @@ impl Inspection {
 }
 
 impl Inspection {
+    /// Finds the line of the face that was hit.
+    pub fn find_line(&mut self, face_lines: &LineRuns) {
+        if let Some(hit) = &mut self.hit {
+            let line = face_lines.line(hit.face as usize);
+            hit.line = (line > 0).then_some(line);
+        }
+    }
+
     /// As indented JSON.
     pub fn to_json(&self) -> String {
         json::to_pretty(self)
@@ -176,17 +190,20 @@ impl Inspection {
 }
 
 impl HitReport {
-    /// The mesh at a hit.
-    pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
+    /// The mesh at a ray's hit.
+    pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
         let surface = SurfaceInteraction::new(scene, hit, shading);
         let material = mesh.material_of(hit.primitive);
+        let is_behind = ray.dir.as_dvec3().dot(surface.geometric_normal.as_dvec3()) > 0.0;
         let group = mesh.groups.get(mesh.group.of(hit.primitive) as usize);
         Self {
             t: hit.t,
             barycentric: weights(&hit),
             triangle: hit.primitive,
             face: mesh.face_of(hit.primitive),
+            line: None,
+            side: if is_behind { "back" } else { "front" },
             position: position_in_file(mesh, &hit),
             geometric_normal: surface.geometric_normal.to_array(),
             shading_normal: surface.shading_normal.to_array(),

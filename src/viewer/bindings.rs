@@ -15,7 +15,7 @@ pub enum Action {
     Frame,
     /// Mark the flaws of a kind and show one of them, counted from 0; or mark none.
     ShowFlaw(Option<(Flaw, usize)>),
-    /// Turn automatic reloading on or off.
+    /// Turn auto-reload on or off.
     ToggleWatch,
     /// Look along an axis.
     LookFrom(StandardView),
@@ -146,11 +146,7 @@ pub static KEYS: &[Binding] = &[
         Action::TogglePause,
         "Pause or resume refinement",
     ),
-    binding(
-        &[ctrl(Key::R)],
-        Action::ToggleWatch,
-        "Toggle automatic reloading",
-    ),
+    binding(&[ctrl(Key::R)], Action::ToggleWatch, "Toggle auto-reload"),
     binding(&[key(Key::I)], Action::TogglePanel, "Toggle the side panel"),
     binding(
         &[key(Key::H), key(Key::Questionmark)],

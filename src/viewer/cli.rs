@@ -12,7 +12,7 @@ use crate::settings::Settings;
 use crate::storage::{APP_ID, stored_settings};
 use crate::window;
 use clap::error::ErrorKind;
-use clap::{CommandFactory, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use hitscope_core::obj::{LoadOptions, Recentre, shown};
 use hitscope_core::simd::SimdLevel;
@@ -77,11 +77,17 @@ struct Cli {
 
 #[derive(Subcommand, Debug)]
 enum Command {
+    #[command(display_name = "hitscope render")]
     Render(RenderArgs),
+    #[command(display_name = "hitscope inspect")]
     Inspect(InspectArgs),
+    #[command(display_name = "hitscope trace")]
     Trace(TraceArgs),
+    #[command(display_name = "hitscope info")]
     Info(InfoArgs),
+    #[command(display_name = "hitscope lab")]
     Lab(LabArgs),
+    #[command(display_name = "hitscope bench")]
     Bench(BenchArgs),
 }
 
@@ -90,11 +96,15 @@ enum Command {
 pub fn run() -> ExitCode {
     let arguments: Vec<OsString> = std::env::args_os().collect();
     if let Some(message) = misspelt_command(&arguments) {
-        return refuse(message);
+        return refuse(Cli::command(), message);
     }
-    let cli = Cli::parse_from(arguments);
+    let matches = Cli::command().get_matches_from(arguments);
+    let cli = match Cli::from_arg_matches(&matches) {
+        Ok(cli) => cli,
+        Err(error) => error.format(&mut Cli::command()).exit(),
+    };
     if let Err(message) = cli.check() {
-        return refuse(message);
+        return refuse(Cli::command(), message);
     }
     if let Err(error) = SimdLevel::chosen() {
         print_line(format_args!("hitscope: {error}"));
@@ -110,7 +120,9 @@ pub fn run() -> ExitCode {
         Err(CommandError::Stdout(error)) if error.kind() == io::ErrorKind::BrokenPipe => {
             ExitCode::SUCCESS
         }
-        Err(error) if error.is_usage() => refuse(error.to_string()),
+        Err(error) if error.is_usage() => {
+            refuse(subcommand(matches.subcommand_name()), error.to_string())
+        }
         Err(error) => {
             print_line(format_args!("hitscope: {error}"));
             ExitCode::FAILURE
@@ -118,11 +130,19 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// Prints a usage error in clap's format.
-fn refuse(message: String) -> ExitCode {
-    let error = Cli::command().error(ErrorKind::ValueValidation, message);
+/// Prints a usage error in clap's format, with the usage of this command.
+fn refuse(mut command: clap::Command, message: String) -> ExitCode {
+    let error = command.error(ErrorKind::ValueValidation, message);
     _ = error.print();
     ExitCode::from(2)
+}
+
+/// The command of this name; without a name, the one that opens the window.
+fn subcommand(name: Option<&str>) -> clap::Command {
+    let mut all = Cli::command();
+    all.build();
+    let found = name.and_then(|name| all.find_subcommand(name).cloned());
+    found.unwrap_or(all)
 }
 
 /// The error if the first argument is a misspelt command, which would otherwise be taken for a file.
@@ -152,7 +172,13 @@ impl Cli {
             return Err("the window can't show standard input: save it as a file".to_owned());
         }
         if let (Some(first), Some(second)) = (file, self.more.first()) {
+            let is_command = |name: &str| Self::command().find_subcommand(name).is_some();
             let (first, second) = (shown(first), shown(second));
+            if is_command(&second) {
+                return Err(format!(
+                    "a command comes before the file: hitscope {second} {first}"
+                ));
+            }
             return Err(format!(
                 "the window shows one file, not “{first}” and “{second}” together"
             ));

@@ -1,6 +1,7 @@
 //! Number formatting.
 
 use std::fmt::{Display, LowerExp};
+use std::time::Duration;
 
 /// All digits of an f32 or f64, with an exponent instead of many zeros; zero has no sign.
 pub fn number(x: impl Into<f64> + Display + LowerExp + Copy) -> String {
@@ -29,9 +30,25 @@ pub fn significant(x: f64, digits: usize) -> String {
     }
 }
 
+/// A time in seconds, or in milliseconds if it is shorter than one second.
+pub fn duration(time: Duration) -> String {
+    let secs = time.as_secs_f64();
+    if secs < 1.0 {
+        format!("{:.1} ms", secs * 1e3)
+    } else {
+        format!("{secs:.2} s")
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn long_times_are_in_seconds() {
+        assert_eq!(duration(Duration::from_micros(1_250)), "1.2 ms");
+        assert_eq!(duration(Duration::from_millis(3_456)), "3.46 s");
+    }
 
     #[test]
     fn small_and_large_numbers_have_an_exponent_and_zero_has_no_sign() {

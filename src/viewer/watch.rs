@@ -24,6 +24,8 @@ const TICK: Duration = Duration::from_millis(10);
 /// A watch on some files, which ends when dropped.
 pub struct Watch {
     has_changed: Arc<AtomicBool>,
+    /// Whether the watched file doesn't exist now.
+    is_missing: Arc<AtomicBool>,
     /// Never sent to; the thread ends when this is dropped.
     _stop: Sender<()>,
 }
@@ -49,14 +51,22 @@ impl Watch {
             .map(Path::to_owned)
             .collect();
         let has_changed = Arc::new(AtomicBool::new(false));
+        let is_missing = Arc::new(AtomicBool::new(false));
         let (stop, stopped) = channel();
         let (shared, ctx) = (Arc::clone(&has_changed), ctx.clone());
+        let missing = Arc::clone(&is_missing);
         let watch = move || {
             let mut changes = Changes::since(since, state_of(&files), Instant::now());
             loop {
                 let start = Instant::now();
-                if changes.is_news(state_of(&files), start) {
+                let state = state_of(&files);
+                let is_gone = state[0].is_none();
+                let was_gone = missing.swap(is_gone, Relaxed);
+                let is_news = changes.is_news(state, start);
+                if is_news {
                     shared.store(true, Relaxed);
+                }
+                if is_news || is_gone != was_gone {
                     ctx.request_repaint();
                 }
                 let pause = INTERVAL.max(start.elapsed() * IDLE_FACTOR);
@@ -69,6 +79,7 @@ impl Watch {
         thread.spawn(watch)?;
         Ok(Self {
             has_changed,
+            is_missing,
             _stop: stop,
         })
     }
@@ -76,6 +87,11 @@ impl Watch {
     /// Whether files have changed since the last call and are complete. A repaint is requested when this becomes true.
     pub fn poll(&self) -> bool {
         self.has_changed.swap(false, Relaxed)
+    }
+
+    /// Whether the watched file doesn't exist. A repaint is requested when this changes.
+    pub fn is_missing(&self) -> bool {
+        self.is_missing.load(Relaxed)
     }
 }
 

@@ -10,7 +10,8 @@ use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Initial size in points. With a title bar and a desktop panel it fits a screen of 1280 × 800.
 const SIZE: Vec2 = vec2(1200.0, 700.0);
-const MIN_SIZE: Vec2 = vec2(560.0, 320.0);
+/// Fits a screen of 800 × 600 at a scale of 200 %.
+const MIN_SIZE: Vec2 = vec2(380.0, 240.0);
 /// Space that frames, title bars (up to 37 points) and panels (up to 48) of common desktops take.
 const DESKTOP: Vec2 = vec2(4.0, 60.0);
 
@@ -107,6 +108,7 @@ mod tests {
         assert!(fits(SIZE, vec2(1280.0, 800.0)));
         assert!(fits(SIZE, vec2(1366.0, 768.0)));
         assert!(!fits(SIZE, vec2(1280.0, 720.0)));
+        assert!(fits(2.0 * MIN_SIZE, vec2(800.0, 600.0)));
         // As limited by eframe.
         assert!(!fits(vec2(800.0, 600.0), vec2(800.0, 600.0)));
     }

@@ -127,10 +127,12 @@ fn every_toggle_of_the_tool_bar_works_by_button_and_by_key() {
     type State = fn(&App) -> bool;
     let switches: [(&str, Key, State); 6] = [
         ("Smooth", Key::S, |app| app.settings().is_smooth),
-        ("Wire", Key::W, |app| app.settings().shows_wireframe),
+        ("Wireframe", Key::W, |app| app.settings().shows_wireframe),
         ("Normals", Key::N, |app| app.settings().shows_normals),
-        ("Ortho", Key::Num5, |app| app.turntable().is_orthographic),
-        ("Rotate", Key::T, App::is_rotating),
+        ("Orthographic", Key::Num5, |app| {
+            app.turntable().is_orthographic
+        }),
+        ("Auto-rotation", Key::T, App::is_rotating),
         ("Pause", Key::P, App::is_paused),
     ];
     for (label, key, is_on) in switches {

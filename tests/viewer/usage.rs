@@ -10,7 +10,23 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
     let cases = [
         (&*format!("{render} --ortho 0"), "expected a height above 0"),
         (&format!("{render} --ortho -2"), "expected a height above 0"),
-        (&format!("{render} --fov -1"), "expected degrees above 0"),
+        (&format!("{render} --ortho 1e300"), "at most 3.4028235e38"),
+        (
+            &format!("{render} --fov -1"),
+            "expected degrees from 0.000001",
+        ),
+        (
+            &format!("{render} --fov 1e-300"),
+            "expected degrees from 0.000001",
+        ),
+        (
+            &format!("{render} --max-memory -5"),
+            "a whole number from 1",
+        ),
+        (
+            &format!("{render} --max-memory 17592186044416"),
+            "from 1 to 17592186044415",
+        ),
         (&format!("{render} --samples -1"), "-1 is not in 1..=4096"),
         (&format!("{render} --threads 0"), "0 is not in 1..=1024"),
         (&format!("{render} --size 1x16385"), "from 1 to 16384"),
@@ -31,6 +47,9 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             "up vector is zero",
         ),
         ("inspect none.obj --pixel 9999,0", "is outside the picture"),
+        ("inspect none.obj --pixel -1,0", "two whole numbers from 0"),
+        ("lab --seed -1", "a whole number from 0 to"),
+        ("good.obj info", "hitscope info good.obj"),
         (
             "inspect none.obj --pixel 0,0 --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
@@ -54,6 +73,23 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         let ran = program.run(line);
         assert_fails(&ran, 2, "error: ");
         assert!(stderr(&ran).contains(message), "{line}: {}", stderr(&ran));
+    }
+}
+
+#[test]
+fn usage_errors_show_the_usage_of_their_command() {
+    let program = Program::new();
+    for (line, usage) in [
+        (
+            "render none.obj -o out.png --crease 30",
+            "Usage: hitscope render",
+        ),
+        ("inspect none.obj --pixel 9999,0", "Usage: hitscope inspect"),
+        ("good.obj other.obj", "Usage: hitscope [OPTIONS]"),
+    ] {
+        let ran = program.run(line);
+        assert_fails(&ran, 2, "error: ");
+        assert!(stderr(&ran).contains(usage), "{line}: {}", stderr(&ran));
     }
 }
 

@@ -25,6 +25,8 @@ impl Xvfb {
                 "1400x900x24",
                 "-nolisten",
                 "tcp",
+                // Without this the server resets itself, and refuses programs meanwhile, when its last one ends.
+                "-noreset",
             ])
             .stdout(Stdio::piped())
             .stderr(Stdio::null())

@@ -1,7 +1,7 @@
 //! Arguments that several commands share.
 
 use super::CommandError;
-use super::input::load;
+use super::input::{load, print_warnings};
 use super::picture::ShadingArg;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
@@ -33,7 +33,7 @@ pub struct CameraArgs {
     /// Direction that points up in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub up: Option<DVec3>,
-    /// Vertical field of view, above 0 and below 180 [default: 40]
+    /// Vertical field of view, from 0.000001 to below 180 [default: 40]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "ortho", value_parser = parse_fov)]
     pub fov: Option<f64>,
     /// Orthographic projection; the picture is HEIGHT units of the file high
@@ -158,7 +158,9 @@ impl MeshArgs {
             },
             ..SceneOptions::default()
         };
-        load(path, load_options, options)
+        let loaded = load(path, load_options, options)?;
+        print_warnings(path, &loaded);
+        Ok(loaded)
     }
 }
 
@@ -166,14 +168,37 @@ impl MeshArgs {
 #[derive(Args, Clone, Copy, Debug)]
 pub struct MemoryArg {
     /// Refuse a file or a picture that needs more memory than this
-    #[arg(long, value_name = "MB", default_value_t = LoadOptions::default().max_memory >> 20)]
+    #[arg(long, value_name = "MB", allow_negative_numbers = true, default_value_t = LoadOptions::default().max_memory >> 20, value_parser = parse_megabytes)]
     pub max_memory: u64,
 }
 
 impl MemoryArg {
     /// The limit in bytes.
     pub fn bytes(self) -> u64 {
-        self.max_memory.saturating_mul(1 << 20)
+        self.max_memory << 20
+    }
+
+    /// Refuses work that takes more than the limit together with the mesh, which takes `held` bytes.
+    ///
+    /// # Errors
+    /// [`CommandError::Other`].
+    pub(super) fn require(
+        self,
+        bytes: usize,
+        held: usize,
+        what: std::fmt::Arguments,
+    ) -> Result<(), CommandError> {
+        if held.saturating_add(bytes) as u64 <= self.bytes() {
+            return Ok(());
+        }
+        let [bytes, held] = [bytes, held].map(|bytes| bytes.div_ceil(1 << 20));
+        let (limit, mesh) = (
+            self.max_memory,
+            format_args!("besides the mesh's {held} MB"),
+        );
+        Err(CommandError::Other(format!(
+            "{what} takes {bytes} MB {mesh}; the limit is {limit} MB (--max-memory)"
+        )))
     }
 }
 
@@ -258,9 +283,11 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
 
 /// `40`.
 fn parse_fov(text: &str) -> Result<f64, String> {
+    /// A whole mesh is then some 1e8 times its size away.
+    const LEAST_FOV: f64 = 1e-6;
     match text.parse() {
-        Ok(degrees) if degrees > 0.0 && degrees < 180.0 => Ok(degrees),
-        _ => Err("expected degrees above 0 and below 180".to_owned()),
+        Ok(degrees) if (LEAST_FOV..180.0).contains(&degrees) => Ok(degrees),
+        _ => Err(format!("expected degrees from {LEAST_FOV} to below 180")),
     }
 }
 
@@ -268,7 +295,20 @@ fn parse_fov(text: &str) -> Result<f64, String> {
 fn parse_height(text: &str) -> Result<f64, String> {
     match text.parse() {
         Ok(height) if height > 0.0 && height <= f64::from(f32::MAX) => Ok(height),
-        _ => Err("expected a height above 0, in the file's units".to_owned()),
+        _ => Err(format!(
+            "expected a height above 0, at most {:e}, in the file's units",
+            f32::MAX
+        )),
+    }
+}
+
+/// `4096`.
+fn parse_megabytes(text: &str) -> Result<u64, String> {
+    /// More bytes than this don't fit in 64 bits.
+    const MOST: u64 = u64::MAX >> 20;
+    match text.parse() {
+        Ok(megabytes @ 1..=MOST) => Ok(megabytes),
+        _ => Err(format!("expected a whole number from 1 to {MOST}")),
     }
 }
 
@@ -306,8 +346,12 @@ mod tests {
             assert!(parse_size(bad).is_err(), "{bad}");
         }
         assert_eq!(parse_fov("40"), Ok(40.0));
-        for bad in ["0", "180", "200", "nan", "-1", ""] {
+        for bad in ["0", "1e-7", "180", "200", "nan", "-1", ""] {
             assert!(parse_fov(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_megabytes("4096"), Ok(4096));
+        for bad in ["0", "-5", "17592186044416", "x", ""] {
+            assert!(parse_megabytes(bad).is_err(), "{bad}");
         }
         assert_eq!(parse_height("1e-9"), Ok(1e-9));
         for bad in ["0", "-1", "inf", "nan", "1e39", ""] {

@@ -59,14 +59,20 @@ fn directory_of(path: &Path) -> &Path {
 }
 
 fn named_file(directory: &Path) -> io::Result<NamedTempFile> {
-    let mut builder = Builder::new();
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // The mode of any new file; the umask applies.
-        builder.permissions(std::fs::Permissions::from_mode(0o666));
-    }
-    builder.tempfile_in(directory)
+    make_in(directory, |name| File::create_new(name))
+}
+
+/// Makes a file under an unused name.
+fn make_in<F>(
+    directory: &Path,
+    mut make: impl FnMut(&Path) -> io::Result<F>,
+) -> io::Result<NamedTempFile<F>> {
+    // `Builder` adds the temporary name to the system's error. Users know only the output's name.
+    let mut code = None;
+    let made = Builder::new().make_in(directory, |name| {
+        make(name).inspect_err(|error| code = error.raw_os_error())
+    });
+    made.map_err(|error| code.map_or(error, io::Error::from_raw_os_error))
 }
 
 /// Keeps the owner of the older file if the system allows it, as it does for root.
@@ -100,8 +106,7 @@ fn name_file(file: &File, directory: &Path) -> io::Result<TempPath> {
     use std::os::fd::AsRawFd as _;
     let unnamed = format!("/proc/self/fd/{}", file.as_raw_fd());
     let link = |name: &Path| Ok(linkat(CWD, &*unnamed, CWD, name, AtFlags::SYMLINK_FOLLOW)?);
-    let named = Builder::new().make_in(directory, link)?;
-    Ok(named.into_temp_path())
+    Ok(make_in(directory, link)?.into_temp_path())
 }
 
 #[cfg(not(target_os = "linux"))]

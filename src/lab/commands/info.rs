@@ -2,6 +2,7 @@
 
 use super::CommandError;
 use super::args::MeshArgs;
+use super::inspect::at_most;
 use crate::json;
 use crate::requirement::{Requirement, required_tier};
 use clap::Args;
@@ -81,7 +82,16 @@ impl InfoArgs {
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
-        let info = Info::of(&loaded);
+        let scene = &loaded.scene;
+        let intersector = scene.intersector(default_triangle_kernel());
+        let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
+        let held = mesh + scene.bvh().bytes() + intersector.bytes();
+        self.mesh.memory.require(
+            Health::bytes(scene.mesh()),
+            held,
+            format_args!("checking the mesh"),
+        )?;
+        let info = Info::of(&loaded, intersector.bytes());
         if self.json {
             writeln!(out, "{}", json::to_pretty(&info))?;
         } else {
@@ -92,15 +102,14 @@ impl InfoArgs {
 }
 
 impl Info {
-    fn of(loaded: &LoadedScene) -> Self {
+    fn of(loaded: &LoadedScene, packed_bytes: usize) -> Self {
         let scene = &loaded.scene;
         let mesh = scene.mesh();
-        let bounds = scene.bounds();
+        let bounds = scene.bounds_with_elements();
         let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
-        let intersector = scene.intersector(default_triangle_kernel());
         let mut bytes = BTreeMap::from(mesh.bytes());
         bytes.insert("tree", scene.bvh().bytes());
-        bytes.insert("packed triangles", intersector.bytes());
+        bytes.insert("packed triangles", packed_bytes);
         let health = Health::of(mesh);
         Self {
             vertices: loaded.vertex_count,
@@ -151,7 +160,7 @@ impl Info {
         writeln!(out, "bounds              {:?}", self.bounds.min)?;
         writeln!(out, "                    {:?}", self.bounds.max)?;
         writeln!(out, "origin              {:?}", self.origin)?;
-        writeln!(out, "rounded by          at most {:e}", self.max_rounding)?;
+        writeln!(out, "rounded by          {}", at_most(self.max_rounding))?;
         for (part, bytes) in &self.bytes {
             writeln!(out, "bytes               {bytes} {part}")?;
         }
@@ -177,9 +186,6 @@ impl Info {
         writeln!(out, "tier                {}", self.tier.tier)?;
         for reason in &self.tier.reasons {
             writeln!(out, "                    {reason}")?;
-        }
-        for warning in &self.warnings {
-            writeln!(out, "warning             {warning}")?;
         }
         Ok(())
     }

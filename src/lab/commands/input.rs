@@ -29,20 +29,32 @@ pub(super) fn load(
     load_options: LoadOptions,
     options: SceneOptions,
 ) -> Result<LoadedScene, CommandError> {
-    let (name, loaded) = if is_stdin(path) {
-        let name = Path::new("standard input");
-        (name, load_stdin(name, load_options, options)?)
+    let name = name_of(path);
+    let loaded = if is_stdin(path) {
+        load_stdin(name, load_options, options)?
     } else {
-        let loaded = LoadedScene::load(path, load_options, options, &Progress::default())?;
-        (path, loaded)
+        LoadedScene::load(path, load_options, options, &Progress::default())?
     };
     let triangles = counted(loaded.scene.mesh().triangles.len(), "triangle");
     let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;
     ProgressLine::new().print(format_args!("{}: {triangles} in {ms:.0} ms", shown(name)));
-    for warning in &loaded.warnings {
-        print_line(format_args!("{}: warning: {warning}", shown(name)));
-    }
     Ok(loaded)
+}
+
+/// Prints the warnings of a loaded file.
+pub fn print_warnings(path: &Path, loaded: &LoadedScene) {
+    for warning in &loaded.warnings {
+        print_line(format_args!("{}: warning: {warning}", shown(name_of(path))));
+    }
+}
+
+/// The name of an input in messages.
+fn name_of(path: &Path) -> &Path {
+    if is_stdin(path) {
+        Path::new("standard input")
+    } else {
+        path
+    }
 }
 
 fn load_stdin(

@@ -22,6 +22,8 @@ Values, in the text and in JSON:
   t                  in lengths of the ray's direction, which has unit length up to rounding
   barycentric        barycentric coordinates for the triangle's corners A, B and C
   triangle, face     indices, counted from 0, in the order of the file
+  line               line of the face in the file, counted from 1
+  side               front if the corners run anticlockwise as seen from the ray's origin, else back
   position           in the file's coordinates
   t_error_ulps       error of t, in ulps of f32
   barycentric_error  largest error of a barycentric coordinate
@@ -49,7 +51,7 @@ pub struct InspectArgs {
     /// OBJ file, plain or gzipped; - for standard input
     pub file: PathBuf,
     /// Pixel; 0,0 is at the top left
-    #[arg(long, value_name = "X,Y", value_parser = parse_pixel)]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_pixel)]
     pub pixel: UVec2,
     /// Camera
     #[command(flatten)]
@@ -88,12 +90,13 @@ impl InspectArgs {
         }
         self.camera.check()?;
         self.crease.check(self.shading)?;
-        let scene = self.mesh.load(&self.file, Recentre::Auto)?.scene;
-        let scene = self.crease.apply(scene);
+        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        let scene = self.crease.apply(loaded.scene);
         let camera = self.camera.camera(&scene)?;
         let intersector = scene.intersector(self.kernel.kernel());
-        let inspection =
+        let mut inspection =
             Inspection::of_pixel(&scene, &*intersector, self.shading.into(), &camera, pixel);
+        inspection.find_line(&loaded.face_lines);
         if self.json {
             writeln!(out, "{}", inspection.to_json())?;
         } else {
@@ -122,8 +125,8 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     )?;
     writeln!(
         out,
-        "           rounded by at most {:e}, in the file's units",
-        ray.ray_rounding
+        "           rounded by {}, in the file's units",
+        at_most(ray.ray_rounding)
     )?;
     writeln!(
         out,
@@ -141,14 +144,14 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     }
     writeln!(
         out,
-        "{:<18} {:>14} {:>14} {:>14}",
+        "{:<20} {:>14} {:>14} {:>14}",
         "kernel", "t", "t error, ulps", "bary. error"
     )?;
     let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
     for row in kernels {
         let t = row.t.map_or("miss".to_owned(), |t| t.to_string());
         let (ulps, weights) = (number(row.t_error_ulps), number(row.barycentric_error));
-        writeln!(out, "{:<18} {t:>14} {ulps:>14} {weights:>14}", row.name)?;
+        writeln!(out, "{:<20} {t:>14} {ulps:>14} {weights:>14}", row.name)?;
     }
     Ok(())
 }
@@ -157,10 +160,13 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
     let Some(hit) = hit else {
         return writeln!(out, "{kernel}: no hit");
     };
-    let (triangle, face) = (hit.triangle, hit.face);
+    let (triangle, face, side) = (hit.triangle, hit.face, hit.side);
+    let line = hit
+        .line
+        .map_or(String::new(), |line| format!(" on line {line}"));
     writeln!(
         out,
-        "{kernel}: triangle {triangle} of face {face}, counted from 0"
+        "{kernel}: {side} of triangle {triangle}, of face {face}{line} (triangles and faces count from 0)"
     )?;
     let [a, b, c] = hit.vertices.map(list);
     let rows = [
@@ -183,6 +189,15 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
     Ok(())
 }
 
+/// A bound with two digits.
+pub(super) fn at_most(bound: f64) -> String {
+    if bound == 0.0 {
+        "nothing".to_owned()
+    } else {
+        format!("at most {bound:.1e}")
+    }
+}
+
 /// Formats three numbers, minus zero as zero.
 fn list<T: Copy + Debug + Default + PartialEq>(numbers: [T; 3]) -> String {
     let plain = |x: T| if x == T::default() { T::default() } else { x };
@@ -195,6 +210,6 @@ fn parse_pixel(text: &str) -> Result<UVec2, String> {
     let numbers = parts.map(|(x, y)| (x.trim().parse(), y.trim().parse()));
     match numbers {
         Some((Ok(x), Ok(y))) => Ok(UVec2::new(x, y)),
-        _ => Err("expected two whole numbers, as in 640,360".to_owned()),
+        _ => Err("expected two whole numbers from 0, as in 640,360".to_owned()),
     }
 }

@@ -47,8 +47,8 @@ pub struct LabArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Random seed
-    #[arg(long, default_value_t = 1)]
+    /// Random seed, a whole number from 0
+    #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
     pub seed: u64,
     /// Measure with camera rays in this OBJ file instead; - for standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = CASE_OPTIONS)]
@@ -59,6 +59,13 @@ pub struct LabArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
+}
+
+/// `7`.
+fn parse_seed(text: &str) -> Result<u64, String> {
+    let most = u64::MAX;
+    let seed = text.parse();
+    seed.map_err(|_| format!("expected a whole number from 0 to {most}"))
 }
 
 /// Options that don't require `--scene`.

@@ -17,7 +17,7 @@ mod trace;
 pub use args::{CameraArgs, MemoryArg};
 pub use bench::BenchArgs;
 pub use info::InfoArgs;
-pub use input::is_stdin;
+pub use input::{is_stdin, print_warnings};
 pub use inspect::InspectArgs;
 pub use lab::LabArgs;
 pub use output::Output;

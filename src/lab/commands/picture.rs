@@ -94,9 +94,13 @@ impl PictureArgs {
             ));
         }
         self.crease.check(self.shading)?;
-        let (bytes, most) = (self.picture_bytes(), self.mesh.memory.bytes());
-        if bytes > most {
-            return refuse(self.too_large(format_args!("takes {} MB", bytes.div_ceil(1 << 20))));
+        let (bytes, memory) = (self.picture_bytes(), self.mesh.memory);
+        if bytes as u64 > memory.bytes() {
+            let UVec2 { x, y } = self.camera.size;
+            let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
+            return refuse(format!(
+                "a picture of {x}x{y} pixels takes {megabytes} MB; the limit is {limit} MB (--max-memory)"
+            ));
         }
         Ok(())
     }
@@ -149,26 +153,13 @@ impl PictureArgs {
         if !Arc::ptr_eq(first, second) {
             held += second.bytes();
         }
-        let bytes = self.picture_bytes();
-        if held as u64 + bytes <= self.mesh.memory.bytes() {
-            return Ok(());
-        }
-        let [picture, mesh] = [bytes, held as u64].map(|bytes| bytes.div_ceil(1 << 20));
-        Err(CommandError::Other(self.too_large(format_args!(
-            "takes {picture} MB besides the mesh's {mesh} MB"
-        ))))
+        let UVec2 { x, y } = self.camera.size;
+        let what = format_args!("a picture of {x}x{y} pixels");
+        self.mesh.memory.require(self.picture_bytes(), held, what)
     }
 
-    fn picture_bytes(&self) -> u64 {
+    fn picture_bytes(&self) -> usize {
         let UVec2 { x, y } = self.camera.size;
-        u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
-    }
-
-    fn too_large(&self, takes: std::fmt::Arguments) -> String {
-        let UVec2 { x, y } = self.camera.size;
-        format!(
-            "a picture of {x}x{y} pixels {takes}; the limit is {} MB (--max-memory)",
-            self.mesh.memory.max_memory
-        )
+        x as usize * y as usize * BYTES_PER_PIXEL
     }
 }

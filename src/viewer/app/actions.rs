@@ -7,6 +7,9 @@ use hitscope_core::camera::UpAxis;
 use hitscope_core::mesh::Flaw;
 use std::path::Path;
 
+/// Distance of the camera from a flaw, relative to the distance that frames the triangles there.
+const FLAW_DISTANCE: f64 = 3.0;
+
 impl App {
     pub(super) fn perform(&mut self, action: Action, ctx: &egui::Context, frame: &eframe::Frame) {
         match action {
@@ -55,6 +58,8 @@ impl App {
         });
         if let Some(place) = &self.flaw {
             self.turntable.frame(place.bounds, self.resolution);
+            // Shows some of the surface around it.
+            self.turntable.distance *= FLAW_DISTANCE;
         }
     }
 

@@ -5,10 +5,16 @@ use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
 use crate::panels;
 use crate::settings::{PANEL_WIDTHS, Tab};
 use crate::trade::Trade;
+use crate::watch::Watch;
 use egui::{Align, Layout, RichText};
 use glam::UVec2;
 use hitscope_core::counts::counted;
 use hitscope_core::integrator::INTEGRATORS;
+
+/// Width in points that the panel leaves for the picture in a narrow window.
+const NARROWEST_PICTURE: f32 = 120.0;
+/// Width in points of the panel in the narrowest window.
+const MIN_PANEL_WIDTH: f32 = 160.0;
 
 impl App {
     pub(super) fn toolbar_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
@@ -77,7 +83,7 @@ impl App {
                 true,
             ),
             (
-                "Wire",
+                "Wireframe",
                 settings.shows_wireframe,
                 Action::ToggleWireframe,
                 "Wireframe (W)",
@@ -91,14 +97,14 @@ impl App {
                 true,
             ),
             (
-                "Ortho",
+                "Orthographic",
                 self.turntable.is_orthographic,
                 Action::ToggleOrthographic,
                 "Orthographic projection (5)",
                 true,
             ),
             (
-                "Rotate",
+                "Auto-rotation",
                 self.is_rotating,
                 Action::ToggleRotation,
                 "Auto-rotation (T)",
@@ -137,9 +143,12 @@ impl App {
 
     pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
         let mut is_expanded = self.settings.shows_panel;
+        let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
+        // In a narrow window, the panel leaves some room for the picture.
+        let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
         let shown = egui::Panel::right("panel")
             .default_size(self.settings.panel_width)
-            .size_range(PANEL_WIDTHS)
+            .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 ui.add_space(4.0);
                 ui.horizontal(|ui| {
@@ -153,16 +162,17 @@ impl App {
                     }
                 });
                 ui.separator();
-                egui::ScrollArea::vertical()
-                    .auto_shrink(false)
-                    .show(ui, |ui| match self.settings.tab {
+                // In a narrow window the contents are wider than the panel.
+                egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+                    match self.settings.tab {
                         Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
                             ui.label("No file is open.");
                         }
                         Tab::Inspect => {
                             let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
                             let pick = self.pick.as_ref();
-                            let view = pick.map(|pick| pick.view(&self.document));
+                            let is_reading = self.face_lookup.is_some();
+                            let view = pick.map(|pick| pick.view(&self.document, is_reading));
                             panels::inspect::inspect_ui(ui, view, is_busy);
                         }
                         Tab::Display => {
@@ -184,14 +194,15 @@ impl App {
                             );
                         }
                         Tab::Trade => self.trade_ui(ui),
-                    });
+                    }
+                });
             });
         self.settings.shows_panel = is_expanded;
         if let Some(shown) = shown {
             // The width changes from frame to frame while the panel slides in or out.
             let width = shown.response.rect.width();
             let last = std::mem::replace(&mut self.panel_width, width);
-            if last == width && PANEL_WIDTHS.contains(&width) {
+            if last == width && width < limit && PANEL_WIDTHS.contains(&width) {
                 self.settings.panel_width = width;
             }
         }
@@ -270,6 +281,9 @@ impl App {
         if self.tracer.non_finite() > 0 {
             let count = self.tracer.non_finite() as usize;
             parts.insert(2, format!("{} not finite", counted(count, "sample")));
+        }
+        if self.watch.as_ref().is_some_and(Watch::is_missing) {
+            parts.insert(0, "the file is missing".to_owned());
         }
         if self.document.is_blank {
             parts = vec!["no file open".to_owned()];

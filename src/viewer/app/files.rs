@@ -6,6 +6,7 @@ use crate::opening::Loading;
 use crate::watch::Watch;
 use hitscope_core::camera::Turntable;
 use hitscope_core::obj::LoadError;
+use hitscope_lab::commands::print_warnings;
 use std::path::PathBuf;
 
 impl App {
@@ -78,6 +79,9 @@ impl App {
         let title = format!("{} – hitscope", self.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
         let warnings = &self.document.loaded.warnings;
+        if let (true, Some(path)) = (self.screenshot.is_some(), &self.document.path) {
+            print_warnings(path, &self.document.loaded);
+        }
         if let Some(first) = warnings.first() {
             let more = match warnings.len() - 1 {
                 0 => String::new(),
@@ -102,7 +106,7 @@ impl App {
         self.is_unframed = true;
     }
 
-    /// Reloads the file if it has changed and automatic reloading is on.
+    /// Reloads the file if it has changed and auto-reload is on.
     pub(super) fn poll_watch(&mut self, ctx: &egui::Context) {
         let Some(path) = self.document.path.clone().filter(|_| self.settings.watches) else {
             self.watch = None;

@@ -7,7 +7,7 @@ use crate::panels::{self, inspect::PickView};
 use crate::settings::Tab;
 use crate::task::Task;
 use glam::{DVec3, UVec2, Vec3};
-use hitscope_core::mesh::Crease;
+use hitscope_core::mesh::{Crease, NO_INDEX};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, TriangleMesh};
 use hitscope_lab::inspection::{HitReport, Inspection};
@@ -37,16 +37,23 @@ struct InspectionBasis {
 
 impl Pick {
     /// The contents of the Inspect tab.
-    pub fn view(&self, document: &Document) -> PickView<'_> {
+    pub fn view(&self, document: &Document, is_reading_face: bool) -> PickView<'_> {
         let hit = self.inspection.hit.as_ref();
+        let mesh = document.loaded.scene.mesh();
         PickView {
             inspection: &self.inspection,
             kernel: panels::kernel_name(self.basis.kernel),
-            line: hit.map(|hit| document.loaded.face_lines.line(hit.face as usize)),
             face: self.face.as_ref(),
-            colour: hit.and_then(|hit| colour_at(document.loaded.scene.mesh(), hit)),
+            is_reading_face,
+            has_uv: hit.is_some_and(|hit| has_uv(mesh, hit.triangle)),
+            colour: hit.and_then(|hit| colour_at(mesh, hit)),
         }
     }
+}
+
+fn has_uv(mesh: &TriangleMesh, triangle: u32) -> bool {
+    let corners = mesh.corner_textures.get(triangle as usize);
+    corners.is_some_and(|corners| !corners.contains(&NO_INDEX))
 }
 
 /// The file's vertex colours, interpolated at a hit.
@@ -118,7 +125,7 @@ impl App {
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
         self.face_lookup = pick.inspection.hit.as_ref().map(|hit| {
             let document = &self.document;
-            let line = document.loaded.face_lines.line(hit.face as usize);
+            let line = hit.line.unwrap_or(0);
             let scene = &document.loaded.scene;
             FaceLookup::start(document.path.clone(), scene, hit.triangle, line, ctx)
         });
@@ -147,6 +154,7 @@ impl App {
         self.picking = None;
         match result {
             Ok(mut pick) => {
+                pick.inspection.find_line(&self.document.loaded.face_lines);
                 let triangle = |pick: &Pick| pick.inspection.hit.as_ref().map(|hit| hit.triangle);
                 let is_same = |old: &Pick| triangle(old) == triangle(&pick) && old.face.is_some();
                 match self.pick.take().filter(is_same) {

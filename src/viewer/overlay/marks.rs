@@ -45,7 +45,7 @@ fn between(mesh: &TriangleMesh, ends: [u32; 2]) -> Line {
 
 fn cross(scene: &Scene, vertex: u32) -> [Line; 3] {
     let at = scene.mesh().positions[vertex as usize];
-    let arm = CROSS * scene.bounds().radius() as f32;
+    let arm = CROSS * scene.bounds_with_elements().radius() as f32;
     [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| Line {
         start: at - arm * axis,
         end: at + arm * axis,

@@ -14,10 +14,12 @@ pub struct PickView<'p> {
     pub inspection: &'p Inspection,
     /// Name of the kernel, as shown in menus.
     pub kernel: &'p str,
-    /// The face's line in the file, counted from 1; `None` for a miss.
-    pub line: Option<usize>,
     /// The face in the file, once it has been read.
     pub face: Option<&'p FaceInFile>,
+    /// Whether the face is being read.
+    pub is_reading_face: bool,
+    /// Whether the triangle has texture coordinates.
+    pub has_uv: bool,
     /// Colour of the hit point, if the file has colours.
     pub colour: Option<[f32; 3]>,
 }
@@ -75,11 +77,13 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     section_ui(ui, &format!("Hit ({})", pick.kernel), |ui| {
         row_ui(ui, "t", number(hit.t));
         row_ui(ui, "position", lines(hit.position));
-        row_ui(ui, "side", side(pick.inspection, hit));
+        row_ui(ui, "side", hit.side);
         row_ui(ui, "barycentric", lines(hit.barycentric));
-        if let Some([u, v]) = pick.face.and_then(|face| face.uv(hit.barycentric)) {
-            let text = format!("{}\n{}", significant(u, 7), significant(v, 7));
-            row_ui(ui, "uv", text);
+        match pick.face.and_then(|face| face.uv(hit.barycentric)) {
+            Some(uv) => row_ui(ui, "uv", uv.map(|x| significant(x, 7)).join("\n")),
+            // Keeps the rows below in place.
+            None if pick.has_uv && pick.is_reading_face => row_ui(ui, "uv", "…\n"),
+            None => {}
         }
         if let Some(colour) = pick.colour {
             let text = colour.map(|channel| significant(channel.into(), 3));
@@ -90,26 +94,19 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     });
 }
 
-/// The side of the triangle that the ray hits.
-fn side(inspection: &Inspection, hit: &HitReport) -> &'static str {
-    let direction = inspection.ray.direction.map(f64::from);
-    let normal = hit.geometric_normal.map(f64::from);
-    let along: f64 = direction.iter().zip(normal).map(|(d, n)| d * n).sum();
-    if along > 0.0 { "back" } else { "front" }
-}
-
 /// Shows the triangle and its face in the file.
 fn element_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     section_ui(ui, "Triangle", |ui| {
         row_ui(ui, "triangle", format!("{} (0-based)", hit.triangle));
         let face = u64::from(hit.face) + 1;
         row_ui(ui, "face", format!("{face} (1-based)"));
-        if let Some(line) = pick.line.filter(|&line| line > 0) {
+        if let Some(line) = hit.line {
             row_ui(ui, "line", line);
         }
         match pick.face {
             Some(FaceInFile::Found { statement, .. }) => row_ui(ui, "statement", statement),
             Some(FaceInFile::Unknown(why)) => row_ui(ui, "statement", why),
+            None if pick.is_reading_face => row_ui(ui, "statement", "…"),
             None => {}
         }
         for (k, (name, vertex)) in ["A", "B", "C"].into_iter().zip(hit.vertices).enumerate() {
@@ -144,7 +141,7 @@ fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
     }
     CollapsingHeader::new("All kernels")
         .id_salt("kernels")
-        .show(ui, |ui| kernel_tables_ui(ui, exact, kernels));
+        .show_unindented(ui, |ui| kernel_tables_ui(ui, exact, kernels));
     if let Some(exact) = exact {
         fractions_ui(ui, exact);
     }
@@ -258,7 +255,7 @@ fn coordinates(barycentric: Option<[f64; 3]>) -> [String; 3] {
 }
 
 fn rounded_error(error: Option<f64>) -> String {
-    error.map_or_else(dash, |error| significant(error, 3))
+    error.map_or_else(dash, |error| significant(error, 2))
 }
 
 fn or_dash(name: &str) -> &str {

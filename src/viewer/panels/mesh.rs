@@ -5,7 +5,7 @@ use super::{lines, row_ui, section_ui};
 use crate::bindings::Action;
 use crate::document::{Document, MeshReport};
 use crate::flaw_place::FlawPlace;
-use crate::numbers::{number, significant};
+use crate::numbers::{duration, number, significant};
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::counts::{counted, grouped};
@@ -96,9 +96,11 @@ fn options_ui(
 ) {
     // The built-in scene can't be reloaded.
     let is_file = document.path.is_some();
-    let watch = egui::Checkbox::new(&mut settings.watches, "Reload when the file changes");
+    ui.add_space(6.0);
+    ui.label(RichText::new("Loading").strong());
+    let watch = egui::Checkbox::new(&mut settings.watches, "Auto-reload");
     ui.add_enabled(is_file, watch).on_hover_text(
-        "Also when its materials or textures change. Keeps the camera and the picked pixel. (Ctrl+R)",
+        "Reload the file when it, its materials or its textures change. Keeps the camera and the picked pixel. (Ctrl+R)",
     );
     let compact = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
     let is_changed = ui
@@ -110,12 +112,13 @@ fn options_ui(
     if is_changed {
         actions.push(Action::Reload);
     }
+    ui.add_space(4.0);
 }
 
 fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
     section_ui(ui, "Bounds", |ui| {
-        let bounds = scene.bounds();
+        let bounds = scene.bounds_with_elements();
         let corner = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         row_ui(ui, "minimum", lines(corner(bounds.min)));
         row_ui(ui, "maximum", lines(corner(bounds.max)));
@@ -130,9 +133,8 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
     let kb = |bytes: usize| format!("{} kB", grouped(bytes.div_ceil(1000)));
     section_ui(ui, "Time", |ui| {
-        let ms = |time: std::time::Duration| format!("{:.1} ms", time.as_secs_f64() * 1e3);
-        row_ui(ui, "load", ms(loaded.load_time));
-        row_ui(ui, "tree", ms(scene.build_time()));
+        row_ui(ui, "load", duration(loaded.load_time));
+        row_ui(ui, "tree", duration(scene.build_time()));
     });
     section_ui(ui, "Memory", |ui| {
         let parts = mesh.bytes().into_iter();

@@ -7,6 +7,7 @@ use crate::theme::kernel_colour;
 use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, FontId, Pos2, RichText, Theme};
 use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points};
+use hitscope_core::counts::grouped;
 use hitscope_core::kernel::{KernelInfo, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
@@ -47,9 +48,10 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     };
     ui.label(
         RichText::new(format!(
-            "{} camera and bounce rays, compared with exact arithmetic. Speed: rays per CPU time relative to \
-             fast, mean of camera, bounce and random rays.",
-            first.n
+            "{} camera and bounce rays, compared with exact arithmetic; wrong/M: wrong decisions per million \
+             rays. Speed: rays per CPU time relative to fast, which is measured by turns with each kernel, so that \
+             other load doesn't count; mean of camera, bounce and random rays.",
+            grouped(first.n as usize)
         ))
         .weak(),
     );
@@ -57,18 +59,22 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
         ui.selectable_value(&mut trade.axis, Axis::ErrorOfT, "Error of t");
         ui.selectable_value(&mut trade.axis, Axis::Wrong, "Wrong decisions");
     });
-    if settings.session_kernel.is_some() {
-        keep_ui(ui, settings);
-    }
+    kernel_ui(ui, settings);
     plot_ui(ui, trade.axis, &rows, settings);
     table_ui(ui, &rows, settings);
     is_wanted_again
 }
 
-/// Offers to keep a kernel that was selected here for this session.
-fn keep_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+/// Offers to keep a kernel that was selected here for this session, or says how to select one.
+fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     let info = settings.kernel().info;
     ui.horizontal(|ui| {
+        // As high as the button, so that a selection moves nothing.
+        ui.set_min_height(ui.spacing().interact_size.y);
+        if settings.session_kernel.is_none() {
+            ui.label(RichText::new("Click a point or a row to use its kernel.").weak());
+            return;
+        }
         ui.label(format!(
             "{} is used for this session only.",
             info.short_name()

@@ -6,7 +6,7 @@ mod triangles;
 
 pub use triangles::SLIVER_ASPECT;
 
-use super::edges::{EdgeTable, VertexFans};
+use super::edges::{EdgeTable, EdgeUse, VertexFans};
 use super::{TriangleMesh, Welded};
 use crate::aabb::Aabb;
 use rayon::prelude::*;
@@ -126,6 +126,15 @@ pub struct Health {
 }
 
 impl Health {
+    /// An upper bound of the bytes that [`of`](Self::of) takes, with its result.
+    pub fn bytes(mesh: &TriangleMesh) -> usize {
+        // Of each edge: its use, its ends in a growing list of open edges, and these ends in order.
+        let of_edge = size_of::<EdgeUse>() + 2 * size_of::<[u32; 2]>() + size_of::<[u32; 2]>();
+        // Of each vertex: its position and index in order, and its representative.
+        let of_vertex = size_of::<([u32; 3], u32)>() + size_of::<u32>();
+        3 * mesh.triangles.len() * of_edge + mesh.positions.len() * of_vertex
+    }
+
     /// Checks every triangle and every edge. Vertices at the same position count as one.
     pub fn of(mesh: &TriangleMesh) -> Self {
         let welded = Welded::of(mesh);
