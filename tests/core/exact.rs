@@ -197,3 +197,26 @@ fn tiny_triangles_give_the_same_decisions_as_enlarged_ones() {
     }
     assert!((3_000..9_000).contains(&hits), "{hits}");
 }
+
+#[test]
+fn at_the_apex_of_a_large_fan_the_work_is_in_proportion_to_its_triangles() {
+    const COUNT: usize = 20_000;
+    let rim = |k: usize| {
+        let angle = k as f32 * std::f32::consts::TAU / COUNT as f32;
+        Vec3::new(angle.cos(), angle.sin(), 0.1 * angle.sin())
+    };
+    // The apex isn't at the origin, where fewer digits would do.
+    let apex = Vec3::new(0.25, 0.125, 0.75);
+    let triangles: Vec<[Vec3; 3]> = (0..COUNT).map(|k| [apex, rim(k), rim(k + 1)]).collect();
+    let intersector = scene(soup(&triangles)).intersector(exact_triangle_kernel());
+    let eye = Vec3::new(1.25, -0.5, 2.75);
+    let ray = Ray::new(eye, apex - eye).expect("a ray");
+    assert_eq!(ray.origin + ray.dir, apex, "the ray meets the apex exactly");
+    let (hit, cost) = intersector.closest_hit_with_cost(&ray);
+    assert_eq!(hit.map(|hit| hit.primitive), Some(0));
+    // Comparing each pair would take 2e8 decisions.
+    let decisions = cost.in_integers as usize;
+    assert!(decisions <= 8 * COUNT, "{decisions} decisions");
+    let all = intersector.all_hits(&ray);
+    assert_eq!((all.len(), all[0].also.len()), (1, COUNT - 1));
+}
