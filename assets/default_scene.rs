@@ -105,7 +105,7 @@ fn knot(obj: &mut Obj) {
     let at = |i: usize, k: usize| first + (i % ALONG) * AROUND + k % AROUND;
     for i in 0..ALONG {
         for k in 0..AROUND {
-            obj.face(&[at(i, k), at(i, k + 1), at(i + 1, k + 1), at(i + 1, k)]);
+            obj.face(&[at(i, k), at(i + 1, k), at(i + 1, k + 1), at(i, k + 1)]);
         }
     }
 }
@@ -195,6 +195,6 @@ fn shell(obj: &mut Obj) {
         obj.vertex(centre + radius * (cos * side + sin * up) + depth * axis);
     }
     for i in 0..2 * RIBS {
-        obj.face(&[hub, first + i, first + (i + 1) % (2 * RIBS)]);
+        obj.face(&[hub, first + (i + 1) % (2 * RIBS), first + i]);
     }
 }

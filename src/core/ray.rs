@@ -38,7 +38,7 @@ pub enum RayError {
     #[error("the direction is zero in f32")]
     DirectionZero,
     /// `t_min` or `t_max` is NaN, or `t_min` isn't below `t_max`.
-    #[error("the interval from tmin to tmax is empty")]
+    #[error("tmin must be less than tmax, and neither may be NaN")]
     IntervalEmpty,
 }
 

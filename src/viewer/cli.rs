@@ -155,12 +155,13 @@ fn misspelt_command(arguments: &[OsString]) -> Option<String> {
         return None;
     }
     let cli = Cli::command();
-    let distance = |command: &clap::Command| strsim::osa_distance(word, command.get_name());
+    let lower_case = word.to_ascii_lowercase();
+    let distance = |command: &clap::Command| strsim::osa_distance(&lower_case, command.get_name());
     let nearest = cli
         .get_subcommands()
         .min_by_key(|command| distance(command))?;
     let name = nearest.get_name();
-    let is_near = (1..=MOST_ERRORS).contains(&distance(nearest));
+    let is_near = word != name && distance(nearest) <= MOST_ERRORS;
     is_near.then(|| format!("there is no command or file “{word}”; did you mean “{name}”?"))
 }
 

@@ -4,7 +4,7 @@ use crate::document::Document;
 use crate::panels::progress::progress_ui;
 use crate::settings::Settings;
 use crate::task::{Task, TaskPanicked};
-use hitscope_core::obj::{LoadError, LoadOptions};
+use hitscope_core::obj::{LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
 use std::ffi::OsStr;
 use std::path::{Path, PathBuf};
@@ -201,6 +201,11 @@ impl Loading {
     /// [`TaskPanicked`] if the thread panicked.
     pub fn poll(&self) -> Result<Option<Result<Document, LoadError>>, TaskPanicked> {
         self.task.poll()
+    }
+
+    /// The file's name for messages.
+    pub fn name(&self) -> String {
+        shown(Path::new(self.path.file_name().unwrap_or_default()))
     }
 
     /// Signals the thread to stop.

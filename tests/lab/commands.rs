@@ -148,9 +148,10 @@ fn inspect_counts_triangles_and_faces_from_0_and_states_it() {
     // The last of the file's six faces.
     assert_eq!(hit["face"], 5);
     let expected = format!(
-        "triangle {} of face {}, counted from 0",
-        hit["triangle"], hit["face"]
+        "front of triangle {}, of face {} on line {} (triangles and faces count from 0)",
+        hit["triangle"], hit["face"], hit["line"]
     );
+    assert_eq!(hit["side"], "front");
     assert!(text.contains(&expected), "{text}");
     assert!(!text.contains("-0.0") && !text.contains("-0,"), "{text}");
 }

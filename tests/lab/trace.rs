@@ -293,7 +293,10 @@ fn the_interval_is_that_of_the_ray_as_given() {
     let found = answers(PLANE, "", rays);
     let are_hits: Vec<_> = found.iter().map(|answer| answer["hit"].clone()).collect();
     assert_eq!(are_hits[..3], [true, true, false]);
-    assert_eq!(found[3]["error"], "the interval from tmin to tmax is empty");
+    assert_eq!(
+        found[3]["error"],
+        "tmin must be less than tmax, and neither may be NaN"
+    );
 }
 
 #[test]

@@ -184,6 +184,38 @@ fn a_double_click_sets_the_pivot_without_picking_or_changing_the_tab_or_sizes() 
     }
 }
 
+#[test]
+fn a_double_click_within_one_slow_frame_or_with_a_slow_second_click_sets_the_pivot() {
+    for is_one_frame in [true, false] {
+        let Some(mut window) = app(None) else { return };
+        let (x, y) = on_the_mesh(&window);
+        let place = in_picture(&window, x, y);
+        let before = window.state().turntable().pivot;
+        window.event(Event::PointerMoved(place));
+        window.step();
+        let click = [true, false].map(|pressed| Event::PointerButton {
+            pos: place,
+            button: PointerButton::Primary,
+            pressed,
+            modifiers: Modifiers::NONE,
+        });
+        let events = &mut window.input_mut().events;
+        if is_one_frame {
+            events.extend([click.clone(), click].concat());
+        } else {
+            let [press, release] = click;
+            events.extend([press.clone(), release.clone(), press]);
+            window.step();
+            rest(&mut window);
+            window.input_mut().events.push(release);
+        }
+        window.step();
+        rest(&mut window);
+        assert!(window.state().inspection().is_none(), "{is_one_frame}");
+        assert_ne!(window.state().turntable().pivot, before, "{is_one_frame}");
+    }
+}
+
 /// Presses or releases the button with one event, which takes one frame.
 fn button(window: &Window, pos: egui::Pos2, pressed: bool) {
     window.event(Event::PointerButton {

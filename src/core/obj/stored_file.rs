@@ -19,7 +19,7 @@ pub(super) fn read(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     let info = file.metadata()?;
     require_regular(&info)?;
     if is_in_system_folder(path)? || is_of_kernel(&file) {
-        return Err(io::Error::other("a system file, not a stored one"));
+        return Err(io::Error::other("a virtual file of the system"));
     }
     let size = info.len().min(most_bytes);
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
@@ -116,16 +116,10 @@ mod tests {
         rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, mode, 0)
             .expect("a pipe");
         for (path, why) in [
-            (at("maps"), "a system file, not a stored one"),
-            (at("self").join("maps"), "a system file, not a stored one"),
-            (
-                "/proc/self/pagemap".into(),
-                "a system file, not a stored one",
-            ),
-            (
-                "/sys/kernel/notes".into(),
-                "a system file, not a stored one",
-            ),
+            (at("maps"), "a virtual file of the system"),
+            (at("self").join("maps"), "a virtual file of the system"),
+            ("/proc/self/pagemap".into(), "a virtual file of the system"),
+            ("/sys/kernel/notes".into(), "a virtual file of the system"),
             (at("zero"), "not a regular file"),
             (at("pipe"), "not a regular file"),
             (folder.path().to_owned(), "not a regular file"),

@@ -27,10 +27,10 @@ pub struct CameraArgs {
     /// Position of the camera [default: the window's starting view of the whole mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
     pub eye: Option<DVec3>,
-    /// Point in the centre of the picture [default: the centre of the mesh]
+    /// With --eye: point in the centre of the picture [default: the centre of the mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub target: Option<DVec3>,
-    /// Direction that points up in the picture [default: 0,1,0]
+    /// With --eye: direction that points up in the picture [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub up: Option<DVec3>,
     /// Vertical field of view, from 0.000001 to below 180 [default: 40]
@@ -139,7 +139,7 @@ impl MeshArgs {
     /// Loads a scene and prints the file's warnings.
     ///
     /// # Errors
-    /// [`CommandError::Load`]; [`CommandError::Usage`] if standard input would have to be read twice.
+    /// [`CommandError::Load`].
     pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, CommandError> {
         let load_options = LoadOptions {
             recentre,

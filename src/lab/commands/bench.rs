@@ -1,7 +1,7 @@
 //! `hitscope bench`: measures the speed of loading a mesh, building its tree and tracing rays.
 
 use super::args::{CameraArgs, MeshArgs, kernel_names};
-use super::{CommandError, ThreadsArg};
+use super::{CommandError, ThreadsArg, default_thread_count};
 use crate::json;
 use crate::measure::speed::{RAYS_AT_ONCE, median};
 use crate::measure::workloads::{WORKLOADS, workloads};
@@ -26,11 +26,11 @@ use std::time::{Duration, Instant};
 Workloads:
   primary  camera rays through the centres of the pixels
   bounce   a diffuse ray from each hit of a primary ray
-  random   rays across the bounding sphere of the scene
+  random   rays from a sphere around the scene to points in its bounding box
   shadow   the bounce rays again, any hit instead of the closest
 
-Rates are rays divided by the average CPU time of the tracing threads, median of all rounds. Each round measures
-the kernels in turn.
+Rates are rays divided by the CPU time of a core, the average of the cores in use; “by clock”, by wall-clock time.
+They are medians of all rounds. Each round measures the kernels in turn.
 
 Examples:
   hitscope bench bunny.obj
@@ -255,7 +255,8 @@ fn trace(
     Traced {
         hits: hits.into_inner(),
         threads,
-        cpu_seconds: cpu.as_secs_f64() / threads as f64,
+        // No more threads than cores run at a time.
+        cpu_seconds: cpu.as_secs_f64() / threads.min(default_thread_count()) as f64,
         wall_seconds,
     }
 }
@@ -294,7 +295,7 @@ impl Report {
         writeln!(
             out,
             "\n{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>12}",
-            "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "wall clock"
+            "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "by clock"
         )?;
         for row in &self.workloads {
             writeln!(

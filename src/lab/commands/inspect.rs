@@ -6,7 +6,8 @@ use super::picture::ShadingArg;
 use crate::inspection::{HitReport, Inspection};
 use clap::Args;
 use glam::UVec2;
-use hitscope_core::obj::Recentre;
+use hitscope_core::counts::{counted, counted_as};
+use hitscope_core::obj::{Recentre, shown};
 use std::fmt::Debug;
 use std::io::Write;
 use std::path::PathBuf;
@@ -130,8 +131,9 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     )?;
     writeln!(
         out,
-        "cost       {} boxes, {} triangles",
-        cost.boxes, cost.triangles
+        "cost       {}, {}",
+        counted_as(cost.boxes as usize, "box", "boxes"),
+        counted(cost.triangles as usize, "triangle")
     )?;
     print_hit(kernel, hit.as_ref(), out)?;
     match exact {
@@ -180,13 +182,22 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
         ("", c),
         (
             "material",
-            format!("{:?}, group {:?}", hit.material, hit.group),
+            format!("{}, group {}", or_dash(&hit.material), or_dash(&hit.group)),
         ),
     ];
     for (name, value) in rows {
         writeln!(out, "  {name:<12} {value}")?;
     }
     Ok(())
+}
+
+/// A name from the file, without control characters; a dash if it is empty.
+fn or_dash(name: &str) -> String {
+    if name.is_empty() {
+        "–".to_owned()
+    } else {
+        shown(name.as_ref())
+    }
 }
 
 /// A bound with two digits.

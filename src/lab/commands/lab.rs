@@ -6,7 +6,7 @@ use super::{CommandError, Output, default_thread_count, file_error};
 use crate::json;
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short};
-use crate::measure::{self, Measurements, RunProgress, Sizes};
+use crate::measure::{self, CaseInfo, Measurements, RunProgress, Sizes};
 use crate::report::{self, RunInfo};
 use clap::Args;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
@@ -14,6 +14,7 @@ use hitscope_core::obj::Recentre;
 use hitscope_core::progress::Progress;
 use hitscope_core::simd::SimdLevel;
 use serde_json::json;
+use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
@@ -148,11 +149,13 @@ impl LabArgs {
     fn refuse_unknown_cases(&self) -> Result<(), CommandError> {
         let known = measure::all_cases();
         for case in &self.case {
-            if !known.iter().any(|info| info.name.starts_with(&**case)) {
-                let names: Vec<&str> = known.iter().map(|info| &*info.name).collect();
-                let names = names.join(", ");
+            let is_prefix = |info: &&CaseInfo| info.name.starts_with(&**case);
+            if case.is_empty() || !known.iter().any(|info| is_prefix(&info)) {
+                let families = known.iter().filter_map(|info| info.name.split('-').next());
+                let families: BTreeSet<&str> = families.collect();
+                let families = families.into_iter().collect::<Vec<_>>().join(", ");
                 return Err(CommandError::Usage(format!(
-                    "no case name begins with “{case}”; the cases are {names}"
+                    "no case name begins with “{case}”; the names begin with {families}"
                 )));
             }
         }

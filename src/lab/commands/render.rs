@@ -63,6 +63,6 @@ pub fn parse_png(text: &str) -> Result<PathBuf, String> {
     if extension.eq_ignore_ascii_case("png") || is_stream(&path) {
         Ok(path)
     } else {
-        Err("only PNG files are written: the name must end in .png".to_owned())
+        Err("only PNG files are written: the name must end in .png, or be /dev/stdout".to_owned())
     }
 }

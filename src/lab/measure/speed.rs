@@ -42,7 +42,7 @@ pub struct Rates {
     pub primary: f64,
     /// Diffuse rays from the hits of the camera rays; 0 if there are none.
     pub bounce: f64,
-    /// Random rays through the scene's bounding sphere.
+    /// Rays from a sphere around the scene to random points in its bounding box.
     pub random: f64,
 }
 

@@ -328,10 +328,10 @@ impl App {
             .fixed_pos(self.canvas_rect.min + egui::vec2(10.0, 10.0))
             .show(ctx, |ui| {
                 // Don't overlap the side panel.
-                ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(120.0, 560.0));
+                ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(80.0, 560.0));
                 if let Some(loading) = loading {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
-                        ui.label(format!("Loading {}", loading.path.display()));
+                        ui.label(format!("Loading {}", loading.name()));
                         is_cancelled = loading.progress_ui(ui);
                     });
                 }
@@ -368,8 +368,10 @@ impl App {
         let response = egui::Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
             ui.heading("Keyboard and mouse");
             ui.add_space(4.0);
-            let height = ui.ctx().content_rect().height() - 120.0;
-            egui::ScrollArea::vertical()
+            let size = ui.ctx().content_rect().size() - egui::vec2(60.0, 120.0);
+            let height = size.y;
+            egui::ScrollArea::both()
+                .max_width(size.x)
                 .max_height(height)
                 .min_scrolled_height(height)
                 .show(ui, |ui| {

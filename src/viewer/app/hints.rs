@@ -3,7 +3,6 @@
 
 use super::App;
 use crate::bindings::Action;
-use std::path::Path;
 use std::sync::Arc;
 
 impl App {
@@ -40,8 +39,7 @@ impl App {
                 ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(120.0, 420.0));
                 egui::Frame::popup(ui.style()).show(ui, |ui| match &self.loading {
                     Some(loading) if is_loading => {
-                        let name = loading.path.file_name().unwrap_or_default();
-                        ui.label(format!("Loading {}", Path::new(name).display()));
+                        ui.label(format!("Loading {}", loading.name()));
                         is_cancelled = loading.progress_ui(ui);
                     }
                     _ if self.document.is_blank => {

@@ -5,7 +5,7 @@
 
 use super::App;
 use super::canvas::Canvas;
-use egui::{PointerButton, Pos2, Response};
+use egui::{Event, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
 use hitscope_core::Camera;
 
@@ -63,7 +63,8 @@ impl App {
         }
     }
 
-    /// Sets the pivot on a double click; holds back a single click until it can't become a double click.
+    /// Sets the pivot on a double click; holds back a single click until it can't become a double click. In a slow
+    /// window, both clicks of a double click may come in one frame.
     fn click(&mut self, ui: &egui::Ui, response: &Response, pos: Pos2, canvas: Canvas) {
         if !response.clicked() {
             return;
@@ -75,10 +76,18 @@ impl App {
             let input = &options.input_options;
             (input.max_double_click_delay, input.max_click_dist)
         });
-        let now = ui.input(|input| input.time);
+        let is_release = |event: &&Event| {
+            let button = PointerButton::Primary;
+            matches!(event, Event::PointerButton { button: b, pressed: false, .. } if *b == button)
+        };
+        let (now, clicks) = ui.input(|input| {
+            let releases = input.events.iter().filter(is_release);
+            (input.time, releases.count())
+        });
         let at = canvas.pixel_of(pos, &camera);
         let first = self.clicks.pending.take();
-        if first.is_some_and(|first| first.pos.distance(pos) <= distance) {
+        let is_second = first.is_some_and(|first| first.pos.distance(pos) <= distance);
+        if is_second || clicks > 1 {
             self.clicks.last_double_secs = Some(now);
             if let Some(point) = self.surface_at(&camera, at) {
                 self.turntable.centre_on(point);
@@ -104,7 +113,12 @@ impl App {
         let Some(click) = &self.clicks.pending else {
             return;
         };
-        let left_secs = click.due_secs - ctx.input(|input| input.time);
+        // A second click whose press came late in a slow window may still end.
+        let (now, is_down) = ctx.input(|input| (input.time, input.pointer.primary_down()));
+        let left_secs = click.due_secs - now;
+        if is_down {
+            return;
+        }
         if left_secs > 0.0 {
             ctx.request_repaint_after(std::time::Duration::from_secs_f64(left_secs));
             return;

@@ -100,7 +100,7 @@ fn mrays_per_s(row: &SceneRow) -> f64 {
 fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Settings) {
     let height = |row: &SceneRow| axis.value(row).max(axis.floor()).log10();
     let label = match axis {
-        Axis::ErrorOfT => "error of t in ulps, p99",
+        Axis::ErrorOfT => "p99 error of t, ulps",
         Axis::Wrong => "wrong per million rays",
     };
     let floor = axis.floor().log10();
