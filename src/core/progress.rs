@@ -108,11 +108,6 @@ impl Progress {
         self.0.bytes_read.fetch_add(bytes, Relaxed);
     }
 
-    /// Resets the bytes read, for a second pass over the file.
-    pub(crate) fn restart(&self) {
-        self.0.bytes_read.store(0, Relaxed);
-    }
-
     pub(crate) fn set_steps(&self, done: usize, total: usize) {
         self.0.steps_done.store(done as u64, Relaxed);
         self.0.steps_total.store(total as u64, Relaxed);

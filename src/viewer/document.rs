@@ -297,7 +297,7 @@ pub fn embedded_scene() -> LoadedScene {
     let (start, progress) = (Instant::now(), Progress::default());
     let path = Path::new("the built-in scene");
     let loaded = obj::parse(
-        || Ok(DEFAULT_OBJ.as_bytes()),
+        DEFAULT_OBJ.as_bytes(),
         path,
         LoadOptions::default(),
         &library,

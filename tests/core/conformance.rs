@@ -273,7 +273,7 @@ fn degenerate_and_non_finite_triangles_are_dropped_at_load() {
     let no_library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
     let progress = Progress::default();
     let loaded = obj::parse(
-        || Ok(text.as_bytes()),
+        text.as_bytes(),
         Path::new("x.obj"),
         LoadOptions::default(),
         &no_library,

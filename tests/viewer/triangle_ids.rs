@@ -54,7 +54,7 @@ fn far_blob() -> Scene {
     let progress = Progress::default();
     let library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
     let loaded = parse(
-        || Ok(text.as_bytes()),
+        text.as_bytes(),
         Path::new("blob"),
         LoadOptions::default(),
         &library,

@@ -14,6 +14,12 @@ pub fn has_zero_area(corners: [Vec3; 3]) -> bool {
 
 /// Whether A×B + B×C + C×A is zero in 2D.
 fn is_flat([a, b, c]: [[f64; 2]; 3]) -> bool {
+    // Most triangles are far from flat. The differences and products round once each, by at most 2⁻⁵³ of their
+    // size, so the difference of the products errs by at most 4·2⁻⁵³ of the sum of their sizes.
+    let (left, right) = ((b[0] - a[0]) * (c[1] - a[1]), (b[1] - a[1]) * (c[0] - a[0]));
+    if (left - right).abs() > 8.0 * f64::EPSILON * (left.abs() + right.abs()) {
+        return false;
+    }
     let terms = [
         a[0] * b[1],
         -(a[1] * b[0]),

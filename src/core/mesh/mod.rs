@@ -157,6 +157,50 @@ impl TriangleMesh {
         }
     }
 
+    /// Appends the triangles, lines and points of another mesh with the same vertices, and its counts. Its faces are
+    /// numbered from `first_face`.
+    pub(crate) fn append(&mut self, mut later: Self, first_face: u32) {
+        let (first, count) = (self.triangles.len(), later.triangles.len());
+        let is_numbered = !self.faces.is_empty() || !later.faces.is_empty();
+        if count > 0 && (is_numbered || first_face as usize != first) {
+            self.faces.extend(self.faces.len() as u32..first as u32);
+            let faces = (0..count as u32).map(|triangle| first_face + later.face_of(triangle));
+            self.faces.extend(faces);
+        }
+        if !self.outline.is_empty() || !later.outline.is_empty() {
+            self.outline.resize(first, 0b111);
+            self.outline.append(&mut later.outline);
+            self.outline.resize(first + count, 0b111);
+        }
+        for (own, later) in [
+            (&mut self.corner_normals, &mut later.corner_normals),
+            (&mut self.corner_textures, &mut later.corner_textures),
+        ] {
+            if !own.is_empty() || !later.is_empty() {
+                own.resize(first, [NO_INDEX; 3]);
+                own.append(later);
+                own.resize(first + count, [NO_INDEX; 3]);
+            }
+        }
+        self.triangles.append(&mut later.triangles);
+        self.lines.append(&mut later.lines);
+        self.points.append(&mut later.points);
+        self.face_count += later.face_count;
+        self.dropped.zero_area += later.dropped.zero_area;
+        self.dropped.non_finite += later.dropped.non_finite;
+        self.dropped.bad_index += later.dropped.bad_index;
+        self.dropped.elements += later.dropped.elements;
+    }
+
+    /// Releases the unused capacity of the lists per triangle.
+    pub(crate) fn shrink(&mut self) {
+        self.triangles.shrink_to_fit();
+        self.faces.shrink_to_fit();
+        self.outline.shrink_to_fit();
+        self.corner_normals.shrink_to_fit();
+        self.corner_textures.shrink_to_fit();
+    }
+
     /// The box around all triangles.
     pub fn bounds(&self) -> Aabb {
         let of = |triangle: &[u32; 3]| {

@@ -1,126 +1,225 @@
-//! Assembles a mesh from the file's numbers.
+//! Assembles a mesh from a file's contents.
+//!
+//! Vertices get their place relative to the mesh's origin. Then the elements of each chunk become triangles, side
+//! by side, and the chunks' triangles are put together in the file's order.
 
+use super::contents::Contents;
+use super::corner::List;
+use super::elements::{Element, ElementRef, Elements};
 use super::error::{Problem, Warning};
-use super::facts::{Element, Facts, Tally, lines_or_points};
-use super::numbers::Numbers;
 use super::outline::Outline;
 use super::place::{max_rounding, origin};
 use super::polygon::{Cut, Triangulator};
 use super::referenced_files::ReferencedFiles;
+use super::tally::{Tally, lines_or_points};
+use super::used::Used;
 use super::{LoadOptions, Loaded, materials};
-use crate::counts::{counted, grouped};
-use crate::mesh::{Dropped, Runs, TriangleMesh, has_zero_area};
+use crate::counts::{counted, counted_as, grouped};
+use crate::mesh::{Dropped, NO_INDEX, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
-use glam::DVec3;
-use std::ops::Range;
-
-/// Elements between two cancellation checks.
-const ELEMENTS_PER_CHECK: usize = 1 << 14;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
+use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
 
 pub(super) fn assemble(
-    mut numbers: Numbers,
-    facts: &Facts,
+    mut contents: Contents,
     options: &LoadOptions,
     files: &dyn ReferencedFiles,
     progress: &Progress,
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
-    let mut warnings = facts.warnings();
-    let looks = materials::look_up(facts, files, options.max_memory, progress)?;
-    warnings.extend(looks.warnings);
-    if looks.textures.is_empty() {
-        // Texture coordinates aren't used.
-        numbers.textures = Vec::new();
-        numbers.corners[1] = Vec::new();
+    let vertex_count = contents.positions.len();
+    let mut warnings = contents.warnings();
+    let (mut colours, are_bytes) = contents.colours.take(vertex_count);
+    if are_bytes {
+        let message = "vertex colours above 1: interpreted as bytes".to_owned();
+        warnings.push(Warning::of_file(message));
     }
+    let used = Used::in_elements(&contents.elements, contents.counts());
     progress.check()?;
-    let origin = origin(&numbers.positions, options.recentre);
-    let positions = numbers.positions.iter().map(|&p| (p - origin).as_vec3());
-    let mesh = TriangleMesh {
+    used.keep(List::Vertex, &mut contents.positions);
+    if !colours.is_empty() {
+        used.keep(List::Vertex, &mut colours);
+    }
+    used.keep(List::Texture, &mut contents.textures);
+    used.keep(List::Normal, &mut contents.normals);
+    let (useless_normals, warning) = useless(&contents.normals);
+    warnings.extend(warning);
+    let looks = materials::look_up(&contents, files, options.max_memory, progress)?;
+    warnings.extend(looks.warnings);
+    // Without a texture, texture coordinates aren't used.
+    let has_textures = !looks.textures.is_empty();
+    progress.check()?;
+
+    let origin = origin(&contents.positions, options.recentre);
+    let exact = std::mem::take(&mut contents.positions);
+    let positions: Vec<Vec3> = exact.par_iter().map(|&p| (p - origin).as_vec3()).collect();
+    let elements = std::mem::take(&mut contents.elements);
+    let first_faces = elements.iter().scan(0, |face, elements| {
+        let first = *face;
+        *face += elements.face_count();
+        Some(first)
+    });
+    let first_faces: Vec<usize> = first_faces.collect();
+    let (steps, step) = (elements.len(), AtomicUsize::new(0));
+    let parts: Vec<Triangles> = elements
+        .into_par_iter()
+        .zip(first_faces)
+        .map(|(elements, first_face)| {
+            progress.check()?;
+            progress.set_steps(step.fetch_add(1, Relaxed), steps);
+            let assembly = Assembly {
+                exact: &exact,
+                positions: &positions,
+                useless_normals: &useless_normals,
+                used: &used,
+                has_textures,
+                contents: &contents,
+                first_face,
+                progress,
+            };
+            assembly.triangles(elements)
+        })
+        .collect::<Result<_, Problem>>()?;
+    progress.check()?;
+
+    let mut mesh = TriangleMesh {
         origin,
-        positions: positions.collect(),
-        colours: std::mem::take(&mut numbers.colours),
-        normals: std::mem::take(&mut numbers.normals),
-        texture_coordinates: std::mem::take(&mut numbers.textures),
+        positions,
+        colours,
+        normals: std::mem::take(&mut contents.normals),
         materials: looks.materials,
         textures: looks.textures,
-        groups: facts.groups.names.clone(),
+        groups: contents.groups.names.clone(),
         ..TriangleMesh::default()
     };
-    let mut assembly = Assembly {
-        mesh,
-        numbers: &numbers,
-        oddities: Oddities::default(),
-        triangulator: Triangulator::new(),
-        outline: Outline::default(),
-        polygon: Vec::new(),
-    };
-    assembly.add_elements(facts, progress)?;
-    let (mut mesh, oddities) = (assembly.mesh, assembly.oddities);
-    mesh.dropped.bad_index = facts.dropped_faces.count;
-    mesh.dropped.elements += facts.dropped_others.count;
-    mesh.smoothing.has_groups = !facts.smoothing.is_empty();
+    if has_textures {
+        mesh.texture_coordinates = std::mem::take(&mut contents.textures);
+    }
+    let oddities = gather(&mut mesh, parts);
+    mesh.dropped.bad_index = contents.dropped_faces.count;
+    mesh.dropped.elements += contents.dropped_others.count;
+    mesh.smoothing.has_groups = !contents.smoothing.is_empty();
     warnings.extend(oddities.warnings(mesh.dropped));
     progress.check()?;
-    shrink(&mut mesh);
-    require_content(&mesh, facts)?;
+    require_content(&mesh, &contents, vertex_count)?;
     Ok(Loaded {
-        max_rounding: max_rounding(&mesh, &numbers.positions, facts.has_long_numbers),
+        max_rounding: max_rounding(&mesh, &exact, contents.has_long_numbers),
         mesh,
         warnings,
-        vertex_count: facts.counts[0],
-        face_lines: facts.face_lines.clone(),
+        vertex_count,
+        face_lines: contents.face_lines,
         files: Vec::new(),
     })
 }
 
-/// A mesh under construction.
-struct Assembly<'n> {
+/// Which normals are zero or not finite, or an empty list if none are; and the warning about them.
+fn useless(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
+    let is_useless = |n: &Vec3| !n.is_finite() || *n == Vec3::ZERO;
+    let count = normals.par_iter().filter(|&n| is_useless(n)).count();
+    if count == 0 {
+        return (Vec::new(), None);
+    }
+    let normals: Vec<bool> = normals.iter().map(is_useless).collect();
+    let message = format!(
+        "{} computed: zero or not finite in the file",
+        counted(count, "normal")
+    );
+    (normals, Some(Warning::of_file(message)))
+}
+
+/// What the triangles of a chunk are made from.
+struct Assembly<'c> {
+    /// Positions in the file, and relative to the mesh's origin.
+    exact: &'c [DVec3],
+    positions: &'c [Vec3],
+    /// See [`useless`].
+    useless_normals: &'c [bool],
+    used: &'c Used,
+    has_textures: bool,
+    contents: &'c Contents,
+    /// Index of the chunk's first face.
+    first_face: usize,
+    progress: &'c Progress,
+}
+
+/// The triangles of a chunk; faces are counted from the chunk's first.
+#[derive(Default)]
+struct Triangles {
+    /// Of the mesh, only lists per triangle, lines, points and counts.
     mesh: TriangleMesh,
-    numbers: &'n Numbers,
+    first_face: usize,
+    faces: usize,
+    /// The first triangles of runs of materials, groups and smoothing groups, and their numbers.
+    runs: [Vec<(u32, u32)>; 3],
     oddities: Oddities,
+}
+
+impl Assembly<'_> {
+    fn triangles(&self, mut elements: Elements) -> Result<Triangles, Problem> {
+        for list in List::ALL {
+            self.used
+                .renumber(list, &mut elements.corners[list as usize]);
+        }
+        if !self.has_textures {
+            elements.corners[List::Texture as usize] = Vec::new();
+        }
+        for index in &mut elements.corners[List::Normal as usize] {
+            if self.useless_normals.get(*index as usize) == Some(&true) {
+                *index = NO_INDEX;
+            }
+        }
+        let mut builder = TriangleBuilder {
+            assembly: self,
+            triangles: Triangles {
+                first_face: self.first_face,
+                ..Triangles::default()
+            },
+            triangulator: Triangulator::new(),
+            outline: Outline::default(),
+            polygon: Vec::new(),
+            runs: [
+                FaceRuns::from(&self.contents.materials.runs, self.first_face),
+                FaceRuns::from(&self.contents.groups.runs, self.first_face),
+                FaceRuns::from(&self.contents.smoothing, self.first_face),
+            ],
+        };
+        builder
+            .triangles
+            .mesh
+            .triangles
+            .reserve(elements.face_count());
+        for element in elements.iter() {
+            match element.kind {
+                Element::Face => builder.add_face(&elements, &element)?,
+                Element::Line | Element::Points => {
+                    builder
+                        .add_lines_or_points(element.kind, &elements.corners[0][element.corners]);
+                }
+            }
+        }
+        Ok(builder.triangles)
+    }
+}
+
+struct TriangleBuilder<'c> {
+    assembly: &'c Assembly<'c>,
+    triangles: Triangles,
     triangulator: Triangulator,
     outline: Outline,
     /// Corners of the face that is being triangulated.
     polygon: Vec<DVec3>,
+    /// Of materials, groups and smoothing groups.
+    runs: [FaceRuns<'c>; 3],
 }
 
-impl Assembly<'_> {
-    fn add_elements(&mut self, facts: &Facts, progress: &Progress) -> Result<(), Problem> {
-        let mut materials = FaceRuns::new(&facts.materials.runs);
-        let mut groups = FaceRuns::new(&facts.groups.runs);
-        let mut smoothing = FaceRuns::new(&facts.smoothing);
-        let mut non_faces = facts.non_faces.iter().peekable();
-        let (mut start, mut face) = (0, 0);
-        for element in 0..facts.element_count {
-            if element % ELEMENTS_PER_CHECK == 0 {
-                progress.check()?;
-                progress.set_steps(element, facts.element_count);
-            }
-            let count = self.numbers.arities.get(element).map_or(3, |&n| n as usize);
-            let corners = start..start + count;
-            start += count;
-            if let Some(&(_, kind)) = non_faces.next_if(|(at, _)| *at == element) {
-                self.add_lines_or_points(kind, corners);
-                continue;
-            }
-            let triangle = self.mesh.triangles.len() as u32;
-            materials.step(face, triangle, &mut self.mesh.material);
-            groups.step(face, triangle, &mut self.mesh.group);
-            smoothing.step(face, triangle, &mut self.mesh.smoothing.groups);
-            self.add_face(face, facts, corners, progress)?;
-            face += 1;
-        }
-        Ok(())
-    }
-
-    fn add_lines_or_points(&mut self, kind: Element, corners: Range<usize>) {
-        let mesh = &mut self.mesh;
-        let vertices = &self.numbers.corners[0][corners];
-        let is_finite = |v: &u32| mesh.positions[*v as usize].is_finite();
+impl TriangleBuilder<'_> {
+    fn add_lines_or_points(&mut self, kind: Element, vertices: &[u32]) {
+        let mesh = &mut self.triangles.mesh;
+        let is_finite = |v: &u32| self.assembly.positions[*v as usize].is_finite();
         if !vertices.iter().all(is_finite) {
             mesh.dropped.elements += 1;
-            self.oddities.not_finite_elements += 1;
+            self.triangles.oddities.not_finite_elements += 1;
         } else if kind == Element::Points {
             mesh.points.extend(vertices);
         } else {
@@ -130,50 +229,70 @@ impl Assembly<'_> {
     }
 
     /// Triangulates a face, and drops triangles that no ray can hit.
-    fn add_face(
-        &mut self,
-        face: usize,
-        facts: &Facts,
-        corners: Range<usize>,
-        progress: &Progress,
-    ) -> Result<(), Problem> {
-        let (mesh, oddities) = (&mut self.mesh, &mut self.oddities);
-        let vertices = &self.numbers.corners[0][corners.clone()];
-        let is_finite = |v: &u32| mesh.positions[*v as usize].is_finite();
+    fn add_face(&mut self, elements: &Elements, element: &ElementRef) -> Result<(), Problem> {
+        let line = || elements.line(element);
+        let corners = element.corners.clone();
+        let Triangles {
+            mesh,
+            first_face,
+            faces,
+            runs,
+            oddities,
+        } = &mut self.triangles;
+        let face = *faces;
+        *faces += 1;
+        let triangle = mesh.triangles.len() as u32;
+        for (begins, begun) in self.runs.iter_mut().zip(runs) {
+            begins.step(*first_face + face, triangle, begun);
+        }
+
+        let positions = self.assembly.positions;
+        let vertices = &elements.corners[0][corners.clone()];
+        let is_finite = |v: &u32| positions[*v as usize].is_finite();
         if !vertices.iter().all(is_finite) {
             mesh.dropped.non_finite += vertices.len() - 2;
-            oddities.non_finite.add(facts.face_line(face));
+            oddities.non_finite.add(line());
             return Ok(());
         }
-        self.outline.prepare(vertices);
-        let [_, textures, normals] = &self.numbers.corners;
+        let is_triangle = vertices.len() == 3;
+        if !is_triangle {
+            self.outline.prepare(vertices);
+        }
+        let [_, textures, normals] = &elements.corners;
         let before = mesh.triangles.len();
         let mut add = |local: [usize; 3]| {
             let triangle = local.map(|k| vertices[k]);
-            if has_zero_area(triangle.map(|v| mesh.positions[v as usize])) {
+            if has_zero_area(triangle.map(|v| positions[v as usize])) {
                 mesh.dropped.zero_area += 1;
-                oddities.zero_area.add(facts.face_line(face));
+                oddities.zero_area.add(line());
                 return;
             }
-            let outline = self.outline.of(local, vertices);
+            let outline = if is_triangle {
+                0b111
+            } else {
+                self.outline.of(local, vertices)
+            };
             mesh.add_triangle(triangle, face as u32, outline);
-            if let Some(normals) = normals.get(corners.clone()) {
-                mesh.corner_normals.push(local.map(|k| normals[k]));
+            let of_corner = |indices: &[u32]| {
+                local.map(|k| indices.get(corners.start + k).copied().unwrap_or(NO_INDEX))
+            };
+            if !normals.is_empty() {
+                mesh.corner_normals.push(of_corner(normals));
             }
-            if let Some(textures) = textures.get(corners.clone()) {
-                mesh.corner_textures.push(local.map(|k| textures[k]));
+            if !textures.is_empty() {
+                mesh.corner_textures.push(of_corner(textures));
             }
         };
-        if vertices.len() == 3 {
+        if is_triangle {
             add([0, 1, 2]);
         } else {
-            let exact = |&v: &u32| self.numbers.positions[v as usize];
+            let exact = |&v: &u32| self.assembly.exact[v as usize];
             self.polygon.clear();
             self.polygon.extend(vertices.iter().map(exact));
             let (triangulator, polygon) = (&mut self.triangulator, &self.polygon);
-            let how = triangulator.cut(polygon, progress, &mut add)?;
+            let how = triangulator.cut(polygon, self.assembly.progress, &mut add)?;
             if how == Cut::Fan {
-                oddities.fan.add(facts.face_line(face));
+                oddities.fan.add(line());
             }
         }
         mesh.face_count += usize::from(mesh.triangles.len() > before);
@@ -181,25 +300,52 @@ impl Assembly<'_> {
     }
 }
 
-/// Converts runs of faces to runs of triangles.
+/// The runs of faces that begin in a chunk.
 struct FaceRuns<'r> {
     rest: &'r [(usize, u32)],
 }
 
 impl<'r> FaceRuns<'r> {
-    fn new(runs: &'r [(usize, u32)]) -> Self {
-        Self { rest: runs }
+    fn from(runs: &'r [(usize, u32)], first_face: usize) -> Self {
+        let before = runs.partition_point(|(first, _)| *first < first_face);
+        Self {
+            rest: &runs[before..],
+        }
     }
 
-    /// Starts a face whose first triangle is `triangle`.
-    fn step(&mut self, face: usize, triangle: u32, of_triangles: &mut Runs) {
+    /// Records the runs that begin at or before a face, whose first triangle is `triangle`.
+    fn step(&mut self, face: usize, triangle: u32, of_triangles: &mut Vec<(u32, u32)>) {
         while let [(first, number), rest @ ..] = self.rest
             && *first <= face
         {
-            of_triangles.begin(triangle, *number);
+            of_triangles.push((triangle, *number));
             self.rest = rest;
         }
     }
+}
+
+/// Puts the chunks' triangles together.
+fn gather(mesh: &mut TriangleMesh, parts: Vec<Triangles>) -> Oddities {
+    let total: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
+    let mut oddities = Oddities::default();
+    mesh.triangles.reserve_exact(total);
+    for part in parts {
+        let first = mesh.triangles.len() as u32;
+        let runs = [
+            &mut mesh.material,
+            &mut mesh.group,
+            &mut mesh.smoothing.groups,
+        ];
+        for (runs, begun) in runs.into_iter().zip(&part.runs) {
+            for &(triangle, number) in begun {
+                runs.begin(first + triangle, number);
+            }
+        }
+        mesh.append(part.mesh, part.first_face as u32);
+        oddities.append(part.oddities);
+    }
+    mesh.shrink();
+    oddities
 }
 
 /// Count and first line of each oddity.
@@ -212,6 +358,13 @@ struct Oddities {
 }
 
 impl Oddities {
+    fn append(&mut self, later: Self) {
+        self.non_finite.append(later.non_finite);
+        self.zero_area.append(later.zero_area);
+        self.fan.append(later.fan);
+        self.not_finite_elements += later.not_finite_elements;
+    }
+
     fn warnings(self, dropped: Dropped) -> impl Iterator<Item = Warning> {
         let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
         let elements = self.not_finite_elements;
@@ -231,10 +384,12 @@ impl Oddities {
                 format!("{triangles} dropped: zero area")
             }),
             self.fan.warning(|fans| {
-                let polygons = counted(fans, "polygon");
-                format!(
-                    "{polygons} triangulated as fans: intersecting themselves, without a plane or with too many corners"
-                )
+                let polygons = counted_as(
+                    fans,
+                    "polygon triangulated as a fan",
+                    "polygons triangulated as fans",
+                );
+                format!("{polygons}: self-intersecting, without a plane or with too many corners")
             }),
             of_elements,
         ]
@@ -243,17 +398,12 @@ impl Oddities {
     }
 }
 
-/// Releases the unused capacity of lists.
-fn shrink(mesh: &mut TriangleMesh) {
-    mesh.triangles.shrink_to_fit();
-    mesh.faces.shrink_to_fit();
-    mesh.outline.shrink_to_fit();
-    mesh.corner_normals.shrink_to_fit();
-    mesh.corner_textures.shrink_to_fit();
-}
-
 /// Returns an error with the reason if the mesh has no triangles.
-fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
+fn require_content(
+    mesh: &TriangleMesh,
+    contents: &Contents,
+    vertex_count: usize,
+) -> Result<(), Problem> {
     if !mesh.triangles.is_empty() {
         return Ok(());
     }
@@ -263,27 +413,35 @@ fn require_content(mesh: &TriangleMesh, facts: &Facts) -> Result<(), Problem> {
         bad_index,
         ..
     } = mesh.dropped;
+    let element_count = contents.element_count;
     let message = if zero_area + non_finite > 0 {
-        let (zero_area, non_finite) = (grouped(zero_area), grouped(non_finite));
-        let message = format!(
-            "no triangles left: {zero_area} with zero area, {non_finite} with a corner that is NaN, infinite or too large for f32"
-        );
-        return Err(Problem::line(facts.face_line(0), message));
+        let reasons = [
+            (zero_area, "with zero area"),
+            (
+                non_finite,
+                "with a corner that is NaN, infinite or too large for f32",
+            ),
+        ];
+        let reasons = reasons.into_iter().filter(|(count, _)| *count > 0);
+        let reasons = reasons.map(|(count, why)| format!("{} {why}", grouped(count)));
+        let reasons = reasons.collect::<Vec<_>>().join(", ");
+        let message = format!("no triangles left: {reasons}");
+        return Err(Problem::line(contents.face_lines.line(0), message));
     } else if bad_index > 0 {
         let message = format!(
             "no faces left: {} with an index that is out of range or fewer than three corners",
             grouped(bad_index)
         );
-        return Err(Problem::line(facts.dropped_faces.first_line, message));
-    } else if facts.element_count > 0 {
+        return Err(Problem::line(contents.dropped_faces.first_line, message));
+    } else if element_count > 0 {
         format!(
             "there are lines or points ({}), but no faces: nothing to trace",
-            grouped(facts.element_count)
+            grouped(element_count)
         )
-    } else if facts.counts[0] > 0 {
+    } else if vertex_count > 0 {
         format!(
             "there are vertices ({}), but no faces: nothing to show",
-            grouped(facts.counts[0])
+            grouped(vertex_count)
         )
     } else {
         "no vertices and no faces: this is not an OBJ file".to_owned()

@@ -1,13 +1,15 @@
 //! Reads a face's statement from the file again.
 
+use super::chunks::each_statement;
 use super::corner::{Corner, Corners, List, is_blank};
 use super::error::{LoadError, Problem, printable};
-use super::lines::{Lines, Statement};
+use super::statement::Statement;
 use super::words::{Words, number, text, without_comment};
 use crate::progress::Progress;
 use glam::{DVec2, DVec3};
 use std::collections::BTreeMap;
 use std::io::{self, Read};
+use std::ops::ControlFlow;
 use std::path::Path;
 
 /// A face as written in the file.
@@ -67,38 +69,31 @@ fn statement_on(
 ) -> Result<Option<FaceSource>, Problem> {
     /// Fits a polygon of about ten corners.
     const LONGEST_TEXT: usize = 160;
-    let mut counts = [0; 3];
-    let mut lines = Lines::new(bytes, progress)?;
-    while let Some(statement) = lines.next()? {
+    let (mut counts, mut found) = ([0; 3], None);
+    each_statement(bytes, progress, |statement| {
         let keyword = keyword(&statement);
         if statement.line == line && keyword == b"f" {
             let plain = without_comment(statement.bytes);
-            let after = start_of(&statement) + 1;
-            let mut corners = Vec::new();
-            for corner in Corners::of(plain, after) {
-                let Ok(corner) = corner else { return Ok(None) };
-                let Some(corner) = from_one(corner, counts) else {
-                    return Ok(None);
-                };
-                corners.push(corner);
-            }
+            let corners = Corners::of(plain, start_of(&statement) + 1);
+            let corners = corners.map(|corner| from_one(corner.ok()?, counts));
             let statement = printable(text(plain).trim());
             let is_long = statement.chars().count() > LONGEST_TEXT;
             let mut shortened: String = statement.chars().take(LONGEST_TEXT).collect();
             shortened.extend(is_long.then_some('…'));
-            return Ok(Some(FaceSource {
+            found = corners.collect::<Option<_>>().map(|corners| FaceSource {
                 statement: shortened,
                 corners,
-            }));
+            });
         }
-        if statement.line > line {
-            break;
+        if statement.line >= line {
+            return Ok(ControlFlow::Break(()));
         }
         if let Some(list) = list_of(keyword) {
             counts[list as usize] += 1;
         }
-    }
-    Ok(None)
+        Ok(ControlFlow::Continue(()))
+    })?;
+    Ok(found)
 }
 
 /// Converts a corner's indices to start at 1. Negative ones count back from the last entry read.
@@ -132,12 +127,9 @@ fn look_up(
     let mut uvs: BTreeMap<usize, Option<DVec2>> = textures.map(|index| (index, None)).collect();
     let mut missing = vertices.len() + uvs.len();
     let mut counts = [0; 3];
-    let mut lines = Lines::new(bytes, progress)?;
-    while missing > 0
-        && let Some(statement) = lines.next()?
-    {
+    each_statement(bytes, progress, |statement| {
         let Some(list) = list_of(keyword(&statement)) else {
-            continue;
+            return Ok(ControlFlow::Continue(()));
         };
         counts[list as usize] += 1;
         let count = counts[list as usize];
@@ -156,7 +148,12 @@ fn look_up(
             }
             List::Normal => {}
         }
-    }
+        Ok(if missing > 0 {
+            ControlFlow::Continue(())
+        } else {
+            ControlFlow::Break(())
+        })
+    })?;
     for corner in corners {
         let Some(position) = vertices[&corner.vertex] else {
             return Ok(false);

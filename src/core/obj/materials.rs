@@ -1,11 +1,12 @@
 //! Looks up the materials that faces use, and reads their textures.
 
 use super::Warning;
+use super::contents::Contents;
 use super::error::Problem;
-use super::facts::{Facts, shortened};
 use super::mtl::{self, Definition, MapFile, MaterialLibrary};
 use super::picture::{Picture, decoded};
 use super::referenced_files::ReferencedFiles;
+use super::tally::shortened;
 use super::words::before_comment;
 use crate::counts::{counted, grouped};
 use crate::mesh::{Material, Texture, TextureMap};
@@ -24,12 +25,12 @@ pub(super) struct MaterialResolver {
 
 /// Looks up every material that faces use, and reads its texture.
 pub(super) fn look_up(
-    facts: &Facts,
+    contents: &Contents,
     files: &dyn ReferencedFiles,
     max_memory: u64,
     progress: &Progress,
 ) -> Result<MaterialResolver, Problem> {
-    let libraries = Libraries::of(facts, files, max_memory, progress)?;
+    let libraries = Libraries::of(contents, files, max_memory, progress)?;
     let mut textures = Textures {
         files,
         max_memory,
@@ -40,8 +41,8 @@ pub(super) fn look_up(
         odd: LimitedWarnings::default(),
     };
     let mut unknown: Vec<&str> = Vec::new();
-    let mut materials = Vec::with_capacity(facts.materials.names.len());
-    for name in &facts.materials.names {
+    let mut materials = Vec::with_capacity(contents.materials.names.len());
+    for name in &contents.materials.names {
         progress.check()?;
         let known = |name: &str| libraries.known.get(name);
         let found = known(name).or_else(|| known(before_comment(name)?));
@@ -126,12 +127,12 @@ struct Libraries<'a> {
 impl<'a> Libraries<'a> {
     /// Reads all libraries of a file.
     fn of(
-        facts: &'a Facts,
+        contents: &'a Contents,
         files: &'a dyn ReferencedFiles,
         max_memory: u64,
         progress: &'a Progress,
     ) -> Result<Self, Problem> {
-        let names = facts.materials.names.iter();
+        let names = contents.materials.names.iter();
         let spellings = names.flat_map(|name| [Some(name.as_str()), before_comment(name)]);
         let mut libraries = Self {
             files,
@@ -143,7 +144,7 @@ impl<'a> Libraries<'a> {
             missing: LimitedWarnings::default(),
             oddities: LimitedWarnings::default(),
         };
-        for (line, names) in &facts.libraries.names {
+        for (line, names) in &contents.libraries.names {
             libraries.read(*line, names)?;
         }
         Ok(libraries)

@@ -2,53 +2,55 @@
 //!
 //! | step | file |
 //! |---|---|
-//! | bytes are split into statements: compression, encodings, line ends | `lines`, `gzip`, `kind` |
-//! | statements are checked, recorded, and passed on as plain `v`, `vt`, `vn` and `f` | `reader`, `statement`, `words`, `corner`; `facts`, `names`, `copies`, `memory` |
-//! | tobj parses their numbers in f64 | here |
-//! | tobj's lists, one per 16 384 faces, are merged | `numbers` |
-//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`, `place`, `polygon`, `delaunay`, `outline` |
-//! | a face's statement is read again for the inspector | `face_source` |
+//! | bytes are decompressed and decoded | `source`, `gzip` |
+//! | the file is cut into chunks of whole statements | `chunks`, `kind` |
+//! | **each chunk is read, statement by statement, side by side** | `part`: `statement`, `words`, `corner`, `elements` |
+//! | the chunks' contents are put together in the file's order | `contents`: `names`, `colours`, `tally`, `memory` |
 //! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
+//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `polygon`, `delaunay`, `outline` |
+//! | a face's statement is read again for the inspector | `face_source` |
 
 mod assemble;
-mod copies;
+mod chunks;
+mod colours;
+mod contents;
 mod corner;
 mod delaunay;
+mod elements;
 mod error;
 mod face_source;
-mod facts;
 mod fence;
 mod gzip;
 mod kind;
-mod lines;
 mod materials;
 mod memory;
 mod mtl;
 mod names;
-mod numbers;
 mod outline;
+mod part;
 mod picture;
 mod place;
 mod polygon;
-mod reader;
 mod referenced_files;
+mod source;
 mod statement;
 mod stored_file;
+mod tally;
+mod used;
 mod words;
 
 pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
-pub use facts::LineRuns;
 pub use referenced_files::ReadFile;
+pub use tally::LineRuns;
 
 use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};
 use error::Problem;
 use fence::fenced;
-use reader::{NormalisingReader, Outcome};
 use referenced_files::{Folder, NamedFiles, ReferencedFiles};
 use std::fs::{File, Metadata};
-use std::io::{self, Read};
+use std::io::Read;
 use std::path::{Path, PathBuf};
 
 /// Placement of a mesh's origin.
@@ -68,7 +70,7 @@ pub enum FaultPolicy {
     #[default]
     Strict,
     /// A face with an invalid vertex index is dropped; invalid normals and texture coordinates are omitted. A
-    /// warning counts them. Pipes are read with [`Strict`](Self::Strict), as they can't be read twice.
+    /// warning counts them.
     Lenient,
 }
 
@@ -132,17 +134,9 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         return Err(Problem::Content("this is a device, not an OBJ file".to_owned()).in_file(path));
     }
     progress.set_total(before.len());
-    let options = LoadOptions {
-        faults: if before.is_file() {
-            options.faults
-        } else {
-            // A pipe can't be read twice.
-            FaultPolicy::Strict
-        },
-        ..options
-    };
     let folder = Folder::of(path);
-    let parsed = parse_with(|| File::open(path), path, options, &folder, progress);
+    let opened = File::open(path).map_err(unreadable)?;
+    let parsed = parse_with(opened, path, options, &folder, progress);
     let is_cancelled = matches!(parsed, Err(LoadError::Cancelled { .. }));
     let after = std::fs::metadata(path).map_err(unreadable)?;
     if is_changed(&before, &after) && !is_cancelled {
@@ -178,87 +172,37 @@ fn is_changed(before: &Metadata, after: &Metadata) -> bool {
 
 /// Parses an OBJ from bytes; error messages use `path`.
 ///
-/// `open` opens the bytes at their start. It is called a second time if a lenient read found faces with
-/// vertices that never followed.
-///
 /// # Errors
 /// See [`LoadError`].
-pub fn parse<R: Read>(
-    open: impl Fn() -> io::Result<R>,
+pub fn parse(
+    bytes: impl Read,
     path: &Path,
     options: LoadOptions,
     read_file: ReadFile,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
-    parse_with(open, path, options, &NamedFiles(read_file), progress)
+    parse_with(bytes, path, options, &NamedFiles(read_file), progress)
 }
 
-fn parse_with<R: Read>(
-    open: impl Fn() -> io::Result<R>,
+fn parse_with(
+    bytes: impl Read,
     path: &Path,
     options: LoadOptions,
     files: &dyn ReferencedFiles,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
-    let read_twice = || -> Result<Loaded, Problem> {
-        let counts = match read(&open, options, None, files, progress)? {
-            ReadOutcome::Loaded(loaded) => return Ok(*loaded),
-            ReadOutcome::Again(counts) => counts,
+    let parse = || {
+        progress.enter(Phase::Reading);
+        let contents = fenced("reading", || contents::read(bytes, &options, progress))??;
+        // Textures get the remaining memory.
+        let held = memory::bytes(&contents) as u64;
+        let options = LoadOptions {
+            max_memory: options.max_memory.saturating_sub(held),
+            ..options
         };
-        progress.restart();
-        match read(&open, options, Some(counts), files, progress)? {
-            ReadOutcome::Loaded(loaded) => Ok(*loaded),
-            ReadOutcome::Again(_) => Err(Problem::Content(CHANGED.to_owned())),
-        }
+        assemble::assemble(contents, &options, files, progress)
     };
-    read_twice().map_err(|problem| problem.in_file(path))
-}
-
-/// Result of reading a file once.
-enum ReadOutcome {
-    Loaded(Box<Loaded>),
-    /// Some indices exceed these counts of vertices, texture coordinates and normals.
-    Again([usize; 3]),
-}
-
-fn read<R: Read>(
-    open: &impl Fn() -> io::Result<R>,
-    options: LoadOptions,
-    known_counts: Option<[usize; 3]>,
-    files: &dyn ReferencedFiles,
-    progress: &Progress,
-) -> Result<ReadOutcome, Problem> {
-    progress.enter(Phase::Reading);
-    let bytes = open().map_err(Problem::Read)?;
-    let new = || NormalisingReader::new(bytes, &options, known_counts, progress);
-    let mut reader = fenced("reading", new)??;
-    let tobjs = tobj::LoadOptions {
-        triangulate: false,
-        single_index: false,
-        ..tobj::LoadOptions::default()
-    };
-    // The reader passes no `mtllib` on: materials are looked up by name afterwards.
-    let no_library = |_: &Path| Err(tobj::LoadError::OpenFileFailed);
-    let parsed = fenced("reading", || {
-        tobj::load_obj_buf(&mut reader, &tobjs, no_library)
-    })?;
-    let (models, error) = match parsed {
-        Ok((models, _)) => (models, None),
-        Err(error) => (Vec::new(), Some(error)),
-    };
-    // The reader knows the line and the reason of an error; tobj knows neither.
-    let mut facts = match reader.finish(error.as_ref())? {
-        Outcome::Read(facts) => facts,
-        Outcome::Again(counts) => return Ok(ReadOutcome::Again(counts)),
-    };
-    // Textures get the remaining memory.
-    let options = LoadOptions {
-        max_memory: options.max_memory.saturating_sub(facts.bytes() as u64),
-        ..options
-    };
-    let numbers = numbers::Numbers::gather(models, &mut facts, progress)?;
-    assemble::assemble(numbers, &facts, &options, files, progress)
-        .map(|loaded| ReadOutcome::Loaded(Box::new(loaded)))
+    parse().map_err(|problem: Problem| problem.in_file(path))
 }
 
 #[cfg(test)]

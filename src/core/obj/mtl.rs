@@ -6,15 +6,17 @@
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
 use super::Warning;
+use super::chunks::each_statement;
 use super::error::Problem;
-use super::facts::{Tally, count_by_keyword, shortened};
-use super::lines::{Lines, Statement};
+use super::statement::Statement;
+use super::tally::{Tally, count_by_keyword, shortened};
 use super::words::{name, without_comment};
 use crate::counts::counted;
 use crate::mesh::{Illumination, Material};
 use crate::progress::Progress;
 use glam::{Vec2, Vec3};
 use std::collections::{BTreeMap, HashSet};
+use std::ops::ControlFlow;
 
 /// A material and its texture file.
 #[derive(Clone, Debug, Default)]
@@ -162,9 +164,8 @@ impl Parser {
     ) -> Result<(), Problem> {
         // A library's bytes don't count as progress.
         let own = Progress::default();
-        let mut lines = Lines::new(bytes, &own)?;
         let (mut count, mut length) = (0, 0);
-        while let Some(statement) = lines.next()? {
+        each_statement(bytes, &own, |statement| {
             if count % STATEMENTS_PER_CHECK == 0 {
                 progress.check()?;
             }
@@ -176,7 +177,8 @@ impl Parser {
                 );
             }
             self.take(statement, &is_wanted);
-        }
+            Ok(ControlFlow::Continue(()))
+        })?;
         self.end_material(is_wanted);
         Ok(())
     }

@@ -8,11 +8,10 @@ pub(super) struct NamedRuns {
     /// Distinct names; the first, empty one is for faces before any run.
     pub names: Vec<String>,
     by_name: HashMap<String, u32>,
-    /// The name of the next face, if it changes.
-    next: Option<String>,
+    /// The newest name, and the first face that it applies to.
+    newest: Option<(usize, String)>,
     /// The first face of each run, and the index of its name.
     pub runs: Vec<(usize, u32)>,
-    text_bytes: usize,
 }
 
 impl Default for NamedRuns {
@@ -20,37 +19,30 @@ impl Default for NamedRuns {
         Self {
             names: vec![String::new()],
             by_name: HashMap::from([(String::new(), 0)]),
-            next: None,
+            newest: None,
             runs: Vec::new(),
-            text_bytes: 0,
         }
     }
 }
 
 impl NamedRuns {
-    /// Sets the name of the next face and those after it.
-    pub(super) fn begin(&mut self, name: String) {
-        self.next = Some(name);
+    /// Sets the name of the faces from `face` on.
+    pub(super) fn begin(&mut self, face: usize, name: String) {
+        self.end(face);
+        self.newest = Some((face, name));
     }
 
-    /// Adds a face. Names without faces aren't kept.
-    pub(super) fn add_face(&mut self, face: usize) {
-        let Some(name) = self.next.take() else {
+    /// Ends the newest run before `face`. Names without faces aren't kept.
+    pub(super) fn end(&mut self, face: usize) {
+        let Some((first, name)) = self.newest.take().filter(|(first, _)| *first < face) else {
             return;
         };
         let next = self.names.len() as u32;
         let index = *self.by_name.entry(name).or_insert_with_key(|name| {
             self.names.push(name.clone());
-            self.text_bytes += 2 * name.len();
             next
         });
-        self.runs.push((face, index));
-    }
-
-    pub(super) fn bytes(&self) -> usize {
-        /// Two strings and an entry of a half-full hash map.
-        const OF_NAME: usize = 24 + 2 * 32 + 32;
-        self.names.len() * OF_NAME + self.text_bytes + 16 * self.runs.capacity()
+        self.runs.push((first, index));
     }
 }
 
@@ -59,21 +51,13 @@ impl NamedRuns {
 pub(super) struct Libraries {
     pub names: Vec<(usize, String)>,
     seen: HashSet<String>,
-    text_bytes: usize,
 }
 
 impl Libraries {
     pub(super) fn add(&mut self, line: usize, name: String) {
         if self.seen.insert(name.clone()) {
-            self.text_bytes += 2 * name.len();
             self.names.push((line, name));
         }
-    }
-
-    pub(super) fn bytes(&self) -> usize {
-        /// A number and a string, twice for growth, and an entry of a half-full hash set.
-        const OF_NAME: usize = 2 * 32 + 2 * 32;
-        self.names.len() * OF_NAME + self.text_bytes
     }
 }
 
@@ -82,14 +66,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_repeated_name_is_stored_once() {
+    fn a_repeated_name_is_stored_once_and_an_unused_one_not_at_all() {
         let mut runs = NamedRuns::default();
-        for (face, name) in [(0, "a"), (2, "unused"), (2, "c"), (4, "a")] {
-            runs.begin(name.to_owned());
-            if name != "unused" {
-                runs.add_face(face);
-            }
+        for (face, name) in [(0, "a"), (2, "unused"), (2, "c"), (4, "a"), (6, "unused")] {
+            runs.begin(face, name.to_owned());
         }
+        runs.end(6);
         assert_eq!(runs.names, ["", "a", "c"]);
         assert_eq!(runs.runs, [(0, 1), (2, 2), (4, 1)]);
     }

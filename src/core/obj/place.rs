@@ -2,17 +2,19 @@
 
 use super::Recentre;
 use crate::mesh::TriangleMesh;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
+use rayon::prelude::*;
 
 /// A point near the mesh whose coordinates have few bits, so that subtracting it in f64 is exact for
 /// coordinates of up to about 29 bits below the mesh's size; zero if the mesh isn't far away.
 pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
     /// Within this many sizes of zero, f32 loses at most two bits more than at zero.
     const NEAR: f64 = 4.0;
-    let finite = points.iter().filter(|p| p.is_finite());
-    let (min, max) = finite.fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(min, max), &p| {
-        (min.min(p), max.max(p))
-    });
+    let none = || (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let finite = points.par_iter().filter(|p| p.is_finite());
+    let (min, max) = finite
+        .fold(none, |(min, max), &p| (min.min(p), max.max(p)))
+        .reduce(none, |a, b| (a.0.min(b.0), a.1.max(b.1)));
     let size = (max - min).max_element();
     let centre = 0.5 * min + 0.5 * max;
     if recentre == Recentre::Off || !centre.is_finite() || centre.abs().max_element() <= NEAR * size
@@ -24,7 +26,8 @@ pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
         return centre.as_vec3().as_dvec3();
     }
     let grid = 2f64.powi(size.log2().floor() as i32);
-    let origin = (centre / grid).round() * grid;
+    // Without the sign of a zero, which depends on the order of the points.
+    let origin = (centre / grid).round() * grid + DVec3::ZERO;
     if origin.is_finite() {
         origin
     } else {
@@ -40,12 +43,19 @@ pub(super) fn origin(points: &[DVec3], recentre: Recentre) -> DVec3 {
 /// Different decimals of at most 15 digits are different f64s, so that an f64 whose own value has no more
 /// digits was written as exactly that value.
 pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3], has_long_numbers: bool) -> f64 {
-    let vertices = mesh.positions.iter().zip(exact);
-    let mut most = 0.0;
-    for (own, in_file) in vertices.filter(|(own, _)| own.is_finite()) {
+    /// Half an ulp relative to an f32, and some more for the sum below; and for subnormal numbers.
+    const IN_F32: f64 = 1.001 / (1 << 24) as f64;
+    const LEAST: f64 = f32::from_bits(1) as f64;
+    let vertices = mesh.positions.par_iter().zip(exact);
+    let larger_of = |mut most: f64, (own, in_file): (&Vec3, &DVec3)| {
         for axis in 0..3 {
             let (x, origin) = (in_file[axis], mesh.origin[axis]);
             let (from_origin, lost) = difference(x, origin);
+            // `moved` is at most half an ulp of an f32 and of an f64, `read` half an ulp of an f64.
+            let bound = from_origin.abs() * IN_F32 + x.abs() * f64::EPSILON + LEAST;
+            if bound <= most {
+                continue;
+            }
             // Exact: the two differ by less than half an ulp of an f32.
             let moved = (from_origin - f64::from(own[axis])).abs() + lost.abs();
             let read = half_last_place(x);
@@ -54,7 +64,12 @@ pub(super) fn max_rounding(mesh: &TriangleMesh, exact: &[DVec3], has_long_number
                 most = most.max(if is_exact { moved } else { moved + read });
             }
         }
-    }
+        most
+    };
+    let most = vertices
+        .filter(|(own, _)| own.is_finite())
+        .fold(|| 0.0, larger_of)
+        .reduce(|| 0.0, f64::max);
     // The two sums above round at most three times.
     most * (1.0 + 4.0 * f64::EPSILON)
 }

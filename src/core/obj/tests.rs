@@ -3,6 +3,7 @@
 use super::*;
 use crate::mesh::NO_INDEX;
 use glam::{DVec3, Vec3};
+use std::io;
 
 fn load_text(text: &str) -> Result<Loaded, String> {
     load_bytes(text.as_bytes())
@@ -16,7 +17,7 @@ fn load_bytes(bytes: &[u8]) -> Result<Loaded, String> {
     let progress = Progress::default();
     let path = Path::new("x.obj");
     let options = LoadOptions::default();
-    parse(|| Ok(bytes), path, options, &library, &progress).map_err(|e| e.to_string())
+    parse(bytes, path, options, &library, &progress).map_err(|e| e.to_string())
 }
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
@@ -42,12 +43,12 @@ fn errors_name_the_line_and_the_word() {
         ),
         ("f 0 1 2", "x.obj:4:3: vertex index 0; indices start at 1"),
         (
-            "f 1//-5 2 3",
-            "x.obj:4:3: normal index -5 is out of range: there are 0",
+            "vn 0 0 1\nf 1//-5 2 3",
+            "x.obj:5:3: normal index -5 is out of range: there are 1",
         ),
         (
-            "f 1//1 2//1 3//1",
-            "x.obj:4: normal index 1 is out of range: there are 0",
+            "f 1//1 2//2 3//1\nvn 0 0 1",
+            "x.obj:4: normal index 2 is out of range: there are 1",
         ),
         (
             "f 1/1/1/1 2 3",
@@ -76,13 +77,10 @@ fn errors_name_the_line_and_the_word() {
             "",
             "x.obj: there are vertices (3), but no faces: nothing to show",
         ),
-        (
-            "f 1 1 2",
-            "x.obj:4: no triangles left: 1 with zero area, 0 with a corner that is NaN, infinite or too large for f32",
-        ),
+        ("f 1 1 2", "x.obj:4: no triangles left: 1 with zero area"),
         (
             "v nan 0 0\nf 1 2 4",
-            "x.obj:5: no triangles left: 0 with zero area, 1 with a corner that is NaN, infinite or too large for f32",
+            "x.obj:5: no triangles left: 1 with a corner that is NaN, infinite or too large for f32",
         ),
     ];
     for (statement, expected) in cases {
@@ -166,7 +164,7 @@ fn a_cancelled_load_is_an_error() {
     progress.cancel();
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
     let result = parse(
-        || Ok(TRIANGLE.as_bytes()),
+        TRIANGLE.as_bytes(),
         Path::new("x.obj"),
         LoadOptions::default(),
         &library,
@@ -180,7 +178,7 @@ fn an_endless_line_is_refused() {
     let library = |_: &str| Err(io::ErrorKind::NotFound.into());
     let progress = Progress::default();
     let result = parse(
-        || Ok(io::repeat(b'1')),
+        io::repeat(b'1'),
         Path::new("x.obj"),
         LoadOptions::default(),
         &library,
@@ -192,7 +190,7 @@ fn an_endless_line_is_refused() {
         "{error}"
     );
     let zeros = parse(
-        || Ok(io::repeat(0)),
+        io::repeat(0),
         Path::new("x.obj"),
         LoadOptions::default(),
         &library,

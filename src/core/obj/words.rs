@@ -2,10 +2,10 @@
 
 use super::corner::is_blank;
 use super::error::Problem;
-use super::facts::shortened;
-use super::lines::Statement;
+use super::statement::Statement;
+use super::tally::shortened;
+use fast_float2::FastFloat;
 use memchr::memchr_iter;
-use std::str::FromStr;
 
 /// Iterates over the words of a line and their offsets.
 #[derive(Clone)]
@@ -35,57 +35,50 @@ impl<'l> Iterator for Words<'l> {
     }
 }
 
-/// Word count and related facts about a line.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct WordCount {
-    pub words: usize,
-    /// Length of the longest word in bytes.
-    pub longest: usize,
-    /// Whether all bytes of the words can be parts of decimal numbers.
-    pub is_plain: bool,
-}
-
-/// Counts the words from an offset on.
-pub(super) fn count_words(line: &[u8], at: usize) -> WordCount {
-    /// 1 for blanks, 2 for bytes that are neither blanks nor parts of numbers.
-    const CLASSES: [u8; 256] = {
-        let mut classes = [2; 256];
-        let mut byte = 0;
-        while byte < 256 {
-            classes[byte] = match byte as u8 {
-                b'0'..=b'9' | b'-' | b'.' | b'e' | b'E' | b'+' => 0,
-                b if is_blank(b) => 1,
-                _ => 2,
-            };
-            byte += 1;
-        }
-        classes
-    };
-    let (mut words, mut longest, mut classes, mut length) = (0, 0, 0, 0);
-    for &byte in &line[at..] {
-        let class = CLASSES[usize::from(byte)];
-        words += usize::from(length == 0 && class != 1);
-        length = if class == 1 { 0 } else { length + 1 };
-        longest = longest.max(length);
-        classes |= class;
-    }
-    WordCount {
-        words,
-        longest,
-        is_plain: classes & 2 == 0,
-    }
-}
-
-/// Parses one of a statement's words as a number.
-pub(super) fn number<T: FromStr>(
+/// Parses one of a statement's words as a number, rounded correctly.
+pub(super) fn number<T: FastFloat>(
     statement: &Statement<'_>,
     (offset, word): (usize, &[u8]),
 ) -> Result<T, Problem> {
-    let parsed = str::from_utf8(word).ok().and_then(|word| word.parse().ok());
+    let parsed = fast_float2::parse(word).ok();
+    let parsed = parsed.or_else(|| fast_float2::parse(not_finite(word)?).ok());
     parsed.ok_or_else(|| {
         let message = format!("“{}” is not a number", shortened(&text(word)));
         statement.problem_at(offset, message)
     })
+}
+
+/// Reads a number and its word at a position, or behind blanks there; `None` if there isn't only a number.
+pub(super) fn plain_number<'l>(line: &'l [u8], at: &mut usize) -> Option<(f64, &'l [u8])> {
+    let blanks = line.get(*at..)?.iter().take_while(|&&b| is_blank(b));
+    *at += blanks.count();
+    let rest = &line[*at..];
+    let (number, length) = fast_float2::parse_partial(rest).ok()?;
+    *at += length;
+    let is_whole = rest.get(length).is_none_or(|&b| is_blank(b));
+    is_whole.then_some((number, &rest[..length]))
+}
+
+/// The usual form of a NaN or an infinity in other languages' forms: `-nan(ind)` of C, `1.#QNAN`, `-1.#IND00` and
+/// `1.#INF` of Microsoft's.
+fn not_finite(word: &[u8]) -> Option<&'static [u8]> {
+    let (sign, rest) = match word.split_first() {
+        Some((sign @ (b'-' | b'+'), rest)) => (*sign, rest),
+        _ => (b'+', word),
+    };
+    let rest = rest.to_ascii_lowercase();
+    let is_nan = |rest: &[u8]| rest.starts_with(b"nan(") && rest.ends_with(b")");
+    let microsoft = rest.strip_prefix(b"1.#").unwrap_or_default();
+    let name = microsoft.trim_ascii_end();
+    let name = match name.iter().position(|b| b.is_ascii_digit()) {
+        Some(digits) if name[digits..].iter().all(u8::is_ascii_digit) => &name[..digits],
+        _ => name,
+    };
+    match name {
+        b"qnan" | b"snan" | b"nan" | b"ind" => Some(b"nan"),
+        b"inf" => Some(if sign == b'-' { b"-inf" } else { b"inf" }),
+        _ => is_nan(&rest).then_some(b"nan"),
+    }
 }
 
 /// Whether a word has more than 15 digits, without leading zeros and the exponent.
@@ -129,26 +122,66 @@ pub(super) fn text(bytes: &[u8]) -> String {
 mod tests {
     use super::*;
 
-    #[test]
-    fn words_are_separated_by_blanks() {
-        let count = |words, longest, is_plain| WordCount {
-            words,
-            longest,
-            is_plain,
-        };
-        assert_eq!(count_words(b"v  1\t2.5 ", 1), count(2, 3, true));
-        assert_eq!(count_words(b"v nan 1 20000", 1), count(3, 5, false));
-        assert_eq!(count_words(b"v", 1), count(0, 0, true));
-        let bytes = b"v  1\t2.5 ";
-        let words: Vec<_> = Words::of(bytes, 1).collect();
-        assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
-        let statement = Statement {
+    fn statement(bytes: &[u8]) -> Statement<'_> {
+        Statement {
             line: 1,
             bytes,
             is_joined: false,
-        };
-        assert_eq!(number::<f64>(&statement, words[1]).expect("a number"), 2.5);
-        assert!(number::<f64>(&statement, (0, b"v")).is_err());
+        }
+    }
+
+    #[test]
+    fn words_are_separated_by_blanks() {
+        let bytes = b"v  1\t2.5 ";
+        let words: Vec<_> = Words::of(bytes, 1).collect();
+        assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
+        let mut at = 1;
+        assert_eq!(plain_number(bytes, &mut at), Some((1.0, &b"1"[..])));
+        assert_eq!(plain_number(bytes, &mut at), Some((2.5, &b"2.5"[..])));
+        assert_eq!(plain_number(bytes, &mut at), None);
+        assert_eq!(plain_number(b"1x", &mut 0), None);
+    }
+
+    #[test]
+    fn numbers_are_read_as_rust_does_and_in_other_languages_forms() {
+        let read =
+            |word: &str| number::<f64>(&statement(word.as_bytes()), (0, word.as_bytes())).ok();
+        for word in [
+            "1",
+            "+1.5",
+            "-.5",
+            "1.",
+            "1e5",
+            "1E-3",
+            "1e400",
+            "4.9e-324",
+            "0.1",
+            "nan",
+            "-inf",
+            "9007199254740993",
+            "",
+            ".",
+            "e5",
+            "1e",
+            "1e+",
+            "--1",
+            "1_0",
+            "0x1",
+            "1f",
+            "é",
+        ] {
+            let bits = |x: f64| if x.is_nan() { None } else { Some(x.to_bits()) };
+            let expected: Option<f64> = word.parse().ok();
+            assert_eq!(read(word).map(bits), expected.map(bits), "{word}");
+        }
+        for word in ["-nan(ind)", "nan(snan)", "1.#QNAN", "-1.#IND00", "1.#SNAN"] {
+            assert!(read(word).is_some_and(f64::is_nan), "{word}");
+        }
+        assert_eq!(read("1.#INF"), Some(f64::INFINITY));
+        assert_eq!(read("-1.#INF00"), Some(f64::NEG_INFINITY));
+        for word in ["1.#", "2.#INF", "nan(", "1.#INFx", "1.#IND0x"] {
+            assert_eq!(read(word), None, "{word}");
+        }
     }
 
     #[test]

@@ -292,8 +292,8 @@ mod tests {
             ("1e30", true),
         ] {
             let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
-            let open = || Ok(text.as_bytes());
-            let loaded = obj::parse(open, path, LoadOptions::default(), &library, &progress);
+            let bytes = text.as_bytes();
+            let loaded = obj::parse(bytes, path, LoadOptions::default(), &library, &progress);
             let loaded = LoadedScene::of(
                 loaded.expect("good"),
                 Instant::now(),

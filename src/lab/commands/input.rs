@@ -3,12 +3,11 @@
 use super::CommandError;
 use super::stderr::{ProgressLine, print_line};
 use hitscope_core::counts::counted;
-use hitscope_core::obj::{self, FaultPolicy, LoadOptions, shown};
+use hitscope_core::obj::{self, LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use std::io;
 use std::path::Path;
-use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 use std::time::Instant;
 
 /// The name of standard input on the command line.
@@ -23,7 +22,7 @@ pub fn is_stdin(path: &Path) -> bool {
 /// per line.
 ///
 /// # Errors
-/// [`CommandError::Load`]; [`CommandError::Usage`] if standard input would have to be read twice.
+/// [`CommandError::Load`].
 pub(super) fn load(
     path: &Path,
     load_options: LoadOptions,
@@ -61,21 +60,9 @@ fn load_stdin(
     name: &Path,
     load_options: LoadOptions,
     options: SceneOptions,
-) -> Result<LoadedScene, CommandError> {
-    if load_options.faults == FaultPolicy::Lenient {
-        let message =
-            "--lenient may need to read the mesh twice, which isn't possible from standard input";
-        return Err(CommandError::Usage(message.to_owned()));
-    }
+) -> Result<LoadedScene, LoadError> {
     let (start, progress) = (Instant::now(), Progress::default());
-    let is_read = AtomicBool::new(false);
-    let open = || {
-        if is_read.swap(true, Relaxed) {
-            return Err(io::Error::other("it can't be read twice"));
-        }
-        Ok(io::stdin())
-    };
     let no_folder = |_: &str| Err(io::Error::other("standard input has no folder to look in"));
-    let loaded = obj::parse(open, name, load_options, &no_folder, &progress)?;
+    let loaded = obj::parse(io::stdin(), name, load_options, &no_folder, &progress)?;
     Ok(LoadedScene::of(loaded, start, options, &progress).expect("never cancelled"))
 }

@@ -63,5 +63,5 @@ fn warnings(loaded: &Loaded) -> Vec<String> {
 fn parse(bytes: &[u8], options: LoadOptions) -> Result<Loaded, LoadError> {
     let none = |_: &str| Err(io::ErrorKind::NotFound.into());
     let path = Path::new("x.obj");
-    obj::parse(|| Ok(bytes), path, options, &none, &Progress::default())
+    obj::parse(bytes, path, options, &none, &Progress::default())
 }

@@ -78,7 +78,7 @@ fn non_planar_polygons_are_triangulated_the_same_way_each_time() {
     assert_eq!(
         warnings(&first),
         [
-            "line 11: 1 polygon triangulated as fans: intersecting themselves, without a plane or with too many corners"
+            "line 11: 1 polygon triangulated as a fan: self-intersecting, without a plane or with too many corners"
         ]
     );
     assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);

@@ -1,0 +1,398 @@
+//! Reads a whole OBJ file: its chunks are read side by side and put together in the file's order.
+//!
+//! The loading thread cuts the file into chunks and places what rayon's threads have read. The result
+//! doesn't depend on their number: chunks have the same bounds on every machine.
+
+use super::chunks::{Chunk, Chunks};
+use super::colours::Colours;
+use super::corner::List;
+use super::elements::{Element, Elements};
+use super::error::{Problem, Warning};
+use super::fence::fenced;
+use super::memory;
+use super::names::{Libraries, NamedRuns};
+use super::part::{self, Mark, Part, PartOptions};
+use super::tally::{LineRuns, Tally, add_by_keyword, lines_or_points};
+use super::{FaultPolicy, LoadOptions};
+use crate::counts::{counted, counted_as};
+use crate::mesh::NO_INDEX;
+use crate::progress::Progress;
+use glam::{DVec3, Vec2, Vec3};
+use std::collections::{BTreeMap, VecDeque};
+use std::io::Read;
+use std::sync::mpsc::channel;
+
+/// Corners of triangles are numbered by u32, and the largest vertex number marks a missing one.
+const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
+const MOST_ENTRIES: usize = u32::MAX as usize - 1;
+/// Chunks per thread that are in memory at a time.
+const CHUNKS_PER_THREAD: usize = 3;
+
+/// The contents of a file.
+#[derive(Default)]
+pub(super) struct Contents {
+    pub positions: Vec<DVec3>,
+    pub textures: Vec<Vec2>,
+    pub normals: Vec<Vec3>,
+    pub colours: Colours,
+    /// The elements of each chunk.
+    pub elements: Vec<Elements>,
+    /// Number of faces, and of faces, lines and points.
+    pub face_count: usize,
+    pub element_count: usize,
+    pub materials: NamedRuns,
+    pub groups: NamedRuns,
+    /// Runs of faces with their smoothing group; 0 is no group. Empty if the file has no `s` statement.
+    pub smoothing: Vec<(usize, u32)>,
+    pub libraries: Libraries,
+    pub face_lines: LineRuns,
+    /// Dropped faces; `dropped_others` counts lines and points.
+    pub dropped_faces: Tally,
+    pub dropped_others: Tally,
+    /// Whether a vertex coordinate may have more than 15 digits.
+    pub has_long_numbers: bool,
+    /// Number of corners, and of triangles if every face becomes a fan.
+    pub corner_count: usize,
+    pub triangle_count: usize,
+    /// Largest number of corners of an element.
+    pub largest_element: usize,
+    /// Bytes of names and of lists that are small in most files.
+    pub other_bytes: usize,
+    marks: Vec<Vec<(u32, Mark)>>,
+    ignored: BTreeMap<String, Tally>,
+    bad_indices: [Tally; 3],
+    bad_index: [Option<Problem>; 3],
+    /// The first line with an index of a list that the file doesn't have.
+    missing_list_line: [Option<usize>; 3],
+    has_garbage: bool,
+}
+
+/// Reads a file.
+///
+/// # Errors
+/// The first error in the file.
+pub(super) fn read(
+    bytes: impl Read,
+    options: &LoadOptions,
+    progress: &Progress,
+) -> Result<Contents, Problem> {
+    let mut chunks = Chunks::new(bytes, progress)?;
+    chunks.limit_statements(options.max_memory);
+    chunks.require_obj()?;
+    let mut contents = Contents::default();
+    let part_options = PartOptions {
+        faults: options.faults,
+        counts: None,
+        progress,
+    };
+    let most = CHUNKS_PER_THREAD * rayon::current_num_threads();
+    rayon::in_place_scope(|scope| {
+        let mut pending = VecDeque::new();
+        let mut end = None;
+        loop {
+            while end.is_none() && pending.len() < most {
+                match chunks.next() {
+                    Ok(Some(chunk)) => {
+                        let (sender, receiver) = channel();
+                        scope.spawn(move |_| {
+                            let part = fenced("reading", || part::read(&chunk, part_options));
+                            // The receiver is gone after an error in an earlier chunk.
+                            _ = sender.send((chunk, part));
+                        });
+                        pending.push_back(receiver);
+                    }
+                    Ok(None) => end = Some(Ok(())),
+                    // An earlier chunk may have an error, which comes first.
+                    Err(problem) => end = Some(Err(problem)),
+                }
+            }
+            let Some(first) = pending.pop_front() else {
+                return end.unwrap_or(Ok(()));
+            };
+            let (chunk, part) = first.recv().expect("each task sends");
+            contents.place(&chunk, part?, part_options)?;
+            chunks.recycle(chunk);
+            contents.check_size(options.max_memory)?;
+        }
+    })?;
+    contents.has_garbage = chunks.has_garbage();
+    contents.end(options.faults)?;
+    Ok(contents)
+}
+
+impl Contents {
+    /// Number of entries in each list.
+    pub(super) fn counts(&self) -> [usize; 3] {
+        [
+            self.positions.len(),
+            self.textures.len(),
+            self.normals.len(),
+        ]
+    }
+
+    /// Appends the contents of the next chunk.
+    fn place(&mut self, chunk: &Chunk, part: Part, options: PartOptions) -> Result<(), Problem> {
+        let before = self.counts();
+        let reaches_too_far = |list: List| {
+            let at = list as usize;
+            (before[at] as i64) + i64::from(part.elements.lowest[at]) < 0
+        };
+        let mut part = if part.needs_counts || List::ALL.into_iter().any(reaches_too_far) {
+            let counts = Some(before);
+            part::read(chunk, PartOptions { counts, ..options })
+        } else {
+            part
+        };
+        part.elements.place(before);
+        let face = self.face_count;
+        let first_vertex = before[0];
+        for (vertex, colour) in part.colours {
+            self.colours.add(first_vertex + vertex as usize, colour);
+        }
+        self.positions.append(&mut part.positions);
+        self.textures.append(&mut part.textures);
+        self.normals.append(&mut part.normals);
+        self.has_long_numbers |= part.has_long_numbers;
+        for (line, name) in part.libraries {
+            self.other_bytes += 2 * name.len() + 128;
+            self.libraries.add(line, name);
+        }
+        let mut ignored: Vec<(String, Tally)> = part.ignored.into_iter().collect();
+        ignored.sort_by_key(|(_, tally)| tally.first_line);
+        for (keyword, tally) in ignored {
+            add_by_keyword(&mut self.ignored, &keyword, tally);
+        }
+        self.dropped_faces.append(part.dropped_faces);
+        self.dropped_others.append(part.dropped_others);
+        for list in 0..3 {
+            self.bad_indices[list].append(part.bad_indices[list]);
+            let first = self.bad_index[list].take();
+            self.bad_index[list] = first.or(part.bad_index[list].take());
+        }
+        let elements = part.elements;
+        self.corner_count += elements.corners[0].len();
+        self.triangle_count += elements.corners[0]
+            .len()
+            .saturating_sub(2 * elements.face_count());
+        self.largest_element = self.largest_element.max(elements.largest);
+        self.other_bytes += elements.other_bytes() + part.marks.iter().map(bytes_of).sum::<usize>();
+        self.face_count = face + elements.face_count();
+        self.elements.push(elements);
+        self.marks.push(part.marks);
+        match part.problem {
+            Some(problem) => Err(self.first_problem(problem)),
+            None => Ok(()),
+        }
+    }
+
+    /// The first of this error and those about indices of texture coordinates and normals.
+    fn first_problem(&mut self, problem: Problem) -> Problem {
+        let counts = self.counts();
+        let attributes = [List::Texture, List::Normal].map(|list| list as usize);
+        let of_lists = attributes
+            .into_iter()
+            .filter(|&list| counts[list] > 0)
+            .filter_map(|list| self.bad_index[list].take());
+        let line = |problem: &Problem| match problem {
+            Problem::Line { line, .. } => *line,
+            _ => usize::MAX,
+        };
+        of_lists
+            .chain([problem])
+            .min_by_key(line)
+            .expect("at least one")
+    }
+
+    fn check_size(&self, max_memory: u64) -> Result<(), Problem> {
+        let is_too_large = |&count: &usize| count > MOST_ENTRIES;
+        if self.triangle_count > MOST_TRIANGLES || self.counts().iter().any(is_too_large) {
+            let message = "more vertices or triangles than 32-bit indices allow".to_owned();
+            return Err(Problem::Content(message));
+        }
+        if memory::bytes(self) as u64 > max_memory {
+            return Err(Problem::Content(format!(
+                "loading needs more than the {} MB of memory allowed (--max-memory)",
+                max_memory >> 20
+            )));
+        }
+        Ok(())
+    }
+
+    /// Resolves what depends on the whole file.
+    fn end(&mut self, faults: FaultPolicy) -> Result<(), Problem> {
+        let counts = self.counts();
+        for list in [List::Texture, List::Normal] {
+            if counts[list as usize] == 0 {
+                self.forget_indices(list);
+            }
+        }
+        match faults {
+            FaultPolicy::Strict => self.require_entries(counts)?,
+            FaultPolicy::Lenient => self.drop_missing(counts),
+        }
+        let mut face = 0;
+        for (elements, marks) in self.elements.iter().zip(std::mem::take(&mut self.marks)) {
+            for (first, mark) in marks {
+                let first = face + first as usize;
+                match mark {
+                    Mark::Material(name) => self.materials.begin(first, name),
+                    Mark::Group(name) => self.groups.begin(first, name),
+                    Mark::Smoothing(group) => {
+                        let last = self.smoothing.last();
+                        if last.is_none_or(|&(_, last)| last != group) {
+                            self.smoothing.push((first, group));
+                        }
+                    }
+                }
+            }
+            self.face_lines.append(&elements.face_lines);
+            face += elements.face_count();
+        }
+        self.face_count = face;
+        self.element_count = self.elements.iter().map(|elements| elements.count).sum();
+        self.materials.end(face);
+        self.groups.end(face);
+        Ok(())
+    }
+
+    /// Removes all indices of a list that the file doesn't have: some exporters write them nevertheless.
+    fn forget_indices(&mut self, list: List) {
+        let at = list as usize;
+        let line = self.elements.iter().find_map(|elements| {
+            let corners = &elements.corners[at];
+            let first = corners.iter().position(|&index| index != NO_INDEX)?;
+            Some(elements.line_of_corner(first))
+        });
+        let bad = std::mem::take(&mut self.bad_indices[at]);
+        self.bad_index[at] = None;
+        let bad_line = (bad.count > 0).then_some(bad.first_line);
+        self.missing_list_line[at] = line.into_iter().chain(bad_line).min();
+        for elements in &mut self.elements {
+            elements.corners[at] = Vec::new();
+            elements.highest[at] = 0;
+        }
+    }
+
+    /// Refuses indices of entries that don't exist.
+    fn require_entries(&mut self, counts: [usize; 3]) -> Result<(), Problem> {
+        let too_high = self
+            .elements
+            .iter()
+            .find_map(|elements| elements.first_missing(counts));
+        let missing = too_high.map(|(line, list, index)| {
+            let from_one = i64::from(index) + 1;
+            Problem::line(line, list.out_of_range(from_one, counts[list as usize]))
+        });
+        // After any error in the file.
+        let last = Problem::Content(String::new());
+        let is_missing = missing.is_some();
+        match self.first_problem(missing.unwrap_or(last)) {
+            Problem::Content(_) if !is_missing => Ok(()),
+            problem => Err(problem),
+        }
+    }
+
+    /// Drops elements with vertices that don't exist, and other indices of entries that don't exist.
+    fn drop_missing(&mut self, counts: [usize; 3]) {
+        for (elements, marks) in self.elements.iter_mut().zip(&mut self.marks) {
+            if (0..3).all(|list| elements.highest[list] <= counts[list]) {
+                continue;
+            }
+            let (mut kept, mut kept_faces) = (Elements::default(), Vec::new());
+            for element in elements.iter() {
+                let line = elements.line(&element);
+                let (kind, corners) = (element.kind, element.corners);
+                let [vertices, ..] = &elements.corners;
+                let exists = |&vertex: &u32| (vertex as usize) < counts[0];
+                let is_kept = vertices[corners.clone()].iter().all(exists);
+                if kind == Element::Face {
+                    kept_faces.push(is_kept);
+                }
+                if !is_kept {
+                    match kind {
+                        Element::Face => self.dropped_faces.add(line),
+                        Element::Line | Element::Points => self.dropped_others.add(line),
+                    }
+                    continue;
+                }
+                let first = kept.corners[0].len();
+                for corner in corners {
+                    for list in List::ALL {
+                        let at = list as usize;
+                        let mut index = elements.corners[at]
+                            .get(corner)
+                            .copied()
+                            .unwrap_or(NO_INDEX);
+                        if index != NO_INDEX && index as usize >= counts[at] {
+                            self.bad_indices[at].add(line);
+                            index = NO_INDEX;
+                        }
+                        kept.push(list, index);
+                    }
+                }
+                kept.end(kind, first, line);
+            }
+            for (face, _) in marks {
+                let before = kept_faces[..*face as usize].iter();
+                *face = before.filter(|&&is_kept| is_kept).count() as u32;
+            }
+            *elements = kept;
+        }
+    }
+
+    /// Warnings about everything ignored or dropped, in the order of their first lines.
+    pub(super) fn warnings(&self) -> Vec<Warning> {
+        let mut warnings: Vec<Warning> = Vec::new();
+        warnings.extend(self.ignored.iter().filter_map(|(keyword, tally)| {
+            tally.warning(|count| {
+                let statements = counted(count, &format!("“{keyword}” statement"));
+                format!("{statements} ignored")
+            })
+        }));
+        let why = "dropped: an index is out of range, or there are too few corners";
+        let faces = |count| format!("{} {why}", counted(count, "face"));
+        warnings.extend(self.dropped_faces.warning(faces));
+        let others = |count| format!("{} {why}", lines_or_points(count));
+        warnings.extend(self.dropped_others.warning(others));
+        let mut bad = self.bad_indices[List::Texture as usize];
+        let of_normals = self.bad_indices[List::Normal as usize];
+        let first_line = bad.first_line.min(of_normals.first_line);
+        bad.append(of_normals);
+        bad.first_line = if first_line > 0 {
+            first_line
+        } else {
+            bad.first_line
+        };
+        warnings.extend(bad.warning(|count| {
+            let indices = counted_as(
+                count,
+                "texture or normal index",
+                "texture or normal indices",
+            );
+            format!("{indices} ignored: out of range")
+        }));
+        for (list, what) in [(1, "texture"), (2, "normal")] {
+            let entries = ["", "texture coordinates", "normals"][list];
+            warnings.extend(self.missing_list_line[list].map(|line| {
+                let message = format!("faces have {what} indices, but the file has no {entries}");
+                Warning::at(line, message)
+            }));
+        }
+        warnings.extend(self.colours.warning(self.positions.len()));
+        if self.has_garbage {
+            let message = "bytes after the end of the gzip data ignored".to_owned();
+            warnings.push(Warning::of_file(message));
+        }
+        warnings.sort_by_key(|warning| warning.line.unwrap_or(usize::MAX));
+        warnings
+    }
+}
+
+fn bytes_of((_, mark): &(u32, Mark)) -> usize {
+    let text = match mark {
+        Mark::Material(name) | Mark::Group(name) => 2 * name.len(),
+        Mark::Smoothing(_) => 0,
+    };
+    // A name is stored twice, with an entry in a half-full hash map.
+    size_of::<(u32, Mark)>() + 120 + text
+}

@@ -1,0 +1,131 @@
+//! Counts of unusual statements, and the lines of statements.
+
+use super::error::{Warning, printable};
+use crate::counts::counted_as;
+use std::collections::BTreeMap;
+
+/// Number of occurrences, and the line of the first.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Tally {
+    pub count: usize,
+    pub first_line: usize,
+}
+
+impl Tally {
+    pub(super) fn add(&mut self, line: usize) {
+        self.append(Self {
+            count: 1,
+            first_line: line,
+        });
+    }
+
+    /// Adds the occurrences in a later part of the file.
+    pub(super) fn append(&mut self, later: Self) {
+        if self.count == 0 {
+            self.first_line = later.first_line;
+        }
+        self.count += later.count;
+    }
+
+    /// A warning if the count isn't zero.
+    pub(super) fn warning(self, message: impl FnOnce(usize) -> String) -> Option<Warning> {
+        (self.count > 0).then(|| Warning::at(self.first_line, message(self.count)))
+    }
+}
+
+/// Counts a statement by its keyword.
+pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, line: usize) {
+    let mut one = Tally::default();
+    one.add(line);
+    add_by_keyword(tallies, keyword, one);
+}
+
+/// Adds the count of a keyword. Files of random bytes have many keywords: all after the first 40 share a count.
+pub(super) fn add_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, more: Tally) {
+    const MOST_KEYWORDS: usize = 40;
+    let is_known = tallies.contains_key(keyword);
+    let name = if is_known || tallies.len() < MOST_KEYWORDS {
+        keyword
+    } else {
+        "…"
+    };
+    tallies.entry(name.to_owned()).or_default().append(more);
+}
+
+/// Line numbers of statements, stored as runs of statements on consecutive lines.
+#[derive(Clone, Debug, Default)]
+pub struct LineRuns {
+    /// The first statement of each run, and its line.
+    runs: Vec<(usize, usize)>,
+    count: usize,
+    next_line: usize,
+}
+
+impl LineRuns {
+    pub(super) fn push(&mut self, line: usize) {
+        if line != self.next_line || self.runs.is_empty() {
+            self.runs.push((self.count, line));
+        }
+        self.count += 1;
+        self.next_line = line + 1;
+    }
+
+    /// Adds the statements of a later part of the file.
+    pub(super) fn append(&mut self, later: &Self) {
+        let is_continued = |&&(_, line): &&(usize, usize)| line == self.next_line;
+        let continues = !self.runs.is_empty() && later.runs.first().filter(is_continued).is_some();
+        let new = later.runs[usize::from(continues)..].iter();
+        self.runs
+            .extend(new.map(|(first, line)| (self.count + first, *line)));
+        if later.count > 0 {
+            self.next_line = later.next_line;
+        }
+        self.count += later.count;
+    }
+
+    /// The line (from 1) of a statement (from 0); 0 if there are no statements.
+    pub fn line(&self, statement: usize) -> usize {
+        let run = self.runs.partition_point(|(first, _)| *first <= statement);
+        match run.checked_sub(1).map(|run| self.runs[run]) {
+            Some((first, line)) => line + statement - first,
+            None => 0,
+        }
+    }
+
+    pub(super) fn bytes(&self) -> usize {
+        16 * self.runs.capacity()
+    }
+}
+
+/// The number of elements that aren't faces, with their noun.
+pub(super) fn lines_or_points(count: usize) -> String {
+    counted_as(count, "line or point", "lines or points")
+}
+
+/// A word for messages: shortened, and without control characters.
+pub(super) fn shortened(word: &str) -> String {
+    const LENGTH: usize = 60;
+    let rest = word.chars().nth(LENGTH).map(|_| '…');
+    printable(word).chars().take(LENGTH).chain(rest).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn statements_keep_their_lines_across_gaps_and_parts() {
+        let lines = [3, 4, 5, 9, 10, 20];
+        for cut in 0..=lines.len() {
+            let (mut first, mut second) = (LineRuns::default(), LineRuns::default());
+            lines[..cut].iter().for_each(|&line| first.push(line));
+            lines[cut..].iter().for_each(|&line| second.push(line));
+            first.append(&second);
+            let found: Vec<usize> = (0..lines.len())
+                .map(|statement| first.line(statement))
+                .collect();
+            assert_eq!(found, lines);
+            assert_eq!(first.runs.len(), 3, "{cut}");
+        }
+    }
+}
