@@ -178,6 +178,7 @@ impl Assembly<'_> {
             triangulator: Triangulator::new(),
             outline: Outline::default(),
             polygon: Vec::new(),
+            placed: Vec::new(),
             runs: [
                 FaceRuns::from(&self.contents.materials.runs, self.first_face),
                 FaceRuns::from(&self.contents.groups.runs, self.first_face),
@@ -207,8 +208,9 @@ struct TriangleBuilder<'c> {
     triangles: Triangles,
     triangulator: Triangulator,
     outline: Outline,
-    /// Corners of the face that is being triangulated.
+    /// Corners of the face that is being triangulated: the file's numbers, and the mesh's.
     polygon: Vec<DVec3>,
+    placed: Vec<Vec3>,
     /// Of materials, groups and smoothing groups.
     runs: [FaceRuns<'c>; 3],
 }
@@ -286,11 +288,16 @@ impl TriangleBuilder<'_> {
         if is_triangle {
             add([0, 1, 2]);
         } else {
-            let exact = |&v: &u32| self.assembly.exact[v as usize];
+            let exact = vertices.iter().map(|&v| self.assembly.exact[v as usize]);
             self.polygon.clear();
-            self.polygon.extend(vertices.iter().map(exact));
-            let (triangulator, polygon) = (&mut self.triangulator, &self.polygon);
-            let how = triangulator.cut(polygon, self.assembly.progress, &mut add)?;
+            self.polygon.extend(exact);
+            let placed = vertices.iter().map(|&v| positions[v as usize]);
+            self.placed.clear();
+            self.placed.extend(placed);
+            let progress = self.assembly.progress;
+            let how = self
+                .triangulator
+                .cut(&self.polygon, &self.placed, progress, &mut add)?;
             if how == Cut::Fan {
                 oddities.fan.add(line());
             }

@@ -5,7 +5,7 @@ use super::error::Problem;
 use super::fence::fenced;
 use crate::progress::{Cancelled, Progress};
 use earcut::Earcut;
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 
 /// Up to this many corners, ears are clipped, which takes up to FEW³ steps for a polygon that crosses itself:
 /// a tenth of a millisecond (2026-11). Larger polygons get a Delaunay triangulation in O(n log n): 50 ms for
@@ -43,28 +43,51 @@ impl Triangulator {
 
     /// Calls `triangle` with three corners for each triangle of the polygon, in the polygon's winding. A fan
     /// has n − 2 triangles; other triangulations may have fewer, or more if the polygon touches itself.
+    /// `corners` are the file's numbers, `placed` the mesh's, which are rounded.
     ///
     /// A convex polygon becomes a fan. A small one is ear-clipped in the plane of its vector area, a large
-    /// one gets a Delaunay triangulation.
+    /// one gets a Delaunay triangulation. So does any polygon where that would give a triangle with little or no
+    /// area, or miss a corner, as it may where corners lie on a line: a closed mesh stays closed only if each
+    /// edge of the polygon has a triangle, and two polygons would share a diagonal beside a common corner.
     ///
     /// # Errors
     /// Cancelled by `progress`.
     pub(super) fn cut(
         &mut self,
         corners: &[DVec3],
+        placed: &[Vec3],
         progress: &Progress,
         mut triangle: impl FnMut([usize; 3]),
     ) -> Result<Cut, Problem> {
         let count = corners.len();
-        let is_fan = count == 3 || is_convex(corners) || (count > MANY && fan_fits(corners));
-        if !is_fan && self.cut_concave(corners, progress)? {
-            for corner in self.indices.chunks_exact(3) {
-                triangle([corner[0] as usize, corner[1] as usize, corner[2] as usize]);
-            }
-            return Ok(Cut::Good);
+        let fan = || (1..count as u32 - 1).flat_map(|k| [0, k, k + 1]);
+        let mut how = Cut::Good;
+        if count == 3 || is_convex(corners) || (count > MANY && fan_fits(corners)) {
+            self.indices.clear();
+            self.indices.extend(fan());
+        } else if !self.cut_concave(corners, progress)? {
+            self.indices.clear();
+            self.indices.extend(fan());
+            how = Cut::Fan;
         }
-        (1..count - 1).for_each(|k| triangle([0, k, k + 1]));
-        Ok(if is_fan { Cut::Good } else { Cut::Fan })
+        if how == Cut::Good && count > 3 && count <= LARGEST && !self.is_regular(placed) {
+            let placed: Vec<DVec3> = placed.iter().map(|p| p.as_dvec3()).collect();
+            let mut indices = Vec::new();
+            if triangulated(&placed, progress, &mut indices)? {
+                self.indices = indices;
+            }
+        }
+        for corner in self.indices.chunks_exact(3) {
+            triangle([corner[0] as usize, corner[1] as usize, corner[2] as usize]);
+        }
+        Ok(how)
+    }
+
+    /// Whether the triangles reach each corner, and none is thin.
+    fn is_regular(&self, placed: &[Vec3]) -> bool {
+        let mut triangles = self.indices.chunks_exact(3);
+        triangles.len() == placed.len() - 2
+            && triangles.all(|t| !is_thin([0, 1, 2].map(|k| placed[t[k] as usize])))
     }
 
     /// Fills the list of indices; `false` if the polygon can't be triangulated.
@@ -110,6 +133,19 @@ impl Triangulator {
         // slightly less than its area; a crossing changes far more.
         (cut - whole).abs() <= 1e-9 * whole
     }
+}
+
+/// Whether a triangle's height is so small, relative to its longest edge, that rounding may have caused it: a corner
+/// on an edge is off by half an ulp of its coordinates, which are up to some thousand times the edge's length.
+fn is_thin(corners: [Vec3; 3]) -> bool {
+    const THIN: f64 = 1.0 / 4096.0;
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
+    let edges = [b - a, c - b, a - c];
+    let longest = edges
+        .map(DVec3::length_squared)
+        .into_iter()
+        .fold(0.0, f64::max);
+    edges[0].cross(edges[1]).length() <= THIN * longest
 }
 
 /// Fills `indices` with a Delaunay triangulation; `false` if there is none or the dependency panics.

@@ -2,13 +2,17 @@
 
 use super::*;
 
+fn placed(corners: &[DVec3]) -> Vec<Vec3> {
+    corners.iter().map(|p| p.as_vec3()).collect()
+}
+
 fn cut(points: &[[f64; 2]]) -> (Cut, f64) {
     // In a slanted plane, far away.
     let place = |p: &[f64; 2]| DVec3::new(p[0] + 1e4, p[1], 0.3 * p[0] - 0.2 * p[1]);
     let corners: Vec<DVec3> = points.iter().map(place).collect();
     let mut area = 0.0;
     let progress = Progress::default();
-    let how = Triangulator::new().cut(&corners, &progress, |t| {
+    let how = Triangulator::new().cut(&corners, &placed(&corners), &progress, |t| {
         let [a, b, c] = t.map(|k| points[k]);
         area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
     });
@@ -116,7 +120,7 @@ fn triangulation_stops_when_cancelled() {
     let progress = Progress::default();
     progress.cancel();
     let corners: Vec<DVec3> = star(10_000).iter().map(in_plane).collect();
-    let result = Triangulator::new().cut(&corners, &progress, |_| {});
+    let result = Triangulator::new().cut(&corners, &placed(&corners), &progress, |_| {});
     assert!(matches!(result, Err(Problem::Cancelled)));
 }
 
@@ -133,7 +137,8 @@ fn assert_edges_are_covered(points: &[[f64; 2]]) {
             }
         }
     };
-    let how = Triangulator::new().cut(&corners, &Progress::default(), add);
+    let progress = Progress::default();
+    let how = Triangulator::new().cut(&corners, &placed(&corners), &progress, add);
     assert_eq!(how.expect("not cancelled"), Cut::Good);
     assert!(covered.iter().all(|&times| times == 1), "{covered:?}");
 }

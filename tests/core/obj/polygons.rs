@@ -1,0 +1,112 @@
+//! Closed meshes of polygons stay closed, wherever the polygons' corners lie.
+
+use super::{STRICT, parse};
+use glam::{DMat3, DQuat, DVec3};
+use hitscope_core::Ray;
+use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::mesh::shapes::scene;
+use hitscope_core::mesh::{Flaw, Health};
+use hitscope_core::random::Random;
+use std::fmt::Write as _;
+
+/// A prism over a random star-shaped outline, with further corners at random places on the outline's edges and on
+/// upright ones; the text of its OBJ file.
+///
+/// Coordinates are multiples of 8 before the prism is turned, so that the further corners lie exactly on the edges.
+fn prism(random: &mut Random, turn: DMat3) -> String {
+    let count = 5 + random.index(9);
+    let mut outline: Vec<DVec3> = Vec::new();
+    for k in 0..count {
+        let angle = std::f64::consts::TAU * (k as f64 + 0.6 * random.unit()) / count as f64;
+        let radius = 200.0 + 1800.0 * random.unit();
+        let p = 8.0 * (radius / 8.0 * DVec3::new(angle.cos(), angle.sin(), 0.0)).round();
+        outline.push(p);
+    }
+    let mut corners = Vec::new();
+    for k in 0..count {
+        let (from, to) = (outline[k], outline[(k + 1) % count]);
+        corners.push(from);
+        for eighth in 1..8 {
+            if random.index(6) == 0 {
+                corners.push(from + (to - from) / 8.0 * f64::from(eighth));
+            }
+        }
+    }
+    let n = corners.len();
+    let (mut text, mut face_text) = (String::new(), String::new());
+    let heights = [-512.0, 0.0, 512.0];
+    // The ring at the middle exists only at some corners.
+    let has_middle: Vec<bool> = (0..n).map(|_| random.index(3) == 0).collect();
+    let mut index = 0;
+    let mut rings = [const { Vec::new() }; 3];
+    for (ring, height) in rings.iter_mut().zip(heights) {
+        for (corner, &has_middle) in corners.iter().zip(&has_middle) {
+            if height == 0.0 && !has_middle {
+                ring.push(0);
+                continue;
+            }
+            let p = turn * (corner + height * DVec3::Z);
+            writeln!(text, "v {} {} {}", p.x, p.y, p.z).expect("memory");
+            index += 1;
+            ring.push(index);
+        }
+    }
+    let [bottom, middle, top] = rings;
+    let mut face = |corners: &mut dyn Iterator<Item = usize>| {
+        let words: Vec<String> = corners.map(|index| index.to_string()).collect();
+        writeln!(face_text, "f {}", words.join(" ")).expect("memory");
+    };
+    face(&mut top.iter().copied());
+    face(&mut bottom.iter().rev().copied());
+    for k in 0..n {
+        let next = (k + 1) % n;
+        let side = [
+            bottom[k],
+            bottom[next],
+            middle[next],
+            top[next],
+            top[k],
+            middle[k],
+        ];
+        face(&mut side.into_iter().filter(|&index| index > 0));
+    }
+    text + &face_text
+}
+
+#[test]
+fn prisms_with_concave_outlines_and_corners_on_edges_are_closed() {
+    const PRISMS: usize = 10_000;
+    const RAYS: usize = 100;
+    let mut random = Random::new(21);
+    let mut rays = 0;
+    for k in 0..PRISMS {
+        let axis = DVec3::from_array([(); 3].map(|()| random.unit() - 0.5));
+        // Turned corners are rounded, so that those on an edge lie only nearly on it.
+        let turn = if k % 2 == 0 {
+            DMat3::IDENTITY
+        } else {
+            DMat3::from_quat(DQuat::from_axis_angle(axis.normalize(), random.unit()))
+        };
+        let text = prism(&mut random, turn);
+        let mesh = parse(text.as_bytes(), STRICT).expect("a mesh").mesh;
+        let health = Health::of(&mesh);
+        for flaw in [Flaw::OpenEdge, Flaw::NonManifoldEdge, Flaw::FlippedEdge] {
+            assert_eq!(health.places(flaw).count(), Some(0), "{flaw:?}:\n{text}");
+        }
+        assert_eq!(mesh.dropped.zero_area, 0, "{text}");
+        // The outline is star-shaped about the origin, which is inside.
+        let scene = scene(mesh);
+        let (mesh, intersector) = (scene.mesh(), scene.intersector(default_triangle_kernel()));
+        for _ in 0..RAYS {
+            let [a, b, _] = mesh.corners(random.index(mesh.triangles.len()) as u32);
+            let inside = mesh.origin.as_vec3() * -1.0;
+            let target = a.lerp(b, random.unit() as f32) + 1e-4 * random.in_cube_f32();
+            let Ok(ray) = Ray::new(inside, target - inside) else {
+                continue;
+            };
+            assert!(intersector.any_hit(&ray), "{ray:?} leaves:\n{text}");
+            rays += 1;
+        }
+    }
+    assert!(rays > PRISMS * RAYS * 9 / 10, "{rays}");
+}
