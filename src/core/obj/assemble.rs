@@ -8,7 +8,7 @@ use super::corner::List;
 use super::elements::{Element, ElementRef, Elements};
 use super::error::{Problem, Warning};
 use super::outline::Outline;
-use super::place::{max_rounding, origin};
+use super::place::{far_vertices, max_rounding, placement, sample_surface};
 use super::polygon::{Cut, Triangulator};
 use super::referenced_files::ReferencedFiles;
 use super::tally::{Tally, lines_or_points};
@@ -35,6 +35,7 @@ pub(super) fn assemble(
         let message = "vertex colours above 1: interpreted as bytes".to_owned();
         warnings.push(Warning::of_file(message));
     }
+    let surface = sample_surface(&contents.elements, &contents.positions);
     let used = Used::in_elements(&contents.elements, contents.counts());
     progress.check()?;
     used.keep(List::Vertex, &mut contents.positions);
@@ -51,7 +52,8 @@ pub(super) fn assemble(
     let has_textures = !looks.textures.is_empty();
     progress.check()?;
 
-    let origin = origin(&contents.positions, options.recentre);
+    let placement = placement(&contents.positions, &surface, options.recentre);
+    let origin = placement.origin;
     let exact = std::mem::take(&mut contents.positions);
     let positions: Vec<Vec3> = exact.par_iter().map(|&p| (p - origin).as_vec3()).collect();
     let elements = std::mem::take(&mut contents.elements);
@@ -103,8 +105,14 @@ pub(super) fn assemble(
     warnings.extend(oddities.warnings(mesh.dropped));
     progress.check()?;
     require_content(&mesh, &contents, vertex_count)?;
+    let has_long_numbers = contents.has_long_numbers;
+    warnings.extend(
+        placement
+            .core
+            .and_then(|core| far_vertices(&mesh, &exact, core, has_long_numbers)),
+    );
     Ok(Loaded {
-        max_rounding: max_rounding(&mesh, &exact, contents.has_long_numbers),
+        max_rounding: max_rounding(&mesh, &exact, has_long_numbers),
         mesh,
         warnings,
         vertex_count,

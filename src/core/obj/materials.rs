@@ -42,15 +42,15 @@ pub(super) fn look_up(
     };
     let mut unknown: Vec<&str> = Vec::new();
     let mut materials = Vec::with_capacity(contents.materials.names.len());
+    let mut is_by_transparency = Vec::with_capacity(contents.materials.names.len());
     for name in &contents.materials.names {
         progress.check()?;
-        let known = |name: &str| libraries.known.get(name);
-        let found = known(name).or_else(|| known(before_comment(name)?));
-        let Some((folder, definition)) = found else {
+        let Some((folder, definition)) = libraries.find(name) else {
             if !name.is_empty() {
                 unknown.push(name);
             }
             materials.push(Material::named(name));
+            is_by_transparency.push(false);
             continue;
         };
         let mut material = Material {
@@ -60,7 +60,9 @@ pub(super) fn look_up(
         let map = definition.diffuse_map.as_ref();
         material.diffuse_map = map.map(|map| textures.map(map, folder));
         materials.push(material);
+        is_by_transparency.push(definition.is_invisible_by_transparency());
     }
+    let unseen = make_visible(contents, &mut materials, &is_by_transparency);
     let mut warnings = libraries.missing.warnings("material libraries");
     warnings.extend(textures.odd.warnings("textures"));
     warnings.extend(unknown.first().map(|first| {
@@ -76,11 +78,41 @@ pub(super) fn look_up(
             .oddities
             .warnings("oddities of material libraries"),
     );
+    warnings.extend(unseen);
     Ok(MaterialResolver {
         materials,
         textures: textures.list,
         warnings,
     })
+}
+
+/// If no face can be seen, takes those as opaque that only a `Tr 1` makes invisible. Returns the warning.
+fn make_visible(
+    contents: &Contents,
+    materials: &mut [Material],
+    is_by_transparency: &[bool],
+) -> Option<Warning> {
+    let runs = &contents.materials.runs;
+    let before = runs
+        .first()
+        .is_none_or(|(first, _)| *first > 0)
+        .then_some(0);
+    let numbers = runs.iter().map(|(_, number)| *number as usize);
+    let used: HashSet<usize> = before.into_iter().chain(numbers).collect();
+    if used.iter().any(|&number| materials[number].opacity > 0.0) {
+        return None;
+    }
+    let mut is_visible = false;
+    for &number in used.iter().filter(|&&number| is_by_transparency[number]) {
+        materials[number].opacity = 1.0;
+        is_visible = true;
+    }
+    let message = if is_visible {
+        "nothing would be visible: “Tr 1” taken as opaque"
+    } else {
+        "nothing is visible: the materials of all faces have the opacity 0"
+    };
+    Some(Warning::of_file(message.to_owned()))
 }
 
 /// Warnings of one kind; keeps the first ones and counts the rest.
@@ -113,11 +145,13 @@ impl LimitedWarnings {
 struct Libraries<'a> {
     files: &'a dyn ReferencedFiles,
     max_memory: u64,
-    /// Names that faces use, with and without a possible comment.
-    wanted: HashSet<&'a str>,
+    /// Names that faces use, with and without a possible comment, in lower case.
+    wanted: HashSet<String>,
     progress: &'a Progress,
     /// Each material with its library's folder. The first of several definitions counts.
     known: HashMap<String, (String, Definition)>,
+    /// The first of the known names with each lower case.
+    in_lower_case: HashMap<String, String>,
     /// Paths of libraries, and whether they could be read.
     seen: HashMap<PathBuf, bool>,
     missing: LimitedWarnings,
@@ -125,6 +159,17 @@ struct Libraries<'a> {
 }
 
 impl<'a> Libraries<'a> {
+    /// The material that a `usemtl` names: with a possible comment or without, and failing that in another case.
+    fn find(&self, name: &str) -> Option<&(String, Definition)> {
+        let exact = |name: &str| self.known.get(name);
+        let any_case = |name: &str| exact(self.in_lower_case.get(&name.to_lowercase())?);
+        let plain = before_comment(name);
+        exact(name)
+            .or_else(|| exact(plain?))
+            .or_else(|| any_case(name))
+            .or_else(|| any_case(plain?))
+    }
+
     /// Reads all libraries of a file.
     fn of(
         contents: &'a Contents,
@@ -137,9 +182,10 @@ impl<'a> Libraries<'a> {
         let mut libraries = Self {
             files,
             max_memory,
-            wanted: spellings.flatten().collect(),
+            wanted: spellings.flatten().map(str::to_lowercase).collect(),
             progress,
             known: HashMap::new(),
+            in_lower_case: HashMap::new(),
             seen: HashMap::new(),
             missing: LimitedWarnings::default(),
             oddities: LimitedWarnings::default(),
@@ -201,7 +247,7 @@ impl<'a> Libraries<'a> {
             Ok(bytes) => bytes,
             Err(error) => return Ok(Err(reason(&error))),
         };
-        let is_wanted = |name: &str| self.wanted.contains(name);
+        let is_wanted = |name: &str| self.wanted.contains(&name.to_lowercase());
         let Some(MaterialLibrary {
             definitions,
             warnings,
@@ -216,6 +262,8 @@ impl<'a> Libraries<'a> {
         for definition in definitions {
             let name = definition.material.name.clone();
             let found = (folder.to_owned(), definition);
+            let lower_case = self.in_lower_case.entry(name.to_lowercase());
+            lower_case.or_insert_with(|| name.clone());
             self.known.entry(name).or_insert(found);
         }
         Ok(Ok(()))
@@ -276,7 +324,7 @@ impl Textures<'_> {
         let texture = match self.by_name.get(&in_folder) {
             Some(&texture) => texture,
             None => {
-                let texture = self.texture(&map.name, &in_folder);
+                let texture = self.texture(&map.name, &in_folder, folder);
                 self.by_name.insert(in_folder, texture);
                 texture
             }
@@ -289,15 +337,17 @@ impl Textures<'_> {
     }
 
     /// The texture of a name that wasn't looked up before.
-    fn texture(&mut self, name: &str, in_folder: &str) -> u32 {
+    fn texture(&mut self, name: &str, in_folder: &str, folder: &str) -> u32 {
         let mut why = String::new();
-        let names = [in_folder, name];
-        let names = if in_folder == name {
-            &names[..1]
-        } else {
-            &names
-        };
-        for name_in_folder in names {
+        let mut names = vec![in_folder.to_owned(), name.to_owned()];
+        // A name may contain a #, but a comment may also follow it.
+        if let Some(plain) = before_comment(name) {
+            names.extend([format!("{folder}/{plain}"), plain.to_owned()]);
+        }
+        if folder.is_empty() {
+            names = names.into_iter().skip(1).step_by(2).collect();
+        }
+        for name_in_folder in &names {
             let path = self.files.find(name_in_folder);
             if let Some(&texture) = self.by_path.get(&path) {
                 return texture;
@@ -319,10 +369,14 @@ impl Textures<'_> {
         let Picture {
             texture,
             is_cut_short,
+            is_transparent,
         } = match decoded(name, bytes, left) {
             Ok(picture) => picture,
             Err(why) => return self.checker(name, &why),
         };
+        if is_transparent {
+            self.warn(name, "transparent places are shown opaque");
+        }
         if is_cut_short {
             self.warn(name, "the file ends early: part of the picture is missing");
         }

@@ -26,6 +26,15 @@ pub(super) struct Definition {
     line: usize,
     /// Whether a `d` was read, which overrides `Tr`.
     has_opacity: bool,
+    /// Whether a value above 1 was clamped.
+    is_clamped: bool,
+}
+
+impl Definition {
+    /// Whether only a `Tr 1` makes the material invisible. Some programs write it for opaque materials.
+    pub(super) fn is_invisible_by_transparency(&self) -> bool {
+        self.material.opacity == 0.0 && !self.has_opacity
+    }
 }
 
 /// A `map_Kd`: a file's name, and its placement on the surface.
@@ -38,7 +47,7 @@ pub(super) struct MapFile {
 
 /// Statements that programs write for every material and that shading doesn't use. Warnings about them would
 /// hide others.
-const SILENT: [&str; 3] = ["Ka", "Ni", "sharpness"];
+const SILENT: [&str; 3] = ["ka", "ni", "sharpness"];
 
 /// Statements between two cancellation checks.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
@@ -133,10 +142,36 @@ pub(super) fn parse(
         let statements = counted(count, "unknown statement");
         format!("{about}: {statements} skipped, the first on line {first_line}")
     });
-    let warnings = skipped.chain(unknown).chain(failure);
+    let clamped = parser.clamped.into_iter().map(|(keyword, tally)| {
+        let Tally { count, first_line } = tally;
+        let statements = counted(count, &format!("“{keyword}” statement"));
+        format!(
+            "{about}: {statements} with a value above 1, clamped; the first on line {first_line}"
+        )
+    });
+    let warnings = skipped.chain(clamped).chain(unknown);
+    let mut warnings: Vec<String> = warnings.chain(failure).collect();
+    if parser.material_count > 0 && parser.transparent_count == parser.material_count {
+        for definition in &mut parser.found {
+            definition.material.opacity = 1.0;
+        }
+        warnings.push(format!(
+            "{about}: every material has “Tr 1” and no “d”; taken as opaque"
+        ));
+    }
+    for definition in &mut parser.found {
+        let material = &mut definition.material;
+        if material.diffuse == Some(Vec3::ZERO) && definition.diffuse_map.is_some() {
+            material.diffuse = Some(Vec3::ONE);
+            let name = shortened(&material.name);
+            warnings.push(format!(
+                "{about}: material “{name}”: “Kd 0” would hide its texture; taken as 1"
+            ));
+        }
+    }
     Ok(Some(MaterialLibrary {
         definitions: parser.found,
-        warnings: warnings.map(Warning::of_file).collect(),
+        warnings: warnings.into_iter().map(Warning::of_file).collect(),
     }))
 }
 
@@ -151,8 +186,12 @@ struct Parser {
     material_count: usize,
     /// Skipped statements by keyword.
     skipped: BTreeMap<String, Tally>,
+    /// Statements with values above 1, which were clamped.
+    clamped: BTreeMap<String, Tally>,
     /// Skipped statements whose keyword isn't in [`KEYWORDS`].
     unknown: Tally,
+    /// Number of materials that only a `Tr 1` makes invisible.
+    transparent_count: usize,
 }
 
 impl Parser {
@@ -190,10 +229,12 @@ impl Parser {
             return;
         }
         self.statement_count += 1;
-        if SILENT.contains(&keyword) {
+        // Keywords have one meaning in any case.
+        let lower_case = keyword.to_ascii_lowercase();
+        if SILENT.contains(&lower_case.as_str()) {
             return;
         }
-        if keyword == "newmtl" {
+        if lower_case == "newmtl" {
             self.end_material(is_wanted);
             self.material_count += 1;
             self.current = Some(Definition {
@@ -203,16 +244,25 @@ impl Parser {
             });
             return;
         }
-        let rest = name(without_comment(rest.as_bytes()));
+        // The name of a file may contain a #.
+        let rest = match lower_case.as_str() {
+            "map_kd" => rest.trim().to_owned(),
+            _ => name(without_comment(rest.as_bytes())),
+        };
         let current = self.current.as_mut();
-        let Some(skipped) = current.and_then(|material| material.read(keyword, &rest)) else {
-            if KEYWORDS.contains(&keyword.to_ascii_lowercase().as_str()) {
+        let Some(skipped) = current.and_then(|material| material.read(&lower_case, &rest)) else {
+            if KEYWORDS.contains(&lower_case.as_str()) {
                 count_by_keyword(&mut self.skipped, keyword, statement.line);
             } else {
                 self.unknown.add(statement.line);
             }
             return;
         };
+        if let Some(material) = &mut self.current
+            && std::mem::take(&mut material.is_clamped)
+        {
+            count_by_keyword(&mut self.clamped, keyword, statement.line);
+        }
         for option in skipped {
             let option = format!("{keyword} {option}");
             count_by_keyword(&mut self.skipped, &option, statement.line);
@@ -223,6 +273,7 @@ impl Parser {
         let Some(ended) = self.current.take() else {
             return;
         };
+        self.transparent_count += usize::from(ended.is_invisible_by_transparency());
         let name = &ended.material.name;
         if !is_wanted(name) {
             return;
@@ -240,18 +291,22 @@ impl Definition {
     fn read(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
         let material = &mut self.material;
         match keyword {
-            "Kd" => material.diffuse = Some(colour(rest)?),
-            "Ks" => material.specular = colour(rest)?,
-            "Ke" => material.emission = light(rest)?,
-            "Ns" => material.shininess = number(rest).filter(|x| *x >= 0.0)?,
+            "kd" => material.diffuse = Some(clamped(light(rest)?, &mut self.is_clamped)),
+            "ks" => material.specular = clamped(light(rest)?, &mut self.is_clamped),
+            "ke" => material.emission = light(rest)?,
+            "ns" => material.shininess = number(rest).filter(|x| *x >= 0.0)?,
             "d" => {
                 // With -halo, the value is the opacity at the centre.
                 let value = rest.strip_prefix("-halo").unwrap_or(rest);
-                material.opacity = part(value)?;
+                let opacity = number(value).filter(|x| *x >= 0.0)?;
+                self.is_clamped = opacity > 1.0;
+                material.opacity = opacity.min(1.0);
                 self.has_opacity = true;
             }
-            "Tr" => {
-                let opacity = 1.0 - part(rest)?;
+            "tr" => {
+                let transparency = number(rest).filter(|x| *x >= 0.0)?;
+                self.is_clamped = transparency > 1.0;
+                let opacity = 1.0 - transparency.min(1.0);
                 if !self.has_opacity {
                     material.opacity = opacity;
                 }
@@ -264,7 +319,7 @@ impl Definition {
                     _ => return None,
                 };
             }
-            "map_Kd" | "map_kd" => {
+            "map_kd" => {
                 let (map, skipped) = map_file(rest)?;
                 self.diffuse_map = Some(map);
                 return Some(skipped);
@@ -286,14 +341,10 @@ fn light(rest: &str) -> Option<Vec3> {
     light.cmpge(Vec3::ZERO).all().then_some(light)
 }
 
-/// A reflectance: 0 to 1 in each channel.
-fn colour(rest: &str) -> Option<Vec3> {
-    light(rest).filter(|colour| colour.cmple(Vec3::ONE).all())
-}
-
-/// A number from 0 to 1.
-fn part(word: &str) -> Option<f32> {
-    number(word).filter(|x| (0.0..=1.0).contains(x))
+/// A reflectance, at most 1 in each channel.
+fn clamped(colour: Vec3, is_clamped: &mut bool) -> Vec3 {
+    *is_clamped = colour.cmpgt(Vec3::ONE).any();
+    colour.min(Vec3::ONE)
 }
 
 /// A finite number.

@@ -115,26 +115,54 @@ impl PartReader<'_> {
             b"f" => self.element(Element::Face, statement, after),
             b"l" => self.element(Element::Line, statement, after),
             b"p" => self.element(Element::Points, statement, after),
-            keyword => {
-                self.note(keyword, statement.line, &bytes[after..]);
+            b"usemtl" | b"o" | b"g" | b"s" | b"mtllib" => {
+                self.note(&bytes[start..after], statement.line, &bytes[after..]);
                 Ok(())
             }
+            keyword => self.other(keyword, statement, start, after),
         }
     }
 
-    /// Records a name, a smoothing group or an ignored statement.
+    /// Reads a statement whose keyword is in another case, as some programs write `V` and `F`; or ignores it.
+    fn other(
+        &mut self,
+        keyword: &[u8],
+        statement: Statement<'_>,
+        start: usize,
+        after: usize,
+    ) -> Result<(), Problem> {
+        /// The longest keyword.
+        const LONGEST: usize = 6;
+        let is_known = |lower_case: &[u8]| {
+            let known: [&[u8]; 11] = [
+                b"v", b"vt", b"vn", b"f", b"l", b"p", b"o", b"g", b"s", b"usemtl", b"mtllib",
+            ];
+            known.contains(&lower_case)
+        };
+        let lower_case = keyword.to_ascii_lowercase();
+        if keyword.len() <= LONGEST && lower_case != keyword && is_known(&lower_case) {
+            let mut bytes = statement.bytes.to_vec();
+            bytes[start..after].copy_from_slice(&lower_case);
+            return self.take(Statement {
+                bytes: &bytes,
+                ..statement
+            });
+        }
+        if keyword[0] != b'#' {
+            let keyword = shortened(&text(keyword));
+            count_by_keyword(&mut self.part.ignored, &keyword, statement.line);
+        }
+        Ok(())
+    }
+
+    /// Records a name or a smoothing group.
     fn note(&mut self, keyword: &[u8], line: usize, rest: &[u8]) {
         let part = &mut self.part;
         let mark = match keyword {
             b"usemtl" => Mark::Material(name(rest)),
             b"o" | b"g" => Mark::Group(name(rest)),
-            b"s" => Mark::Smoothing(smoothing_group(&name(without_comment(rest)))),
             b"mtllib" => return part.libraries.push((line, name(rest))),
-            _ if keyword[0] == b'#' => return,
-            _ => {
-                let keyword = shortened(&text(keyword));
-                return count_by_keyword(&mut part.ignored, &keyword, line);
-            }
+            _ => Mark::Smoothing(smoothing_group(&name(without_comment(rest)))),
         };
         part.marks.push((part.elements.face_count() as u32, mark));
     }

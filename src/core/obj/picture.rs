@@ -7,10 +7,13 @@ use glam::UVec2;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// A texture, and whether its file is truncated.
+/// A texture, without the picture's transparency.
 pub(super) struct Picture {
     pub texture: Texture,
+    /// Whether the file is truncated.
     pub is_cut_short: bool,
+    /// Whether the picture has places that aren't opaque.
+    pub is_transparent: bool,
 }
 
 /// Decodes a picture, unless that takes more than `max_bytes` besides the file's own.
@@ -19,7 +22,7 @@ pub(super) struct Picture {
 /// The reason, without quoting anything from a file that isn't a picture.
 pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
     let decode = || decode(bytes, max_bytes);
-    let picture = match fenced("decoding", decode) {
+    let (picture, is_transparent) = match fenced("decoding", decode) {
         Ok(decoded) => decoded?,
         Err(Problem::Content(message)) => return Err(message),
         Err(_) => return Err("decoding failed".to_owned()),
@@ -28,11 +31,13 @@ pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Pictur
     let texture = Texture::new(name, size, picture.into_raw());
     Ok(Picture {
         texture: texture.ok_or("the picture is empty")?,
+        is_transparent,
         is_cut_short: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
     })
 }
 
-fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
+/// The picture, and whether it has places that aren't opaque.
+fn decode(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), String> {
     // Some messages end with a line end.
     let words = |error: image::ImageError| printable(error.to_string().trim());
     let mut reader = ImageReader::new(Cursor::new(bytes))
@@ -60,7 +65,14 @@ fn decode(bytes: &[u8], max_bytes: u64) -> Result<image::RgbImage, String> {
         return Err(format!("the system doesn't grant {megabytes} MB of memory"));
     }
     let decoded = DynamicImage::from_decoder(decoder).map_err(words)?;
-    Ok(decoded.into_rgb8())
+    let is_transparent = match &decoded {
+        DynamicImage::ImageRgba8(picture) => picture.pixels().any(|p| p[3] < u8::MAX),
+        DynamicImage::ImageLumaA8(picture) => picture.pixels().any(|p| p[1] < u8::MAX),
+        DynamicImage::ImageRgba16(picture) => picture.pixels().any(|p| p[3] < u16::MAX),
+        DynamicImage::ImageLumaA16(picture) => picture.pixels().any(|p| p[1] < u16::MAX),
+        _ => false,
+    };
+    Ok((decoded.into_rgb8(), is_transparent))
 }
 
 /// Peak memory of the decoder and of the conversion to 8-bit RGB.

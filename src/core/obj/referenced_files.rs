@@ -3,9 +3,10 @@
 use super::stored_file;
 use std::cell::RefCell;
 use std::collections::{BTreeSet, HashMap};
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io;
 use std::path::{Path, PathBuf};
+use unicode_normalization::UnicodeNormalization as _;
 
 /// Reads a file named by an OBJ or its material library; names separate folders by `/`.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
@@ -43,7 +44,7 @@ pub(super) struct Folder {
     listings: RefCell<HashMap<PathBuf, Listing>>,
 }
 
-/// A folder's names, keyed by their lower case.
+/// A folder's names, keyed by their [`folded`] form.
 type Listing = HashMap<String, OsString>;
 
 impl Folder {
@@ -70,7 +71,8 @@ impl Folder {
             .flatten()
     }
 
-    /// The file with this name. Failing that, one that differs in case or is in the folder itself.
+    /// The file with this name. Failing that, one that differs in case or in the form of accents, or is in the folder
+    /// itself.
     fn file_of(&self, name: &Path, file_name: &Path) -> Option<PathBuf> {
         let mut folders = self.folders();
         folders.find_map(|folder| {
@@ -94,8 +96,7 @@ impl Folder {
             let listing = listings
                 .entry(path.clone())
                 .or_insert_with(|| listing(&path));
-            let wanted = part.as_os_str().to_string_lossy().to_lowercase();
-            Some(path.join(listing.get(&wanted)?))
+            Some(path.join(listing.get(&folded(part.as_os_str()))?))
         })
     }
 }
@@ -127,7 +128,12 @@ impl ReferencedFiles for Folder {
     }
 }
 
-/// The names in a folder; empty if it can't be read. Of names that differ only in case, the last one by bytes
+/// A name in lower case, with composed accents: macOS stores them decomposed.
+fn folded(name: &OsStr) -> String {
+    name.to_string_lossy().to_lowercase().nfc().collect()
+}
+
+/// The names in a folder; empty if it can't be read. Of names whose folded forms are the same, the last one by bytes
 /// counts.
 fn listing(folder: &Path) -> Listing {
     let is_here = folder.as_os_str().is_empty();
@@ -137,8 +143,10 @@ fn listing(folder: &Path) -> Listing {
         .filter_map(|entry| Some(entry.ok()?.file_name()))
         .collect();
     names.sort();
-    let by_lower_case = |name: OsString| (name.to_string_lossy().to_lowercase(), name);
-    names.into_iter().map(by_lower_case).collect()
+    names
+        .into_iter()
+        .map(|name| (folded(&name), name))
+        .collect()
 }
 
 #[cfg(test)]
@@ -152,12 +160,14 @@ mod tests {
         std::fs::create_dir(&sub).expect("written");
         std::fs::write(sub.join("Wood.PNG"), "w").expect("written");
         std::fs::write(folder.path().join("a b.mtl"), "m").expect("written");
+        std::fs::write(folder.path().join("cafe\u{301}.mtl"), "c").expect("written");
         let folder_files = Folder::of(&folder.path().join("x.obj"));
         for (name, expected) in [
             ("Maps/Wood.PNG", Some("w")),
             ("maps/wood.png", Some("w")),
             ("a b.mtl", Some("m")),
             ("C:/models/A b.mtl", Some("m")),
+            ("café.mtl", Some("c")),
             ("missing.mtl", None),
             ("//server/share/a b.mtl", Some("m")),
         ] {

@@ -21,6 +21,9 @@ mod refused;
 // Clean files give the same numbers as tobj.
 mod differential;
 
+// Files as programs write them.
+mod programs;
+
 // Closed meshes of polygons stay closed.
 mod polygons;
 
