@@ -113,6 +113,10 @@ impl Progress {
         self.0.steps_total.store(total as u64, Relaxed);
     }
 
+    pub(crate) fn add_step(&self) {
+        self.0.steps_done.fetch_add(1, Relaxed);
+    }
+
     pub(crate) fn enter(&self, phase: Phase) {
         self.set_steps(0, 0);
         self.0.phase.store(phase as u8, Relaxed);

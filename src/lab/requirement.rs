@@ -119,8 +119,8 @@ impl TierReasons {
 /// A ratio with one significant digit.
 fn rounded(ratio: f64) -> String {
     if ratio < 1e6 {
-        let step = 10_f64.powf(ratio.log10().floor());
-        grouped(((ratio / step).round() * step) as usize)
+        let step = 10_f64.powi(ratio.log10().floor() as i32);
+        grouped(((ratio / step).round() * step).round() as usize)
     } else {
         format!("{ratio:.0e}")
     }

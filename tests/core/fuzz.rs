@@ -22,9 +22,10 @@ static MEMORY: PeakAlloc = PeakAlloc;
 /// Number of inputs unless the command line sets it.
 const INPUTS: u64 = 30_000;
 /// Memory that loading may use per byte of the file, and independent of its size (buffers and gzip's state).
-/// Short faces use most: `f 1 1 1` and its line end are 8 bytes, and 104 in tobj's list, whose capacity may
-/// be twice that: 26 per byte, and half as much again for our lists.
-const BYTES_PER_BYTE: usize = 64;
+/// Short faces use most: `f 1 1 1` and its line end are 8 bytes, and become three indices and a triangle with its face
+/// number and outline, 29 bytes, each in a list of up to twice the size that is copied once when the chunks are put
+/// together: 15 per byte. As many again for the tree of lists around them in small files.
+const BYTES_PER_BYTE: usize = 32;
 const BYTES_ANYHOW: usize = 2 << 20;
 /// One input in this many is large.
 const LARGE_EVERY: u64 = 1000;

@@ -19,8 +19,12 @@ use crate::mesh::{Dropped, NO_INDEX, TriangleMesh, has_zero_area};
 use crate::progress::{Phase, Progress};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
-use std::sync::atomic::{AtomicUsize, Ordering::Relaxed};
+use std::sync::Mutex;
 
+/// A polygon of more corners takes more than some megabytes to cut.
+const LARGE: usize = 10_000;
+
+/// Assembles the mesh, and reads the materials and textures that it uses.
 pub(super) fn assemble(
     mut contents: Contents,
     options: &LoadOptions,
@@ -44,12 +48,12 @@ pub(super) fn assemble(
     }
     used.keep(List::Texture, &mut contents.textures);
     used.keep(List::Normal, &mut contents.normals);
-    let (useless_normals, warning) = useless(&contents.normals);
+    let (unusable_normals, warning) = unusable(&contents.normals);
     warnings.extend(warning);
-    let looks = materials::look_up(&contents, files, options.max_memory, progress)?;
-    warnings.extend(looks.warnings);
+    let found = materials::look_up(&contents, files, options.max_memory, progress)?;
+    warnings.extend(found.warnings);
     // Without a texture, texture coordinates aren't used.
-    let has_textures = !looks.textures.is_empty();
+    let has_textures = !found.textures.is_empty();
     progress.check()?;
 
     let placement = placement(&contents.positions, &surface, options.recentre);
@@ -63,21 +67,23 @@ pub(super) fn assemble(
         Some(first)
     });
     let first_faces: Vec<usize> = first_faces.collect();
-    let (steps, step) = (elements.len(), AtomicUsize::new(0));
+    progress.set_steps(0, elements.len());
+    let large_polygons = Mutex::new(());
     let parts: Vec<Triangles> = elements
         .into_par_iter()
         .zip(first_faces)
         .map(|(elements, first_face)| {
             progress.check()?;
-            progress.set_steps(step.fetch_add(1, Relaxed), steps);
+            progress.add_step();
             let assembly = Assembly {
                 exact: &exact,
                 positions: &positions,
-                useless_normals: &useless_normals,
+                unusable_normals: &unusable_normals,
                 used: &used,
                 has_textures,
                 contents: &contents,
                 first_face,
+                large_polygons: &large_polygons,
                 progress,
             };
             assembly.triangles(elements)
@@ -90,8 +96,8 @@ pub(super) fn assemble(
         positions,
         colours,
         normals: std::mem::take(&mut contents.normals),
-        materials: looks.materials,
-        textures: looks.textures,
+        materials: found.materials,
+        textures: found.textures,
         groups: contents.groups.names.clone(),
         ..TriangleMesh::default()
     };
@@ -121,14 +127,15 @@ pub(super) fn assemble(
     })
 }
 
-/// Which normals are zero or not finite, or an empty list if none are; and the warning about them.
-fn useless(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
-    let is_useless = |n: &Vec3| !n.is_finite() || *n == Vec3::ZERO;
-    let count = normals.par_iter().filter(|&n| is_useless(n)).count();
+/// Flags the normals that are zero or not finite, and returns the warning about them. The list is empty if there are
+/// none.
+fn unusable(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
+    let is_unusable = |n: &Vec3| !n.is_finite() || *n == Vec3::ZERO;
+    let count = normals.par_iter().filter(|&n| is_unusable(n)).count();
     if count == 0 {
         return (Vec::new(), None);
     }
-    let normals: Vec<bool> = normals.iter().map(is_useless).collect();
+    let normals: Vec<bool> = normals.iter().map(is_unusable).collect();
     let message = format!(
         "{} computed: zero or not finite in the file",
         counted(count, "normal")
@@ -141,13 +148,15 @@ struct Assembly<'c> {
     /// Positions in the file, and relative to the mesh's origin.
     exact: &'c [DVec3],
     positions: &'c [Vec3],
-    /// See [`useless`].
-    useless_normals: &'c [bool],
+    /// See [`unusable`].
+    unusable_normals: &'c [bool],
     used: &'c Used,
     has_textures: bool,
     contents: &'c Contents,
     /// Index of the chunk's first face.
     first_face: usize,
+    /// Held while a large polygon is cut, so that only one at a time takes its memory.
+    large_polygons: &'c Mutex<()>,
     progress: &'c Progress,
 }
 
@@ -173,7 +182,7 @@ impl Assembly<'_> {
             elements.corners[List::Texture as usize] = Vec::new();
         }
         for index in &mut elements.corners[List::Normal as usize] {
-            if self.useless_normals.get(*index as usize) == Some(&true) {
+            if self.unusable_normals.get(*index as usize) == Some(&true) {
                 *index = NO_INDEX;
             }
         }
@@ -303,6 +312,9 @@ impl TriangleBuilder<'_> {
             self.placed.clear();
             self.placed.extend(placed);
             let progress = self.assembly.progress;
+            let is_large = vertices.len() > LARGE;
+            let large_polygons = self.assembly.large_polygons;
+            let _alone = is_large.then(|| large_polygons.lock());
             let how = self
                 .triangulator
                 .cut(&self.polygon, &self.placed, progress, &mut add)?;

@@ -81,7 +81,11 @@ impl<'p> Chunks<'p> {
                     return Ok(Some(self.take(end)));
                 }
                 if self.buffer.len() > self.longest {
-                    let message = format!("the line is longer than {} MB", self.longest >> 20);
+                    let longest = match self.longest >> 20 {
+                        0 => format!("{} kB", self.longest >> 10),
+                        megabytes => format!("{megabytes} MB"),
+                    };
+                    let message = format!("the line is longer than {longest}");
                     return Err(Problem::line(self.next_line, message));
                 }
             }
@@ -97,12 +101,15 @@ impl<'p> Chunks<'p> {
     }
 
     fn read_more(&mut self) -> Result<(), Problem> {
-        let before = self.buffer.len();
-        self.buffer.resize(before + CHUNK, 0);
-        let read = self.source.read(&mut self.buffer[before..]);
-        self.buffer
-            .truncate(before + read.as_ref().copied().unwrap_or(0));
-        self.is_at_end = read? == 0;
+        // To a fixed size, as a source may return few bytes at a time: chunks have the same bounds for any source.
+        let (mut filled, size) = (self.buffer.len(), self.buffer.len() + CHUNK);
+        self.buffer.resize(size, 0);
+        while filled < size && !self.is_at_end {
+            let count = self.source.read(&mut self.buffer[filled..])?;
+            self.is_at_end = count == 0;
+            filled += count;
+        }
+        self.buffer.truncate(filled);
         Ok(())
     }
 

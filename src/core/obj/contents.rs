@@ -3,7 +3,7 @@
 //! The loading thread cuts the file into chunks and places what rayon's threads have read. The result
 //! doesn't depend on their number: chunks have the same bounds on every machine.
 
-use super::chunks::{Chunk, Chunks};
+use super::chunks::{CHUNK, Chunk, Chunks};
 use super::colours::Colours;
 use super::corner::List;
 use super::elements::{Element, Elements};
@@ -20,13 +20,17 @@ use crate::progress::Progress;
 use glam::{DVec3, Vec2, Vec3};
 use std::collections::{BTreeMap, VecDeque};
 use std::io::Read;
-use std::sync::mpsc::channel;
+use std::sync::mpsc::{Receiver, channel};
 
 /// Corners of triangles are numbered by u32, and the largest vertex number marks a missing one.
 const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
 const MOST_ENTRIES: usize = u32::MAX as usize - 1;
 /// Chunks per thread that are in memory at a time.
 const CHUNKS_PER_THREAD: usize = 3;
+
+/// A chunk takes its own bytes, and its part less than four times as many: `f 1 1 1` has 8 bytes and gives three indices
+/// of 4 bytes, which may be listed a second time as relative ones.
+const BYTES_PER_PENDING_BYTE: u64 = 5;
 
 /// The contents of a file.
 #[derive(Default)]
@@ -37,6 +41,8 @@ pub(super) struct Contents {
     pub colours: Colours,
     /// The elements of each chunk.
     pub elements: Vec<Elements>,
+    /// Whether any element has an index in a list.
+    pub has_indices: [bool; 3],
     /// Number of faces, and of faces, lines and points.
     pub face_count: usize,
     pub element_count: usize,
@@ -54,6 +60,8 @@ pub(super) struct Contents {
     /// Number of corners, and of triangles if every face becomes a fan.
     pub corner_count: usize,
     pub triangle_count: usize,
+    /// Whether some elements don't have three corners.
+    pub has_polygons: bool,
     /// Largest number of corners of an element.
     pub largest_element: usize,
     /// Bytes of names and of lists that are small in most files.
@@ -86,38 +94,53 @@ pub(super) fn read(
         progress,
     };
     let most = CHUNKS_PER_THREAD * rayon::current_num_threads();
+    // A small part of the allowed memory.
+    let most_bytes = (options.max_memory / 100).min((most * CHUNK) as u64) as usize;
     rayon::in_place_scope(|scope| {
-        let mut pending = VecDeque::new();
+        let (mut pending, mut pending_bytes) = (VecDeque::new(), 0);
         let mut end = None;
         loop {
-            while end.is_none() && pending.len() < most {
+            while end.is_none() && pending.len() < most && pending_bytes <= most_bytes {
                 match chunks.next() {
                     Ok(Some(chunk)) => {
                         let (sender, receiver) = channel();
+                        pending_bytes += chunk.bytes.len();
+                        pending.push_back((receiver, chunk.bytes.len()));
                         scope.spawn(move |_| {
                             let part = fenced("reading", || part::read(&chunk, part_options));
                             // The receiver is gone after an error in an earlier chunk.
                             _ = sender.send((chunk, part));
                         });
-                        pending.push_back(receiver);
                     }
                     Ok(None) => end = Some(Ok(())),
                     // An earlier chunk may have an error, which comes first.
                     Err(problem) => end = Some(Err(problem)),
                 }
             }
-            let Some(first) = pending.pop_front() else {
+            contents.check_size(options.max_memory, pending_bytes)?;
+            let Some((first, bytes)) = pending.pop_front() else {
                 return end.unwrap_or(Ok(()));
             };
-            let (chunk, part) = first.recv().expect("each task sends");
-            contents.place(&chunk, part?, part_options)?;
+            let (chunk, part) = wait(&first);
+            contents.append(&chunk, part?, part_options)?;
             chunks.recycle(chunk);
-            contents.check_size(options.max_memory)?;
+            pending_bytes -= bytes;
         }
     })?;
     contents.has_garbage = chunks.has_garbage();
-    contents.end(options.faults)?;
+    contents.finish(options.faults)?;
     Ok(contents)
+}
+
+/// Waits for a task's result. On one of rayon's threads it runs other tasks meanwhile: that thread may be the only one.
+fn wait<T>(result: &Receiver<T>) -> T {
+    while rayon::current_thread_index().is_some() {
+        match result.try_recv() {
+            Ok(result) => return result,
+            Err(_) => _ = rayon::yield_now(),
+        }
+    }
+    result.recv().expect("each task sends")
 }
 
 impl Contents {
@@ -131,7 +154,7 @@ impl Contents {
     }
 
     /// Appends the contents of the next chunk.
-    fn place(&mut self, chunk: &Chunk, part: Part, options: PartOptions) -> Result<(), Problem> {
+    fn append(&mut self, chunk: &Chunk, part: Part, options: PartOptions) -> Result<(), Problem> {
         let before = self.counts();
         let reaches_too_far = |list: List| {
             let at = list as usize;
@@ -143,7 +166,7 @@ impl Contents {
         } else {
             part
         };
-        part.elements.place(before);
+        part.elements.resolve_relative(before);
         let face = self.face_count;
         let first_vertex = before[0];
         for (vertex, colour) in part.colours {
@@ -170,26 +193,31 @@ impl Contents {
             self.bad_index[list] = first.or(part.bad_index[list].take());
         }
         let elements = part.elements;
+        for (has_indices, corners) in self.has_indices.iter_mut().zip(&elements.corners) {
+            *has_indices |= !corners.is_empty();
+        }
         self.corner_count += elements.corners[0].len();
         self.triangle_count += elements.corners[0]
             .len()
             .saturating_sub(2 * elements.face_count());
+        self.has_polygons |= !elements.arities.is_empty();
         self.largest_element = self.largest_element.max(elements.largest);
         self.other_bytes += elements.other_bytes() + part.marks.iter().map(bytes_of).sum::<usize>();
         self.face_count = face + elements.face_count();
         self.elements.push(elements);
         self.marks.push(part.marks);
         match part.problem {
-            Some(problem) => Err(self.first_problem(problem)),
+            Some(Problem::Cancelled) => Err(Problem::Cancelled),
+            Some(problem) => self.first_problem(Some(problem)).map_or(Ok(()), Err),
             None => Ok(()),
         }
     }
 
     /// The first of this error and those about indices of texture coordinates and normals.
-    fn first_problem(&mut self, problem: Problem) -> Problem {
+    fn first_problem(&mut self, problem: Option<Problem>) -> Option<Problem> {
         let counts = self.counts();
-        let attributes = [List::Texture, List::Normal].map(|list| list as usize);
-        let of_lists = attributes
+        let lists = [List::Texture, List::Normal].map(|list| list as usize);
+        let of_lists = lists
             .into_iter()
             .filter(|&list| counts[list] > 0)
             .filter_map(|list| self.bad_index[list].take());
@@ -197,19 +225,18 @@ impl Contents {
             Problem::Line { line, .. } => *line,
             _ => usize::MAX,
         };
-        of_lists
-            .chain([problem])
-            .min_by_key(line)
-            .expect("at least one")
+        of_lists.chain(problem).min_by_key(line)
     }
 
-    fn check_size(&self, max_memory: u64) -> Result<(), Problem> {
+    /// Refuses a file that is too large. `pending_bytes` are the bytes of chunks that are being read.
+    fn check_size(&self, max_memory: u64, pending_bytes: usize) -> Result<(), Problem> {
         let is_too_large = |&count: &usize| count > MOST_ENTRIES;
         if self.triangle_count > MOST_TRIANGLES || self.counts().iter().any(is_too_large) {
             let message = "more vertices or triangles than 32-bit indices allow".to_owned();
             return Err(Problem::Content(message));
         }
-        if memory::bytes(self) as u64 > max_memory {
+        let pending = BYTES_PER_PENDING_BYTE * pending_bytes as u64;
+        if memory::bytes(self) + pending > max_memory {
             return Err(Problem::Content(format!(
                 "loading needs more than the {} MB of memory allowed (--max-memory)",
                 max_memory >> 20
@@ -219,7 +246,7 @@ impl Contents {
     }
 
     /// Resolves what depends on the whole file.
-    fn end(&mut self, faults: FaultPolicy) -> Result<(), Problem> {
+    fn finish(&mut self, faults: FaultPolicy) -> Result<(), Problem> {
         let counts = self.counts();
         for list in [List::Texture, List::Normal] {
             if counts[list as usize] == 0 {
@@ -271,6 +298,7 @@ impl Contents {
             elements.corners[at] = Vec::new();
             elements.highest[at] = 0;
         }
+        self.has_indices[at] = false;
     }
 
     /// Refuses indices of entries that don't exist.
@@ -283,13 +311,7 @@ impl Contents {
             let from_one = i64::from(index) + 1;
             Problem::line(line, list.out_of_range(from_one, counts[list as usize]))
         });
-        // After any error in the file.
-        let last = Problem::Content(String::new());
-        let is_missing = missing.is_some();
-        match self.first_problem(missing.unwrap_or(last)) {
-            Problem::Content(_) if !is_missing => Ok(()),
-            problem => Err(problem),
-        }
+        self.first_problem(missing).map_or(Ok(()), Err)
     }
 
     /// Drops elements with vertices that don't exist, and other indices of entries that don't exist.
@@ -332,9 +354,12 @@ impl Contents {
                 }
                 kept.end(kind, first, line);
             }
+            let mut kept_before = vec![0];
+            for is_kept in kept_faces {
+                kept_before.push(kept_before[kept_before.len() - 1] + u32::from(is_kept));
+            }
             for (face, _) in marks {
-                let before = kept_faces[..*face as usize].iter();
-                *face = before.filter(|&&is_kept| is_kept).count() as u32;
+                *face = kept_before[*face as usize];
             }
             *elements = kept;
         }
@@ -355,14 +380,7 @@ impl Contents {
         let others = |count| format!("{} {why}", lines_or_points(count));
         warnings.extend(self.dropped_others.warning(others));
         let mut bad = self.bad_indices[List::Texture as usize];
-        let of_normals = self.bad_indices[List::Normal as usize];
-        let first_line = bad.first_line.min(of_normals.first_line);
-        bad.append(of_normals);
-        bad.first_line = if first_line > 0 {
-            first_line
-        } else {
-            bad.first_line
-        };
+        bad.append(self.bad_indices[List::Normal as usize]);
         warnings.extend(bad.warning(|count| {
             let indices = counted_as(
                 count,
@@ -371,9 +389,12 @@ impl Contents {
             );
             format!("{indices} ignored: out of range")
         }));
-        for (list, what) in [(1, "texture"), (2, "normal")] {
-            let entries = ["", "texture coordinates", "normals"][list];
-            warnings.extend(self.missing_list_line[list].map(|line| {
+        for (list, entries) in [
+            (List::Texture, "texture coordinates"),
+            (List::Normal, "normals"),
+        ] {
+            let what = list.name();
+            warnings.extend(self.missing_list_line[list as usize].map(|line| {
                 let message = format!("faces have {what} indices, but the file has no {entries}");
                 Warning::at(line, message)
             }));
@@ -390,9 +411,9 @@ impl Contents {
 
 fn bytes_of((_, mark): &(u32, Mark)) -> usize {
     let text = match mark {
-        Mark::Material(name) | Mark::Group(name) => 2 * name.len(),
+        Mark::Material(name) | Mark::Group(name) => 3 * name.len(),
         Mark::Smoothing(_) => 0,
     };
-    // A name is stored twice, with an entry in a half-full hash map.
-    size_of::<(u32, Mark)>() + 120 + text
+    // A name is stored three times, with an entry in a half-full hash map.
+    size_of::<(u32, Mark)>() + 160 + text
 }

@@ -95,12 +95,13 @@ impl Elements {
     pub(super) fn truncate(&mut self, first: usize) {
         for (indices, relative) in self.corners.iter_mut().zip(&mut self.relative) {
             indices.truncate(first);
-            relative.retain(|&corner| (corner as usize) < first);
+            // In ascending order.
+            relative.truncate(relative.partition_point(|&corner| (corner as usize) < first));
         }
     }
 
     /// Replaces relative indices by those in the file, where `before` entries precede the chunk in each list.
-    pub(super) fn place(&mut self, before: [usize; 3]) {
+    pub(super) fn resolve_relative(&mut self, before: [usize; 3]) {
         for (list, before) in before.into_iter().enumerate() {
             for corner in std::mem::take(&mut self.relative[list]) {
                 let index = &mut self.corners[list][corner as usize];

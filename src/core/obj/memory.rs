@@ -8,11 +8,9 @@
 //! | assembling | the same, and the mesh, part of it twice |
 //! | building the tree | the mesh, the tree, and the builder's lists |
 //!
-//! A growing list is copied to one of twice the capacity, of which only the used part takes memory; only one
-//! list grows at a time.
+//! A growing list has up to twice the capacity that it needs, of which only the used part takes memory.
 
 use super::contents::Contents;
-use super::corner::List;
 use super::polygon;
 use crate::bvh;
 use glam::{DVec3, Vec2, Vec3};
@@ -21,37 +19,42 @@ use glam::{DVec3, Vec2, Vec3};
 const IN_FILE: [usize; 3] = [size_of::<DVec3>(), size_of::<Vec2>(), size_of::<Vec3>()];
 /// The same in a mesh.
 const IN_MESH: [usize; 3] = [size_of::<Vec3>(), size_of::<Vec2>(), size_of::<Vec3>()];
-/// Per triangle: indices, face and outline.
-const TRIANGLE: usize = 12 + 4 + 1;
+/// Per triangle: its indices; and its face and outline, if polygons are among the elements.
+const INDICES: usize = 12;
+const OF_POLYGON: usize = 4 + 1;
 /// Per triangle: the indices of its corners' normals, or of their texture coordinates.
 const CORNERS: usize = 12;
 /// Memory per corner for triangulating a large polygon (measured 2026-11).
-const POLYGON_CORNER: usize = 300;
+const POLYGON_CORNER: usize = 400;
 
-/// Upper bound on the bytes that loading takes, if the file ended here.
-pub(super) fn bytes(contents: &Contents) -> usize {
-    let counts = contents.counts();
-    let has = |list: List| {
-        let is_used = |corners: &Vec<u32>| !corners.is_empty();
-        let of_parts = contents.elements.iter();
-        usize::from(
-            of_parts
-                .map(|part| &part.corners[list as usize])
-                .any(is_used),
-        )
+/// Flag and new index of each entry of a list, while entries that aren't used are removed.
+const USE: usize = 1 + 4;
+
+/// Upper bound on the bytes that loading takes, if the file ended here, besides the chunks that are being read.
+pub(super) fn bytes(contents: &Contents) -> u64 {
+    let counts = contents.counts().map(|count| count as u64);
+    let [_, textures, normals] = contents.has_indices.map(u64::from);
+    let corners = 4 * contents.corner_count as u64 * (1 + textures + normals);
+    let colours = match contents.colours.len() {
+        0 => 0,
+        // Vertices without a colour get one.
+        _ => size_of::<Vec3>() as u64 * counts[0],
     };
-    let (textures, normals) = (has(List::Texture), has(List::Normal));
-    let corners = size_of::<u32>() * contents.corner_count * (1 + textures + normals);
-    let colours = size_of::<Vec3>() * contents.colours.len();
     let file = per_entry(counts, IN_FILE) + corners + colours;
-    let triangles = (TRIANGLE + CORNERS * (textures + normals)) * contents.triangle_count;
-    let mesh = per_entry(counts, IN_MESH) + colours + triangles;
-    let polygon = POLYGON_CORNER * contents.largest_element.min(polygon::LARGEST);
-    let assembling = file + mesh + polygon;
-    let building = mesh + bvh::BYTES_WHILE_BUILDING * contents.triangle_count;
-    assembling.max(building) + contents.other_bytes
+    let of_polygon = if contents.has_polygons { OF_POLYGON } else { 0 };
+    let of_triangle = (INDICES + of_polygon) as u64 + CORNERS as u64 * (textures + normals);
+    let triangle_count = contents.triangle_count as u64;
+    let mesh = per_entry(counts, IN_MESH) + colours + of_triangle * triangle_count;
+    let polygon = contents.largest_element.min(polygon::LARGEST);
+    let assembling = file + mesh + per_entry(counts, [USE; 3]) + (POLYGON_CORNER * polygon) as u64;
+    let building = mesh + bvh::BYTES_WHILE_BUILDING as u64 * triangle_count;
+    assembling.max(building) + contents.other_bytes as u64
 }
 
-fn per_entry(counts: [usize; 3], sizes: [usize; 3]) -> usize {
-    counts.iter().zip(sizes).map(|(n, size)| n * size).sum()
+fn per_entry(counts: [u64; 3], sizes: [usize; 3]) -> u64 {
+    counts
+        .iter()
+        .zip(sizes)
+        .map(|(n, size)| n * size as u64)
+        .sum()
 }

@@ -195,7 +195,7 @@ fn parse_with(
         progress.enter(Phase::Reading);
         let contents = fenced("reading", || contents::read(bytes, &options, progress))??;
         // Textures get the remaining memory.
-        let held = memory::bytes(&contents) as u64;
+        let held = memory::bytes(&contents);
         let options = LoadOptions {
             max_memory: options.max_memory.saturating_sub(held),
             ..options

@@ -3,6 +3,7 @@
 use super::delaunay;
 use super::error::Problem;
 use super::fence::fenced;
+use crate::mesh::has_zero_area;
 use crate::progress::{Cancelled, Progress};
 use earcut::Earcut;
 use glam::{DVec3, Vec3};
@@ -62,7 +63,8 @@ impl Triangulator {
         let count = corners.len();
         let fan = || (1..count as u32 - 1).flat_map(|k| [0, k, k + 1]);
         let mut how = Cut::Good;
-        if count == 3 || is_convex(corners) || (count > MANY && fan_fits(corners)) {
+        let is_fan = count == 3 || is_convex(corners) || (count > MANY && fan_fits(corners));
+        if is_fan {
             self.indices.clear();
             self.indices.extend(fan());
         } else if !self.cut_concave(corners, progress)? {
@@ -70,7 +72,13 @@ impl Triangulator {
             self.indices.extend(fan());
             how = Cut::Fan;
         }
-        if how == Cut::Good && count > 3 && count <= LARGEST && !self.is_regular(placed) {
+        // A large concave polygon has a Delaunay triangulation already; another helps only against rounding.
+        let is_bad = if is_fan || count <= FEW {
+            is_thin
+        } else {
+            has_zero_area
+        };
+        if how == Cut::Good && count > 3 && count <= LARGEST && !self.is_regular(placed, is_bad) {
             let placed: Vec<DVec3> = placed.iter().map(|p| p.as_dvec3()).collect();
             let mut indices = Vec::new();
             if triangulated(&placed, progress, &mut indices)? {
@@ -83,11 +91,11 @@ impl Triangulator {
         Ok(how)
     }
 
-    /// Whether the triangles reach each corner, and none is thin.
-    fn is_regular(&self, placed: &[Vec3]) -> bool {
+    /// Whether the triangles reach each corner, and none is bad.
+    fn is_regular(&self, placed: &[Vec3], is_bad: fn([Vec3; 3]) -> bool) -> bool {
         let mut triangles = self.indices.chunks_exact(3);
         triangles.len() == placed.len() - 2
-            && triangles.all(|t| !is_thin([0, 1, 2].map(|k| placed[t[k] as usize])))
+            && triangles.all(|t| !is_bad([0, 1, 2].map(|k| placed[t[k] as usize])))
     }
 
     /// Fills the list of indices; `false` if the polygon can't be triangulated.

@@ -19,12 +19,12 @@ impl Tally {
         });
     }
 
-    /// Adds the occurrences in a later part of the file.
-    pub(super) fn append(&mut self, later: Self) {
-        if self.count == 0 {
-            self.first_line = later.first_line;
+    /// Adds other occurrences.
+    pub(super) fn append(&mut self, other: Self) {
+        if self.count == 0 || (other.count > 0 && other.first_line < self.first_line) {
+            self.first_line = other.first_line;
         }
-        self.count += later.count;
+        self.count += other.count;
     }
 
     /// A warning if the count isn't zero.
@@ -93,7 +93,7 @@ impl LineRuns {
     }
 
     pub(super) fn bytes(&self) -> usize {
-        16 * self.runs.capacity()
+        size_of::<(usize, usize)>() * self.runs.capacity()
     }
 }
 

@@ -184,20 +184,18 @@ impl MemoryArg {
     /// [`CommandError::Other`].
     pub(super) fn require(
         self,
-        bytes: usize,
+        bytes: u64,
         held: usize,
         what: std::fmt::Arguments,
     ) -> Result<(), CommandError> {
-        if held.saturating_add(bytes) as u64 <= self.bytes() {
+        let held = held as u64;
+        if held.saturating_add(bytes) <= self.bytes() {
             return Ok(());
         }
         let [bytes, held] = [bytes, held].map(|bytes| bytes.div_ceil(1 << 20));
-        let (limit, mesh) = (
-            self.max_memory,
-            format_args!("besides the mesh's {held} MB"),
-        );
+        let limit = self.max_memory;
         Err(CommandError::Other(format!(
-            "{what} takes {bytes} MB {mesh}; the limit is {limit} MB (--max-memory)"
+            "{what} takes {bytes} MB in addition to the mesh's {held} MB; the limit is {limit} MB (--max-memory)"
         )))
     }
 }

@@ -200,13 +200,20 @@ fn or_dash(name: &str) -> String {
     }
 }
 
-/// A bound with two digits.
+/// A bound with two digits, rounded up.
 pub(super) fn at_most(bound: f64) -> String {
     if bound == 0.0 {
-        "nothing".to_owned()
-    } else {
-        format!("at most {bound:.1e}")
+        return "0".to_owned();
     }
+    let digit = 0.1 * 10_f64.powi(bound.log10().floor() as i32);
+    let rounded = format!("{bound:.1e}");
+    let is_less = rounded.parse::<f64>().is_ok_and(|rounded| rounded < bound);
+    let rounded = if is_less {
+        format!("{:.1e}", bound + 0.5 * digit)
+    } else {
+        rounded
+    };
+    format!("at most {rounded}")
 }
 
 /// Formats three numbers, minus zero as zero.

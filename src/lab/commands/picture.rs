@@ -95,7 +95,7 @@ impl PictureArgs {
         }
         self.crease.check(self.shading)?;
         let (bytes, memory) = (self.picture_bytes(), self.mesh.memory);
-        if bytes as u64 > memory.bytes() {
+        if bytes > memory.bytes() {
             let UVec2 { x, y } = self.camera.size;
             let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
             return refuse(format!(
@@ -158,8 +158,8 @@ impl PictureArgs {
         self.mesh.memory.require(self.picture_bytes(), held, what)
     }
 
-    fn picture_bytes(&self) -> usize {
+    fn picture_bytes(&self) -> u64 {
         let UVec2 { x, y } = self.camera.size;
-        x as usize * y as usize * BYTES_PER_PIXEL
+        u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
     }
 }

@@ -21,6 +21,9 @@ mod refused;
 // Clean files give the same numbers as tobj.
 mod differential;
 
+// One thread and several give the same.
+mod threads;
+
 // Files as programs write them.
 mod programs;
 

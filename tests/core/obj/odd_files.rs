@@ -195,8 +195,7 @@ fn a_millimetre_in_utm_coordinates_is_kept() {
     assert_eq!(spelt[5], DVec3::new(500_000.002, 4_649_776.001, 100.0));
 }
 
-/// More elements of every kind than one of tobj's lists gets, so that the data of a corner is matched across
-/// lists.
+/// Elements of every kind over several chunks.
 #[test]
 fn elements_of_many_kinds_keep_their_own_data() {
     let mut text = String::from("vn 0 0 1\nvt 0.5 0.5\n");

@@ -126,13 +126,14 @@ pub struct Health {
 }
 
 impl Health {
-    /// An upper bound of the bytes that [`of`](Self::of) takes, with its result.
-    pub fn bytes(mesh: &TriangleMesh) -> usize {
-        // Of each edge: its use, its ends in a growing list of open edges, and these ends in order.
-        let of_edge = size_of::<EdgeUse>() + 2 * size_of::<[u32; 2]>() + size_of::<[u32; 2]>();
-        // Of each vertex: its position and index in order, and its representative.
+    /// Upper bound on the memory in bytes that [`of`](Self::of) uses, including its result.
+    pub fn bytes(mesh: &TriangleMesh) -> u64 {
+        // Per edge: its use, twice while the table is collected, and its ends in the list of open edges.
+        let of_edge = 2 * size_of::<EdgeUse>() + 2 * size_of::<[u32; 2]>();
+        // Per vertex: its position and index in order, and its representative.
         let of_vertex = size_of::<([u32; 3], u32)>() + size_of::<u32>();
-        3 * mesh.triangles.len() * of_edge + mesh.positions.len() * of_vertex
+        let edges = 3 * mesh.triangles.len() as u64;
+        edges * of_edge as u64 + mesh.positions.len() as u64 * of_vertex as u64
     }
 
     /// Checks every triangle and every edge. Vertices at the same position count as one.
