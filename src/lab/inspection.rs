@@ -58,7 +58,7 @@ pub struct HitReport {
     pub face: u32,
     /// The face's line in the file, counted from 1, once [`Inspection::find_line`] has found it.
     pub line: Option<usize>,
-    /// The side of the triangle that the ray hits: `front` if the corners run anticlockwise as seen from the ray's
+    /// The side of the triangle that the ray hits: `front` if the corners run counterclockwise as seen from the ray's
     /// origin, else `back`.
     pub side: &'static str,
     /// The position l1·A + l2·B + l3·C.
@@ -195,7 +195,7 @@ impl HitReport {
         let mesh = scene.mesh();
         let surface = SurfaceInteraction::new(scene, hit, shading);
         let material = mesh.material_of(hit.primitive);
-        let is_behind = ray.dir.as_dvec3().dot(surface.geometric_normal.as_dvec3()) > 0.0;
+        let is_back = ray.dir.as_dvec3().dot(surface.geometric_normal.as_dvec3()) > 0.0;
         let group = mesh.groups.get(mesh.group.of(hit.primitive) as usize);
         Self {
             t: hit.t,
@@ -203,7 +203,7 @@ impl HitReport {
             triangle: hit.primitive,
             face: mesh.face_of(hit.primitive),
             line: None,
-            side: if is_behind { "back" } else { "front" },
+            side: if is_back { "back" } else { "front" },
             position: position_in_file(mesh, &hit),
             geometric_normal: surface.geometric_normal.to_array(),
             shading_normal: surface.shading_normal.to_array(),

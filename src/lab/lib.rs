@@ -9,6 +9,7 @@
 //! | [`json`] | JSON whose numbers read back as doubles |
 //! | [`measure`] | measurements of speed and accuracy |
 //! | [`requirement`] | the kernel tier that a scene requires |
+//! | [`second_opinion`] | what another reader finds in an OBJ file |
 //! | [`report`] | measurements as JSON, HTML and text |
 //! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `lab` and `bench` |
 
@@ -20,3 +21,4 @@ pub mod measure;
 pub mod oracle;
 pub mod report;
 pub mod requirement;
+pub mod second_opinion;

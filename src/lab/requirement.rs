@@ -38,14 +38,14 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
         let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
         found.add(Tier::Precise, format!(
-            "The mesh is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and watertight tests nearly every triangle again in f64, one by one."
+            "The mesh is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and the watertight kernel tests nearly every triangle again in f64, one by one."
         ));
     }
     if health.max_aspect > SLIVER_ASPECT {
         found.add(
             Tier::Watertight,
             format!(
-                "{} with aspect ratios up to {}: fast decides some of their rays wrongly.",
+                "{} with aspect ratios up to {}: the fast kernel decides some of their rays wrongly.",
                 counted(health.places(Flaw::Sliver).count().unwrap_or(0), "sliver"),
                 rounded(health.max_aspect)
             ),
@@ -55,7 +55,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
         && distance > FAR_FOR_F32
     {
         found.add(Tier::Watertight, format!(
-            "The distance of the starting view is {} times the median triangle size: fast decides some rays wrongly.",
+            "The distance of the starting view is {} times the median triangle size: the fast kernel decides some rays wrongly.",
             rounded(distance)
         ));
     }

@@ -130,14 +130,14 @@ pub fn run() -> ExitCode {
     }
 }
 
-/// Prints a usage error in clap's format, with the usage of this command.
+/// Prints a usage error in clap's format, with the usage of `command`.
 fn refuse(mut command: clap::Command, message: String) -> ExitCode {
     let error = command.error(ErrorKind::ValueValidation, message);
     _ = error.print();
     ExitCode::from(2)
 }
 
-/// The command of this name; without a name, the one that opens the window.
+/// The subcommand with this name, or the top-level command if `name` is `None`.
 fn subcommand(name: Option<&str>) -> clap::Command {
     let mut all = Cli::command();
     all.build();
@@ -177,7 +177,7 @@ impl Cli {
             let (first, second) = (shown(first), shown(second));
             if is_command(&second) {
                 return Err(format!(
-                    "a command comes before the file: hitscope {second} {first}"
+                    "the command must come before the file: hitscope {second} {first}"
                 ));
             }
             return Err(format!(

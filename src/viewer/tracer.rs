@@ -328,7 +328,7 @@ impl Tracer {
         self.posted.as_ref().map(|posted| &posted.request)
     }
 
-    /// Whether the picture shows part of a surface; `None` as long as a pixel without its own ray may still show it.
+    /// Whether the picture shows part of a surface; `None` until a ray has hit or every pixel has its own ray.
     pub fn shows_surface(&self) -> Option<bool> {
         let is_shown = self.hits > 0;
         (is_shown || self.film.samples() > 0).then_some(is_shown)

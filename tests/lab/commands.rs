@@ -148,7 +148,7 @@ fn inspect_counts_triangles_and_faces_from_0_and_states_it() {
     // The last of the file's six faces.
     assert_eq!(hit["face"], 5);
     let expected = format!(
-        "front of triangle {}, of face {} on line {} (triangles and faces count from 0)",
+        "front side of triangle {} in face {} on line {} (triangles and faces are counted from 0)",
         hit["triangle"], hit["face"], hit["line"]
     );
     assert_eq!(hit["side"], "front");

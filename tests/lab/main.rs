@@ -8,6 +8,8 @@ mod folder;
 mod trace;
 // Loading meshes, and the output of `info`.
 mod loading;
+// Meshes compared with what tobj reads.
+mod second_opinion;
 // Inspection of single rays against the exact answer.
 mod inspection;
 

@@ -130,7 +130,7 @@ fn a_hint_appears_if_the_mesh_is_not_visible_and_home_frames_it() {
     // Also in a view whose background isn't plain.
     choose_view(&mut window, "Cost");
     press(&mut window, Key::Num1);
-    wait(&mut window, "no cost but that of boxes", App::shows_nothing);
+    wait(&mut window, "a view that no ray hits", App::shows_nothing);
 }
 
 #[test]

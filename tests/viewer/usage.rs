@@ -13,16 +13,13 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         (&format!("{render} --ortho 1e300"), "at most 3.4028235e38"),
         (
             &format!("{render} --fov -1"),
-            "expected degrees from 0.000001",
+            "expected an angle in degrees, at least 0.000001",
         ),
         (
             &format!("{render} --fov 1e-300"),
-            "expected degrees from 0.000001",
+            "expected an angle in degrees, at least 0.000001",
         ),
-        (
-            &format!("{render} --max-memory -5"),
-            "a whole number from 1",
-        ),
+        (&format!("{render} --max-memory -5"), "an integer from 1"),
         (
             &format!("{render} --max-memory 17592186044416"),
             "from 1 to 17592186044415",
@@ -47,8 +44,8 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             "up vector is zero",
         ),
         ("inspect none.obj --pixel 9999,0", "is outside the picture"),
-        ("inspect none.obj --pixel -1,0", "two whole numbers from 0"),
-        ("lab --seed -1", "a whole number from 0 to"),
+        ("inspect none.obj --pixel -1,0", "two non-negative integers"),
+        ("lab --seed -1", "an integer from 0 to"),
         ("good.obj info", "hitscope info good.obj"),
         (
             "inspect none.obj --pixel 0,0 --eye 1,1,1 --target 1,1,1",
@@ -60,7 +57,7 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             "bench none.obj --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
         ),
-        ("lab --case nonsense", "the names begin with box"),
+        ("lab --case nonsense", "case names begin with one of box"),
         (
             "lab --scene none.obj --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",

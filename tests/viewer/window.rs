@@ -25,7 +25,7 @@ impl Xvfb {
                 "1400x900x24",
                 "-nolisten",
                 "tcp",
-                // Without this the server resets itself, and refuses programs meanwhile, when its last one ends.
+                // Without this, the server resets when its last client disconnects, and refuses connections meanwhile.
                 "-noreset",
             ])
             .stdout(Stdio::piped())

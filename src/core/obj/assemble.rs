@@ -1,7 +1,7 @@
 //! Assembles a mesh from a file's contents.
 //!
-//! Vertices get their place relative to the mesh's origin. Then the elements of each chunk become triangles, side
-//! by side, and the chunks' triangles are put together in the file's order.
+//! Vertices are stored relative to the mesh's origin. The elements of each chunk are triangulated in parallel, and the
+//! triangles are concatenated in file order.
 
 use super::contents::Contents;
 use super::corner::List;
@@ -143,7 +143,7 @@ fn unusable(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
     (normals, Some(Warning::of_file(message)))
 }
 
-/// What the triangles of a chunk are made from.
+/// The data from which a chunk's triangles are built.
 struct Assembly<'c> {
     /// Positions in the file, and relative to the mesh's origin.
     exact: &'c [DVec3],
@@ -351,7 +351,7 @@ impl<'r> FaceRuns<'r> {
     }
 }
 
-/// Puts the chunks' triangles together.
+/// Concatenates the chunks' triangles.
 fn gather(mesh: &mut TriangleMesh, parts: Vec<Triangles>) -> Oddities {
     let total: usize = parts.iter().map(|part| part.mesh.triangles.len()).sum();
     let mut oddities = Oddities::default();

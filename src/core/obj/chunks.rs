@@ -10,11 +10,11 @@ use std::ops::ControlFlow;
 
 use crate::progress::Progress;
 
-/// Size of a chunk in bytes; larger if a statement is.
+/// Largest size of a chunk in bytes, unless a statement is larger.
 pub(super) const CHUNK: usize = 1 << 18;
 /// Longest statement that is read; a polygon of ten million corners would fit.
 const LONGEST: usize = 128 << 20;
-/// Number of bytes by which other file formats are recognised.
+/// Bytes needed to recognise other file formats.
 const ENOUGH_TO_TELL: usize = 1 << 10;
 
 /// Whole statements of a file.
@@ -28,12 +28,12 @@ pub(super) struct Chunk {
 pub(super) struct Chunks<'p> {
     source: Source<'p>,
     buffer: Vec<u8>,
-    /// Before this offset, the buffer has no end of a statement.
+    /// No statement ends before this offset in the buffer.
     searched: usize,
     is_at_end: bool,
     next_line: usize,
     longest: usize,
-    /// Buffers of chunks that have been read.
+    /// Buffers of finished chunks, for reuse.
     spare: Vec<Vec<u8>>,
 }
 
@@ -113,7 +113,7 @@ impl<'p> Chunks<'p> {
         Ok(())
     }
 
-    /// The offset behind the last statement that ends in the buffer.
+    /// The offset after the last statement that ends in the buffer.
     fn last_end(&mut self) -> Option<usize> {
         let bytes = &self.buffer[..];
         // A CR at the end may be half of a CRLF.
@@ -132,7 +132,7 @@ impl<'p> Chunks<'p> {
         None
     }
 
-    /// Takes back a chunk whose contents are no longer needed, to use its memory again.
+    /// Takes back a chunk that is no longer needed, to reuse its buffer.
     pub(super) fn recycle(&mut self, chunk: Chunk) {
         if chunk.bytes.capacity() <= 4 * CHUNK {
             self.spare.push(chunk.bytes);

@@ -1,7 +1,7 @@
-//! Reads a whole OBJ file: its chunks are read side by side and put together in the file's order.
+//! Reads an OBJ file: chunks are parsed in parallel and merged in file order.
 //!
-//! The loading thread cuts the file into chunks and places what rayon's threads have read. The result
-//! doesn't depend on their number: chunks have the same bounds on every machine.
+//! The loading thread cuts the file into chunks and merges the parts that rayon's threads have parsed. The result
+//! doesn't depend on the number of threads: chunks have the same bounds on every machine.
 
 use super::chunks::{CHUNK, Chunk, Chunks};
 use super::colours::Colours;
@@ -245,7 +245,7 @@ impl Contents {
         Ok(())
     }
 
-    /// Resolves what depends on the whole file.
+    /// Resolves everything that depends on the whole file.
     fn finish(&mut self, faults: FaultPolicy) -> Result<(), Problem> {
         let counts = self.counts();
         for list in [List::Texture, List::Normal] {

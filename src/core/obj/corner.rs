@@ -93,7 +93,7 @@ impl Iterator for Corners<'_> {
 }
 
 /// Reads a corner of plain indices from 1 as indices from 0, or [`NO_INDEX`] for those left out; `None` for any
-/// other corner. Most corners of large files are such.
+/// other corner. Most corners in large files are of this form.
 #[inline]
 pub(super) fn plain_corner(line: &[u8], at: &mut usize) -> Option<[u32; 3]> {
     let mut corner = [NO_INDEX; 3];
@@ -116,7 +116,7 @@ pub(super) fn plain_corner(line: &[u8], at: &mut usize) -> Option<[u32; 3]> {
 }
 
 /// Reads an index from 1 as one from 0, and its number of digits; [`NO_INDEX`] if there are none. `None` if it is 0 or
-/// has more digits than always fit.
+/// has so many digits that it may not fit in a u32.
 #[inline]
 fn plain_index(text: &[u8]) -> Option<(u32, usize)> {
     const MOST_DIGITS: usize = 9;

@@ -19,9 +19,9 @@ impl Element {
     /// The minimum number of corners, and a sentence for the error message.
     pub(super) fn least_corners(self) -> (usize, &'static str) {
         match self {
-            Self::Face => (3, "a face needs three corners"),
-            Self::Line => (2, "a line needs two corners"),
-            Self::Points => (1, "a list of points needs one point"),
+            Self::Face => (3, "a face needs at least three corners"),
+            Self::Line => (2, "a line needs at least two corners"),
+            Self::Points => (1, "a list of points needs at least one point"),
         }
     }
 }
@@ -43,9 +43,9 @@ pub(super) struct Elements {
     pub corners: [Vec<u32>; 3],
     /// The corners whose index in a list is relative to the number of entries before the chunk.
     pub relative: [Vec<u32>; 3],
-    /// The lowest of these relative indices, as they may refer to entries before the chunk.
+    /// The lowest relative index; negative if it refers to an entry before the chunk.
     pub lowest: [i32; 3],
-    /// One more than the highest other index in each list.
+    /// One more than the highest absolute index in each list.
     pub highest: [usize; 3],
     /// Number of corners of each element; empty if all have three.
     pub arities: Vec<u32>,
@@ -100,12 +100,12 @@ impl Elements {
         }
     }
 
-    /// Replaces relative indices by those in the file, where `before` entries precede the chunk in each list.
+    /// Makes relative indices absolute; `before` is the number of entries before the chunk in each list.
     pub(super) fn resolve_relative(&mut self, before: [usize; 3]) {
         for (list, before) in before.into_iter().enumerate() {
             for corner in std::mem::take(&mut self.relative[list]) {
                 let index = &mut self.corners[list][corner as usize];
-                // Never below 0: the chunk would have been read again.
+                // Can't be negative: such a chunk is parsed again.
                 *index = (before as u32).wrapping_add(*index);
             }
         }

@@ -4,8 +4,8 @@
 //! |---|---|
 //! | bytes are decompressed and decoded | `source`, `gzip` |
 //! | the file is cut into chunks of whole statements | `chunks`, `kind` |
-//! | **each chunk is read, statement by statement, side by side** | `part`: `statement`, `words`, `corner`, `elements` |
-//! | the chunks' contents are put together in the file's order | `contents`: `names`, `colours`, `tally`, `memory` |
+//! | **chunks are parsed in parallel, statement by statement** | `part`: `statement`, `words`, `corner`, `elements` |
+//! | the chunks' contents are merged in file order | `contents`: `names`, `colours`, `tally`, `memory` |
 //! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
 //! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `polygon`, `delaunay`, `outline` |
 //! | a face's statement is read again for the inspector | `face_source` |

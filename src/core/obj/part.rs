@@ -1,9 +1,9 @@
 //! Reads one chunk of an OBJ file, statement by statement.
 //!
-//! A chunk doesn't know what precedes it in the file. So indices that count backwards are kept relative to the
-//! chunk's first entries, names are kept beside the number of the face that they begin at, and [`Contents`]
-//! resolves both. If an index is bad in itself, or counts back by too much, the chunk is read again with
-//! the number of entries before it, which the error's message needs.
+//! A chunk is parsed without knowing what precedes it. Negative indices are therefore stored relative to the chunk's
+//! first entry, and names with the index of the first face in the chunk that they apply to; [`Contents`] resolves
+//! both. If an index is invalid or refers to an entry before the file's first, the chunk is parsed again with the number
+//! of entries before it, which the error message needs.
 //!
 //! [`Contents`]: super::contents::Contents
 
@@ -338,7 +338,7 @@ impl PartReader<'_> {
         }
         match self.options.faults {
             FaultPolicy::Lenient => Ok(false),
-            FaultPolicy::Strict => Err(statement.problem(format!("{what}, this one has {count}"))),
+            FaultPolicy::Strict => Err(statement.problem(format!("{what}; this one has {count}"))),
         }
     }
 
@@ -358,7 +358,7 @@ impl PartReader<'_> {
                 }
                 Index::Relative(index) => {
                     let elements = &mut self.part.elements;
-                    // Any number but NO_INDEX, so that the list begins.
+                    // Any value but NO_INDEX, so that the list is started.
                     elements.push(list, 0);
                     let place = elements.corners[at].len() - 1;
                     elements.corners[at][place] = index.cast_unsigned();
@@ -399,7 +399,7 @@ impl PartReader<'_> {
 
     /// Converts an index to start at 0. An index that is too high may become valid later in the file.
     fn index(&self, list: List, written: i64) -> Index {
-        // The largest u32 marks a missing index; larger indices can't occur in any file.
+        // The largest u32 marks a missing index; no file can have that many entries.
         let at = |from_one: i64| match u32::try_from(from_one) {
             Ok(0 | NO_INDEX) | Err(_) => Index::OutOfRange,
             Ok(from_one) => Index::At(from_one - 1),

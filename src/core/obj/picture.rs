@@ -58,11 +58,11 @@ fn decode(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), Strin
             max_bytes >> 20
         ));
     }
-    // The decoder would abort the program.
+    // A failed allocation in the decoder would abort the program.
     let memory = usize::try_from(needed).unwrap_or(usize::MAX);
     if Vec::<u8>::new().try_reserve_exact(memory).is_err() {
         let megabytes = needed.div_ceil(1 << 20);
-        return Err(format!("the system doesn't grant {megabytes} MB of memory"));
+        return Err(format!("can't allocate {megabytes} MB"));
     }
     let decoded = DynamicImage::from_decoder(decoder).map_err(words)?;
     let is_transparent = match &decoded {

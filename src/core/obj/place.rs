@@ -71,7 +71,7 @@ fn origin_near([min, max]: [DVec3; 2]) -> Option<DVec3> {
         return Some(centre.as_vec3().as_dvec3());
     }
     let grid = 2f64.powi(size.log2().floor() as i32);
-    // Without the sign of a zero, which depends on the order of the points.
+    // Adding +0 clears the sign of a zero, which depends on the order of the points.
     let origin = (centre / grid).round() * grid + DVec3::ZERO;
     origin.is_finite().then_some(origin)
 }
@@ -142,8 +142,9 @@ fn rounding_of(
     has_long_numbers: bool,
     counts: impl Fn(&DVec3) -> bool + Sync,
 ) -> f64 {
-    /// Half an ulp relative to an f32, and some more for the sum below; and for subnormal numbers.
+    /// Relative error of rounding to f32, with a margin for the sum below.
     const IN_F32: f64 = 1.001 / (1 << 24) as f64;
+    /// Absolute error of rounding to a subnormal f32.
     const LEAST: f64 = f32::from_bits(1) as f64;
     let vertices = mesh.positions.par_iter().zip(exact);
     let larger_of = |mut most: f64, (own, in_file): (&Vec3, &DVec3)| {

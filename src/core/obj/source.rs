@@ -36,7 +36,7 @@ impl<'p> Source<'p> {
         } else {
             Box::new(source)
         };
-        // A source may return less than a mark at a time.
+        // The first read may return less than a whole byte order mark.
         let start = source.fill_buf().map_err(Problem::Read)?;
         let may_be_marked = start.len() < 3 || start[0] >= 0x80;
         let bytes: Box<dyn Read + 'p> = if may_be_marked {

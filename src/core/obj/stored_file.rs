@@ -19,7 +19,7 @@ pub(super) fn read(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
     let info = file.metadata()?;
     require_regular(&info)?;
     if is_in_system_folder(path)? || is_of_kernel(&file) {
-        return Err(io::Error::other("a virtual file of the system"));
+        return Err(io::Error::other("a virtual system file"));
     }
     let size = info.len().min(most_bytes);
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
@@ -116,10 +116,10 @@ mod tests {
         rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, mode, 0)
             .expect("a pipe");
         for (path, why) in [
-            (at("maps"), "a virtual file of the system"),
-            (at("self").join("maps"), "a virtual file of the system"),
-            ("/proc/self/pagemap".into(), "a virtual file of the system"),
-            ("/sys/kernel/notes".into(), "a virtual file of the system"),
+            (at("maps"), "a virtual system file"),
+            (at("self").join("maps"), "a virtual system file"),
+            ("/proc/self/pagemap".into(), "a virtual system file"),
+            ("/sys/kernel/notes".into(), "a virtual system file"),
             (at("zero"), "not a regular file"),
             (at("pipe"), "not a regular file"),
             (folder.path().to_owned(), "not a regular file"),

@@ -58,7 +58,7 @@ fn errors_name_the_line_and_the_word() {
         ("f 1/x 2 3", "x.obj:4:3: “x” in “1/x” is not an index"),
         (
             "f 1 2",
-            "x.obj:4: a face needs three corners, this one has 2",
+            "x.obj:4: a face needs at least three corners; this one has 2",
         ),
         ("\nv 0 1,5 0\nf 1 2 3", "x.obj:5:5: “1,5” is not a number"),
         ("v 0 1\nf 1 2 3", "x.obj:4: “v” needs 3 numbers, found 2"),

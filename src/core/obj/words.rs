@@ -48,7 +48,8 @@ pub(super) fn number<T: FastFloat>(
     })
 }
 
-/// Reads a number and its word at a position, or behind blanks there; `None` if there isn't only a number.
+/// Parses the next word as a number and moves `at` past it; returns the number and the word. `None` if there is no word,
+/// or it isn't a number as a whole.
 pub(super) fn plain_number<'l>(line: &'l [u8], at: &mut usize) -> Option<(f64, &'l [u8])> {
     let blanks = line.get(*at..)?.iter().take_while(|&&b| is_blank(b));
     *at += blanks.count();
@@ -59,8 +60,8 @@ pub(super) fn plain_number<'l>(line: &'l [u8], at: &mut usize) -> Option<(f64, &
     is_whole.then_some((number, &rest[..length]))
 }
 
-/// The usual form of a NaN or an infinity in other languages' forms: `-nan(ind)` of C, `1.#QNAN`, `-1.#IND00` and
-/// `1.#INF` of Microsoft's.
+/// Converts other notations of NaN and infinity to `nan`, `inf` or `-inf`: `-nan(ind)` from C; `1.#QNAN`, `-1.#IND00`
+/// and `1.#INF` from Microsoft's C runtime.
 fn not_finite(word: &[u8]) -> Option<&'static [u8]> {
     let (sign, rest) = match word.split_first() {
         Some((sign @ (b'-' | b'+'), rest)) => (*sign, rest),
@@ -143,7 +144,7 @@ mod tests {
     }
 
     #[test]
-    fn numbers_are_read_as_rust_does_and_in_other_languages_forms() {
+    fn numbers_are_parsed_as_in_rust_and_in_other_languages_notations() {
         let read =
             |word: &str| number::<f64>(&statement(word.as_bytes()), (0, word.as_bytes())).ok();
         for word in [

@@ -272,7 +272,7 @@ fn size_warning(bounds: Aabb) -> Option<Warning> {
     (!SAFE_SIZE.contains(&size)).then(|| Warning {
         line: None,
         message: format!(
-            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, fast may miss hits and watertight is slow: scale the mesh or use the kernel precise"
+            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits and the watertight kernel is slow: scale the mesh or use the precise kernel"
         ),
     })
 }

@@ -27,13 +27,13 @@ pub struct CameraArgs {
     /// Position of the camera [default: the window's starting view of the whole mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
     pub eye: Option<DVec3>,
-    /// With --eye: point in the centre of the picture [default: the centre of the mesh]
+    /// Point in the centre of the picture; requires --eye [default: the centre of the mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub target: Option<DVec3>,
-    /// With --eye: direction that points up in the picture [default: 0,1,0]
+    /// Direction that points up in the picture; requires --eye [default: 0,1,0]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
     pub up: Option<DVec3>,
-    /// Vertical field of view, from 0.000001 to below 180 [default: 40]
+    /// Vertical field of view, at least 0.000001 and less than 180 [default: 40]
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "ortho", value_parser = parse_fov)]
     pub fov: Option<f64>,
     /// Orthographic projection; the picture is HEIGHT units of the file high
@@ -178,7 +178,7 @@ impl MemoryArg {
         self.max_memory << 20
     }
 
-    /// Refuses work that takes more than the limit together with the mesh, which takes `held` bytes.
+    /// Fails if `bytes` of work and the `held` bytes of the mesh together exceed the limit.
     ///
     /// # Errors
     /// [`CommandError::Other`].
@@ -274,18 +274,20 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
     match (width, height) {
         (Ok(width @ 1..=LARGEST), Ok(height @ 1..=LARGEST)) => Ok(UVec2::new(width, height)),
         _ => Err(format!(
-            "width and height must be whole numbers from 1 to {LARGEST}"
+            "width and height must be integers from 1 to {LARGEST}"
         )),
     }
 }
 
 /// `40`.
 fn parse_fov(text: &str) -> Result<f64, String> {
-    /// A whole mesh is then some 1e8 times its size away.
+    /// A camera that shows the whole mesh at this angle is about 1e8 times the mesh's size away.
     const LEAST_FOV: f64 = 1e-6;
     match text.parse() {
         Ok(degrees) if (LEAST_FOV..180.0).contains(&degrees) => Ok(degrees),
-        _ => Err(format!("expected degrees from {LEAST_FOV} to below 180")),
+        _ => Err(format!(
+            "expected an angle in degrees, at least {LEAST_FOV} and less than 180"
+        )),
     }
 }
 
@@ -306,7 +308,7 @@ fn parse_megabytes(text: &str) -> Result<u64, String> {
     const MOST: u64 = u64::MAX >> 20;
     match text.parse() {
         Ok(megabytes @ 1..=MOST) => Ok(megabytes),
-        _ => Err(format!("expected a whole number from 1 to {MOST}")),
+        _ => Err(format!("expected an integer from 1 to {MOST}")),
     }
 }
 

@@ -29,8 +29,8 @@ Workloads:
   random   rays from a sphere around the scene to points in its bounding box
   shadow   the bounce rays again, any hit instead of the closest
 
-Rates are rays divided by the CPU time of a core, the average of the cores in use; “by clock”, by wall-clock time.
-They are medians of all rounds. Each round measures the kernels in turn.
+Rates are rays per second of CPU time, averaged over the cores in use; “wall-clock” rates use elapsed time. Each rate is
+the median of all rounds; a round measures the kernels in turn.
 
 Examples:
   hitscope bench bunny.obj
@@ -255,7 +255,7 @@ fn trace(
     Traced {
         hits: hits.into_inner(),
         threads,
-        // No more threads than cores run at a time.
+        // At most one thread per core runs at a time.
         cpu_seconds: cpu.as_secs_f64() / threads.min(default_thread_count()) as f64,
         wall_seconds,
     }
@@ -295,7 +295,7 @@ impl Report {
         writeln!(
             out,
             "\n{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>12}",
-            "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "by clock"
+            "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "wall-clock"
         )?;
         for row in &self.workloads {
             writeln!(

@@ -1,11 +1,14 @@
 //! `hitscope info`: prints the contents of a file and the kernel tier that they require.
 
-use super::CommandError;
 use super::args::MeshArgs;
+use super::input::is_stdin;
 use super::inspect::at_most;
+use super::{CommandError, file_error};
 use crate::json;
 use crate::requirement::{Requirement, required_tier};
+use crate::second_opinion::{SecondOpinion, compare};
 use clap::Args;
+use hitscope_core::counts::counted;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::{FLAWS, Health, bytes_as};
 use hitscope_core::obj::Recentre;
@@ -27,6 +30,9 @@ pub struct InfoArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
+    /// Also read the file with the library tobj, and list where the results differ
+    #[arg(long)]
+    pub check: bool,
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
@@ -51,6 +57,9 @@ struct Info {
     bytes_as: BTreeMap<&'static str, usize>,
     dropped: BTreeMap<&'static str, usize>,
     warnings: Vec<String>,
+    /// Only with `--check`.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    check: Option<SecondOpinion>,
     health: HealthReport,
     tier: Requirement,
     load_ms: f64,
@@ -81,6 +90,10 @@ impl InfoArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        if self.check && is_stdin(&self.file) {
+            let message = "--check reads the file twice, which isn't possible with standard input";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
         let intersector = scene.intersector(default_triangle_kernel());
@@ -91,7 +104,12 @@ impl InfoArgs {
             held,
             format_args!("checking the mesh"),
         )?;
-        let info = Info::of(&loaded, intersector.bytes());
+        let mut info = Info::of(&loaded, intersector.bytes());
+        if self.check {
+            let bytes = std::fs::read(&self.file);
+            let bytes = bytes.map_err(|source| file_error(&self.file, source))?;
+            info.check = Some(compare(&bytes, scene.mesh(), &loaded.face_lines));
+        }
         if self.json {
             writeln!(out, "{}", json::to_pretty(&info))?;
         } else {
@@ -134,6 +152,7 @@ impl Info {
             ]),
             bytes_as: BTreeMap::from(bytes_as(mesh)),
             warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
+            check: None,
             tier: required_tier(scene, &health),
             health: HealthReport {
                 degenerate: mesh.dropped.zero_area,
@@ -186,6 +205,20 @@ impl Info {
         writeln!(out, "tier                {}", self.tier.tier)?;
         for reason in &self.tier.reasons {
             writeln!(out, "                    {reason}")?;
+        }
+        if let Some(check) = &self.check {
+            match &check.refused {
+                Some(why) => writeln!(out, "check               tobj can't read the file: {why}")?,
+                None => writeln!(
+                    out,
+                    "check               {} compared with tobj, {}",
+                    counted(check.triangles, "triangle"),
+                    counted(check.difference_count, "difference")
+                )?,
+            }
+            for difference in &check.differences {
+                writeln!(out, "                    {difference}")?;
+            }
         }
         Ok(())
     }

@@ -18,8 +18,7 @@ pub fn is_stdin(path: &Path) -> bool {
     path == Path::new(STDIN)
 }
 
-/// Loads a scene from a file, or from standard input if `path` is `-`, and prints the file's warnings to stderr, one
-/// per line.
+/// Loads a scene from a file, or from standard input if `path` is `-`, and prints the time it took to stderr.
 ///
 /// # Errors
 /// [`CommandError::Load`].

@@ -24,7 +24,7 @@ Values, in the text and in JSON:
   barycentric        barycentric coordinates for the triangle's corners A, B and C
   triangle, face     indices, counted from 0, in the order of the file
   line               line of the face in the file, counted from 1
-  side               front if the corners run anticlockwise as seen from the ray's origin, else back
+  side               front if the corners run counterclockwise as seen from the ray's origin, else back
   position           in the file's coordinates
   t_error_ulps       error of t, in ulps of f32
   barycentric_error  largest error of a barycentric coordinate
@@ -168,7 +168,7 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
         .map_or(String::new(), |line| format!(" on line {line}"));
     writeln!(
         out,
-        "{kernel}: {side} of triangle {triangle}, of face {face}{line} (triangles and faces count from 0)"
+        "{kernel}: {side} side of triangle {triangle} in face {face}{line} (triangles and faces are counted from 0)"
     )?;
     let [a, b, c] = hit.vertices.map(list);
     let rows = [
@@ -228,6 +228,6 @@ fn parse_pixel(text: &str) -> Result<UVec2, String> {
     let numbers = parts.map(|(x, y)| (x.trim().parse(), y.trim().parse()));
     match numbers {
         Some((Ok(x), Ok(y))) => Ok(UVec2::new(x, y)),
-        _ => Err("expected two whole numbers from 0, as in 640,360".to_owned()),
+        _ => Err("expected two non-negative integers, such as 640,360".to_owned()),
     }
 }

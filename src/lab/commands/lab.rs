@@ -48,7 +48,7 @@ pub struct LabArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Random seed, a whole number from 0
+    /// Random seed
     #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
     pub seed: u64,
     /// Measure with camera rays in this OBJ file instead; - for standard input
@@ -66,7 +66,7 @@ pub struct LabArgs {
 fn parse_seed(text: &str) -> Result<u64, String> {
     let most = u64::MAX;
     let seed = text.parse();
-    seed.map_err(|_| format!("expected a whole number from 0 to {most}"))
+    seed.map_err(|_| format!("expected an integer from 0 to {most}"))
 }
 
 /// Options that don't require `--scene`.
@@ -155,7 +155,7 @@ impl LabArgs {
                 let families: BTreeSet<&str> = families.collect();
                 let families = families.into_iter().collect::<Vec<_>>().join(", ");
                 return Err(CommandError::Usage(format!(
-                    "no case name begins with “{case}”; the names begin with {families}"
+                    "no case name begins with “{case}”; case names begin with one of {families}"
                 )));
             }
         }

@@ -63,8 +63,8 @@ impl App {
         }
     }
 
-    /// Sets the pivot on a double click; holds back a single click until it can't become a double click. In a slow
-    /// window, both clicks of a double click may come in one frame.
+    /// Sets the pivot on a double click; holds back a single click until it can't become a double click. At a low
+    /// frame rate, both clicks of a double click may arrive in one frame.
     fn click(&mut self, ui: &egui::Ui, response: &Response, pos: Pos2, canvas: Canvas) {
         if !response.clicked() {
             return;
@@ -113,7 +113,7 @@ impl App {
         let Some(click) = &self.clicks.pending else {
             return;
         };
-        // A second click whose press came late in a slow window may still end.
+        // At a low frame rate, the second click may still be in progress.
         let (now, is_down) = ctx.input(|input| (input.time, input.pointer.primary_down()));
         let left_secs = click.due_secs - now;
         if is_down {

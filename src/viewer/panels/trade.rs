@@ -49,8 +49,8 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     ui.label(
         RichText::new(format!(
             "{} camera and bounce rays, compared with exact arithmetic; wrong/M: wrong decisions per million \
-             rays. Speed: rays per CPU time relative to fast, which is measured by turns with each kernel, so that \
-             other load doesn't count; mean of camera, bounce and random rays.",
+             rays. Speed: rays per second of CPU time relative to the fast kernel, averaged over camera, bounce and \
+             random rays. The fast kernel is measured alternately with each other kernel to cancel out other load.",
             grouped(first.n as usize)
         ))
         .weak(),
@@ -69,7 +69,7 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
 fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     let info = settings.kernel().info;
     ui.horizontal(|ui| {
-        // As high as the button, so that a selection moves nothing.
+        // As high as the button, so that nothing moves when a kernel is selected.
         ui.set_min_height(ui.spacing().interact_size.y);
         if settings.session_kernel.is_none() {
             ui.label(RichText::new("Click a point or a row to use its kernel.").weak());

@@ -18,9 +18,6 @@ mod rounding;
 // Refused files and their messages.
 mod refused;
 
-// Clean files give the same numbers as tobj.
-mod differential;
-
 // One thread and several give the same.
 mod threads;
 

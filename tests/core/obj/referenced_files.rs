@@ -79,7 +79,7 @@ fn devices_pipes_and_kernel_files_are_rejected_as_libraries_and_textures() {
     ] {
         std::os::unix::fs::symlink(to, at(link)).expect("linked");
     }
-    let of_system = "a virtual file of the system";
+    let of_system = "a virtual system file";
     for (name, why) in [
         ("/proc/self/pagemap", of_system),
         ("/proc/self/environ", of_system),

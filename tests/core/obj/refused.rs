@@ -32,7 +32,7 @@ fn an_invalid_index_is_an_error_or_drops_its_face() {
         ),
         (
             "too_short.obj",
-            "too_short.obj:5: a face needs three corners, this one has 2",
+            "too_short.obj:5: a face needs at least three corners; this one has 2",
             2,
         ),
         (
