@@ -12,6 +12,14 @@ use hitscope_core::kernel::{KernelInfo, triangle_kernel};
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
 
+/// The meaning of the table's columns.
+const COLUMNS_ABOUT: &str = "\
+speed: rays per second of CPU time relative to the fast kernel, averaged over camera, bounce and random rays; the \
+fast kernel is measured alternately with each other kernel to cancel out other load
+Mrays/s: million rays per second of CPU time
+wrong/M: wrong decisions per million rays
+t ulps: 99th percentile of the error of t, in f32 ulps";
+
 /// Offers to measure the scene. Returns whether the user accepts.
 pub fn measure_ui(ui: &mut egui::Ui) -> bool {
     ui.label("Speed and accuracy of every kernel, measured in this scene from the current camera.");
@@ -48,13 +56,12 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     };
     ui.label(
         RichText::new(format!(
-            "{} camera and bounce rays, compared with exact arithmetic; wrong/M: wrong decisions per million \
-             rays. Speed: rays per second of CPU time relative to the fast kernel, averaged over camera, bounce and \
-             random rays. The fast kernel is measured alternately with each other kernel to cancel out other load.",
+            "{} camera and bounce rays, compared with exact arithmetic.",
             grouped(first.n as usize)
         ))
         .weak(),
-    );
+    )
+    .on_hover_text(COLUMNS_ABOUT);
     ui.horizontal(|ui| {
         ui.selectable_value(&mut trade.axis, Axis::ErrorOfT, "Error of t");
         ui.selectable_value(&mut trade.axis, Axis::Wrong, "Wrong decisions");
@@ -223,7 +230,8 @@ fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
             let header = egui::Button::new(text(&cells[0]).strong())
                 .frame(false)
                 .wrap_mode(egui::TextWrapMode::Extend);
-            ui.add(header.sense(egui::Sense::hover()));
+            ui.add(header.sense(egui::Sense::hover()))
+                .on_hover_text(COLUMNS_ABOUT);
             for (row, cells) in rows.iter().zip(&cells[1..]) {
                 let info = info(row);
                 let is_current = settings.kernel().info.name == row.kernel;
