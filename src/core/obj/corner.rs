@@ -118,7 +118,7 @@ pub(super) fn plain_corner(line: &[u8], at: &mut usize) -> Option<[u32; 3]> {
 /// Reads an index from 1 as one from 0, and its number of digits; [`NO_INDEX`] if there are none. `None` if it is 0 or
 /// has so many digits that it may not fit in a u32.
 #[inline]
-fn plain_index(text: &[u8]) -> Option<(u32, usize)> {
+pub(super) fn plain_index(text: &[u8]) -> Option<(u32, usize)> {
     const MOST_DIGITS: usize = 9;
     let (mut from_one, mut count) = (0u32, 0);
     for digit in text.iter().map(|b| b.wrapping_sub(b'0')) {

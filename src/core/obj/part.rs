@@ -9,7 +9,7 @@
 
 use super::FaultPolicy;
 use super::chunks::Chunk;
-use super::corner::{Corner, Corners, List, is_blank, plain_corner};
+use super::corner::{Corner, Corners, List, is_blank, plain_corner, plain_index};
 use super::elements::{Element, Elements};
 use super::error::Problem;
 use super::statement::{Statement, Statements};
@@ -263,7 +263,8 @@ impl PartReader<'_> {
         after: usize,
     ) -> Result<(), Problem> {
         let first = self.part.elements.corners[0].len();
-        let is_read = self.plain_corners(kind, statement.bytes, after)
+        let is_read = self.plain_vertices(kind, statement.bytes, after)
+            || self.plain_corners(kind, statement.bytes, after)
             || self.any_corners(kind, statement, after)?;
         let elements = &mut self.part.elements;
         if is_read {
@@ -276,6 +277,44 @@ impl PartReader<'_> {
             Element::Line | Element::Points => self.part.dropped_others.add(statement.line),
         }
         Ok(())
+    }
+
+    /// Fast path for plain indices of vertices from 1, as most lines of large files have; returns `false` and adds
+    /// nothing for other corners, or if earlier corners have more.
+    fn plain_vertices(&mut self, kind: Element, line: &[u8], at: usize) -> bool {
+        let elements = &mut self.part.elements;
+        let [vertices, textures, normals] = &mut elements.corners;
+        if !textures.is_empty() || !normals.is_empty() {
+            return false;
+        }
+        let first = vertices.len();
+        let mut highest = elements.highest[List::Vertex as usize];
+        let mut rest = line.get(at..).unwrap_or_default();
+        let is_plain = loop {
+            while let [b, more @ ..] = rest
+                && is_blank(*b)
+            {
+                rest = more;
+            }
+            if rest.is_empty() {
+                break vertices.len() - first >= kind.least_corners().0;
+            }
+            let Some((index, digits @ 1..)) = plain_index(rest) else {
+                break false;
+            };
+            rest = &rest[digits..];
+            if rest.first().is_some_and(|&b| !is_blank(b)) {
+                break false;
+            }
+            vertices.push(index);
+            highest = highest.max(index as usize + 1);
+        };
+        if is_plain {
+            elements.highest[List::Vertex as usize] = highest;
+        } else {
+            vertices.truncate(first);
+        }
+        is_plain
     }
 
     /// Fast path for corners of plain indices from 1; returns `false` and adds nothing for others.
