@@ -64,7 +64,7 @@ impl Scene {
         let bounds = mesh.bounds();
         Ok(Self {
             bounds,
-            bounds_with_elements: bounds.union(mesh.element_bounds()),
+            bounds_with_elements: framed(bounds, mesh.element_bounds()),
             tree: Arc::new(Tree::build(&mesh, options, progress)?),
             mesh: Arc::new(mesh),
             crease: Crease::default(),
@@ -265,6 +265,19 @@ impl LoadedScene {
     }
 }
 
+/// The box to frame: that of the surface, lines and points, or of the surface alone if it would be a dot: surveys contain
+/// stray points.
+fn framed(surface: Aabb, elements: Aabb) -> Aabb {
+    /// The surface is then about as large as a pixel.
+    const LARGEST: f64 = 1000.0;
+    let all = surface.union(elements);
+    if !surface.is_empty() && all.radius() > LARGEST * surface.radius() {
+        surface
+    } else {
+        all
+    }
+}
+
 /// The warning for a mesh whose size f32 kernels can't handle well.
 fn size_warning(bounds: Aabb) -> Option<Warning> {
     let size = 2.0 * bounds.radius();
@@ -280,6 +293,17 @@ fn size_warning(bounds: Aabb) -> Option<Warning> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn stray_points_are_not_framed() {
+        let surface = Aabb::around([Vec3::ZERO, Vec3::ONE]);
+        for (distance, is_framed) in [(10.0, true), (1e6, false)] {
+            let point = Aabb::around([Vec3::splat(distance)]);
+            assert_eq!(framed(surface, point) != surface, is_framed, "{distance}");
+        }
+        let line = Aabb::around([Vec3::ZERO, Vec3::X]);
+        assert_eq!(framed(Aabb::EMPTY, line), line);
+    }
 
     #[test]
     fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {
