@@ -11,7 +11,8 @@ use super::error::{Problem, Warning};
 use super::fence::fenced;
 use super::memory;
 use super::names::{Libraries, NamedRuns};
-use super::part::{self, Mark, Part, PartOptions};
+use super::part::{Mark, Part};
+use super::reader::{self, PartOptions};
 use super::tally::{LineRuns, Tally, add_by_keyword, lines_or_points};
 use super::{FaultPolicy, LoadOptions};
 use crate::counts::{counted, counted_as};
@@ -107,7 +108,7 @@ pub(super) fn read(
                         pending_bytes += chunk.bytes.len();
                         pending.push_back((receiver, chunk.bytes.len()));
                         scope.spawn(move |_| {
-                            let part = fenced("reading", || part::read(&chunk, part_options));
+                            let part = fenced("reading", || reader::read(&chunk, part_options));
                             // The receiver is gone after an error in an earlier chunk.
                             _ = sender.send((chunk, part));
                         });
@@ -162,7 +163,7 @@ impl Contents {
         };
         let mut part = if part.needs_counts || List::ALL.into_iter().any(reaches_too_far) {
             let counts = Some(before);
-            part::read(chunk, PartOptions { counts, ..options })
+            reader::read(chunk, PartOptions { counts, ..options })
         } else {
             part
         };

@@ -4,10 +4,10 @@
 //! |---|---|
 //! | bytes are decompressed and decoded | `source`, `gzip` |
 //! | the file is cut into chunks of whole statements | `chunks`, `kind` |
-//! | **chunks are parsed in parallel, statement by statement** | `part`: `statement`, `words`, `corner`, `elements` |
+//! | **chunks are parsed in parallel, statement by statement** | `reader`: `statement`, `words`, `corner`; `part`, `elements` |
 //! | the chunks' contents are merged in file order | `contents`: `names`, `colours`, `tally`, `memory` |
 //! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
-//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `polygon`, `delaunay`, `outline` |
+//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `polygon`, `delaunay`, `outline`, `oddities` |
 //! | a face's statement is read again for the inspector | `face_source` |
 
 mod assemble;
@@ -26,11 +26,13 @@ mod materials;
 mod memory;
 mod mtl;
 mod names;
+mod oddities;
 mod outline;
 mod part;
 mod picture;
 mod place;
 mod polygon;
+mod reader;
 mod referenced_files;
 mod source;
 mod statement;

@@ -1,0 +1,108 @@
+//! Faces, lines and points that can't be shown: warnings about them, and the error if nothing is left.
+
+use super::contents::Contents;
+use super::error::{Problem, Warning};
+use super::tally::{Tally, lines_or_points};
+use crate::counts::{counted, counted_as, grouped};
+use crate::mesh::{Dropped, TriangleMesh};
+
+/// Count and first line of each oddity.
+#[derive(Default)]
+pub(super) struct Oddities {
+    pub non_finite: Tally,
+    pub zero_area: Tally,
+    pub fan: Tally,
+    pub not_finite_elements: usize,
+}
+
+impl Oddities {
+    pub(super) fn append(&mut self, later: Self) {
+        self.non_finite.append(later.non_finite);
+        self.zero_area.append(later.zero_area);
+        self.fan.append(later.fan);
+        self.not_finite_elements += later.not_finite_elements;
+    }
+
+    pub(super) fn warnings(self, dropped: Dropped) -> impl Iterator<Item = Warning> {
+        let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
+        let elements = self.not_finite_elements;
+        let of_elements = (elements > 0).then(|| {
+            let elements = lines_or_points(elements);
+            Warning::of_file(format!(
+                "{elements} dropped: a vertex is not finite or too large"
+            ))
+        });
+        [
+            self.non_finite.warning(|_| {
+                let triangles = counted(non_finite, "triangle");
+                format!("{triangles} dropped: a corner is not finite or too large")
+            }),
+            self.zero_area.warning(|_| {
+                let triangles = counted(zero_area, "triangle");
+                format!("{triangles} dropped: zero area")
+            }),
+            self.fan.warning(|fans| {
+                let polygons = counted_as(
+                    fans,
+                    "polygon triangulated as a fan",
+                    "polygons triangulated as fans",
+                );
+                format!("{polygons}: self-intersecting, without a plane or with too many corners")
+            }),
+            of_elements,
+        ]
+        .into_iter()
+        .flatten()
+    }
+}
+
+/// Returns an error with the reason if the mesh has no triangles.
+pub(super) fn require_content(
+    mesh: &TriangleMesh,
+    contents: &Contents,
+    vertex_count: usize,
+) -> Result<(), Problem> {
+    if !mesh.triangles.is_empty() {
+        return Ok(());
+    }
+    let Dropped {
+        zero_area,
+        non_finite,
+        bad_index,
+        ..
+    } = mesh.dropped;
+    let element_count = contents.element_count;
+    let message = if zero_area + non_finite > 0 {
+        let reasons = [
+            (zero_area, "with zero area"),
+            (
+                non_finite,
+                "with a corner that is NaN, infinite or too large for f32",
+            ),
+        ];
+        let reasons = reasons.into_iter().filter(|(count, _)| *count > 0);
+        let reasons = reasons.map(|(count, why)| format!("{} {why}", grouped(count)));
+        let reasons = reasons.collect::<Vec<_>>().join(", ");
+        let message = format!("no triangles left: {reasons}");
+        return Err(Problem::line(contents.face_lines.line(0), message));
+    } else if bad_index > 0 {
+        let message = format!(
+            "no faces left: {} with an index that is out of range or fewer than three corners",
+            grouped(bad_index)
+        );
+        return Err(Problem::line(contents.dropped_faces.first_line, message));
+    } else if element_count > 0 {
+        format!(
+            "there are lines or points ({}), but no faces: nothing to trace",
+            grouped(element_count)
+        )
+    } else if vertex_count > 0 {
+        format!(
+            "there are vertices ({}), but no faces: nothing to show",
+            grouped(vertex_count)
+        )
+    } else {
+        "no vertices and no faces: this is not an OBJ file".to_owned()
+    };
+    Err(Problem::Content(message))
+}

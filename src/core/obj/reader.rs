@@ -1,0 +1,429 @@
+//! Reads one chunk of an OBJ file, statement by statement.
+//!
+//! A chunk is parsed without knowing what precedes it. Negative indices are therefore stored relative to the chunk's
+//! first entry, and names with the index of the first face in the chunk that they apply to; [`Contents`] resolves
+//! both. If an index is invalid or refers to an entry before the file's first, the chunk is parsed again with the number
+//! of entries before it, which the error message needs.
+//!
+//! [`Contents`]: super::contents::Contents
+
+use super::FaultPolicy;
+use super::chunks::Chunk;
+use super::corner::{Corner, Corners, List, is_blank, plain_corner, plain_index};
+use super::elements::Element;
+use super::error::Problem;
+use super::part::{Mark, Part};
+use super::statement::{Statement, Statements};
+use super::tally::{count_by_keyword, shortened};
+use super::words::{Words, is_long_number, name, number, plain_number, text, without_comment};
+use crate::counts::{counted, grouped};
+use crate::mesh::NO_INDEX;
+use crate::progress::Progress;
+use glam::{DVec3, Vec2};
+
+/// An index resolved within a chunk.
+enum Index {
+    At(u32),
+    /// From the chunk's first entry.
+    Relative(i32),
+    OutOfRange,
+}
+
+/// How a chunk is read.
+#[derive(Clone, Copy)]
+pub(super) struct PartOptions<'p> {
+    pub faults: FaultPolicy,
+    /// Number of entries in each list before the chunk, if they are known.
+    pub counts: Option<[usize; 3]>,
+    pub progress: &'p Progress,
+}
+
+/// Reads a chunk.
+pub(super) fn read(chunk: &Chunk, options: PartOptions<'_>) -> Part {
+    let mut reader = PartReader {
+        part: Part::default(),
+        options,
+    };
+    let mut statements = Statements::of(chunk);
+    while let Some(statement) = statements.next() {
+        if let Err(problem) = reader.take(statement) {
+            reader.part.problem = Some(problem);
+            break;
+        }
+        if reader.part.needs_counts {
+            break;
+        }
+    }
+    reader.part
+}
+
+struct PartReader<'p> {
+    part: Part,
+    options: PartOptions<'p>,
+}
+
+impl PartReader<'_> {
+    /// Reads a statement.
+    fn take(&mut self, statement: Statement<'_>) -> Result<(), Problem> {
+        let bytes = statement.bytes;
+        let Some(start) = bytes.iter().position(|&b| !is_blank(b)) else {
+            return Ok(());
+        };
+        let length = bytes[start..].iter().position(|&b| is_blank(b));
+        let after = length.map_or(bytes.len(), |length| start + length);
+        match &bytes[start..after] {
+            b"v" => self.numbers(List::Vertex, statement, after),
+            b"vt" => self.numbers(List::Texture, statement, after),
+            b"vn" => self.numbers(List::Normal, statement, after),
+            b"f" => self.element(Element::Face, statement, after),
+            b"l" => self.element(Element::Line, statement, after),
+            b"p" => self.element(Element::Points, statement, after),
+            b"usemtl" | b"o" | b"g" | b"s" | b"mtllib" => {
+                self.note(&bytes[start..after], statement.line, &bytes[after..]);
+                Ok(())
+            }
+            keyword => self.other(keyword, statement, start, after),
+        }
+    }
+
+    /// Reads a statement whose keyword is in another case, as some programs write `V` and `F`; or ignores it.
+    fn other(
+        &mut self,
+        keyword: &[u8],
+        statement: Statement<'_>,
+        start: usize,
+        after: usize,
+    ) -> Result<(), Problem> {
+        /// The longest keyword.
+        const LONGEST: usize = 6;
+        let is_known = |lower_case: &[u8]| {
+            let known: [&[u8]; 11] = [
+                b"v", b"vt", b"vn", b"f", b"l", b"p", b"o", b"g", b"s", b"usemtl", b"mtllib",
+            ];
+            known.contains(&lower_case)
+        };
+        let lower_case = keyword.to_ascii_lowercase();
+        if keyword.len() <= LONGEST && lower_case != keyword && is_known(&lower_case) {
+            let mut bytes = statement.bytes.to_vec();
+            bytes[start..after].copy_from_slice(&lower_case);
+            return self.take(Statement {
+                bytes: &bytes,
+                ..statement
+            });
+        }
+        if keyword[0] != b'#' {
+            let keyword = shortened(&text(keyword));
+            count_by_keyword(&mut self.part.ignored, &keyword, statement.line);
+        }
+        Ok(())
+    }
+
+    /// Records a name or a smoothing group.
+    fn note(&mut self, keyword: &[u8], line: usize, rest: &[u8]) {
+        let part = &mut self.part;
+        let mark = match keyword {
+            b"usemtl" => Mark::Material(name(rest)),
+            b"o" | b"g" => Mark::Group(name(rest)),
+            b"mtllib" => return part.libraries.push((line, name(rest))),
+            _ => Mark::Smoothing(smoothing_group(&name(without_comment(rest)))),
+        };
+        part.marks.push((part.elements.face_count() as u32, mark));
+    }
+
+    /// Reads a vertex (three numbers, optionally a weight or a colour), texture coordinates (one to three numbers,
+    /// of which two are used) or a normal (three).
+    fn numbers(
+        &mut self,
+        list: List,
+        statement: Statement<'_>,
+        after: usize,
+    ) -> Result<(), Problem> {
+        let used = if list == List::Texture { 2 } else { 3 };
+        let values = match self.plain_numbers(list, used, statement.bytes, after) {
+            Some(values) => values,
+            None => self.any_numbers(list, used, statement, after)?,
+        };
+        let [x, y, z] = values;
+        let part = &mut self.part;
+        match list {
+            List::Vertex => part.positions.push(DVec3::new(x, y, z)),
+            List::Texture => part.textures.push(Vec2::new(x as f32, y as f32)),
+            List::Normal => part.normals.push(DVec3::new(x, y, z).as_vec3()),
+        }
+        Ok(())
+    }
+
+    /// Fast path for exactly as many plain numbers as are used.
+    fn plain_numbers(
+        &mut self,
+        list: List,
+        used: usize,
+        line: &[u8],
+        mut at: usize,
+    ) -> Option<[f64; 3]> {
+        let mut values = [0.0; 3];
+        for value in &mut values[..used] {
+            let word;
+            (*value, word) = plain_number(line, &mut at)?;
+            if list == List::Vertex && word.len() > SHORT {
+                self.part.has_long_numbers |= is_long_number(word);
+            }
+        }
+        line[at..].iter().all(|&b| is_blank(b)).then_some(values)
+    }
+
+    /// Checks all numbers of a statement and returns those that are used.
+    fn any_numbers(
+        &mut self,
+        list: List,
+        used: usize,
+        statement: Statement<'_>,
+        after: usize,
+    ) -> Result<[f64; 3], Problem> {
+        let (least, keyword) = match list {
+            List::Vertex => (3, "v"),
+            List::Texture => (1, "vt"),
+            List::Normal => (3, "vn"),
+        };
+        let statement = Statement {
+            bytes: without_comment(statement.bytes),
+            ..statement
+        };
+        let words = Words::of(statement.bytes, after);
+        let count = words.clone().count();
+        if count < least {
+            return Err(statement.problem(format!(
+                "“{keyword}” needs {}, found {}",
+                counted(least, "number"),
+                grouped(count)
+            )));
+        }
+        let mut values = [0.0; 3];
+        for (k, word) in words.clone().enumerate() {
+            let value = number::<f64>(&statement, word)?;
+            if k < used {
+                values[k] = value;
+                self.part.has_long_numbers |= list == List::Vertex && is_long_number(word.1);
+            }
+        }
+        // `x y z w` has a weight, which polygons don't use; `x y z r g b (a)` a colour.
+        if list == List::Vertex && count >= 6 {
+            let mut colour = [0.0; 3];
+            for (channel, word) in colour.iter_mut().zip(words.skip(3)) {
+                *channel = number(&statement, word)?;
+            }
+            let vertex = self.part.positions.len() as u32;
+            self.part.colours.push((vertex, colour));
+        }
+        Ok(values)
+    }
+
+    /// Reads a face, a line or points.
+    fn element(
+        &mut self,
+        kind: Element,
+        statement: Statement<'_>,
+        after: usize,
+    ) -> Result<(), Problem> {
+        let first = self.part.elements.corners[0].len();
+        let is_read = self.plain_vertices(kind, statement.bytes, after)
+            || self.plain_corners(kind, statement.bytes, after)
+            || self.any_corners(kind, statement, after)?;
+        let elements = &mut self.part.elements;
+        if is_read {
+            elements.end(kind, first, statement.line);
+            return Ok(());
+        }
+        elements.truncate(first);
+        match kind {
+            Element::Face => self.part.dropped_faces.add(statement.line),
+            Element::Line | Element::Points => self.part.dropped_others.add(statement.line),
+        }
+        Ok(())
+    }
+
+    /// Fast path for plain indices of vertices from 1, as most lines of large files have; returns `false` and adds
+    /// nothing for other corners, or if earlier corners have more.
+    fn plain_vertices(&mut self, kind: Element, line: &[u8], at: usize) -> bool {
+        let elements = &mut self.part.elements;
+        let [vertices, textures, normals] = &mut elements.corners;
+        if !textures.is_empty() || !normals.is_empty() {
+            return false;
+        }
+        let first = vertices.len();
+        let mut highest = elements.highest[List::Vertex as usize];
+        let mut rest = line.get(at..).unwrap_or_default();
+        let is_plain = loop {
+            while let [b, more @ ..] = rest
+                && is_blank(*b)
+            {
+                rest = more;
+            }
+            if rest.is_empty() {
+                break vertices.len() - first >= kind.least_corners().0;
+            }
+            let Some((index, digits @ 1..)) = plain_index(rest) else {
+                break false;
+            };
+            rest = &rest[digits..];
+            if rest.first().is_some_and(|&b| !is_blank(b)) {
+                break false;
+            }
+            vertices.push(index);
+            highest = highest.max(index as usize + 1);
+        };
+        if is_plain {
+            elements.highest[List::Vertex as usize] = highest;
+        } else {
+            vertices.truncate(first);
+        }
+        is_plain
+    }
+
+    /// Fast path for corners of plain indices from 1; returns `false` and adds nothing for others.
+    fn plain_corners(&mut self, kind: Element, line: &[u8], mut at: usize) -> bool {
+        let elements = &mut self.part.elements;
+        let first = elements.corners[0].len();
+        let highest = elements.highest;
+        let is_plain = loop {
+            while line.get(at).is_some_and(|&b| is_blank(b)) {
+                at += 1;
+            }
+            if at == line.len() {
+                break elements.corners[0].len() - first >= kind.least_corners().0;
+            }
+            let Some(corner) = plain_corner(line, &mut at) else {
+                break false;
+            };
+            for list in List::ALL {
+                let index = corner[list as usize];
+                elements.push(list, index);
+                // One more than NO_INDEX is 0.
+                let highest = &mut elements.highest[list as usize];
+                *highest = (*highest).max(index.wrapping_add(1) as usize);
+            }
+        };
+        if !is_plain {
+            elements.truncate(first);
+            elements.highest = highest;
+        }
+        is_plain
+    }
+
+    /// Reads an element's corners; returns `false` if the element must be dropped.
+    fn any_corners(
+        &mut self,
+        kind: Element,
+        statement: Statement<'_>,
+        after: usize,
+    ) -> Result<bool, Problem> {
+        /// Corners between two checks for cancellation.
+        const PER_CHECK: usize = 1 << 16;
+        let statement = Statement {
+            bytes: without_comment(statement.bytes),
+            ..statement
+        };
+        let mut count = 0;
+        for corner in Corners::of(statement.bytes, after) {
+            let corner = corner.map_err(|bad| statement.problem_at(bad.offset, bad.message))?;
+            if !self.corner(corner, &statement)? {
+                return Ok(false);
+            }
+            count += 1;
+            if count % PER_CHECK == 0 {
+                self.options.progress.check()?;
+            }
+        }
+        let (least, what) = kind.least_corners();
+        if count >= least {
+            return Ok(true);
+        }
+        match self.options.faults {
+            FaultPolicy::Lenient => Ok(false),
+            FaultPolicy::Strict => Err(statement.problem(format!("{what}; this one has {count}"))),
+        }
+    }
+
+    /// Adds a corner; returns `false` if its vertex can't exist.
+    fn corner(&mut self, corner: Corner, statement: &Statement<'_>) -> Result<bool, Problem> {
+        for list in List::ALL {
+            let at = list as usize;
+            let Some(written) = corner.indices[at] else {
+                self.part.elements.push(list, NO_INDEX);
+                continue;
+            };
+            match self.index(list, written) {
+                Index::At(index) => {
+                    let elements = &mut self.part.elements;
+                    elements.push(list, index);
+                    elements.highest[at] = elements.highest[at].max(index as usize + 1);
+                }
+                Index::Relative(index) => {
+                    let elements = &mut self.part.elements;
+                    // Any value but NO_INDEX, so that the list is started.
+                    elements.push(list, 0);
+                    let place = elements.corners[at].len() - 1;
+                    elements.corners[at][place] = index.cast_unsigned();
+                    elements.relative[at].push(place as u32);
+                    elements.lowest[at] = elements.lowest[at].min(index);
+                }
+                Index::OutOfRange => {
+                    let Some(before) = self.options.counts else {
+                        self.part.needs_counts = true;
+                        return Ok(false);
+                    };
+                    let count = before[at] + self.count(list);
+                    let problem = || {
+                        let message = list.out_of_range(written, count);
+                        statement.problem_at(corner.offset, message)
+                    };
+                    let is_strict = self.options.faults == FaultPolicy::Strict;
+                    if list == List::Vertex {
+                        return if is_strict { Err(problem()) } else { Ok(false) };
+                    }
+                    self.part.bad_index[at].get_or_insert_with(problem);
+                    self.part.bad_indices[at].add(statement.line);
+                    self.part.elements.push(list, NO_INDEX);
+                }
+            }
+        }
+        Ok(true)
+    }
+
+    /// Number of entries in the chunk so far.
+    fn count(&self, list: List) -> usize {
+        match list {
+            List::Vertex => self.part.positions.len(),
+            List::Texture => self.part.textures.len(),
+            List::Normal => self.part.normals.len(),
+        }
+    }
+
+    /// Converts an index to start at 0. An index that is too high may become valid later in the file.
+    fn index(&self, list: List, written: i64) -> Index {
+        // The largest u32 marks a missing index; no file can have that many entries.
+        let at = |from_one: i64| match u32::try_from(from_one) {
+            Ok(0 | NO_INDEX) | Err(_) => Index::OutOfRange,
+            Ok(from_one) => Index::At(from_one - 1),
+        };
+        if written >= 0 {
+            return at(written);
+        }
+        let in_chunk = (self.count(list) as i64).saturating_add(written);
+        match self.options.counts {
+            Some(before) => at((before[list as usize] as i64).saturating_add(in_chunk) + 1),
+            None => i32::try_from(in_chunk).map_or(Index::OutOfRange, Index::Relative),
+        }
+    }
+}
+
+/// A word of at most this many bytes has at most 15 digits.
+const SHORT: usize = 15;
+
+/// The number of a smoothing group: 1 for `on`; 0 (no group) for `off` and anything else that isn't a number.
+fn smoothing_group(word: &str) -> u32 {
+    match word {
+        "on" => 1,
+        _ => word.parse().unwrap_or(0),
+    }
+}
