@@ -1,10 +1,9 @@
-//! Measures loading an OBJ file with hitscope and with tobj, on which hitscope's reader is built.
+//! Measures loading an OBJ file with hitscope and with tobj.
 //!
 //! `cargo run --release -p hitscope-core --example load -- [hitscope|tobj|cancel] FILE.obj`
 //! prints JSON with the seconds and the peak memory of one of them, so that each runs in its own process.
 //! `cancel` cancels loading at several times, the tree's construction included, and prints how long it took
 //! to stop.
-//! building among them.
 
 use hitscope_core::obj::{self, LoadOptions};
 use hitscope_core::progress::Progress;

@@ -1,7 +1,6 @@
 //! Reads material libraries.
 //!
-//! tobj isn't used here: it panics on the valid `Kd 0.5`, and drops a whole library for an unknown statement.
-//! This parser skips only the bad line.
+//! A statement that is malformed or unknown is skipped, with a warning; the rest of the library is read.
 //!
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 

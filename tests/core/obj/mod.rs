@@ -1,4 +1,4 @@
-//! Reading OBJ files: unusual files, and clean ones compared with tobj.
+//! Reading OBJ files: unusual, malicious and faulty ones.
 
 // A file for each oddity, and its result.
 mod odd_files;
