@@ -61,31 +61,22 @@ pub(super) fn assemble(
     let exact = std::mem::take(&mut contents.positions);
     let positions: Vec<Vec3> = exact.par_iter().map(|&p| (p - origin).as_vec3()).collect();
     let elements = std::mem::take(&mut contents.elements);
-    let first_faces = elements.iter().scan(0, |face, elements| {
-        let first = *face;
-        *face += elements.face_count();
-        Some(first)
-    });
-    let first_faces: Vec<usize> = first_faces.collect();
     progress.set_steps(0, elements.len());
-    let large_polygons = Mutex::new(());
+    let assembly = Assembly {
+        exact: &exact,
+        positions: &positions,
+        unusable_normals: &unusable_normals,
+        used: &used,
+        has_textures,
+        contents: &contents,
+        large_polygons: Mutex::new(()),
+        progress,
+    };
     let parts: Vec<Triangles> = elements
         .into_par_iter()
-        .zip(first_faces)
-        .map(|(elements, first_face)| {
+        .map(|elements| {
             progress.check()?;
             progress.add_step();
-            let assembly = Assembly {
-                exact: &exact,
-                positions: &positions,
-                unusable_normals: &unusable_normals,
-                used: &used,
-                has_textures,
-                contents: &contents,
-                first_face,
-                large_polygons: &large_polygons,
-                progress,
-            };
             assembly.triangles(elements)
         })
         .collect::<Result<_, Problem>>()?;
@@ -143,7 +134,7 @@ fn unusable(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
     (normals, Some(Warning::of_file(message)))
 }
 
-/// The data from which a chunk's triangles are built.
+/// The data from which the chunks' triangles are built.
 struct Assembly<'c> {
     /// Positions in the file, and relative to the mesh's origin.
     exact: &'c [DVec3],
@@ -153,10 +144,8 @@ struct Assembly<'c> {
     used: &'c Used,
     has_textures: bool,
     contents: &'c Contents,
-    /// Index of the chunk's first face.
-    first_face: usize,
     /// Held while a large polygon is cut, so that only one at a time takes its memory.
-    large_polygons: &'c Mutex<()>,
+    large_polygons: Mutex<()>,
     progress: &'c Progress,
 }
 
@@ -166,7 +155,6 @@ struct Triangles {
     /// Of the mesh, only lists per triangle, lines, points and counts.
     mesh: TriangleMesh,
     first_face: usize,
-    faces: usize,
     /// The first triangles of runs of materials, groups and smoothing groups, and their numbers.
     runs: [Vec<(u32, u32)>; 3],
     oddities: Oddities,
@@ -174,6 +162,7 @@ struct Triangles {
 
 impl Assembly<'_> {
     fn triangles(&self, mut elements: Elements) -> Result<Triangles, Problem> {
+        let first_face = elements.first_face;
         for list in List::ALL {
             self.used
                 .renumber(list, &mut elements.corners[list as usize]);
@@ -189,7 +178,7 @@ impl Assembly<'_> {
         let mut builder = TriangleBuilder {
             assembly: self,
             triangles: Triangles {
-                first_face: self.first_face,
+                first_face,
                 ..Triangles::default()
             },
             triangulator: Triangulator::new(),
@@ -197,9 +186,9 @@ impl Assembly<'_> {
             polygon: Vec::new(),
             placed: Vec::new(),
             runs: [
-                FaceRuns::from(&self.contents.materials.runs, self.first_face),
-                FaceRuns::from(&self.contents.groups.runs, self.first_face),
-                FaceRuns::from(&self.contents.smoothing, self.first_face),
+                FaceRuns::from(&self.contents.materials.runs, first_face),
+                FaceRuns::from(&self.contents.groups.runs, first_face),
+                FaceRuns::from(&self.contents.smoothing, first_face),
             ],
         };
         builder
@@ -254,12 +243,10 @@ impl TriangleBuilder<'_> {
         let Triangles {
             mesh,
             first_face,
-            faces,
             runs,
             oddities,
         } = &mut self.triangles;
-        let face = *faces;
-        *faces += 1;
+        let face = element.index;
         let triangle = mesh.triangles.len() as u32;
         for (begins, begun) in self.runs.iter_mut().zip(runs) {
             begins.step(*first_face + face, triangle, begun);
@@ -313,7 +300,7 @@ impl TriangleBuilder<'_> {
             self.placed.extend(placed);
             let progress = self.assembly.progress;
             let is_large = vertices.len() > LARGE;
-            let large_polygons = self.assembly.large_polygons;
+            let large_polygons = &self.assembly.large_polygons;
             let _alone = is_large.then(|| large_polygons.lock());
             let how = self
                 .triangulator

@@ -44,8 +44,7 @@ pub(super) struct Contents {
     pub elements: Vec<Elements>,
     /// Whether any element has an index in a list.
     pub has_indices: [bool; 3],
-    /// Number of faces, and of faces, lines and points.
-    pub face_count: usize,
+    /// Number of faces, lines and points.
     pub element_count: usize,
     pub materials: NamedRuns,
     pub groups: NamedRuns,
@@ -168,7 +167,6 @@ impl Contents {
             part
         };
         part.elements.resolve_relative(before);
-        let face = self.face_count;
         let first_vertex = before[0];
         for (vertex, colour) in part.colours {
             self.colours.add(first_vertex + vertex as usize, colour);
@@ -204,7 +202,6 @@ impl Contents {
         self.has_polygons |= !elements.arities.is_empty();
         self.largest_element = self.largest_element.max(elements.largest);
         self.other_bytes += elements.other_bytes() + part.marks.iter().map(bytes_of).sum::<usize>();
-        self.face_count = face + elements.face_count();
         self.elements.push(elements);
         self.marks.push(part.marks);
         match part.problem {
@@ -259,7 +256,9 @@ impl Contents {
             FaultPolicy::Lenient => self.drop_missing(counts),
         }
         let mut face = 0;
-        for (elements, marks) in self.elements.iter().zip(std::mem::take(&mut self.marks)) {
+        let marks = std::mem::take(&mut self.marks);
+        for (elements, marks) in self.elements.iter_mut().zip(marks) {
+            elements.first_face = face;
             for (first, mark) in marks {
                 let first = face + first as usize;
                 match mark {
@@ -276,7 +275,6 @@ impl Contents {
             self.face_lines.append(&elements.face_lines);
             face += elements.face_count();
         }
-        self.face_count = face;
         self.element_count = self.elements.iter().map(|elements| elements.count).sum();
         self.materials.end(face);
         self.groups.end(face);

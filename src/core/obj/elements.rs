@@ -50,6 +50,8 @@ pub(super) struct Elements {
     /// Number of corners of each element; empty if all have three.
     pub arities: Vec<u32>,
     pub count: usize,
+    /// Number of faces before the chunk, once the whole file has been read.
+    pub first_face: usize,
     /// Indices of the elements that aren't faces, in ascending order.
     pub non_faces: Vec<(u32, Element)>,
     pub face_lines: LineRuns,

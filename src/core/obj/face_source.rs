@@ -166,10 +166,7 @@ fn look_up(
 
 /// The first numbers of a statement, padded with zeros.
 fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Problem> {
-    let plain = Statement {
-        bytes: without_comment(statement.bytes),
-        ..*statement
-    };
+    let plain = statement.without_comment();
     let after = start_of(statement) + keyword(statement).len();
     let mut numbers = [0.0; N];
     for (slot, word) in numbers.iter_mut().zip(Words::of(plain.bytes, after)) {

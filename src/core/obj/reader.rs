@@ -21,6 +21,42 @@ use crate::mesh::NO_INDEX;
 use crate::progress::Progress;
 use glam::{DVec3, Vec2};
 
+/// The first word of a statement that is read.
+#[derive(Clone, Copy)]
+enum Keyword {
+    Numbers(List),
+    Element(Element),
+    Material,
+    Group,
+    Smoothing,
+    Library,
+}
+
+impl Keyword {
+    fn of(word: &[u8]) -> Option<Self> {
+        Some(match word {
+            b"v" => Self::Numbers(List::Vertex),
+            b"vt" => Self::Numbers(List::Texture),
+            b"vn" => Self::Numbers(List::Normal),
+            b"f" => Self::Element(Element::Face),
+            b"l" => Self::Element(Element::Line),
+            b"p" => Self::Element(Element::Points),
+            b"usemtl" => Self::Material,
+            b"o" | b"g" => Self::Group,
+            b"s" => Self::Smoothing,
+            b"mtllib" => Self::Library,
+            _ => return None,
+        })
+    }
+
+    /// Some programs write `V` and `F`.
+    fn in_another_case(word: &[u8]) -> Option<Self> {
+        const LONGEST: usize = 6;
+        let word = (word.len() <= LONGEST).then_some(word)?;
+        Self::of(&word.to_ascii_lowercase())
+    }
+}
+
 /// An index resolved within a chunk.
 enum Index {
     At(u32),
@@ -71,63 +107,30 @@ impl PartReader<'_> {
         };
         let length = bytes[start..].iter().position(|&b| is_blank(b));
         let after = length.map_or(bytes.len(), |length| start + length);
-        match &bytes[start..after] {
-            b"v" => self.numbers(List::Vertex, statement, after),
-            b"vt" => self.numbers(List::Texture, statement, after),
-            b"vn" => self.numbers(List::Normal, statement, after),
-            b"f" => self.element(Element::Face, statement, after),
-            b"l" => self.element(Element::Line, statement, after),
-            b"p" => self.element(Element::Points, statement, after),
-            b"usemtl" | b"o" | b"g" | b"s" | b"mtllib" => {
-                self.note(&bytes[start..after], statement.line, &bytes[after..]);
-                Ok(())
+        let (word, rest) = (&bytes[start..after], &bytes[after..]);
+        match Keyword::of(word).or_else(|| Keyword::in_another_case(word)) {
+            Some(Keyword::Numbers(list)) => self.numbers(list, statement, after)?,
+            Some(Keyword::Element(kind)) => self.element(kind, statement, after)?,
+            Some(Keyword::Material) => self.mark(Mark::Material(name(rest))),
+            Some(Keyword::Group) => self.mark(Mark::Group(name(rest))),
+            Some(Keyword::Smoothing) => {
+                let group = smoothing_group(&name(without_comment(rest)));
+                self.mark(Mark::Smoothing(group));
             }
-            keyword => self.other(keyword, statement, start, after),
-        }
-    }
-
-    /// Reads a statement whose keyword is in another case, as some programs write `V` and `F`; or ignores it.
-    fn other(
-        &mut self,
-        keyword: &[u8],
-        statement: Statement<'_>,
-        start: usize,
-        after: usize,
-    ) -> Result<(), Problem> {
-        /// The longest keyword.
-        const LONGEST: usize = 6;
-        let is_known = |lower_case: &[u8]| {
-            let known: [&[u8]; 11] = [
-                b"v", b"vt", b"vn", b"f", b"l", b"p", b"o", b"g", b"s", b"usemtl", b"mtllib",
-            ];
-            known.contains(&lower_case)
-        };
-        let lower_case = keyword.to_ascii_lowercase();
-        if keyword.len() <= LONGEST && lower_case != keyword && is_known(&lower_case) {
-            let mut bytes = statement.bytes.to_vec();
-            bytes[start..after].copy_from_slice(&lower_case);
-            return self.take(Statement {
-                bytes: &bytes,
-                ..statement
-            });
-        }
-        if keyword[0] != b'#' {
-            let keyword = shortened(&text(keyword));
-            count_by_keyword(&mut self.part.ignored, &keyword, statement.line);
+            Some(Keyword::Library) => self.part.libraries.push((statement.line, name(rest))),
+            None if word[0] == b'#' => {}
+            None => {
+                let keyword = shortened(&text(word));
+                count_by_keyword(&mut self.part.ignored, &keyword, statement.line);
+            }
         }
         Ok(())
     }
 
-    /// Records a name or a smoothing group.
-    fn note(&mut self, keyword: &[u8], line: usize, rest: &[u8]) {
-        let part = &mut self.part;
-        let mark = match keyword {
-            b"usemtl" => Mark::Material(name(rest)),
-            b"o" | b"g" => Mark::Group(name(rest)),
-            b"mtllib" => return part.libraries.push((line, name(rest))),
-            _ => Mark::Smoothing(smoothing_group(&name(without_comment(rest)))),
-        };
-        part.marks.push((part.elements.face_count() as u32, mark));
+    /// Applies a mark to the faces that follow.
+    fn mark(&mut self, mark: Mark) {
+        let face = self.part.elements.face_count() as u32;
+        self.part.marks.push((face, mark));
     }
 
     /// Reads a vertex (three numbers, optionally a weight or a colour), texture coordinates (one to three numbers,
@@ -185,10 +188,7 @@ impl PartReader<'_> {
             List::Texture => (1, "vt"),
             List::Normal => (3, "vn"),
         };
-        let statement = Statement {
-            bytes: without_comment(statement.bytes),
-            ..statement
-        };
+        let statement = statement.without_comment();
         let words = Words::of(statement.bytes, after);
         let count = words.clone().count();
         if count < least {
@@ -319,10 +319,7 @@ impl PartReader<'_> {
     ) -> Result<bool, Problem> {
         /// Corners between two checks for cancellation.
         const PER_CHECK: usize = 1 << 16;
-        let statement = Statement {
-            bytes: without_comment(statement.bytes),
-            ..statement
-        };
+        let statement = statement.without_comment();
         let mut count = 0;
         for corner in Corners::of(statement.bytes, after) {
             let corner = corner.map_err(|bad| statement.problem_at(bad.offset, bad.message))?;

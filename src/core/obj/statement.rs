@@ -4,6 +4,7 @@
 
 use super::chunks::Chunk;
 use super::error::Problem;
+use super::words::without_comment;
 use memchr::{memchr_iter, memchr2};
 
 /// A statement as written in the file.
@@ -17,6 +18,13 @@ pub(super) struct Statement<'c> {
 }
 
 impl Statement<'_> {
+    pub(super) fn without_comment(self) -> Self {
+        Self {
+            bytes: without_comment(self.bytes),
+            ..self
+        }
+    }
+
     pub(super) fn problem(&self, message: String) -> Problem {
         Problem::line(self.line, message)
     }

@@ -178,17 +178,19 @@ impl MemoryArg {
         self.max_memory << 20
     }
 
-    /// Fails if `bytes` of work and the `held` bytes of the mesh together exceed the limit.
+    /// Fails if `bytes` of work exceed the limit together with a scene whose packed triangles take `packed_bytes`.
     ///
     /// # Errors
     /// [`CommandError::Other`].
     pub(super) fn require(
         self,
         bytes: u64,
-        held: usize,
+        scene: &Scene,
+        packed_bytes: usize,
         what: std::fmt::Arguments,
     ) -> Result<(), CommandError> {
-        let held = held as u64;
+        let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
+        let held = (mesh + scene.bvh().bytes() + packed_bytes) as u64;
         if held.saturating_add(bytes) <= self.bytes() {
             return Ok(());
         }

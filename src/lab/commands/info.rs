@@ -97,11 +97,10 @@ impl InfoArgs {
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
         let intersector = scene.intersector(default_triangle_kernel());
-        let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
-        let held = mesh + scene.bvh().bytes() + intersector.bytes();
         self.mesh.memory.require(
             Health::bytes(scene.mesh()),
-            held,
+            scene,
+            intersector.bytes(),
             format_args!("checking the mesh"),
         )?;
         let mut info = Info::of(&loaded, intersector.bytes());

@@ -147,15 +147,14 @@ impl PictureArgs {
         loaded: &LoadedScene,
         [first, second]: &[&Arc<dyn Intersector>; 2],
     ) -> Result<(), CommandError> {
-        let scene = &loaded.scene;
-        let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
-        let mut held = mesh + scene.bvh().bytes() + first.bytes();
+        let mut packed_bytes = first.bytes();
         if !Arc::ptr_eq(first, second) {
-            held += second.bytes();
+            packed_bytes += second.bytes();
         }
         let UVec2 { x, y } = self.camera.size;
         let what = format_args!("a picture of {x}x{y} pixels");
-        self.mesh.memory.require(self.picture_bytes(), held, what)
+        let memory = self.mesh.memory;
+        memory.require(self.picture_bytes(), &loaded.scene, packed_bytes, what)
     }
 
     fn picture_bytes(&self) -> u64 {
