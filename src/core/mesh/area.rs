@@ -1,30 +1,29 @@
 //! Detects triangles whose area is exactly zero: they have no normal and no barycentric coordinates.
 
-use glam::Vec3;
+use glam::{Vec3, Vec3Swizzles as _};
 
 /// Whether the corners are exactly collinear. `false` if a corner isn't finite.
 ///
 /// They are if and only if their three projections along the axes are. Each projection is an orientation
 /// test, whose terms are products of two f32 and therefore exact in f64.
+#[inline]
 pub fn has_zero_area(corners: [Vec3; 3]) -> bool {
-    let planes = [(0, 1), (1, 2), (2, 0)];
-    if planes.iter().any(|&(x, y)| has_surely_area(corners, x, y)) {
-        return false;
-    }
-    planes
-        .into_iter()
-        .all(|(x, y)| is_flat(corners.map(|p| [f64::from(p[x]), f64::from(p[y])])))
+    !has_surely_area(corners)
+        && [(0, 1), (1, 2), (2, 0)]
+            .into_iter()
+            .all(|(x, y)| is_flat(corners.map(|p| [f64::from(p[x]), f64::from(p[y])])))
 }
 
 /// Whether a projection has an area beyond rounding, as nearly all have. The differences and products round once
 /// each, by at most 2⁻⁵³ of their size, so the difference of the products errs by at most 4·2⁻⁵³ of the sum of their
 /// sizes. Products of differences of f32 numbers don't underflow in f64.
 #[inline]
-fn has_surely_area([a, b, c]: [Vec3; 3], x: usize, y: usize) -> bool {
-    let [a, b, c] = [a, b, c].map(Vec3::as_dvec3);
+fn has_surely_area(corners: [Vec3; 3]) -> bool {
+    let [a, b, c] = corners.map(Vec3::as_dvec3);
     let (p, q) = (b - a, c - a);
-    let (left, right) = (p[x] * q[y], p[y] * q[x]);
-    (left - right).abs() > 8.0 * f64::EPSILON * (left.abs() + right.abs())
+    let (left, right) = (p.yzx() * q.zxy(), p.zxy() * q.yzx());
+    let error = 8.0 * f64::EPSILON * (left.abs() + right.abs());
+    (left - right).abs().cmpgt(error).any()
 }
 
 /// Whether A×B + B×C + C×A is zero in 2D.

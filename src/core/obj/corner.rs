@@ -1,7 +1,6 @@
 //! Parses the corners of faces, lines and points.
 
 use super::tally::shortened;
-use crate::mesh::NO_INDEX;
 
 /// The lists that a corner's indices refer to, in the order of a corner's notation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -92,47 +91,6 @@ impl Iterator for Corners<'_> {
     }
 }
 
-/// Reads a corner of plain indices from 1 as indices from 0, or [`NO_INDEX`] for those left out; `None` for any
-/// other corner. Most corners in large files are of this form.
-#[inline]
-pub(super) fn plain_corner(line: &[u8], at: &mut usize) -> Option<[u32; 3]> {
-    let mut corner = [NO_INDEX; 3];
-    let mut rest = line.get(*at..)?;
-    for (list, index) in corner.iter_mut().enumerate() {
-        let count;
-        (*index, count) = plain_index(rest)?;
-        rest = &rest[count..];
-        if count == 0 && list == 0 {
-            return None;
-        }
-        match rest {
-            [b'/', more @ ..] if list < 2 => rest = more,
-            [b, ..] if !is_blank(*b) => return None,
-            _ => break,
-        }
-    }
-    *at = line.len() - rest.len();
-    Some(corner)
-}
-
-/// Reads an index from 1 as one from 0, and its number of digits; [`NO_INDEX`] if there are none. `None` if it is 0 or
-/// has so many digits that it may not fit in a u32.
-#[inline]
-pub(super) fn plain_index(text: &[u8]) -> Option<(u32, usize)> {
-    const MOST_DIGITS: usize = 9;
-    let (mut from_one, mut count) = (0u32, 0);
-    for digit in text.iter().map(|b| b.wrapping_sub(b'0')) {
-        if digit > 9 {
-            break;
-        }
-        from_one = from_one.wrapping_mul(10).wrapping_add(digit.into());
-        count += 1;
-    }
-    let is_plain = count <= MOST_DIGITS && (count == 0 || from_one > 0);
-    // One less than 0 is NO_INDEX.
-    is_plain.then_some((from_one.wrapping_sub(1), count))
-}
-
 impl Corners<'_> {
     /// The number at the current position; `None` if there is none, or it is too long for any list.
     fn index(&mut self) -> Option<i64> {
@@ -200,40 +158,6 @@ mod tests {
             [Some(1), None, None],
         ];
         assert_eq!(read, expected.map(Ok));
-    }
-
-    #[test]
-    fn plain_corners_are_read_as_others_are() {
-        for text in [
-            "1",
-            "12/3",
-            "4//5",
-            "6/7/8",
-            "9/",
-            "1//",
-            "999999999",
-            "3 4",
-        ] {
-            let written = Corners::of(text.as_bytes(), 0).next();
-            let written = written.expect("a corner").expect("well-formed").indices;
-            let from_zero = |index: Option<i64>| index.map_or(NO_INDEX, |index| index as u32 - 1);
-            let plain = plain_corner(text.as_bytes(), &mut 0);
-            assert_eq!(plain, Some(written.map(from_zero)), "{text}");
-        }
-        for text in [
-            "",
-            "0",
-            "-1",
-            "+1",
-            "1/0",
-            "/1",
-            "1/2/3/4",
-            "1234567890",
-            "1#",
-            "1.0",
-        ] {
-            assert_eq!(plain_corner(text.as_bytes(), &mut 0), None, "{text}");
-        }
     }
 
     #[test]

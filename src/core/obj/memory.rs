@@ -25,7 +25,7 @@ const OF_POLYGON: usize = 4 + 1;
 /// Per triangle: the indices of its corners' normals, or of their texture coordinates.
 const CORNERS: usize = 12;
 /// Memory per corner for triangulating a large polygon (measured 2026-11).
-const POLYGON_CORNER: usize = 400;
+const POLYGON_CORNER: usize = 450;
 
 /// Flag and new index of each entry of a list, while entries that aren't used are removed.
 const USE: usize = 1 + 4;

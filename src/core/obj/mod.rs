@@ -4,7 +4,7 @@
 //! |---|---|
 //! | bytes are decompressed and decoded | `source`, `gzip` |
 //! | the file is cut into chunks of whole statements | `chunks`, `kind` |
-//! | **chunks are parsed in parallel, statement by statement** | `reader`: `statement`, `words`, `corner`; `part`, `elements` |
+//! | **chunks are parsed in parallel, statement by statement** | `plain`, or `reader` with `statement`, `words`, `corner`; `part`, `elements` |
 //! | the chunks' contents are merged in file order | `contents`: `names`, `colours`, `tally`, `memory` |
 //! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
 //! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `polygon`, `delaunay`, `outline`, `oddities` |
@@ -31,6 +31,7 @@ mod outline;
 mod part;
 mod picture;
 mod place;
+mod plain;
 mod polygon;
 mod reader;
 mod referenced_files;

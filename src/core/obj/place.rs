@@ -142,22 +142,17 @@ fn rounding_of(
     has_long_numbers: bool,
     counts: impl Fn(&DVec3) -> bool + Sync,
 ) -> f64 {
-    /// Relative error of rounding to f32, with a margin for the sum below.
-    const IN_F32: f64 = 1.001 / (1 << 24) as f64;
-    /// Absolute error of rounding to a subnormal f32.
-    const LEAST: f64 = f32::from_bits(1) as f64;
     let vertices = mesh.positions.par_iter().zip(exact);
     let larger_of = |mut most: f64, (own, in_file): (&Vec3, &DVec3)| {
         for axis in 0..3 {
             let (x, origin) = (in_file[axis], mesh.origin[axis]);
             let (from_origin, lost) = difference(x, origin);
-            // `moved` is at most half an ulp of an f32 and of an f64, `read` half an ulp of an f64.
-            let bound = from_origin.abs() * IN_F32 + x.abs() * f64::EPSILON + LEAST;
-            if bound <= most {
-                continue;
-            }
             // Exact: the two differ by less than half an ulp of an f32.
             let moved = (from_origin - f64::from(own[axis])).abs() + lost.abs();
+            // An upper bound on `read`.
+            if moved + x.abs() * f64::EPSILON <= most {
+                continue;
+            }
             let read = half_last_place(x);
             if moved + read > most {
                 let is_exact = !has_long_numbers && has_15_digits(x);

@@ -9,13 +9,14 @@
 
 use super::FaultPolicy;
 use super::chunks::Chunk;
-use super::corner::{Corner, Corners, List, is_blank, plain_corner, plain_index};
+use super::corner::{Corner, Corners, List, is_blank};
 use super::elements::Element;
 use super::error::Problem;
 use super::part::{Mark, Part};
+use super::plain;
 use super::statement::{Statement, Statements};
 use super::tally::{count_by_keyword, shortened};
-use super::words::{Words, is_long_number, name, number, plain_number, text, without_comment};
+use super::words::{Words, is_long_number, name, number, text, without_comment};
 use crate::counts::{counted, grouped};
 use crate::mesh::NO_INDEX;
 use crate::progress::Progress;
@@ -81,7 +82,15 @@ pub(super) fn read(chunk: &Chunk, options: PartOptions<'_>) -> Part {
         options,
     };
     let mut statements = Statements::of(chunk);
-    while let Some(statement) = statements.next() {
+    loop {
+        let plain = plain::read(&mut reader.part, statements.rest(), statements.next_line());
+        if let Some(length) = plain {
+            statements.skip_line(length);
+            continue;
+        }
+        let Some(statement) = statements.next() else {
+            break;
+        };
         if let Err(problem) = reader.take(statement) {
             reader.part.problem = Some(problem);
             break;
@@ -142,47 +151,6 @@ impl PartReader<'_> {
         after: usize,
     ) -> Result<(), Problem> {
         let used = if list == List::Texture { 2 } else { 3 };
-        let values = match self.plain_numbers(list, used, statement.bytes, after) {
-            Some(values) => values,
-            None => self.any_numbers(list, used, statement, after)?,
-        };
-        let [x, y, z] = values;
-        let part = &mut self.part;
-        match list {
-            List::Vertex => part.positions.push(DVec3::new(x, y, z)),
-            List::Texture => part.textures.push(Vec2::new(x as f32, y as f32)),
-            List::Normal => part.normals.push(DVec3::new(x, y, z).as_vec3()),
-        }
-        Ok(())
-    }
-
-    /// Fast path for exactly as many plain numbers as are used.
-    fn plain_numbers(
-        &mut self,
-        list: List,
-        used: usize,
-        line: &[u8],
-        mut at: usize,
-    ) -> Option<[f64; 3]> {
-        let mut values = [0.0; 3];
-        for value in &mut values[..used] {
-            let word;
-            (*value, word) = plain_number(line, &mut at)?;
-            if list == List::Vertex && word.len() > SHORT {
-                self.part.has_long_numbers |= is_long_number(word);
-            }
-        }
-        line[at..].iter().all(|&b| is_blank(b)).then_some(values)
-    }
-
-    /// Checks all numbers of a statement and returns those that are used.
-    fn any_numbers(
-        &mut self,
-        list: List,
-        used: usize,
-        statement: Statement<'_>,
-        after: usize,
-    ) -> Result<[f64; 3], Problem> {
         let (least, keyword) = match list {
             List::Vertex => (3, "v"),
             List::Texture => (1, "vt"),
@@ -215,7 +183,14 @@ impl PartReader<'_> {
             let vertex = self.part.positions.len() as u32;
             self.part.colours.push((vertex, colour));
         }
-        Ok(values)
+        let [x, y, z] = values;
+        let part = &mut self.part;
+        match list {
+            List::Vertex => part.positions.push(DVec3::new(x, y, z)),
+            List::Texture => part.textures.push(Vec2::new(x as f32, y as f32)),
+            List::Normal => part.normals.push(DVec3::new(x, y, z).as_vec3()),
+        }
+        Ok(())
     }
 
     /// Reads a face, a line or points.
@@ -226,9 +201,7 @@ impl PartReader<'_> {
         after: usize,
     ) -> Result<(), Problem> {
         let first = self.part.elements.corners[0].len();
-        let is_read = self.plain_vertices(kind, statement.bytes, after)
-            || self.plain_corners(kind, statement.bytes, after)
-            || self.any_corners(kind, statement, after)?;
+        let is_read = self.corners(kind, statement, after)?;
         let elements = &mut self.part.elements;
         if is_read {
             elements.end(kind, first, statement.line);
@@ -242,76 +215,8 @@ impl PartReader<'_> {
         Ok(())
     }
 
-    /// Fast path for plain indices of vertices from 1, as most lines of large files have; returns `false` and adds
-    /// nothing for other corners, or if earlier corners have more.
-    fn plain_vertices(&mut self, kind: Element, line: &[u8], at: usize) -> bool {
-        let elements = &mut self.part.elements;
-        let [vertices, textures, normals] = &mut elements.corners;
-        if !textures.is_empty() || !normals.is_empty() {
-            return false;
-        }
-        let first = vertices.len();
-        let mut highest = elements.highest[List::Vertex as usize];
-        let mut rest = line.get(at..).unwrap_or_default();
-        let is_plain = loop {
-            while let [b, more @ ..] = rest
-                && is_blank(*b)
-            {
-                rest = more;
-            }
-            if rest.is_empty() {
-                break vertices.len() - first >= kind.least_corners().0;
-            }
-            let Some((index, digits @ 1..)) = plain_index(rest) else {
-                break false;
-            };
-            rest = &rest[digits..];
-            if rest.first().is_some_and(|&b| !is_blank(b)) {
-                break false;
-            }
-            vertices.push(index);
-            highest = highest.max(index as usize + 1);
-        };
-        if is_plain {
-            elements.highest[List::Vertex as usize] = highest;
-        } else {
-            vertices.truncate(first);
-        }
-        is_plain
-    }
-
-    /// Fast path for corners of plain indices from 1; returns `false` and adds nothing for others.
-    fn plain_corners(&mut self, kind: Element, line: &[u8], mut at: usize) -> bool {
-        let elements = &mut self.part.elements;
-        let first = elements.corners[0].len();
-        let highest = elements.highest;
-        let is_plain = loop {
-            while line.get(at).is_some_and(|&b| is_blank(b)) {
-                at += 1;
-            }
-            if at == line.len() {
-                break elements.corners[0].len() - first >= kind.least_corners().0;
-            }
-            let Some(corner) = plain_corner(line, &mut at) else {
-                break false;
-            };
-            for list in List::ALL {
-                let index = corner[list as usize];
-                elements.push(list, index);
-                // One more than NO_INDEX is 0.
-                let highest = &mut elements.highest[list as usize];
-                *highest = (*highest).max(index.wrapping_add(1) as usize);
-            }
-        };
-        if !is_plain {
-            elements.truncate(first);
-            elements.highest = highest;
-        }
-        is_plain
-    }
-
     /// Reads an element's corners; returns `false` if the element must be dropped.
-    fn any_corners(
+    fn corners(
         &mut self,
         kind: Element,
         statement: Statement<'_>,
@@ -413,9 +318,6 @@ impl PartReader<'_> {
         }
     }
 }
-
-/// A word of at most this many bytes has at most 15 digits.
-const SHORT: usize = 15;
 
 /// The number of a smoothing group: 1 for `on`; 0 (no group) for `off` and anything else that isn't a number.
 fn smoothing_group(word: &str) -> u32 {

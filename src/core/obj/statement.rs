@@ -59,10 +59,26 @@ impl<'c> Statements<'c> {
         }
     }
 
+    /// The text from the next statement on.
+    pub(super) fn rest(&self) -> &'c [u8] {
+        self.rest
+    }
+
+    /// The line on which the next statement starts.
+    pub(super) fn next_line(&self) -> usize {
+        self.next_line
+    }
+
+    /// Passes a statement of one line, whose length includes the end of the line.
+    pub(super) fn skip_line(&mut self, length: usize) {
+        self.rest = &self.rest[length..];
+        self.next_line += 1;
+    }
+
     /// The next statement, or `None` at the end. Empty lines are statements, too.
     pub(super) fn next(&mut self) -> Option<Statement<'_>> {
         let line = self.next_line;
-        let bytes = self.next_line()?;
+        let bytes = self.take_line()?;
         let Some(continued) = before_backslash(bytes) else {
             return Some(Statement {
                 line,
@@ -72,7 +88,7 @@ impl<'c> Statements<'c> {
         };
         self.joined.clear();
         self.joined.extend(continued);
-        while let Some(more) = self.next_line() {
+        while let Some(more) = self.take_line() {
             self.joined.push(b' ');
             let continued = before_backslash(more);
             self.joined.extend(continued.unwrap_or(more));
@@ -88,7 +104,7 @@ impl<'c> Statements<'c> {
     }
 
     /// The next line, without its end.
-    fn next_line(&mut self) -> Option<&'c [u8]> {
+    fn take_line(&mut self) -> Option<&'c [u8]> {
         if self.rest.is_empty() {
             return None;
         }

@@ -48,18 +48,6 @@ pub(super) fn number<T: FastFloat>(
     })
 }
 
-/// Parses the next word as a number and moves `at` past it; returns the number and the word. `None` if there is no word,
-/// or it isn't a number as a whole.
-pub(super) fn plain_number<'l>(line: &'l [u8], at: &mut usize) -> Option<(f64, &'l [u8])> {
-    let blanks = line.get(*at..)?.iter().take_while(|&&b| is_blank(b));
-    *at += blanks.count();
-    let rest = &line[*at..];
-    let (number, length) = fast_float2::parse_partial(rest).ok()?;
-    *at += length;
-    let is_whole = rest.get(length).is_none_or(|&b| is_blank(b));
-    is_whole.then_some((number, &rest[..length]))
-}
-
 /// Converts other notations of NaN and infinity to `nan`, `inf` or `-inf`: `-nan(ind)` from C; `1.#QNAN`, `-1.#IND00`
 /// and `1.#INF` from Microsoft's C runtime.
 fn not_finite(word: &[u8]) -> Option<&'static [u8]> {
@@ -136,11 +124,6 @@ mod tests {
         let bytes = b"v  1\t2.5 ";
         let words: Vec<_> = Words::of(bytes, 1).collect();
         assert_eq!(words, [(3, &b"1"[..]), (5, &b"2.5"[..])]);
-        let mut at = 1;
-        assert_eq!(plain_number(bytes, &mut at), Some((1.0, &b"1"[..])));
-        assert_eq!(plain_number(bytes, &mut at), Some((2.5, &b"2.5"[..])));
-        assert_eq!(plain_number(bytes, &mut at), None);
-        assert_eq!(plain_number(b"1x", &mut 0), None);
     }
 
     #[test]

@@ -1,0 +1,371 @@
+//! Fast paths for the statements that most lines of large files hold.
+//!
+//! A statement is plain if it is a vertex, texture coordinates or a normal with just the numbers that are used, or a face
+//! whose indices are positive, and if nothing but blanks follows. It is read straight from the chunk, without first
+//! searching for the end of its line. All other statements are left to [`reader`](super::reader), errors among them.
+
+use super::corner::{List, is_blank};
+use super::elements::{Element, Elements};
+use super::part::Part;
+use super::words::is_long_number;
+use crate::mesh::NO_INDEX;
+use glam::{DVec3, Vec2};
+
+/// Longer faces are left to the reader, which checks for cancellation between corners.
+const MOST_CORNERS: usize = 1 << 16;
+
+/// Reads the statement at the start of `text` if it is plain, and returns its length, with the end of its line. Adds
+/// nothing if it isn't.
+#[inline]
+pub(super) fn read(part: &mut Part, text: &[u8], line: usize) -> Option<usize> {
+    let rest = match text {
+        [b'v', b' ', rest @ ..] => {
+            let mut cursor = Cursor { rest };
+            let [x, y, z] = cursor.numbers(|word| part.has_long_numbers |= is_long_number(word))?;
+            let rest = cursor.end_line()?;
+            part.positions.push(DVec3::new(x, y, z));
+            rest
+        }
+        [b'v', b't', b' ', rest @ ..] => {
+            let mut cursor = Cursor { rest };
+            let [u, v] = cursor.numbers(|_| ())?;
+            let rest = cursor.end_line().or_else(|| {
+                let [_w] = cursor.numbers(|_| ())?;
+                cursor.end_line()
+            })?;
+            part.textures.push(Vec2::new(u as f32, v as f32));
+            rest
+        }
+        [b'v', b'n', b' ', rest @ ..] => {
+            let mut cursor = Cursor { rest };
+            let [x, y, z] = cursor.numbers(|_| ())?;
+            let rest = cursor.end_line()?;
+            part.normals.push(DVec3::new(x, y, z).as_vec3());
+            rest
+        }
+        [b'f', b' ', rest @ ..] => face(&mut part.elements, rest, line)?,
+        _ => return None,
+    };
+    Some(text.len() - rest.len())
+}
+
+/// Reads a face's corners, and returns the text after the end of its line.
+fn face<'t>(elements: &mut Elements, text: &'t [u8], line: usize) -> Option<&'t [u8]> {
+    let (first, highest) = (elements.corners[0].len(), elements.highest);
+    let [_, textures, normals] = &elements.corners;
+    let has_vertices_only = textures.is_empty() && normals.is_empty();
+    let rest = has_vertices_only
+        .then(|| vertices(elements, text))
+        .flatten();
+    let rest = rest.or_else(|| {
+        elements.corners[0].truncate(first);
+        corners(elements, text)
+    });
+    let count = elements.corners[0].len() - first;
+    if rest.is_none() || count < 3 {
+        elements.truncate(first);
+        elements.highest = highest;
+        return None;
+    }
+    elements.end(Element::Face, first, line);
+    rest
+}
+
+/// Reads corners that are vertices alone.
+///
+/// Not inlined, as the next function isn't: in a larger function its few variables wouldn't stay in registers.
+#[inline(never)]
+fn vertices<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
+    let mut cursor = Cursor { rest: text };
+    let vertices = &mut elements.corners[0];
+    let (end, mut highest) = (vertices.len() + MOST_CORNERS, 0);
+    while vertices.len() < end
+        && let Some(vertex) = cursor.index()
+    {
+        vertices.push(vertex);
+        highest = highest.max(vertex as usize + 1);
+    }
+    let of_all = &mut elements.highest[List::Vertex as usize];
+    *of_all = highest.max(*of_all);
+    cursor.end_line()
+}
+
+/// Reads corners of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+#[inline(never)]
+fn corners<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
+    let mut cursor = Cursor { rest: text };
+    let end = elements.corners[0].len() + MOST_CORNERS;
+    while elements.corners[0].len() < end
+        && let Some(vertex) = cursor.index()
+    {
+        let mut corner = [vertex, NO_INDEX, NO_INDEX];
+        for index in &mut corner[1..] {
+            if let [b'/', rest @ ..] = cursor.rest {
+                cursor.rest = rest;
+                if matches!(rest, [b'0'..=b'9', ..]) {
+                    *index = cursor.index()?;
+                }
+            }
+        }
+        for list in List::ALL {
+            let index = corner[list as usize];
+            elements.push(list, index);
+            let highest = &mut elements.highest[list as usize];
+            // One more than NO_INDEX is 0.
+            *highest = (*highest).max(index.wrapping_add(1) as usize);
+        }
+    }
+    cursor.end_line()
+}
+
+/// The text that hasn't been read.
+struct Cursor<'t> {
+    rest: &'t [u8],
+}
+
+impl<'t> Cursor<'t> {
+    #[inline]
+    fn skip_blanks(&mut self) {
+        while let [b, rest @ ..] = self.rest
+            && is_blank(*b)
+        {
+            self.rest = rest;
+        }
+    }
+
+    /// Passes the end of the line, and returns what follows.
+    #[inline]
+    fn end_line(&mut self) -> Option<&'t [u8]> {
+        self.skip_blanks();
+        match self.rest {
+            [b'\n', rest @ ..] | [b'\r', b'\n', rest @ ..] | [b'\r', rest @ ..] => Some(rest),
+            rest => rest.is_empty().then_some(rest),
+        }
+    }
+
+    /// Reads an index from 1 as one from 0; `None` if there are no digits, or too many, or it is 0.
+    #[inline]
+    fn index(&mut self) -> Option<u32> {
+        /// All numbers of as many digits fit in a u32.
+        const MOST_DIGITS: usize = 9;
+        self.skip_blanks();
+        let (from_one, digits) = digits(self.rest, 0);
+        if !(1..=MOST_DIGITS).contains(&digits) || from_one == 0 {
+            return None;
+        }
+        self.rest = &self.rest[digits..];
+        Some(from_one as u32 - 1)
+    }
+
+    /// Reads numbers; `other` is given those that [`decimal`] doesn't parse.
+    #[inline]
+    fn numbers<const N: usize>(&mut self, mut other: impl FnMut(&[u8])) -> Option<[f64; N]> {
+        let mut numbers = [0.0; N];
+        for number in &mut numbers {
+            self.skip_blanks();
+            let length;
+            (*number, length) = match decimal(self.rest) {
+                Some(parsed) => parsed,
+                None => {
+                    let parsed = fast_float2::parse_partial(self.rest).ok()?;
+                    other(&self.rest[..parsed.1]);
+                    parsed
+                }
+            };
+            self.rest = &self.rest[length..];
+            let is_whole = |&b: &u8| is_blank(b) || matches!(b, b'\n' | b'\r');
+            if !self.rest.first().is_none_or(is_whole) {
+                return None;
+            }
+        }
+        Some(numbers)
+    }
+}
+
+/// Parses the number at the start of a text if it has no exponent and at most 15 digits; returns its length, too.
+///
+/// An integer below 10¹⁵ and a power of ten up to 10²² are exact in f64, so that their quotient is rounded once.
+/// Source: Clinger, "How to read floating point numbers accurately", PLDI 1990.
+#[inline]
+fn decimal(text: &[u8]) -> Option<(f64, usize)> {
+    /// As many digits don't overflow a u64.
+    const MOST_DIGITS: usize = 18;
+    const POWERS_OF_TEN: [f64; MOST_DIGITS + 1] = [
+        1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
+        1e17, 1e18,
+    ];
+    const END: u64 = 1_000_000_000_000_000;
+    let (is_negative, unsigned) = match text {
+        [b'-', rest @ ..] => (true, rest),
+        _ => (false, text),
+    };
+    let (whole, places) = digits(unsigned, 0);
+    let (mantissa, decimals, length) = match &unsigned[places..] {
+        [b'.', rest @ ..] => {
+            let (mantissa, decimals) = digits(rest, whole);
+            (mantissa, decimals, places + 1 + decimals)
+        }
+        _ => (whole, 0, places),
+    };
+    let has_exponent = matches!(unsigned[length..], [b'e' | b'E', ..]);
+    if !(1..=MOST_DIGITS).contains(&(places + decimals)) || mantissa >= END || has_exponent {
+        return None;
+    }
+    let value = mantissa as f64 / POWERS_OF_TEN[decimals];
+    let length = length + usize::from(is_negative);
+    Some((if is_negative { -value } else { value }, length))
+}
+
+/// Appends the digits at the start of a text to a number, which wraps if they are too many; returns their count, too.
+#[inline]
+fn digits(text: &[u8], mut number: u64) -> (u64, usize) {
+    let mut count = 0;
+    for digit in text.iter().map(|b| b.wrapping_sub(b'0')) {
+        if digit > 9 {
+            break;
+        }
+        number = number.wrapping_mul(10).wrapping_add(digit.into());
+        count += 1;
+    }
+    (number, count)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn decimals_are_rounded_as_in_rust() {
+        for text in [
+            "0",
+            "-0",
+            "1",
+            "-.5",
+            "1.",
+            "0.1",
+            "-0.000001",
+            "123456789012345",
+            "0.123456789012345",
+            "0.00000000000000001",
+            "999999999999999",
+            "450359962.370497",
+        ] {
+            let expected: f64 = text.parse().expect("a number");
+            let (number, length) = decimal(text.as_bytes()).expect(text);
+            assert_eq!(
+                (number.to_bits(), length),
+                (expected.to_bits(), text.len()),
+                "{text}"
+            );
+        }
+        for text in [
+            "",
+            "-",
+            ".",
+            "+1",
+            "1e5",
+            "1.E5",
+            "1000000000000000",
+            "0.0000000000000000001",
+            "x",
+        ] {
+            assert_eq!(decimal(text.as_bytes()), None, "{text}");
+        }
+        let mut random = crate::random::Random::new(1);
+        for _ in 0..100_000 {
+            let mantissa = random.bits() % 1_000_000_000_000_000;
+            let text = format!("{}.{mantissa:015}", mantissa % 7);
+            let text = &text[..text.len() - (mantissa % 14) as usize];
+            if let Some((number, _)) = decimal(text.as_bytes()) {
+                assert_eq!(text.parse(), Ok(number), "{text}");
+            }
+        }
+    }
+
+    /// The corners' indices that are read from a face, and the length that is.
+    fn read_face(text: &str) -> Option<([Vec<u32>; 3], usize)> {
+        let mut part = Part::default();
+        let length = read(&mut part, text.as_bytes(), 1);
+        let elements = part.elements;
+        if length.is_none() {
+            assert_eq!(
+                (elements.corners.concat().len(), elements.highest),
+                (0, [0; 3]),
+                "{text}"
+            );
+        }
+        Some((elements.corners, length?))
+    }
+
+    #[test]
+    fn faces_of_plain_indices_are_read_to_the_end_of_the_line() {
+        let none = Vec::new();
+        for (text, corners, length) in [
+            (
+                "f 1 2\t3 \nv",
+                [vec![0, 1, 2], none.clone(), none.clone()],
+                9,
+            ),
+            (
+                "f 4 5 6\r\nv",
+                [vec![3, 4, 5], none.clone(), none.clone()],
+                9,
+            ),
+            (
+                "f 1/4 2/5 3/\rf",
+                [vec![0, 1, 2], vec![3, 4, NO_INDEX], none.clone()],
+                13,
+            ),
+            (
+                "f 1//7 2// 3//9",
+                [vec![0, 1, 2], none, vec![6, NO_INDEX, 8]],
+                15,
+            ),
+            (
+                "f 9/8/7 6/5/4 3/2/1",
+                [vec![8, 5, 2], vec![7, 4, 1], vec![6, 3, 0]],
+                19,
+            ),
+        ] {
+            assert_eq!(read_face(text), Some((corners, length)), "{text}");
+        }
+    }
+
+    #[test]
+    fn other_statements_are_left_and_add_nothing() {
+        for text in [
+            "f 1 2",
+            "f 1 2 0",
+            "f 1 2 -1",
+            "f 1 2 3 # 4",
+            "f 1 2 3 0",
+            "f 1/2/3/4 2 3",
+            "f 1 2 3\\",
+            "f 1 2 3 1234567890",
+            "f 1/0 2 3",
+            "f 1 2 3x",
+            "f /1 2 3",
+            "F 1 2 3",
+        ] {
+            assert_eq!(read_face(text), None, "{text}");
+        }
+        for text in [
+            "v 1 2",
+            "v 1 2 3 4",
+            "v 1 2 x",
+            "v 1 2 3#",
+            "vt 1",
+            "vn 1 2",
+            "v1 2 3",
+            "# v",
+            "",
+        ] {
+            let mut part = Part::default();
+            assert_eq!(read(&mut part, text.as_bytes(), 1), None, "{text}");
+            assert_eq!(
+                part.positions.len() + part.textures.len() + part.normals.len(),
+                0
+            );
+        }
+    }
+}
