@@ -34,7 +34,7 @@ impl SurfaceInteraction {
         Self {
             geometric_normal,
             shading_normal,
-            material: mesh.material.of(hit.primitive),
+            material: mesh.attributes().materials.index(hit.primitive),
         }
     }
 
@@ -50,19 +50,19 @@ impl SurfaceInteraction {
 
 /// Texture coordinates at a hit; `None` if a corner has none.
 pub fn texture_coordinates(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec2> {
-    let corners = mesh.corner_textures.get(hit.primitive as usize)?;
-    let [a, b, c] = corners.map(|index| mesh.texture_coordinates.get(index as usize).copied());
+    let coordinates = &mesh.attributes().texture_coordinates;
+    let [a, b, c] = coordinates.of_triangle(hit.primitive);
     let [l1, l2, l3] = hit.barycentric();
     Some(l1 * a? + l2 * b? + l3 * c?)
 }
 
 /// Vertex colour interpolated at a hit, in sRGB; `None` if the mesh has no vertex colours.
 pub fn vertex_colour(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec3> {
-    if mesh.colours.is_empty() {
+    if mesh.attributes().colours.is_empty() {
         return None;
     }
-    let corners = mesh.triangles[hit.primitive as usize];
-    let colours = corners.map(|vertex| mesh.colours[vertex as usize]);
+    let corners = mesh.triangles()[hit.primitive as usize];
+    let colours = corners.map(|vertex| mesh.attributes().colours[vertex as usize]);
     Some(weighted(hit.barycentric(), colours))
 }
 
@@ -74,17 +74,17 @@ fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::shapes::soup;
+    use crate::mesh::{Attributes, CornerValues};
     use crate::progress::Progress;
 
     /// A triangle in the plane z = 0 with three different vertex normals.
     fn scene() -> Scene {
-        let mesh = TriangleMesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y],
-            triangles: vec![[0, 1, 2]],
-            normals: vec![Vec3::X, Vec3::Y, Vec3::Z],
-            corner_normals: vec![[0, 1, 2]],
-            ..TriangleMesh::default()
-        };
+        let normals = vec![Vec3::X, Vec3::Y, Vec3::Z];
+        let mesh = soup(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]).with_attributes(Attributes {
+            normals: CornerValues::new(normals, [[0, 1, 2]]),
+            ..Attributes::default()
+        });
         Scene::new(mesh, &Progress::default()).expect("nobody cancels")
     }
 

@@ -144,7 +144,10 @@ impl Progress {
             // The receiver is gone if the load was cancelled.
             _ = sender.send(work());
         });
-        let handle = handle.map_err(BackgroundError::NoThread)?;
+        let handle = handle.map_err(|error| {
+            let message = format!("the system grants no thread to load it: {error}");
+            BackgroundError::NoThread(io::Error::new(error.kind(), message))
+        })?;
         loop {
             match receiver.recv_timeout(PATIENCE) {
                 Ok(result) => return Ok(result),
@@ -162,6 +165,7 @@ impl Progress {
 #[derive(Debug)]
 pub(crate) enum BackgroundError {
     Cancelled,
+    /// No thread could be started; the error says so.
     NoThread(io::Error),
 }
 

@@ -194,9 +194,9 @@ impl HitReport {
     pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
         let surface = SurfaceInteraction::new(scene, hit, shading);
-        let material = mesh.material_of(hit.primitive);
+        let material = mesh.attributes().materials.of(hit.primitive);
         let is_back = ray.dir.as_dvec3().dot(surface.geometric_normal.as_dvec3()) > 0.0;
-        let group = mesh.groups.get(mesh.group.of(hit.primitive) as usize);
+        let group = mesh.attributes().groups.of(hit.primitive);
         Self {
             t: hit.t,
             barycentric: weights(&hit),

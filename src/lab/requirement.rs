@@ -31,7 +31,7 @@ pub struct Requirement {
 pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     let mesh = scene.mesh();
     let mut found = TierReasons::default();
-    let triangles = mesh.triangles.len();
+    let triangles = mesh.triangles().len();
     found.add_for_edges(health, triangles);
 
     let size = 2.0 * scene.bounds().radius();
@@ -59,7 +59,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
             rounded(distance)
         ));
     }
-    let offset = mesh.origin.length();
+    let offset = mesh.origin().length();
     if size > 0.0 && offset > FAR_OUT * size {
         found.push(None, format!(
             "The mesh lies {} times its size from (0, 0, 0): it is traced relative to an origin nearby, which costs no kernel accuracy.",
@@ -187,9 +187,8 @@ mod tests {
 
     #[test]
     fn an_offset_is_reported_but_requires_no_tier() {
-        let mut mesh = sphere(4, Placement::UNIT);
-        mesh.origin = DVec3::splat(1e6);
-        let found = required(mesh);
+        let mesh = sphere(4, Placement::UNIT);
+        let found = required(mesh.with_origin(DVec3::splat(1e6)));
         assert_eq!(found.tier, "watertight");
         assert!(found.reasons[1].contains("(0, 0, 0)"), "{found:?}");
     }

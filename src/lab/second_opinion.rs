@@ -5,8 +5,8 @@
 
 use glam::{DVec3, Vec2, Vec3};
 use hitscope_core::TriangleMesh;
-use hitscope_core::mesh::NO_INDEX;
-use hitscope_core::obj::LineRuns;
+use hitscope_core::mesh::Attributes;
+use hitscope_core::obj::LoadReport;
 use serde::Serialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
@@ -26,7 +26,7 @@ pub struct SecondOpinion {
 
 /// Reads the bytes of a file with tobj, and compares faces, positions to the bit, and, where every corner has them,
 /// colours, normals and texture coordinates with those of the mesh.
-pub fn compare(bytes: &[u8], mesh: &TriangleMesh, face_lines: &LineRuns) -> SecondOpinion {
+pub fn compare(bytes: &[u8], mesh: &TriangleMesh, report: &LoadReport) -> SecondOpinion {
     let mut opinion = SecondOpinion {
         refused: None,
         triangles: 0,
@@ -48,13 +48,13 @@ pub fn compare(bytes: &[u8], mesh: &TriangleMesh, face_lines: &LineRuns) -> Seco
     for (triangle, ours) in (0..).zip(corners(mesh)) {
         opinion.triangles += 1;
         let face = mesh.face_of(triangle) as usize;
-        let place = format!("face {}, line {}", face + 1, face_lines.line(face));
+        let place = format!("face {}, line {}", face + 1, report.face_lines.line(face));
         let Some(theirs) = faces.get(face) else {
             opinion.add(format!("{place}: tobj reads only {} faces", faces.len()));
             continue;
         };
         for (k, ours) in ours.iter().enumerate() {
-            let is_same = |theirs: &Corner| ours.is_same(theirs, mesh.origin);
+            let is_same = |theirs: &Corner| ours.is_same(theirs, mesh.origin());
             // The corners of a polygon's triangles are in any order.
             let is_there = match theirs.len() {
                 3 => is_same(&theirs[k]),
@@ -67,9 +67,9 @@ pub fn compare(bytes: &[u8], mesh: &TriangleMesh, face_lines: &LineRuns) -> Seco
         }
     }
     // A face's triangles may all have been dropped, and so may the last faces.
-    let last = mesh.triangles.len().checked_sub(1);
+    let last = mesh.triangles().len().checked_sub(1);
     let ours = last.map_or(0, |last| mesh.face_of(last as u32) as usize + 1);
-    let dropped = mesh.dropped.zero_area + mesh.dropped.non_finite;
+    let dropped = report.dropped.zero_area + report.dropped.non_finite;
     if faces.len() > ours + dropped {
         let count = faces.len();
         opinion.add(format!("tobj reads {count} faces, hitscope {ours}"));
@@ -113,19 +113,27 @@ impl Corner {
 
 /// The corners of each triangle; positions are relative to the mesh's origin.
 fn corners(mesh: &TriangleMesh) -> impl Iterator<Item = [Corner; 3]> {
-    let is_complete = |corners: &[[u32; 3]]| !corners.as_flattened().contains(&NO_INDEX);
-    let normals = Some(&mesh.corner_normals[..]).filter(|corners| is_complete(corners));
-    let textures = Some(&mesh.corner_textures[..]).filter(|corners| is_complete(corners));
-    (0..mesh.triangles.len()).map(move |triangle| {
+    let Attributes {
+        normals,
+        texture_coordinates,
+        colours,
+        ..
+    } = mesh.attributes();
+    let triangles = 0..mesh.triangles().len() as u32;
+    let has_normals = triangles.clone().all(|t| normals.are_complete(t));
+    let has_textures = triangles
+        .clone()
+        .all(|t| texture_coordinates.are_complete(t));
+    triangles.map(move |triangle| {
+        let normals = normals.of_triangle(triangle);
+        let textures = texture_coordinates.of_triangle(triangle);
         [0, 1, 2].map(|k| {
-            let vertex = mesh.triangles[triangle][k] as usize;
-            let normal = normals.and_then(|corners| corners.get(triangle));
-            let texture = textures.and_then(|corners| corners.get(triangle));
+            let vertex = mesh.triangles()[triangle as usize][k] as usize;
             Corner {
-                position: mesh.positions[vertex].as_dvec3(),
-                colour: mesh.colours.get(vertex).copied(),
-                normal: normal.map(|corners| mesh.normals[corners[k] as usize]),
-                texture: texture.map(|corners| mesh.texture_coordinates[corners[k] as usize]),
+                position: mesh.positions()[vertex].as_dvec3(),
+                colour: colours.get(vertex).copied(),
+                normal: normals[k].filter(|_| has_normals),
+                texture: textures[k].filter(|_| has_textures),
             }
         })
     })

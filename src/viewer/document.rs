@@ -3,7 +3,7 @@
 use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
-use hitscope_core::obj::{self, LineRuns, LoadError, LoadOptions};
+use hitscope_core::obj::{self, LoadError, LoadOptions, LoadReport};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use hitscope_core::{Intersector, Scene};
@@ -11,7 +11,7 @@ use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::{Duration, Instant, SystemTime};
+use std::time::SystemTime;
 
 pub(crate) const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
@@ -98,12 +98,7 @@ impl Document {
         let scene = Scene::new(mesh, &Progress::default()).expect("never cancelled");
         let loaded = LoadedScene {
             scene: Arc::new(scene),
-            warnings: Vec::new(),
-            vertex_count: 0,
-            max_rounding: 0.0,
-            face_lines: LineRuns::default(),
-            files: Vec::new(),
-            load_time: Duration::ZERO,
+            report: LoadReport::default(),
         };
         let mut document = Self::new(None, loaded, kernel);
         document.is_blank = true;
@@ -294,7 +289,7 @@ pub fn embedded_scene() -> LoadedScene {
         "default.mtl" => Ok(DEFAULT_MTL.to_vec()),
         _ => Err(io::ErrorKind::NotFound.into()),
     };
-    let (start, progress) = (Instant::now(), Progress::default());
+    let progress = Progress::default();
     let path = Path::new("the built-in scene");
     let loaded = obj::parse(
         DEFAULT_OBJ.as_bytes(),
@@ -304,7 +299,7 @@ pub fn embedded_scene() -> LoadedScene {
         &progress,
     );
     let loaded = loaded.expect("a test opens the built-in scene");
-    LoadedScene::of(loaded, start, SceneOptions::default(), &progress).expect("never cancelled")
+    LoadedScene::of(loaded, SceneOptions::default(), &progress).expect("never cancelled")
 }
 
 #[cfg(test)]
@@ -314,10 +309,15 @@ mod tests {
     #[test]
     fn the_built_in_scene_loads_without_warnings() {
         let loaded = embedded_scene();
-        assert_eq!(loaded.warnings, []);
+        assert_eq!(loaded.report.warnings, []);
         let mesh = loaded.scene.mesh();
-        let groups: Vec<&str> = mesh.groups.iter().map(String::as_str).collect();
+        let attributes = mesh.attributes();
+        let groups = attributes.groups.entries();
         assert_eq!(groups, ["", "floor", "knot", "gem", "shell"]);
-        assert!(mesh.materials[1..].iter().all(|m| m.diffuse.is_some()));
+        assert!(
+            attributes.materials.entries()[1..]
+                .iter()
+                .all(|m| m.diffuse.is_some())
+        );
     }
 }

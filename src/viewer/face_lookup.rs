@@ -47,7 +47,7 @@ impl FaceInFile {
     fn matched(source: FaceSource, mesh: &TriangleMesh, triangle: u32) -> Option<Self> {
         let mut left = source.corners;
         let corners = mesh.corners(triangle).map(|position| {
-            let loaded = |corner: &FaceCorner| (corner.position - mesh.origin).as_vec3();
+            let loaded = |corner: &FaceCorner| (corner.position - mesh.origin()).as_vec3();
             let at = left.iter().position(|corner| loaded(corner) == position)?;
             Some(left.remove(at))
         });
@@ -138,7 +138,6 @@ impl Drop for FaceLookup {
 mod tests {
     use super::*;
     use glam::{DVec3, Vec3};
-    use hitscope_core::mesh::shapes::mesh;
 
     #[test]
     fn a_triangles_corners_are_found_in_its_polygon_unless_the_file_has_changed() {
@@ -157,7 +156,7 @@ mod tests {
                 corner(10, DVec3::Y, [0.0, 1.0]),
             ],
         };
-        let triangle = mesh(
+        let triangle = TriangleMesh::new(
             vec![Vec3::new(1.0, 1.0, 0.0), Vec3::Y, Vec3::ZERO],
             vec![[0, 1, 2]],
         );
@@ -165,7 +164,7 @@ mod tests {
         let vertices = [0, 1, 2].map(|corner| face.vertex(corner));
         assert_eq!(vertices, [Some(9), Some(10), Some(7)]);
         assert_eq!(face.uv([0.5, 0.25, 0.25]), Some([0.5, 0.75]));
-        let moved = mesh(vec![Vec3::ONE, Vec3::Y, Vec3::ZERO], vec![[0, 1, 2]]);
+        let moved = TriangleMesh::new(vec![Vec3::ONE, Vec3::Y, Vec3::ZERO], vec![[0, 1, 2]]);
         assert_eq!(FaceInFile::matched(source, &moved, 0), None);
     }
 }

@@ -26,16 +26,16 @@ impl FlawPlace {
         let positions = || {
             vertices
                 .iter()
-                .map(|&vertex| mesh.positions[vertex as usize])
+                .map(|&vertex| mesh.positions()[vertex as usize])
         };
         // Vertices at the same position count as one.
         let touched = |corners: &[u32; 3]| {
-            let at = |p: Vec3| corners.iter().any(|&v| mesh.positions[v as usize] == p);
+            let at = |p: Vec3| corners.iter().any(|&v| mesh.positions()[v as usize] == p);
             positions().all(at)
         };
         let mut bounds = Aabb::around(positions());
         let mut face = None;
-        for (triangle, corners) in (0..).zip(&mesh.triangles) {
+        for (triangle, corners) in (0..).zip(mesh.triangles()) {
             if touched(corners) {
                 bounds = bounds.union(Aabb::around(mesh.corners(triangle)));
                 face = face.or(Some(mesh.face_of(triangle)));
@@ -57,7 +57,7 @@ pub fn point(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> 
     let vertices = vertices(mesh, health, flaw, index)?;
     let positions = vertices
         .iter()
-        .map(|&vertex| mesh.positions[vertex as usize]);
+        .map(|&vertex| mesh.positions()[vertex as usize]);
     let sum: DVec3 = positions.map(Vec3::as_dvec3).sum();
     Some(sum / vertices.len() as f64)
 }
@@ -69,7 +69,7 @@ fn vertices(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> O
         FlawLocations::Vertices(vertices) => vertices.get(index).map(|&vertex| vec![vertex]),
         FlawLocations::Triangles(triangles) => {
             let triangle = *triangles.get(index)?;
-            Some(mesh.triangles[triangle as usize].to_vec())
+            Some(mesh.triangles()[triangle as usize].to_vec())
         }
         FlawLocations::Unknown => None,
     }
@@ -78,12 +78,11 @@ fn vertices(mesh: &TriangleMesh, health: &Health, flaw: Flaw, index: usize) -> O
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hitscope_core::mesh::shapes::mesh;
 
     #[test]
     fn a_flaw_has_a_centre_bounds_and_a_face() {
         let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y, 10.0 * Vec3::Z, Vec3::ONE];
-        let two = mesh(corners, vec![[0, 1, 2], [0, 1, 4]]);
+        let two = TriangleMesh::new(corners, vec![[0, 1, 2], [0, 1, 4]]);
         let health = Health::of(&two);
         let places: Vec<FlawPlace> = (0..)
             .map_while(|index| FlawPlace::find(&two, &health, Flaw::OpenEdge, index))

@@ -137,7 +137,7 @@ fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
 #[divan::bench]
 fn build(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build(mesh.triangles.len(), bounds_in(mesh), &|| Ok(()))
+        Bvh::build(mesh.triangles().len(), bounds_in(mesh), &|| Ok(()))
     });
 }
 
@@ -145,14 +145,14 @@ fn build(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn build_quickly(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build_quickly(mesh.triangles.len(), bounds_in(mesh), &|| Ok(()))
+        Bvh::build_quickly(mesh.triangles().len(), bounds_in(mesh), &|| Ok(()))
     });
 }
 
 fn build_with<E>(bencher: Bencher<'_, '_>, build: impl Fn(&TriangleMesh) -> Result<Bvh, E>) {
     let mesh = TORUS.mesh();
     bencher
-        .counter(ItemsCount::new(mesh.triangles.len()))
+        .counter(ItemsCount::new(mesh.triangles().len()))
         .bench_local(|| build(black_box(mesh)).is_ok());
 }
 
@@ -161,7 +161,7 @@ fn build_with<E>(bencher: Bencher<'_, '_>, build: impl Fn(&TriangleMesh) -> Resu
 fn pack(bencher: Bencher<'_, '_>, name: &str) {
     let (mesh, bvh) = (TORUS.mesh(), TORUS.bvh());
     bencher
-        .counter(ItemsCount::new(mesh.triangles.len()))
+        .counter(ItemsCount::new(mesh.triangles().len()))
         .bench_local(|| {
             let (bvh, level) = (Arc::clone(&bvh), SimdLevel::current());
             kernel(name).intersector(mesh, bvh, level, Packing::Full)

@@ -328,7 +328,7 @@ fn cancelling_the_load_of_an_endless_file_returns_an_error() {
             progress: Arc::clone(&progress),
             given: 0,
         };
-        parse(endless, &progress).map(|loaded| loaded.vertex_count)
+        parse(endless, &progress).map(|loaded| loaded.report.vertex_count)
     });
     let is_cancelled =
         matches!(&result, Err(LoadError::Cancelled { path }) if path == Path::new("x.obj"));

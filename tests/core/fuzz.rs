@@ -7,7 +7,7 @@
 
 use cpu_time::ProcessTime;
 use glam::Vec3;
-use hitscope_core::mesh::{Crease, Health, VertexNormals};
+use hitscope_core::mesh::{Attributes, Crease, Health, NO_INDEX, VertexNormals};
 use hitscope_core::obj::{self, FaultPolicy, LoadOptions, Recentre};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
@@ -308,10 +308,10 @@ impl Totals {
 /// Describes a defect of the mesh, or `None`.
 fn fault_of(loaded: &obj::Loaded) -> Option<String> {
     let mesh = &loaded.mesh;
-    if mesh.triangles.is_empty() {
+    if mesh.triangles().is_empty() {
         return Some("a mesh without triangles".to_owned());
     }
-    for triangle in 0..mesh.triangles.len() as u32 {
+    for triangle in 0..mesh.triangles().len() as u32 {
         if !mesh.corners(triangle).iter().all(|p| p.is_finite()) {
             return Some(format!("triangle {triangle} isn't finite"));
         }
@@ -320,16 +320,27 @@ fn fault_of(loaded: &obj::Loaded) -> Option<String> {
         if !normal.is_normalized() && normal != Vec3::ZERO {
             return Some(format!("triangle {triangle} has the normal {normal}"));
         }
-        if mesh.material_of(triangle).is_none() {
+        if mesh.attributes().materials.of(triangle).is_none() {
             return Some(format!("triangle {triangle} has no material"));
         }
-    }
-    let lists = [mesh.corner_normals.len(), mesh.corner_textures.len()];
-    if lists
-        .iter()
-        .any(|&length| length != 0 && length != mesh.triangles.len())
-    {
-        return Some("a list isn't as long as that of the triangles".to_owned());
+        let Attributes {
+            normals,
+            texture_coordinates,
+            ..
+        } = mesh.attributes();
+        let exists = |index: u32, count: usize| index == NO_INDEX || (index as usize) < count;
+        let of_normals = normals
+            .indices(triangle)
+            .map(|k| exists(k, normals.values().len()));
+        let coordinates = texture_coordinates.values().len();
+        let of_textures = texture_coordinates
+            .indices(triangle)
+            .map(|k| exists(k, coordinates));
+        if [of_normals, of_textures].as_flattened().contains(&false) {
+            return Some(format!(
+                "triangle {triangle} refers to a value that doesn't exist"
+            ));
+        }
     }
     // Normals and health checks mustn't panic, either.
     for crease in [Crease::FromFile, Crease::Above(0.5)] {

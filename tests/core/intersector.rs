@@ -254,7 +254,7 @@ fn at_equal_t_the_lowest_triangle_is_hit() {
     ];
     // Copies of one triangle: every leaf contains hits at the same t.
     let copies = scene(soup(&[corners; 40]));
-    assert_eq!(copies.mesh().triangles.len(), 40);
+    assert_eq!(copies.mesh().triangles().len(), 40);
     assert_same_for_rays(Kernels::Every, &copies, 8000, || {
         let target = 0.4 * random.in_cube_f32() * Vec3::new(1.0, 1.0, 0.0);
         let origin = 3.0 * random.in_cube_f32();

@@ -21,7 +21,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     let triangles = match who.as_str() {
         "hitscope" => obj::load(path, LoadOptions::default(), &Progress::default())?
             .mesh
-            .triangles
+            .triangles()
             .len(),
         "tobj" => bare_tobj(path)?,
         "cancel" => return cancel(path),

@@ -30,7 +30,7 @@ fn camera_rays(eye: DVec3, projection: Projection) -> Vec<Ray> {
 /// Incoherent rays, many along edges: from all sides to vertices, and from vertices to vertices.
 fn scattered_rays(scene: &Scene) -> Vec<Ray> {
     let mut random = Random::new(7);
-    let positions = &scene.mesh().positions;
+    let positions = scene.mesh().positions();
     let rays = (0..4000).filter_map(|k| {
         let target = positions[random.index(positions.len())];
         let origin = if k % 4 == 0 {

@@ -92,7 +92,7 @@ fn every_tree_and_packing_gives_bit_identical_hits_for_every_kernel() {
     let meshes = [needles(&mut random), layers(&mut random), far_ring];
     for (m, mesh) in meshes.iter().enumerate() {
         let rays = rays(mesh, &mut random);
-        let count = mesh.triangles.len();
+        let count = mesh.triangles().len();
         let all = (0..count as u32).map(bounds_in(mesh));
         let everything = all.fold(Aabb::EMPTY, Aabb::union);
         let built = [

@@ -65,10 +65,8 @@ fn cases() -> Vec<Case> {
         });
     }
     // A torus stretched to needles; many of the rays are nearly parallel to them.
-    let mut stretched = torus(32, 16, Placement::UNIT);
-    for position in &mut stretched.positions {
-        position.x *= STRETCH as f32;
-    }
+    let stretch = Vec3::new(STRETCH as f32, 1.0, 1.0);
+    let stretched = torus(32, 16, Placement::UNIT).moved(|p| p * stretch);
     cases.push(Case {
         name: "torus stretched to needles".to_owned(),
         mesh: stretched,
@@ -96,7 +94,7 @@ fn aimed_ray(case: &Case, random: &mut Random) -> Ray {
     let origin = case.place.of((case.inside)(random));
     let corners = case
         .mesh
-        .corners(random.index(case.mesh.triangles.len()) as u32);
+        .corners(random.index(case.mesh.triangles().len()) as u32);
     let start = random.index(3);
     let (a, b) = (corners[start], corners[(start + 1) % 3]);
     let along = [0.0, 0.5, random.unit()][random.index(3)];
@@ -203,9 +201,9 @@ fn no_ray_leaves_a_long_box_prism_or_corridor() {
 #[test]
 fn rays_that_once_left_a_box_hit_its_wall() {
     let cube = Corridor::new(Footprint::Square, 1.0, false).mesh;
-    let mut long = Corridor::new(Footprint::Square, 30.0, false).mesh;
+    let long = Corridor::new(Footprint::Square, 30.0, false).mesh;
     // Along x, as when the ray was found.
-    long.positions.iter_mut().for_each(|p| *p = p.zxy());
+    let long = long.moved(|p| p.zxy());
     for (mesh, origin, dir, t) in [
         (
             cube,
@@ -286,9 +284,7 @@ fn an_axis_aligned_ray_hits_the_border_edges_and_corners_of_a_flat_grid() {
             for axis in 0..3 {
                 // The grid rotated, so that the ray is parallel to each axis in turn.
                 let turned = |p: Vec3| [p.yzx(), p.zxy(), p][axis];
-                let mut mesh = mesh.clone();
-                mesh.positions.iter_mut().for_each(|p| *p = turned(*p));
-                let intersector = scene(mesh).intersector(kernel);
+                let intersector = scene(mesh.moved(turned)).intersector(kernel);
                 for (dir, &point) in
                     directions().flat_map(|dir| points.iter().map(move |p| (dir, p)))
                 {

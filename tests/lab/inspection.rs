@@ -3,7 +3,7 @@
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::{Camera, Projection};
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::mesh::Material;
+use hitscope_core::mesh::{Assigned, Attributes, Faces, Material, Runs};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::Shading;
 use hitscope_core::{Scene, TriangleMesh};
@@ -11,22 +11,18 @@ use hitscope_lab::inspection::Inspection;
 
 /// A square in the plane z = 0, of two triangles that share the diagonal from (0, 0) to (2, 2).
 fn square() -> Scene {
-    let mesh = TriangleMesh {
-        positions: vec![
-            Vec3::ZERO,
-            Vec3::new(2.0, 0.0, 0.0),
-            Vec3::new(2.0, 2.0, 0.0),
-            Vec3::new(0.0, 2.0, 0.0),
-        ],
-        triangles: vec![[0, 1, 2], [0, 2, 3]],
-        faces: vec![0, 0],
-        outline: vec![0b011, 0b110],
-        materials: vec![Material::default()],
-        groups: vec![String::new()],
-        face_count: 1,
-        ..TriangleMesh::default()
+    let corners = [[0, 0], [2, 0], [2, 2], [0, 2]].map(|[x, y]| Vec3::new(x as f32, y as f32, 0.0));
+    let mesh = TriangleMesh::new(corners.to_vec(), vec![[0, 1, 2], [0, 2, 3]]);
+    let mut faces = Faces::default();
+    faces.push(0, 0, 0b011);
+    faces.push(1, 0, 0b110);
+    let attributes = Attributes {
+        faces,
+        materials: Assigned::new(vec![Material::default()], Runs::default()),
+        groups: Assigned::new(vec![String::new()], Runs::default()),
+        ..Attributes::default()
     };
-    Scene::new(mesh, &Progress::default()).expect("never cancelled")
+    Scene::new(mesh.with_attributes(attributes), &Progress::default()).expect("never cancelled")
 }
 
 fn inspect(at: DVec3) -> Inspection {

@@ -16,12 +16,12 @@ fn assert_same(path: &Path) {
     let loaded = obj::load(path, LoadOptions::default(), &progress);
     let loaded = loaded.unwrap_or_else(|error| panic!("{error}"));
     let bytes = std::fs::read(path).expect("it was loaded");
-    let opinion = compare(&bytes, &loaded.mesh, &loaded.face_lines);
+    let opinion = compare(&bytes, &loaded.mesh, &loaded.report);
     assert_eq!(
         (&opinion.refused, &opinion.differences[..]),
         (&None, &[][..])
     );
-    assert_eq!(opinion.triangles, loaded.mesh.triangles.len());
+    assert_eq!(opinion.triangles, loaded.mesh.triangles().len());
 }
 
 /// The data of a file of [`written`] besides positions and faces.
@@ -35,7 +35,7 @@ enum With {
 
 fn written(mesh: &TriangleMesh, with: With, offset: DVec3) -> String {
     let mut text = String::new();
-    for &p in &mesh.positions {
+    for &p in mesh.positions() {
         let q = p.as_dvec3() + offset;
         write!(text, "v {} {} {}", q.x, q.y, q.z).expect("memory");
         if with == With::Colours {
@@ -50,8 +50,8 @@ fn written(mesh: &TriangleMesh, with: With, offset: DVec3) -> String {
     if with == With::Everything {
         text += "mtllib a.mtl\nusemtl a\n";
     }
-    let count = mesh.positions.len() as i64;
-    for (index, corners) in mesh.triangles.iter().enumerate() {
+    let count = mesh.positions().len() as i64;
+    for (index, corners) in mesh.triangles().iter().enumerate() {
         if with == With::Everything && index % 1000 == 0 {
             writeln!(text, "g part {index}").expect("memory");
         }
@@ -81,7 +81,7 @@ fn large_clean_files_give_the_same_numbers_as_tobj() {
     std::fs::write(folder.path().join("a.mtl"), library).expect("written");
     let path = folder.path().join("x.obj");
     let mesh = torus(300, 250, Placement::UNIT);
-    assert!(mesh.triangles.len() > 2 << 16);
+    assert!(mesh.triangles().len() > 2 << 16);
     for with in [With::Nothing, With::Colours, With::Everything] {
         for offset in [DVec3::ZERO, DVec3::new(5e6, -1e5, 3e6)] {
             std::fs::write(&path, written(&mesh, with, offset)).expect("written");
@@ -114,15 +114,12 @@ fn quads_give_the_same_numbers_as_tobj() {
     let path = folder.path().join("x.obj");
     let ball = sphere(3, Placement::UNIT);
     let mut text = written(
-        &TriangleMesh {
-            triangles: Vec::new(),
-            ..ball.clone()
-        },
+        &TriangleMesh::new(ball.positions().to_vec(), Vec::new()),
         With::Nothing,
         DVec3::ZERO,
     );
     // The shape's triangles come in pairs, each pair a quad.
-    for pair in ball.triangles.chunks(2) {
+    for pair in ball.triangles().chunks(2) {
         let [[a, b, c], [_, d, e]] = [pair[0], pair[1]];
         let corners = if d == c { [a, b, c, e] } else { [a, d, b, c] };
         let [a, b, c, d] = corners.map(|vertex| vertex + 1);
@@ -211,7 +208,7 @@ fn random_files_give_the_same_numbers_as_tobj() {
         let Ok(loaded) = obj::parse(text.as_bytes(), path, options, &none, &progress) else {
             continue;
         };
-        let opinion = compare(text.as_bytes(), &loaded.mesh, &loaded.face_lines);
+        let opinion = compare(text.as_bytes(), &loaded.mesh, &loaded.report);
         if opinion.refused.is_none() {
             compared += 1;
             triangles += opinion.triangles;
@@ -235,7 +232,7 @@ fn a_file_that_tobj_reads_differently_or_not_at_all_is_reported() {
             &progress,
         );
         let loaded = loaded.expect("a mesh");
-        compare(text.as_bytes(), &loaded.mesh, &loaded.face_lines)
+        compare(text.as_bytes(), &loaded.mesh, &loaded.report)
     };
     const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\n";
     let same = opinion(&format!("{TRIANGLE}f 1 2 3\n"));

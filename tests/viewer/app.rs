@@ -35,7 +35,7 @@ fn a_file_opens_and_stays_if_the_next_one_is_bad() {
             .loaded
             .scene
             .mesh()
-            .triangles
+            .triangles()
             .len(),
         1
     );

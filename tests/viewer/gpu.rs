@@ -159,7 +159,7 @@ fn lines_are_split_across_buffers_and_a_mesh_that_needs_a_larger_buffer_is_refus
     assert!(cut == whole);
 
     let large = scene(flat_grid(110, Placement::UNIT));
-    let needed = size_of_val(large.mesh().positions.as_slice()) as u64;
+    let needed = size_of_val(large.mesh().positions()) as u64;
     let refused = DepthMesh::new(&device, &queue, large.mesh()).err();
     assert!(
         matches!(refused, Some(GpuError::TooLarge { needed: n, granted: GRANTED }) if n == needed),

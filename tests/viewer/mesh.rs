@@ -114,7 +114,7 @@ fn the_camera_keeps_its_place_in_the_file_when_the_origin_moves() {
     let Some(mut window) = app(Some(file)) else {
         return;
     };
-    let origin = |app: &App| app.document().loaded.scene.mesh().origin;
+    let origin = |app: &App| app.document().loaded.scene.mesh().origin();
     wait(&mut window, "the file", |app| origin(app).x > 0.0);
     let at = in_picture(&window, 0.5, 0.5);
     click(&mut window, at);

@@ -72,7 +72,7 @@ fn the_old_picture_disappears_as_soon_as_another_file_is_open() {
     assert!(window.ctx.has_requested_repaint());
     window.step();
     let traced = window.state().traced_scene().expect("a scene is traced");
-    assert_eq!(traced.mesh().triangles.len(), 1);
+    assert_eq!(traced.mesh().triangles().len(), 1);
 }
 
 #[test]

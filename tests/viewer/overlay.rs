@@ -8,8 +8,10 @@ use hitscope::gpu::adapter::Gpu;
 use hitscope::offscreen::read_back;
 use hitscope::overlay::wireframe::WireframeEdges;
 use hitscope::overlay::{Options, OverlayLayer};
+use hitscope_core::TriangleMesh;
 use hitscope_core::camera::{Camera, Projection};
-use hitscope_core::mesh::shapes::{mesh, scene};
+use hitscope_core::mesh::shapes::scene;
+use hitscope_core::mesh::{Attributes, Faces};
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::scene::{Scene, Shading};
 use std::sync::Arc;
@@ -59,14 +61,19 @@ fn marked_scene() -> Arc<Scene> {
     ];
     let mut corners_and_edge_on = corners;
     corners_and_edge_on.push(at(170.5, 100.5, -1.0));
-    let mut mesh = mesh(
+    let mesh = TriangleMesh::new(
         corners_and_edge_on,
         vec![[0, 1, 2], [0, 2, 3], [4, 5, 6], [7, 11, 8]],
     );
     // The square is one face.
-    mesh.outline = vec![0b011, 0b110, 0b111, 0b111];
-    mesh.lines = vec![[9, 10]];
-    Arc::new(scene(mesh))
+    let mut faces = Faces::default();
+    faces.push(0, 0, 0b011);
+    faces.push(1, 0, 0b110);
+    Arc::new(scene(mesh.with_attributes(Attributes {
+        faces,
+        lines: vec![[9, 10]],
+        ..Attributes::default()
+    })))
 }
 
 const BEHIND: u32 = 2;

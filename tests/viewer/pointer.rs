@@ -91,7 +91,7 @@ fn on(window: &Window, is_wanted: impl Fn(&str) -> bool) -> (f32, f32) {
         let document = app.document();
         let hit = document.intersector().closest_hit(&ray);
         let mesh = document.loaded.scene.mesh();
-        let material = hit.and_then(|hit| mesh.material_of(hit.primitive));
+        let material = hit.and_then(|hit| mesh.attributes().materials.of(hit.primitive));
         material.is_some_and(|material| is_wanted(&material.name))
     };
     let places = (1..20).flat_map(|i| (1..20).map(move |k| (i as f32 / 20.0, k as f32 / 20.0)));

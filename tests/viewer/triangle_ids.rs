@@ -91,7 +91,7 @@ fn rasterized(
     camera: &Camera,
 ) -> Vec<u32> {
     let mesh = scene.mesh();
-    let corners: Vec<Vec3> = (0..mesh.triangles.len() as u32)
+    let corners: Vec<Vec3> = (0..mesh.triangles().len() as u32)
         .flat_map(|t| mesh.corners(t))
         .collect();
     let vertices = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {

@@ -58,7 +58,7 @@ pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
 fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let mesh = context.scene.mesh();
     let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
-    let material = mesh.materials.get(surface.material as usize);
+    let material = mesh.attributes().materials.get(surface.material);
     let diffuse = diffuse(mesh, material, &hit);
     let emission = material.map_or(Vec3::ZERO, |m| m.emission);
     let opacity = material.map_or(1.0, |m| m.opacity);
@@ -99,7 +99,7 @@ fn diffuse(mesh: &TriangleMesh, material: Option<&Material>, hit: &Hit) -> Vec3 
     // A face without texture coordinates shows no texture.
     let of_texture = map
         .zip(texture_coordinates(mesh, hit))
-        .map(|(map, uv)| map.colour(&mesh.textures, uv));
+        .map(|(map, uv)| map.colour(&mesh.attributes().textures, uv));
     let of_vertices = vertex_colour(mesh, hit).map(from_display);
     let of_material = material.and_then(|material| material.diffuse);
     [of_material, of_texture, of_vertices]
@@ -114,7 +114,7 @@ mod tests {
     use super::*;
     use crate::camera::{Camera, Projection};
     use crate::kernel::default_triangle_kernel;
-    use crate::mesh::{Texture, TextureMap, shapes};
+    use crate::mesh::{Assigned, Attributes, CornerValues, Runs, Texture, TextureMap, shapes};
     use crate::scene::Shading;
     use glam::{DVec3, UVec2, Vec2};
     use std::sync::Arc;
@@ -123,15 +123,17 @@ mod tests {
 
     /// The colour of a ray straight down through layers of triangles, each with its own material, the first one
     /// on top.
-    fn seen(materials: &[Material], change: impl Fn(&mut TriangleMesh)) -> Vec3 {
+    fn seen(materials: &[Material], others: Attributes) -> Vec3 {
         let layer = |k: usize| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p - Vec3::Z * k as f32);
         let corners: Vec<_> = (0..materials.len()).map(layer).collect();
-        let mut mesh = shapes::soup(&corners);
-        mesh.materials = materials.to_vec();
+        let mut indices = Runs::default();
         for k in 0..materials.len() as u32 {
-            mesh.material.begin(k, k);
+            indices.begin(k, k);
         }
-        change(&mut mesh);
+        let mesh = shapes::soup(&corners).with_attributes(Attributes {
+            materials: Assigned::new(materials.to_vec(), indices),
+            ..others
+        });
         let scene = Arc::new(shapes::scene(mesh));
         let intersector: Arc<dyn crate::Intersector> =
             Arc::from(scene.intersector(default_triangle_kernel()));
@@ -162,10 +164,13 @@ mod tests {
     #[test]
     fn transparent_layers_are_blended_in_order() {
         let (red, blue) = (constant(Vec3::X, 0.5), constant(Vec3::Z, 0.25));
-        let light = seen(&[red, blue], |_| {});
+        let light = seen(&[red, blue], Attributes::default());
         let expected = 0.5 * Vec3::X + 0.5 * (0.25 * Vec3::Z + 0.75 * BACKGROUND);
         assert!((light - expected).length() < 1e-6, "{light}");
-        assert_eq!(seen(&[constant(Vec3::X, 1.0)], |_| {}), Vec3::X);
+        assert_eq!(
+            seen(&[constant(Vec3::X, 1.0)], Attributes::default()),
+            Vec3::X
+        );
     }
 
     #[test]
@@ -186,7 +191,7 @@ mod tests {
             emission: Vec3::Y,
             ..plain.clone()
         };
-        let of = |material: &Material| seen(std::slice::from_ref(material), |_| {});
+        let of = |material: &Material| seen(std::slice::from_ref(material), Attributes::default());
         let base = of(&plain);
         assert_eq!(of(&matt), base);
         assert!(of(&shiny).min_element() > base.max_element());
@@ -204,23 +209,23 @@ mod tests {
             diffuse_map: Some(map),
             ..constant(Vec3::new(1.0, 0.5, 1.0), 1.0)
         };
-        let paint = |mesh: &mut TriangleMesh| {
-            // Magenta to the left of x = 0.5, where the ray comes down.
-            let texels = [[255, 0, 255], [255, 0, 255], [0; 3], [0; 3]];
-            let texels = texels.as_flattened().to_vec();
-            mesh.textures = Texture::new("t", UVec2::new(4, 1), texels)
-                .into_iter()
-                .collect();
-            mesh.texture_coordinates = vec![Vec2::ZERO, Vec2::X, Vec2::Y];
-            mesh.corner_textures = vec![[0, 1, 2]];
+        // Magenta to the left of x = 0.5, where the ray comes down.
+        let texels = [[255, 0, 255], [255, 0, 255], [0; 3], [0; 3]];
+        let texels = texels.as_flattened().to_vec();
+        let texture = Texture::new("t", UVec2::new(4, 1), texels);
+        let uv = vec![Vec2::ZERO, Vec2::X, Vec2::Y];
+        let painted = Attributes {
+            textures: texture.into_iter().collect(),
+            texture_coordinates: CornerValues::new(uv, [[0, 1, 2]]),
+            ..Attributes::default()
         };
         assert_eq!(
-            seen(std::slice::from_ref(&mapped), paint),
+            seen(std::slice::from_ref(&mapped), painted.clone()),
             Vec3::new(1.0, 0.0, 1.0)
         );
-        let both = |mesh: &mut TriangleMesh| {
-            paint(mesh);
-            mesh.colours = vec![Vec3::X; 3];
+        let both = Attributes {
+            colours: vec![Vec3::X; 3],
+            ..painted
         };
         assert_eq!(seen(&[mapped], both), Vec3::X);
     }

@@ -83,11 +83,11 @@ impl SharedCorners {
         let mut vertices: Vec<u32> = Vec::with_capacity(3 * BLOCK_SIZE);
         let mut corners = [[0; BLOCK_SIZE]; 3];
         for (lane, &triangle) in triangles.iter().enumerate() {
-            for (k, vertex) in mesh.triangles[triangle as usize].into_iter().enumerate() {
+            for (k, vertex) in mesh.triangles()[triangle as usize].into_iter().enumerate() {
                 let known = vertices.iter().position(|&v| v == vertex);
                 corners[k][lane] = known.unwrap_or_else(|| {
                     vertices.push(vertex);
-                    self.corners.push(mesh.positions[vertex as usize]);
+                    self.corners.push(mesh.positions()[vertex as usize]);
                     vertices.len() - 1
                 }) as u8;
             }

@@ -10,7 +10,6 @@
 //! ```
 
 use super::TriangleMesh;
-use super::shapes::mesh;
 use crate::random::Random;
 use crate::ray::Ray;
 use glam::{DQuat, DVec2, DVec3, Vec3};
@@ -109,7 +108,7 @@ impl Corridor {
         let rim = outline.iter().flat_map(|p| ends.map(|z| at(*p, z)));
         let points = rim.chain(ends.map(|z| at(DVec2::ZERO, z))).collect();
         Self {
-            mesh: mesh(points, triangles(outline.len() as u32)),
+            mesh: TriangleMesh::new(points, triangles(outline.len() as u32)),
             outline,
             half_height,
             turn,

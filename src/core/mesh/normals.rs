@@ -43,14 +43,15 @@ impl VertexNormals {
         if let Crease::Above(radians) = crease {
             return creased(mesh, radians);
         }
-        let triangles = 0..mesh.triangles.len() as u32;
-        if !mesh.corner_normals.is_empty() && triangles.clone().all(|t| has_normals(mesh, t)) {
+        let mut triangles = 0..mesh.triangles.len() as u32;
+        let given = &mesh.attributes.normals;
+        if !given.is_empty() && triangles.all(|t| given.are_complete(t)) {
             return Self {
                 normals: from_file(mesh).map(DVec3::as_vec3).collect(),
                 indices: Indices::OfFile,
             };
         }
-        if mesh.corner_normals.is_empty() && !mesh.smoothing.has_groups {
+        if given.is_empty() && mesh.attributes.smoothing.is_none() {
             return of_vertices(mesh);
         }
         mixed(mesh)
@@ -58,24 +59,20 @@ impl VertexNormals {
 
     /// The normals at a triangle's corners. `mesh` must be the mesh that they were computed for.
     pub fn of_triangle(&self, mesh: &TriangleMesh, triangle: u32) -> [Vec3; 3] {
-        let lists = match &self.indices {
-            Indices::OfVertices => &mesh.triangles,
-            Indices::OfFile => &mesh.corner_normals,
-            Indices::Own(corners) => corners,
+        let indices = match &self.indices {
+            Indices::OfVertices => mesh.triangles[triangle as usize],
+            Indices::OfFile => mesh.attributes.normals.indices(triangle),
+            Indices::Own(corners) => corners[triangle as usize],
         };
-        lists[triangle as usize].map(|index| self.normals[index as usize])
+        indices.map(|index| self.normals[index as usize])
     }
-}
-
-/// Whether the file has a normal for each corner of a triangle.
-fn has_normals(mesh: &TriangleMesh, triangle: u32) -> bool {
-    let corners = mesh.corner_normals.get(triangle as usize);
-    corners.is_some_and(|corners| !corners.contains(&NO_INDEX))
 }
 
 /// The file's normals, normalized. In f64, where the length of an f32 vector neither under- nor overflows.
 fn from_file(mesh: &TriangleMesh) -> impl Iterator<Item = DVec3> {
-    mesh.normals
+    mesh.attributes
+        .normals
+        .values()
         .iter()
         .map(|normal| normal.as_dvec3().normalize_or_zero())
 }
@@ -120,15 +117,15 @@ fn mixed(mesh: &TriangleMesh) -> VertexNormals {
     let mut sums: Vec<DVec3> = from_file(mesh).collect();
     let mut by_group: HashMap<(u32, u32), u32> = HashMap::new();
     let mut own = Vec::with_capacity(mesh.triangles.len());
-    let group_of = |triangle: u32| mesh.smoothing.groups.of(triangle);
-    let is_flat = |triangle: u32| mesh.smoothing.has_groups && group_of(triangle) == 0;
+    let groups = mesh.attributes.smoothing.as_ref();
+    let group_of = |triangle: u32| groups.map_or(0, |groups| groups.of(triangle));
+    let is_flat = |triangle: u32| groups.is_some() && group_of(triangle) == 0;
     for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
-        let given = mesh.corner_normals.get(triangle as usize);
+        let given = mesh.attributes.normals.indices(triangle);
         let mut of_triangle = None;
         own.push([0, 1, 2].map(|k| {
-            let given = given.map_or(NO_INDEX, |corners| corners[k]);
-            if given != NO_INDEX {
-                return given;
+            if given[k] != NO_INDEX {
+                return given[k];
             }
             if is_flat(triangle) {
                 return *of_triangle.get_or_insert_with(|| {
@@ -197,21 +194,19 @@ fn creased(mesh: &TriangleMesh, radians: f32) -> VertexNormals {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::mesh::{CornerValues, Runs};
     use std::f32::consts::PI;
 
     /// Two sides of a roof that share the ridge from (0, 0, 1) to (0, 1, 1).
     fn roof() -> TriangleMesh {
-        TriangleMesh {
-            positions: vec![
-                Vec3::new(0.0, 0.0, 1.0),
-                Vec3::new(0.0, 1.0, 1.0),
-                Vec3::new(-1.0, 0.0, 0.0),
-                Vec3::new(1.0, 0.0, 0.0),
-                Vec3::new(-0.0, 1.0, 1.0),
-            ],
-            triangles: vec![[0, 1, 2], [0, 3, 4]],
-            ..TriangleMesh::default()
-        }
+        let positions = vec![
+            Vec3::new(0.0, 0.0, 1.0),
+            Vec3::new(0.0, 1.0, 1.0),
+            Vec3::new(-1.0, 0.0, 0.0),
+            Vec3::new(1.0, 0.0, 0.0),
+            Vec3::new(-0.0, 1.0, 1.0),
+        ];
+        TriangleMesh::new(positions, vec![[0, 1, 2], [0, 3, 4]])
     }
 
     fn normals(mesh: &TriangleMesh, crease: Crease) -> [[Vec3; 3]; 2] {
@@ -236,18 +231,18 @@ mod tests {
     #[test]
     fn the_files_normals_take_precedence_per_corner() {
         let mut mesh = roof();
-        mesh.normals = vec![Vec3::Y * 2.0];
-        mesh.corner_normals = vec![[0; 3], [NO_INDEX; 3]];
+        let given = |right: [u32; 3]| CornerValues::new(vec![Vec3::Y * 2.0], [[0; 3], right]);
+        mesh.attributes.normals = given([NO_INDEX; 3]);
         let [left, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(left, [Vec3::Y; 3]);
         // Computed, including the other face's contribution.
         assert!(is_near(right[0], Vec3::Z), "{right:?}");
         // Per corner.
-        mesh.corner_normals[1] = [NO_INDEX, 0, NO_INDEX];
+        mesh.attributes.normals = given([NO_INDEX, 0, NO_INDEX]);
         let [_, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(right[1], Vec3::Y);
         assert!(is_near(right[0], Vec3::Z), "{right:?}");
-        mesh.corner_normals[1] = [0; 3];
+        mesh.attributes.normals = given([0; 3]);
         assert_eq!(normals(&mesh, Crease::FromFile), [[Vec3::Y; 3]; 2]);
     }
 
@@ -261,9 +256,9 @@ mod tests {
             ([0, 1], [left, right]),
         ] {
             let mut mesh = roof();
-            mesh.smoothing.has_groups = true;
+            let smoothing = mesh.attributes.smoothing.insert(Runs::default());
             for (triangle, group) in (0..).zip(groups) {
-                mesh.smoothing.groups.begin(triangle, group);
+                smoothing.begin(triangle, group);
             }
             let found = normals(&mesh, Crease::FromFile).map(|corners| corners[0]);
             let is_right = is_near(found[0], ridge[0]) && is_near(found[1], ridge[1]);
@@ -274,8 +269,7 @@ mod tests {
     #[test]
     fn an_edge_is_a_crease_above_its_angle_regardless_of_the_file() {
         let mut mesh = roof();
-        mesh.normals = vec![Vec3::Y];
-        mesh.corner_normals = vec![[0; 3]; 2];
+        mesh.attributes.normals = CornerValues::new(vec![Vec3::Y], [[0; 3]; 2]);
         let ridge = |degrees: f32| normals(&mesh, Crease::Above(degrees * PI / 180.0))[0][0];
         assert!(is_near(ridge(91.0), Vec3::Z), "{}", ridge(91.0));
         assert!(

@@ -1,7 +1,7 @@
 //! Procedural meshes for tests and measurements. They have the same bits on every machine, as only sums,
 //! products, quotients and roots are used.
 
-use super::{TriangleMesh, has_zero_area};
+use super::TriangleMesh;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3, Vec3};
@@ -75,7 +75,7 @@ pub fn torus(around: u32, across: u32, place: Placement) -> TriangleMesh {
         let [c, d] = [vertex(i + 1, j + 1), vertex(i, j + 1)];
         [[a, b, c], [a, c, d]]
     });
-    mesh(points.collect(), triangles.collect())
+    TriangleMesh::new(points.collect(), triangles.collect())
 }
 
 /// A closed sphere of radius 1: a cube of `cells` × `cells` quads per side, projected onto the sphere.
@@ -98,7 +98,7 @@ pub fn flat_grid(cells: u32, place: Placement) -> TriangleMesh {
         .flat_map(|y| (0..row).map(move |x| place.of(DVec3::new(f64::from(x), f64::from(y), 0.0))));
     let squares = (0..cells).flat_map(|y| (0..cells).map(move |x| y * row + x));
     let triangles = squares.flat_map(|a| [[a, a + 1, a + row + 1], [a, a + row + 1, a + row]]);
-    mesh(points.collect(), triangles.collect())
+    TriangleMesh::new(points.collect(), triangles.collect())
 }
 
 /// The six sides of a cube of cells; each side has its own vertices, at the same positions.
@@ -123,25 +123,14 @@ fn surface_of_cube(cells: u32, place: impl Fn(glam::UVec3) -> Vec3) -> TriangleM
             });
         }
     }
-    mesh(points, triangles)
-}
-
-/// A mesh of these triangles without those of zero area; each triangle is a face.
-pub fn mesh(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> TriangleMesh {
-    triangles.retain(|corner| !has_zero_area(corner.map(|v| positions[v as usize])));
-    TriangleMesh {
-        face_count: triangles.len(),
-        positions,
-        triangles,
-        ..TriangleMesh::default()
-    }
+    TriangleMesh::new(points, triangles)
 }
 
 /// A mesh of separate triangles without shared vertices.
 pub fn soup(corners: &[[Vec3; 3]]) -> TriangleMesh {
     let triangle = |k: u32| [3 * k, 3 * k + 1, 3 * k + 2];
     let triangles = (0..corners.len() as u32).map(triangle).collect();
-    mesh(corners.as_flattened().to_vec(), triangles)
+    TriangleMesh::new(corners.as_flattened().to_vec(), triangles)
 }
 
 /// A scene of the mesh with its tree.

@@ -51,10 +51,8 @@ mod tests {
     fn vertices_at_equal_positions_are_welded_and_one_bit_keeps_them_apart() {
         let next = f32::from_bits(1.0f32.to_bits() + 1);
         let points = [0.0, 1.0, -0.0, next, 1.0];
-        let mesh = TriangleMesh {
-            positions: points.map(|x| Vec3::new(x, 0.0, 2.0)).to_vec(),
-            ..TriangleMesh::default()
-        };
+        let positions = points.map(|x| Vec3::new(x, 0.0, 2.0)).to_vec();
+        let mesh = TriangleMesh::new(positions, Vec::new());
         let welded = Welded::of(&mesh);
         let first: Vec<u32> = (0..5).map(|vertex| welded.vertex(vertex)).collect();
         assert_eq!(first, [0, 1, 0, 3, 1]);

@@ -196,9 +196,7 @@ impl Contents {
             *has_indices |= !corners.is_empty();
         }
         self.corner_count += elements.corners[0].len();
-        self.triangle_count += elements.corners[0]
-            .len()
-            .saturating_sub(2 * elements.face_count());
+        self.triangle_count += elements.most_triangles();
         self.has_polygons |= !elements.arities.is_empty();
         self.largest_element = self.largest_element.max(elements.largest);
         self.other_bytes += elements.other_bytes() + part.marks.iter().map(bytes_of).sum::<usize>();

@@ -65,6 +65,11 @@ impl Elements {
         self.count - self.non_faces.len()
     }
 
+    /// Upper bound on the number of triangles: what fans of all faces have.
+    pub(super) fn most_triangles(&self) -> usize {
+        self.corners[0].len().saturating_sub(2 * self.face_count())
+    }
+
     /// Ends an element whose corners have been added since `first`.
     pub(super) fn end(&mut self, kind: Element, first: usize, line: usize) {
         let arity = self.corners[0].len() - first;

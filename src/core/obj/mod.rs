@@ -7,7 +7,7 @@
 //! | **chunks are parsed in parallel, statement by statement** | `plain`, or `reader` with `statement`, `words`, `corner`; `part`, `elements` |
 //! | the chunks' contents are merged in file order | `contents`: `names`, `colours`, `tally`, `memory` |
 //! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
-//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `polygon`, `delaunay`, `outline`, `oddities` |
+//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `triangulate`, `polygon`, `delaunay`, `outline`, `oddities` |
 //! | a face's statement is read again for the inspector | `face_source` |
 
 mod assemble;
@@ -35,16 +35,19 @@ mod plain;
 mod polygon;
 mod reader;
 mod referenced_files;
+mod report;
 mod source;
 mod statement;
 mod stored_file;
 mod tally;
+mod triangulate;
 mod used;
 mod words;
 
 pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
 pub use referenced_files::ReadFile;
+pub use report::{Dropped, LoadReport};
 pub use tally::LineRuns;
 
 use crate::mesh::TriangleMesh;
@@ -54,7 +57,8 @@ use fence::fenced;
 use referenced_files::{Folder, NamedFiles, ReferencedFiles};
 use std::fs::{File, Metadata};
 use std::io::Read;
-use std::path::{Path, PathBuf};
+use std::path::Path;
+use std::time::Instant;
 
 /// Placement of a mesh's origin.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -100,21 +104,13 @@ impl Default for LoadOptions {
     }
 }
 
-/// A mesh and the warnings about its file.
+/// A mesh, and what loading found out about its file.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The mesh.
     pub mesh: TriangleMesh,
-    /// Warnings about dropped, ignored or unusual parts of the file.
-    pub warnings: Vec<Warning>,
-    /// Number of `v` statements in the file.
-    pub vertex_count: usize,
-    /// Upper bound on the difference between a coordinate of the traced mesh and its decimal in the file.
-    pub max_rounding: f64,
-    /// The line of each face, indexed like [`TriangleMesh::face_of`].
-    pub face_lines: LineRuns,
-    /// Paths of the libraries and textures that were looked for, including missing ones.
-    pub files: Vec<PathBuf>,
+    /// What was found out.
+    pub report: LoadReport,
 }
 
 /// Loads an OBJ file, optionally gzipped, with its material libraries and textures.
@@ -122,6 +118,7 @@ pub struct Loaded {
 /// # Errors
 /// See [`LoadError`], which gives the reason and the line.
 pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Loaded, LoadError> {
+    let start = Instant::now();
     let unreadable = |source| LoadError::Unreadable {
         path: path.to_owned(),
         source,
@@ -147,7 +144,8 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         return Err(Problem::Content(CHANGED.to_owned()).in_file(path));
     }
     let mut loaded = parsed?;
-    loaded.files = folder.into_wanted();
+    loaded.report.files = folder.into_wanted();
+    loaded.report.duration = start.elapsed();
     Ok(loaded)
 }
 
@@ -194,6 +192,7 @@ fn parse_with(
     files: &dyn ReferencedFiles,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
+    let start = Instant::now();
     let parse = || {
         progress.enter(Phase::Reading);
         let contents = fenced("reading", || contents::read(bytes, &options, progress))??;
@@ -203,7 +202,9 @@ fn parse_with(
             max_memory: options.max_memory.saturating_sub(held),
             ..options
         };
-        assemble::assemble(contents, &options, files, progress)
+        let mut loaded = assemble::assemble(contents, &options, files, progress)?;
+        loaded.report.duration = start.elapsed();
+        Ok(loaded)
     };
     parse().map_err(|problem: Problem| problem.in_file(path))
 }

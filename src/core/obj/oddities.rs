@@ -2,9 +2,9 @@
 
 use super::contents::Contents;
 use super::error::{Problem, Warning};
+use super::report::Dropped;
 use super::tally::{Tally, lines_or_points};
 use crate::counts::{counted, counted_as, grouped};
-use crate::mesh::{Dropped, TriangleMesh};
 
 /// Count and first line of each oddity.
 #[derive(Default)]
@@ -56,21 +56,14 @@ impl Oddities {
     }
 }
 
-/// Returns an error with the reason if the mesh has no triangles.
-pub(super) fn require_content(
-    mesh: &TriangleMesh,
-    contents: &Contents,
-    vertex_count: usize,
-) -> Result<(), Problem> {
-    if !mesh.triangles.is_empty() {
-        return Ok(());
-    }
+/// The error that a file gives no triangles, with the reason.
+pub(super) fn no_triangles(contents: &Contents, dropped: Dropped, vertex_count: usize) -> Problem {
     let Dropped {
         zero_area,
         non_finite,
         bad_index,
         ..
-    } = mesh.dropped;
+    } = dropped;
     let element_count = contents.element_count;
     let message = if zero_area + non_finite > 0 {
         let reasons = [
@@ -84,13 +77,13 @@ pub(super) fn require_content(
         let reasons = reasons.map(|(count, why)| format!("{} {why}", grouped(count)));
         let reasons = reasons.collect::<Vec<_>>().join(", ");
         let message = format!("no triangles left: {reasons}");
-        return Err(Problem::line(contents.face_lines.line(0), message));
+        return Problem::line(contents.face_lines.line(0), message);
     } else if bad_index > 0 {
         let message = format!(
             "no faces left: {} with an index that is out of range or fewer than three corners",
             grouped(bad_index)
         );
-        return Err(Problem::line(contents.dropped_faces.first_line, message));
+        return Problem::line(contents.dropped_faces.first_line, message);
     } else if element_count > 0 {
         format!(
             "there are lines or points ({}), but no faces: nothing to trace",
@@ -104,5 +97,5 @@ pub(super) fn require_content(
     } else {
         "no vertices and no faces: this is not an OBJ file".to_owned()
     };
-    Err(Problem::Content(message))
+    Problem::Content(message)
 }

@@ -142,10 +142,10 @@ fn rounding_of(
     has_long_numbers: bool,
     counts: impl Fn(&DVec3) -> bool + Sync,
 ) -> f64 {
-    let vertices = mesh.positions.par_iter().zip(exact);
+    let vertices = mesh.positions().par_iter().zip(exact);
     let larger_of = |mut most: f64, (own, in_file): (&Vec3, &DVec3)| {
         for axis in 0..3 {
-            let (x, origin) = (in_file[axis], mesh.origin[axis]);
+            let (x, origin) = (in_file[axis], mesh.origin()[axis]);
             let (from_origin, lost) = difference(x, origin);
             // Exact: the two differ by less than half an ulp of an f32.
             let moved = (from_origin - f64::from(own[axis])).abs() + lost.abs();

@@ -94,13 +94,17 @@ fn a_distant_mesh_keeps_its_detail() {
     let text = "v 4649776.25 30.125 -10000000.5\nv 4649777.25 30.125 -10000000.5\nv 4649776.25 31.1 -10000000.5\nf 1 2 3\n";
     let loaded = load_text(text).expect("good");
     let mesh = &loaded.mesh;
-    assert_ne!(mesh.origin, DVec3::ZERO);
-    let file = |p: Vec3| p.as_dvec3() + mesh.origin;
+    assert_ne!(mesh.origin(), DVec3::ZERO);
+    let file = |p: Vec3| p.as_dvec3() + mesh.origin();
     assert_eq!(
-        file(mesh.positions[0]),
+        file(mesh.positions()[0]),
         DVec3::new(4_649_776.25, 30.125, -10_000_000.5)
     );
-    assert!(loaded.max_rounding < 1e-7, "{}", loaded.max_rounding);
+    assert!(
+        loaded.report.max_rounding < 1e-7,
+        "{}",
+        loaded.report.max_rounding
+    );
 }
 
 #[test]
@@ -108,15 +112,19 @@ fn the_largest_rounding_of_a_coordinate_is_reported() {
     let loaded = load_text("v 0.1 0 0\nv 1 0.3 0\nv 0 1 0.75\nf 1 2 3\n").expect("good");
     // 0.3 errs by more than 0.1. Rounding decimals to f64 adds at most 2⁻⁵⁴.
     let expected = f64::from(0.3f32) - 0.3;
-    let difference = (loaded.max_rounding - expected).abs();
-    assert!(difference <= 2f64.powi(-54), "{}", loaded.max_rounding);
+    let difference = (loaded.report.max_rounding - expected).abs();
+    assert!(
+        difference <= 2f64.powi(-54),
+        "{}",
+        loaded.report.max_rounding
+    );
 }
 
 #[test]
 fn an_ordinary_mesh_keeps_the_files_numbers() {
     let loaded = load_text(&format!("{TRIANGLE}f 1 2 3\n")).expect("good");
-    assert_eq!(loaded.mesh.origin, DVec3::ZERO);
-    assert_eq!(loaded.max_rounding, 0.0);
+    assert_eq!(loaded.mesh.origin(), DVec3::ZERO);
+    assert_eq!(loaded.report.max_rounding, 0.0);
 }
 
 #[test]
@@ -124,8 +132,11 @@ fn polygons_keep_their_id_and_diagonals_are_not_outlined() {
     let text = format!("{TRIANGLE}v 1 1 0\nf 1 2 3\nf 1 2 4 3\n");
     let mesh = load_text(&text).expect("good").mesh;
     assert_eq!([0, 1, 2].map(|t| mesh.face_of(t)), [0, 1, 1]);
-    assert_eq!([0, 1, 2].map(|t| mesh.outline_of(t)), [0b111, 0b011, 0b110]);
-    assert_eq!(mesh.face_count, 2);
+    assert_eq!(
+        [0, 1, 2].map(|t| mesh.attributes().faces.outline(t)),
+        [0b111, 0b011, 0b110]
+    );
+    assert_eq!(mesh.face_count(), 2);
 }
 
 #[test]
@@ -135,20 +146,25 @@ fn faces_get_their_names_normals_and_materials() {
     );
     let loaded = load_text(&text).expect("good");
     let mesh = &loaded.mesh;
-    let material = |t: u32| mesh.material_of(t).expect("one of the list");
+    let material = |t: u32| mesh.attributes().materials.of(t).expect("one of the list");
     assert_eq!(
         [0, 1, 2].map(|t| material(t).name.as_str()),
         ["", "red", "blue"]
     );
     assert_eq!(material(1).diffuse, Some(Vec3::X));
     assert_eq!(material(2).diffuse, None);
-    assert_eq!(mesh.groups[mesh.group.of(1) as usize], "left side #2");
-    assert_eq!(
-        mesh.corner_normals,
-        [[NO_INDEX; 3], [0; 3], [0, NO_INDEX, 0]]
-    );
-    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
-    assert_eq!(mesh.lines, [[0, 1], [1, 2]]);
+    let attributes = mesh.attributes();
+    let group = attributes.groups.of(1);
+    assert_eq!(group.map(String::as_str), Some("left side #2"));
+    let normals = [0, 1, 2].map(|t| attributes.normals.indices(t));
+    assert_eq!(normals, [[NO_INDEX; 3], [0; 3], [0, NO_INDEX, 0]]);
+    let warnings: Vec<String> = loaded
+        .report
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect();
+    assert_eq!(mesh.attributes().lines, [[0, 1], [1, 2]]);
     assert_eq!(warnings.len(), 3, "{warnings:?}");
     assert_eq!(warnings[0], "line 15: 1 “curv” statement ignored");
     assert!(warnings[1].starts_with("line 2: material library “missing.mtl”: "));

@@ -9,14 +9,13 @@ use crate::bvh::Bvh;
 use crate::intersector::Intersector;
 use crate::kernel::TriangleKernel;
 use crate::mesh::{Crease, SAFE_SIZE, TriangleMesh, VertexNormals};
-use crate::obj::{self, LoadError, LoadOptions, Loaded, Warning};
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
 use crate::progress::{BackgroundError, Cancelled, Phase, Progress};
 use crate::simd::SimdLevel;
 use glam::Vec3;
-use std::io;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::sync::{Arc, OnceLock};
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use tree::Tree;
 
 /// Flat or smooth shading.
@@ -95,13 +94,8 @@ impl Scene {
         let corners = triangles
             .iter()
             .flat_map(|&triangle| mesh.corners(triangle));
-        let mesh = TriangleMesh {
-            positions: corners.collect(),
-            triangles: (0..triangles.len() as u32)
-                .map(|k| [3 * k, 3 * k + 1, 3 * k + 2])
-                .collect(),
-            ..TriangleMesh::default()
-        };
+        let indices = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
+        let mesh = TriangleMesh::of_valid(corners.collect(), indices.collect());
         Self::new(mesh, &Progress::default()).expect("nobody cancels")
     }
 
@@ -112,11 +106,8 @@ impl Scene {
             return None;
         }
         let in_file = |p: &Vec3| self.mesh.in_file(p.as_dvec3()).as_vec3();
-        let mesh = TriangleMesh {
-            positions: self.mesh.positions.iter().map(in_file).collect(),
-            triangles: self.mesh.triangles.clone(),
-            ..TriangleMesh::default()
-        };
+        let positions = self.mesh.positions().iter().map(in_file).collect();
+        let mesh = TriangleMesh::of_valid(positions, self.mesh.triangles().to_vec());
         let options = SceneOptions {
             packing: self.tree.packing(),
             ..SceneOptions::default()
@@ -189,18 +180,8 @@ impl Scene {
 pub struct LoadedScene {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What was dropped or ignored.
-    pub warnings: Vec<Warning>,
-    /// Number of `v` statements in the file.
-    pub vertex_count: usize,
-    /// No coordinate of the traced mesh lies farther from its decimal in the file than this.
-    pub max_rounding: f64,
-    /// The line of each face in the file.
-    pub face_lines: obj::LineRuns,
-    /// Material libraries and textures that the file names, whether or not they exist.
-    pub files: Vec<PathBuf>,
-    /// Time for reading, parsing and checking; the tree's time is [`Scene::build_time`].
-    pub load_time: Duration,
+    /// What loading found out about the file.
+    pub report: LoadReport,
 }
 
 impl LoadedScene {
@@ -219,9 +200,8 @@ impl LoadedScene {
         };
         let (file, shared) = (path.to_owned(), progress.clone());
         let load = move || {
-            let start = Instant::now();
             let loaded = obj::load(&file, load_options, &shared)?;
-            Self::of(loaded, start, options, &shared).map_err(|Cancelled| cancelled(&file))
+            Self::of(loaded, options, &shared).map_err(|Cancelled| cancelled(&file))
         };
         progress
             .run_in_background("load", load)
@@ -230,38 +210,26 @@ impl LoadedScene {
                     BackgroundError::Cancelled => cancelled(path),
                     BackgroundError::NoThread(source) => LoadError::Unreadable {
                         path: path.to_owned(),
-                        source: io::Error::new(
-                            source.kind(),
-                            format!("the system grants no thread to load it: {source}"),
-                        ),
+                        source,
                     },
                 })
             })
     }
 
-    /// Builds the tree over a mesh whose loading began at `start`.
+    /// Builds the tree over a mesh.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn of(
         loaded: Loaded,
-        start: Instant,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let load_time = start.elapsed();
-        let scene = Scene::with_options(loaded.mesh, options, progress)?;
-        let mut warnings = loaded.warnings;
-        warnings.extend(size_warning(scene.bounds()));
-        Ok(Self {
-            scene: Arc::new(scene),
-            warnings,
-            vertex_count: loaded.vertex_count,
-            max_rounding: loaded.max_rounding,
-            face_lines: loaded.face_lines,
-            files: loaded.files,
-            load_time,
-        })
+        let Loaded { mesh, mut report } = loaded;
+        let scene = Scene::with_options(mesh, options, progress)?;
+        report.warnings.extend(size_warning(scene.bounds()));
+        let scene = Arc::new(scene);
+        Ok(Self { scene, report })
     }
 }
 
@@ -307,7 +275,7 @@ mod tests {
 
     #[test]
     fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {
-        let library = |_: &str| Err(io::ErrorKind::NotFound.into());
+        let library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
         let (path, progress) = (Path::new("x.obj"), Progress::default());
         for (scale, is_warned) in [
             ("1e-20", true),
@@ -318,13 +286,8 @@ mod tests {
             let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
             let bytes = text.as_bytes();
             let loaded = obj::parse(bytes, path, LoadOptions::default(), &library, &progress);
-            let loaded = LoadedScene::of(
-                loaded.expect("good"),
-                Instant::now(),
-                SceneOptions::default(),
-                &progress,
-            );
-            let warnings = loaded.expect("nobody cancels").warnings;
+            let loaded = LoadedScene::of(loaded.expect("good"), SceneOptions::default(), &progress);
+            let warnings = loaded.expect("never cancelled").report.warnings;
             assert_eq!(
                 warnings.len(),
                 usize::from(is_warned),

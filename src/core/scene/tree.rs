@@ -68,7 +68,7 @@ impl Tree {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let is_large = mesh.triangles.len() >= LARGE;
+        let is_large = mesh.triangles().len() >= LARGE;
         let first = if is_large {
             options.first_tree
         } else {
@@ -162,7 +162,7 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 fn built(mesh: &TriangleMesh, tree: FirstTree, progress: &Progress) -> Result<Built, Cancelled> {
-    let (start, count) = (Instant::now(), mesh.triangles.len());
+    let (start, count) = (Instant::now(), mesh.triangles().len());
     let (bounds_of, keep_going) = (bounds_in(mesh), || progress.check());
     let bvh = match tree {
         FirstTree::Best => Bvh::build(count, bounds_of, &keep_going)?,
@@ -187,7 +187,7 @@ mod tests {
     /// 12·150² triangles.
     fn large() -> Scene {
         let mesh = sphere(150, Placement::UNIT);
-        assert!(mesh.triangles.len() > LARGE);
+        assert!(mesh.triangles().len() > LARGE);
         let options = SceneOptions {
             first_tree: FirstTree::Quick,
             ..SceneOptions::default()

@@ -69,7 +69,7 @@ impl CameraArgs {
         let Some(eye) = self.eye else {
             return Ok(self.framing(scene)?);
         };
-        let origin = scene.mesh().origin;
+        let origin = scene.mesh().origin();
         let centre = scene.bounds().centre().as_dvec3();
         let target = self.target.map_or(centre, |target| target - origin);
         self.look_at(eye - origin, target).map_err(usage)

@@ -118,7 +118,7 @@ impl BenchArgs {
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene)?;
-        let triangles = scene.mesh().triangles.len();
+        let triangles = scene.mesh().triangles().len();
         let per_triangle = |bytes: usize| bytes as f64 / triangles.max(1) as f64;
         let mut packed = Vec::new();
         let mut intersectors = Vec::new();
@@ -135,7 +135,7 @@ impl BenchArgs {
         let report = Report {
             triangles,
             simd: SimdLevel::current().name(),
-            load_ms: milliseconds(loaded.load_time),
+            load_ms: milliseconds(loaded.report.duration),
             build_ms: milliseconds(scene.build_time()),
             quick_build_ms: milliseconds(quick_build_time(scene.mesh())),
             bytes_per_triangle: packed[0].bytes_per_triangle,
@@ -321,7 +321,7 @@ fn milliseconds(duration: Duration) -> f64 {
 
 fn quick_build_time(mesh: &TriangleMesh) -> Duration {
     let start = Instant::now();
-    black_box(Bvh::build_quickly(mesh.triangles.len(), bounds_in(mesh), &|| Ok(())).is_ok());
+    black_box(Bvh::build_quickly(mesh.triangles().len(), bounds_in(mesh), &|| Ok(())).is_ok());
     start.elapsed()
 }
 

@@ -107,7 +107,7 @@ impl InfoArgs {
         if self.check {
             let bytes = std::fs::read(&self.file);
             let bytes = bytes.map_err(|source| file_error(&self.file, source))?;
-            info.check = Some(compare(&bytes, scene.mesh(), &loaded.face_lines));
+            info.check = Some(compare(&bytes, scene.mesh(), &loaded.report));
         }
         if self.json {
             writeln!(out, "{}", json::to_pretty(&info))?;
@@ -129,41 +129,46 @@ impl Info {
         bytes.insert("packed triangles", packed_bytes);
         let health = Health::of(mesh);
         Self {
-            vertices: loaded.vertex_count,
-            triangles: mesh.triangles.len(),
-            polygons: mesh.face_count,
+            vertices: loaded.report.vertex_count,
+            triangles: mesh.triangles().len(),
+            polygons: mesh.face_count(),
             materials: mesh.named_material_count(),
             groups: mesh.named_group_count(),
-            lines: mesh.lines.len(),
-            points: mesh.points.len(),
+            lines: mesh.attributes().lines.len(),
+            points: mesh.attributes().points.len(),
             bounds: Bounds {
                 min: in_file(bounds.min),
                 max: in_file(bounds.max),
             },
-            origin: mesh.origin.to_array(),
-            max_rounding: loaded.max_rounding,
+            origin: mesh.origin().to_array(),
+            max_rounding: loaded.report.max_rounding,
             bytes,
             dropped: BTreeMap::from([
-                ("zero_area", mesh.dropped.zero_area),
-                ("non_finite", mesh.dropped.non_finite),
-                ("bad_index", mesh.dropped.bad_index),
-                ("lines_and_points", mesh.dropped.elements),
+                ("zero_area", loaded.report.dropped.zero_area),
+                ("non_finite", loaded.report.dropped.non_finite),
+                ("bad_index", loaded.report.dropped.bad_index),
+                ("lines_and_points", loaded.report.dropped.elements),
             ]),
             bytes_as: BTreeMap::from(bytes_as(mesh)),
-            warnings: loaded.warnings.iter().map(ToString::to_string).collect(),
+            warnings: loaded
+                .report
+                .warnings
+                .iter()
+                .map(ToString::to_string)
+                .collect(),
             check: None,
             tier: required_tier(scene, &health),
             health: HealthReport {
-                degenerate: mesh.dropped.zero_area,
-                non_finite: mesh.dropped.non_finite,
-                bad_index: mesh.dropped.bad_index,
+                degenerate: loaded.report.dropped.zero_area,
+                non_finite: loaded.report.dropped.non_finite,
+                bad_index: loaded.report.dropped.bad_index,
                 flaws: FLAWS
                     .iter()
                     .map(|info| (info.name, health.places(info.flaw).count()))
                     .collect(),
                 max_aspect: health.max_aspect,
             },
-            load_ms: loaded.load_time.as_secs_f64() * 1e3,
+            load_ms: loaded.report.duration.as_secs_f64() * 1e3,
             build_ms: scene.build_time().as_secs_f64() * 1e3,
         }
     }

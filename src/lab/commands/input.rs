@@ -8,7 +8,6 @@ use hitscope_core::progress::Progress;
 use hitscope_core::scene::{LoadedScene, SceneOptions};
 use std::io;
 use std::path::Path;
-use std::time::Instant;
 
 /// The name of standard input on the command line.
 const STDIN: &str = "-";
@@ -33,15 +32,15 @@ pub(super) fn load(
     } else {
         LoadedScene::load(path, load_options, options, &Progress::default())?
     };
-    let triangles = counted(loaded.scene.mesh().triangles.len(), "triangle");
-    let ms = (loaded.load_time + loaded.scene.build_time()).as_secs_f64() * 1e3;
+    let triangles = counted(loaded.scene.mesh().triangles().len(), "triangle");
+    let ms = (loaded.report.duration + loaded.scene.build_time()).as_secs_f64() * 1e3;
     ProgressLine::new().print(format_args!("{}: {triangles} in {ms:.0} ms", shown(name)));
     Ok(loaded)
 }
 
 /// Prints the warnings of a loaded file.
 pub fn print_warnings(path: &Path, loaded: &LoadedScene) {
-    for warning in &loaded.warnings {
+    for warning in &loaded.report.warnings {
         print_line(format_args!("{}: warning: {warning}", shown(name_of(path))));
     }
 }
@@ -60,8 +59,8 @@ fn load_stdin(
     load_options: LoadOptions,
     options: SceneOptions,
 ) -> Result<LoadedScene, LoadError> {
-    let (start, progress) = (Instant::now(), Progress::default());
+    let progress = Progress::default();
     let no_folder = |_: &str| Err(io::Error::other("standard input has no folder to look in"));
     let loaded = obj::parse(io::stdin(), name, load_options, &no_folder, &progress)?;
-    Ok(LoadedScene::of(loaded, start, options, &progress).expect("never cancelled"))
+    Ok(LoadedScene::of(loaded, options, &progress).expect("never cancelled"))
 }

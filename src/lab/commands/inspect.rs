@@ -97,7 +97,7 @@ impl InspectArgs {
         let intersector = scene.intersector(self.kernel.kernel());
         let mut inspection =
             Inspection::of_pixel(&scene, &*intersector, self.shading.into(), &camera, pixel);
-        inspection.find_line(&loaded.face_lines);
+        inspection.find_line(&loaded.report.face_lines);
         if self.json {
             writeln!(out, "{}", inspection.to_json())?;
         } else {

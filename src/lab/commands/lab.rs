@@ -203,7 +203,7 @@ impl LabArgs {
             let json = json!({
                 "file": file.display().to_string(),
                 "machine": machine(),
-                "triangles": scene.mesh().triangles.len(),
+                "triangles": scene.mesh().triangles().len(),
                 "kernels": rows,
             });
             writeln!(out, "{}", json::to_pretty(&json))?;

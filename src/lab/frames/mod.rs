@@ -128,14 +128,14 @@ impl<'a> Frames<'a> {
     fn has_file_frame(&self) -> bool {
         let has = || {
             let mesh = self.scene.mesh();
-            mesh.origin != DVec3::ZERO && mesh.are_f32_in_file() && self.fits_twice()
+            mesh.origin() != DVec3::ZERO && mesh.are_f32_in_file() && self.fits_twice()
         };
         *self.has_file_frame.get_or_init(has)
     }
 
     fn fits_twice(&self) -> bool {
         let mesh = self.scene.mesh();
-        let lists = size_of_val(&mesh.positions[..]) + size_of_val(&mesh.triangles[..]);
+        let lists = size_of_val(mesh.positions()) + size_of_val(mesh.triangles());
         let one = lists + self.scene.bvh().bytes() + self.mesh.bytes();
         2 * one as u64 <= self.max_memory
     }
@@ -171,7 +171,7 @@ impl Frame {
     fn of_mesh(scene: &Scene) -> Self {
         Self {
             kind: FrameKind::Mesh,
-            origin: scene.mesh().origin,
+            origin: scene.mesh().origin(),
             ball: Ball::around(scene),
         }
     }
@@ -182,7 +182,7 @@ impl Frame {
             kind: FrameKind::File,
             origin: DVec3::ZERO,
             ball: Ball {
-                centre: ball.centre + scene.mesh().origin,
+                centre: ball.centre + scene.mesh().origin(),
                 ..ball
             },
         }

@@ -3,17 +3,13 @@
 use super::*;
 use hitscope_core::TriangleMesh;
 use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 
 fn scene(origin: DVec3) -> Scene {
-    let mesh = TriangleMesh {
-        origin,
-        positions: vec![Vec3::ZERO, Vec3::Y, Vec3::Z],
-        triangles: vec![[0, 1, 2]],
-        ..TriangleMesh::default()
-    };
-    Scene::new(mesh, &Progress::default()).expect("never cancelled")
+    let mesh = soup(&[[Vec3::ZERO, Vec3::Y, Vec3::Z]]);
+    Scene::new(mesh.with_origin(origin), &Progress::default()).expect("never cancelled")
 }
 
 fn given(origin: DVec3, dir: DVec3) -> GivenRay {

@@ -194,10 +194,10 @@ fn triangles(random: &mut Random, extent: DVec3, offset: f64) -> TriangleMesh {
 
 /// A ray from `distance` sizes away to a corner of a triangle or a point on one of its edges.
 fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray> {
-    if mesh.triangles.is_empty() {
+    if mesh.triangles().is_empty() {
         return None;
     }
-    let [a, b, _] = mesh.corners(random.index(mesh.triangles.len()) as u32);
+    let [a, b, _] = mesh.corners(random.index(mesh.triangles().len()) as u32);
     let target = a.lerp(b, [0.0, 1.0, 0.5, random.unit() as f32][random.index(4)]);
     let origin = target + (distance * random.in_cube()).as_vec3();
     Ray::new(origin, target - origin).ok()
@@ -206,25 +206,21 @@ fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray>
 /// A grid perpendicular to an axis, at a random position.
 fn grid(random: &mut Random) -> TriangleMesh {
     let place = Placement::new(1.0, [0.0, 0.5, 4096.0][random.index(3)]);
-    let mut mesh = flat_grid(2, place);
     let turn = random.index(3);
-    for p in &mut mesh.positions {
-        *p = Vec3::new(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]);
-    }
-    mesh
+    flat_grid(2, place).moved(|p| Vec3::new(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]))
 }
 
 /// A perpendicular ray at an edge or a corner of a grid, with zeros of either sign in the other components.
 fn at_border(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
-    let count = mesh.positions.len();
-    let [a, b] = [(); 2].map(|()| mesh.positions[random.index(count)]);
+    let count = mesh.positions().len();
+    let [a, b] = [(); 2].map(|()| mesh.positions()[random.index(count)]);
     let target = if random.index(2) == 0 {
         a
     } else {
         0.5 * (a + b)
     };
-    let first = mesh.positions[0];
-    let is_flat = |&axis: &usize| mesh.positions.iter().all(|p| p[axis] == first[axis]);
+    let first = mesh.positions()[0];
+    let is_flat = |&axis: &usize| mesh.positions().iter().all(|p| p[axis] == first[axis]);
     let axis = (0..3).find(is_flat)?;
     let mut sign = || if random.index(2) == 0 { 1.0 } else { -1.0 };
     let mut dir = Vec3::new(sign() * 0.0, sign() * 0.0, sign() * 0.0);
@@ -250,6 +246,6 @@ fn in_face(_: &TriangleMesh, random: &mut Random) -> Option<Ray> {
 fn on_lattice(mesh: &TriangleMesh, random: &mut Random) -> Option<Ray> {
     let mut half = || 0.5 * (random.index(25) as f32 - 8.0);
     let origin = Vec3::new(half(), half(), half());
-    let target = mesh.positions[random.index(mesh.positions.len())];
+    let target = mesh.positions()[random.index(mesh.positions().len())];
     Ray::new(origin, target - origin).ok()
 }

@@ -217,7 +217,7 @@ fn aimed_ray(
             continue;
         }
         let origin = place.of(within);
-        let corners = mesh.corners(random.index(mesh.triangles.len()) as u32);
+        let corners = mesh.corners(random.index(mesh.triangles().len()) as u32);
         let start = random.index(3);
         let [a, b] = [corners[start], corners[(start + 1) % 3]].map(|p| p.as_dvec3());
         let target = match aim {

@@ -198,7 +198,7 @@ impl OrderCase {
             let (triangles, ray) = self.sample(&mut random);
             let scene = scene(soup(&triangles));
             let mesh = scene.mesh();
-            let every: Vec<u32> = (0..mesh.triangles.len() as u32).collect();
+            let every: Vec<u32> = (0..mesh.triangles().len() as u32).collect();
             let exact = oracle::crossings(mesh, &ray, &every);
             ties += u64::from(exact.iter().any(|(_, primitives)| primitives.len() > 1));
             for (kernel, (nearest, all)) in kernels.iter().zip(&mut wrong) {

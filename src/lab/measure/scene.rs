@@ -76,7 +76,7 @@ pub fn measure(
     let workloads = workloads(scene, camera, sizes.timed, 1);
     let checked = checked_rays(&workloads, sizes.checked);
     let answers = answers(scene, &checked, progress)?;
-    let name = format!("{} triangles", scene.mesh().triangles.len());
+    let name = format!("{} triangles", scene.mesh().triangles().len());
     let bench = Bench::new(scene, name, &workloads, sizes.rounds);
     for kernel in TRIANGLE_KERNELS {
         progress.check()?;

@@ -104,7 +104,7 @@ impl SpawnCase {
         let mut count = 0;
         while count < n {
             let (mesh, size) = self.surface(&mut random);
-            if mesh.triangles.is_empty() {
+            if mesh.triangles().is_empty() {
                 continue;
             }
             let scene = scene(mesh);
@@ -182,7 +182,7 @@ impl SpawnCase {
     ) -> Option<(Ray, Hit, Vec3)> {
         for _ in 0..256 {
             let [a, b, c] = mesh
-                .corners(random.index(mesh.triangles.len()) as u32)
+                .corners(random.index(mesh.triangles().len()) as u32)
                 .map(Vec3::as_dvec3);
             let normal = unit_normal([a, b, c].map(|p| p.as_vec3()));
             let (mut u, mut v) = (random.unit(), random.unit());

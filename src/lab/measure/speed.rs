@@ -110,7 +110,7 @@ impl<'a> Bench<'a> {
         // `fast` relative to itself is 1 by definition; two measurements would differ.
         let is_fast = kernel.info.name == self.fast.kernel().name;
         let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
-        let triangles = self.scene.mesh().triangles.len().max(1) as f64;
+        let triangles = self.scene.mesh().triangles().len().max(1) as f64;
         let bytes = intersector.bytes() + self.scene.bvh().bytes();
         let adaptive = adaptive(intersector, self.workloads);
         Ok(Speed {
@@ -188,7 +188,7 @@ impl TestBench {
 
     fn ns_per_test(&self, kernel: &'static TriangleKernel) -> f64 {
         let intersector = self.scene.intersector(kernel);
-        let tests = self.rays.len() * self.scene.mesh().triangles.len();
+        let tests = self.rays.len() * self.scene.mesh().triangles().len();
         let round = || {
             let start = ThreadTime::now();
             for ray in &self.rays {

@@ -258,7 +258,7 @@ impl App {
         let kernel = self.document.intersector().kernel().short_name();
         let mut parts = vec![
             format!("{kernel} kernel"),
-            counted(scene.mesh().triangles.len(), "triangle"),
+            counted(scene.mesh().triangles().len(), "triangle"),
             format!(
                 "{} of {}{pause}",
                 status.samples,

@@ -53,7 +53,7 @@ impl App {
 
     fn show(&mut self, document: Document, ctx: &egui::Context) {
         let is_same_file = self.document.path == document.path;
-        let origin = |document: &Document| document.loaded.scene.mesh().origin;
+        let origin = |document: &Document| document.loaded.scene.mesh().origin();
         let shift = origin(&self.document) - origin(&document);
         self.document = document;
         self.watch = None;
@@ -78,7 +78,7 @@ impl App {
         ctx.request_repaint();
         let title = format!("{} – hitscope", self.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
-        let warnings = &self.document.loaded.warnings;
+        let warnings = &self.document.loaded.report.warnings;
         if let (true, Some(path)) = (self.screenshot.is_some(), &self.document.path) {
             print_warnings(path, &self.document.loaded);
         }
@@ -113,7 +113,7 @@ impl App {
             return;
         };
         if self.watch.is_none() {
-            let named = &self.document.loaded.files;
+            let named = &self.document.loaded.report.files;
             match Watch::of(&path, named, self.document.began, ctx) {
                 Ok(watch) => self.watch = Some(watch),
                 Err(error) => {

@@ -7,7 +7,7 @@ use crate::panels::{self, inspect::PickView};
 use crate::settings::Tab;
 use crate::task::Task;
 use glam::{DVec3, UVec2, Vec3};
-use hitscope_core::mesh::{Crease, NO_INDEX};
+use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, TriangleMesh};
 use hitscope_lab::inspection::{HitReport, Inspection};
@@ -40,28 +40,24 @@ impl Pick {
     pub fn view(&self, document: &Document, is_reading_face: bool) -> PickView<'_> {
         let hit = self.inspection.hit.as_ref();
         let mesh = document.loaded.scene.mesh();
+        let coordinates = &mesh.attributes().texture_coordinates;
         PickView {
             inspection: &self.inspection,
             kernel: panels::kernel_name(self.basis.kernel),
             face: self.face.as_ref(),
             is_reading_face,
-            has_uv: hit.is_some_and(|hit| has_uv(mesh, hit.triangle)),
+            has_uv: hit.is_some_and(|hit| coordinates.are_complete(hit.triangle)),
             colour: hit.and_then(|hit| colour_at(mesh, hit)),
         }
     }
 }
 
-fn has_uv(mesh: &TriangleMesh, triangle: u32) -> bool {
-    let corners = mesh.corner_textures.get(triangle as usize);
-    corners.is_some_and(|corners| !corners.contains(&NO_INDEX))
-}
-
 /// The file's vertex colours, interpolated at a hit.
 fn colour_at(mesh: &TriangleMesh, hit: &HitReport) -> Option<[f32; 3]> {
-    let corners = mesh.triangles.get(hit.triangle as usize)?;
+    let corners = mesh.triangles().get(hit.triangle as usize)?;
     let mut sum = Vec3::ZERO;
     for (&vertex, weight) in corners.iter().zip(hit.barycentric) {
-        sum += *mesh.colours.get(vertex as usize)? * weight;
+        sum += *mesh.attributes().colours.get(vertex as usize)? * weight;
     }
     Some(sum.to_array())
 }
@@ -108,7 +104,7 @@ impl App {
         let inspect = move || {
             let shading = basis.shading;
             let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
-            let origin = scene.mesh().origin;
+            let origin = scene.mesh().origin();
             let hit = inspection.hit.as_ref();
             let point = hit.map(|hit| DVec3::from_array(hit.position) - origin);
             Pick {
@@ -154,7 +150,8 @@ impl App {
         self.picking = None;
         match result {
             Ok(mut pick) => {
-                pick.inspection.find_line(&self.document.loaded.face_lines);
+                pick.inspection
+                    .find_line(&self.document.loaded.report.face_lines);
                 let triangle = |pick: &Pick| pick.inspection.hit.as_ref().map(|hit| hit.triangle);
                 let is_same = |old: &Pick| triangle(old) == triangle(&pick) && old.face.is_some();
                 match self.pick.take().filter(is_same) {

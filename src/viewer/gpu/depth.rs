@@ -34,10 +34,10 @@ impl DepthMesh {
         mesh: &TriangleMesh,
     ) -> Result<Self, GpuError> {
         use wgpu::BufferUsages as Usage;
-        let positions = bytemuck::cast_slice(&mesh.positions);
+        let positions = bytemuck::cast_slice(mesh.positions());
         Ok(Self {
             positions: buffer(device, queue, "positions", positions, Usage::VERTEX)?,
-            triangles: buffers(device, queue, "indices", &mesh.triangles, Usage::INDEX)?,
+            triangles: buffers(device, queue, "indices", mesh.triangles(), Usage::INDEX)?,
         })
     }
 

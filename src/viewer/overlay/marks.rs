@@ -12,8 +12,16 @@ const CROSS: f32 = 0.008;
 /// The file's lines (`l`), and crosses at its points (`p`).
 pub fn elements(scene: &Scene) -> Vec<Line> {
     let mesh = scene.mesh();
-    let lines = mesh.lines.iter().map(|&ends| between(mesh, ends));
-    let points = mesh.points.iter().flat_map(|&vertex| cross(scene, vertex));
+    let lines = mesh
+        .attributes()
+        .lines
+        .iter()
+        .map(|&ends| between(mesh, ends));
+    let points = mesh
+        .attributes()
+        .points
+        .iter()
+        .flat_map(|&vertex| cross(scene, vertex));
     lines.chain(points).collect()
 }
 
@@ -35,7 +43,7 @@ pub fn flaws(scene: &Scene, health: &Health, flaw: Flaw) -> Vec<Line> {
 }
 
 fn between(mesh: &TriangleMesh, ends: [u32; 2]) -> Line {
-    let [start, end] = ends.map(|vertex| mesh.positions[vertex as usize]);
+    let [start, end] = ends.map(|vertex| mesh.positions()[vertex as usize]);
     Line {
         start,
         end,
@@ -44,7 +52,7 @@ fn between(mesh: &TriangleMesh, ends: [u32; 2]) -> Line {
 }
 
 fn cross(scene: &Scene, vertex: u32) -> [Line; 3] {
-    let at = scene.mesh().positions[vertex as usize];
+    let at = scene.mesh().positions()[vertex as usize];
     let arm = CROSS * scene.bounds_with_elements().radius() as f32;
     [Vec3::X, Vec3::Y, Vec3::Z].map(|axis| Line {
         start: at - arm * axis,
@@ -56,15 +64,19 @@ fn cross(scene: &Scene, vertex: u32) -> [Line; 3] {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use hitscope_core::mesh::shapes::{mesh, scene};
+    use hitscope_core::TriangleMesh;
+    use hitscope_core::mesh::Attributes;
+    use hitscope_core::mesh::shapes::scene;
 
     #[test]
     fn lines_and_points_of_the_file_and_open_edges_are_marked() {
         let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
-        let mut triangle = mesh(corners, vec![[0, 1, 2]]);
-        triangle.lines = vec![[0, 2]];
-        triangle.points = vec![1];
-        let scene = scene(triangle);
+        let triangle = TriangleMesh::new(corners, vec![[0, 1, 2]]);
+        let scene = scene(triangle.with_attributes(Attributes {
+            lines: vec![[0, 2]],
+            points: vec![1],
+            ..Attributes::default()
+        }));
         let lines = elements(&scene);
         assert_eq!(lines.len(), 4);
         assert_eq!((lines[0].start, lines[0].end), (Vec3::ZERO, Vec3::Y));

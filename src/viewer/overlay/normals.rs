@@ -15,7 +15,7 @@ pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
         gap,
     };
     match shading {
-        Shading::Flat => (0..mesh.triangles.len() as u32)
+        Shading::Flat => (0..mesh.triangles().len() as u32)
             .map(|triangle| {
                 let [a, b, c] = mesh.corners(triangle);
                 let middle = a / 3.0 + b / 3.0 + c / 3.0;
@@ -25,7 +25,7 @@ pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
         Shading::Smooth => {
             let normals = scene.vertex_normals();
             let mut corners: Vec<(u32, [u32; 3], u32, usize)> = Vec::new();
-            for (triangle, vertices) in mesh.triangles.iter().enumerate() {
+            for (triangle, vertices) in mesh.triangles().iter().enumerate() {
                 let normal = normals.of_triangle(mesh, triangle as u32);
                 for k in 0..3 {
                     let bits = normal[k].to_array().map(f32::to_bits);

@@ -15,10 +15,11 @@ pub enum WireframeEdges {
 
 /// Lines for all edges, each once, with the smaller height of its triangles as the gap to the next line.
 pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
-    let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles.len());
-    for (triangle, corners) in mesh.triangles.iter().enumerate() {
+    let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles().len());
+    for (triangle, corners) in mesh.triangles().iter().enumerate() {
         for k in 0..3u8 {
-            if edges == WireframeEdges::Polygons && mesh.outline_of(triangle as u32) & (1 << k) == 0
+            if edges == WireframeEdges::Polygons
+                && mesh.attributes().faces.outline(triangle as u32) & (1 << k) == 0
             {
                 continue;
             }
@@ -62,15 +63,18 @@ fn edge(mesh: &TriangleMesh, triangle: u32, k: usize) -> Line {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use hitscope_core::mesh::{Attributes, Faces};
 
     /// A unit square of two triangles that share the diagonal from 0 to 2.
     fn square() -> TriangleMesh {
-        TriangleMesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y],
-            triangles: vec![[0, 1, 2], [0, 2, 3]],
-            outline: vec![0b011, 0b110],
-            ..TriangleMesh::default()
-        }
+        let corners = vec![Vec3::ZERO, Vec3::X, Vec3::new(1.0, 1.0, 0.0), Vec3::Y];
+        let mut faces = Faces::default();
+        faces.push(0, 0, 0b011);
+        faces.push(1, 0, 0b110);
+        TriangleMesh::new(corners, vec![[0, 1, 2], [0, 2, 3]]).with_attributes(Attributes {
+            faces,
+            ..Attributes::default()
+        })
     }
 
     #[test]

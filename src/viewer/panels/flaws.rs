@@ -70,7 +70,9 @@ fn list_ui(
         }
         let number = grouped(place.index + 1);
         ui.label(format!("{number} of {}", grouped(count)));
-        let line = place.face.map(|face| loaded.face_lines.line(face as usize));
+        let line = place
+            .face
+            .map(|face| loaded.report.face_lines.line(face as usize));
         if let Some(line) = line.filter(|&line| line > 0) {
             ui.label(format!("line {line}"));
         }

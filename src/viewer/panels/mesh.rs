@@ -21,7 +21,6 @@ pub fn mesh_ui(
 ) {
     let findings = document.findings(ui.ctx());
     let loaded = &document.loaded;
-    let mesh = loaded.scene.mesh();
     let path = document.path.as_ref();
     let path = path.map(|path| path.display().to_string());
     ui.label(RichText::new(document.name()).strong());
@@ -29,21 +28,18 @@ pub fn mesh_ui(
         ui.label(RichText::new(path).weak().size(11.0));
     }
     contents_ui(ui, loaded);
-    if !loaded.warnings.is_empty() {
+    if !loaded.report.warnings.is_empty() {
         ui.label(RichText::new("Warnings").strong());
-        for warning in &loaded.warnings {
+        for warning in &loaded.report.warnings {
             ui.label(RichText::new(warning.to_string()).color(ui.visuals().warn_fg_color));
         }
         ui.add_space(4.0);
     }
+    let dropped = loaded.report.dropped;
     section_ui(ui, "Dropped", |ui| {
-        row_ui(ui, "zero area", counted(mesh.dropped.zero_area, "triangle"));
-        row_ui(
-            ui,
-            "non-finite",
-            counted(mesh.dropped.non_finite, "triangle"),
-        );
-        row_ui(ui, "invalid index", counted(mesh.dropped.bad_index, "face"));
+        row_ui(ui, "zero area", counted(dropped.zero_area, "triangle"));
+        row_ui(ui, "non-finite", counted(dropped.non_finite, "triangle"));
+        row_ui(ui, "invalid index", counted(dropped.bad_index, "face"));
     });
     ui.label(RichText::new("Flaws").strong());
     match &findings {
@@ -75,14 +71,14 @@ pub fn mesh_ui(
 fn contents_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
     let mesh = loaded.scene.mesh();
     section_ui(ui, "Contents", |ui| {
-        row_ui(ui, "vertices", grouped(loaded.vertex_count));
-        row_ui(ui, "triangles", grouped(mesh.triangles.len()));
-        row_ui(ui, "polygons", grouped(mesh.face_count));
+        row_ui(ui, "vertices", grouped(loaded.report.vertex_count));
+        row_ui(ui, "triangles", grouped(mesh.triangles().len()));
+        row_ui(ui, "polygons", grouped(mesh.face_count()));
         row_ui(ui, "materials", mesh.named_material_count());
         row_ui(ui, "groups", mesh.named_group_count());
         if mesh.has_elements() {
-            row_ui(ui, "lines", grouped(mesh.lines.len()));
-            row_ui(ui, "points", grouped(mesh.points.len()));
+            row_ui(ui, "lines", grouped(mesh.attributes().lines.len()));
+            row_ui(ui, "points", grouped(mesh.attributes().points.len()));
         }
     });
 }
@@ -122,8 +118,8 @@ fn place_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
         let corner = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         row_ui(ui, "minimum", lines(corner(bounds.min)));
         row_ui(ui, "maximum", lines(corner(bounds.max)));
-        row_ui(ui, "origin", lines(mesh.origin.to_array()));
-        let rounding = significant(loaded.max_rounding, 2);
+        row_ui(ui, "origin", lines(mesh.origin().to_array()));
+        let rounding = significant(loaded.report.max_rounding, 2);
         row_ui(ui, "rounded by", format!("at most {rounding}"));
     });
 }
@@ -133,7 +129,7 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
     let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
     let kb = |bytes: usize| format!("{} kB", grouped(bytes.div_ceil(1000)));
     section_ui(ui, "Time", |ui| {
-        row_ui(ui, "load", duration(loaded.load_time));
+        row_ui(ui, "load", duration(loaded.report.duration));
         row_ui(ui, "tree", duration(scene.build_time()));
     });
     section_ui(ui, "Memory", |ui| {

@@ -69,8 +69,8 @@ fn an_index_of_a_billion_is_out_of_range() {
         "x.obj:4: vertex index 1000000000 is out of range: there are 3"
     );
     let loaded = parse(text.as_bytes(), LENIENT).expect("one face is good");
-    assert_eq!(loaded.mesh.triangles.len(), 1);
-    assert_eq!(loaded.mesh.positions.len(), 3);
+    assert_eq!(loaded.mesh.triangles().len(), 1);
+    assert_eq!(loaded.mesh.positions().len(), 3);
 }
 
 #[test]
@@ -151,7 +151,7 @@ fn a_million_materials_and_a_hundred_thousand_groups_are_read() {
     // Only materials that faces use are kept.
     assert_eq!(loaded.mesh.named_material_count(), 100_000);
     assert_eq!(loaded.mesh.named_group_count(), 100_001);
-    assert_eq!(loaded.warnings, []);
+    assert_eq!(loaded.report.warnings, []);
 }
 
 #[test]
@@ -167,8 +167,8 @@ fn a_polygon_with_many_corners_is_read() {
         write!(text, " {i}").expect("memory");
     }
     let loaded = parse(text.as_bytes(), STRICT).expect("good");
-    assert_eq!(loaded.mesh.triangles.len(), corners as usize - 2);
-    assert_eq!(loaded.mesh.face_count, 1);
+    assert_eq!(loaded.mesh.triangles().len(), corners as usize - 2);
+    assert_eq!(loaded.mesh.face_count(), 1);
 }
 
 #[test]
@@ -189,7 +189,12 @@ fn of_thousands_of_warnings_some_are_listed_and_the_rest_counted() {
     };
     let (path, bytes) = (Path::new("x.obj"), text.as_bytes());
     let loaded = obj::parse(bytes, path, STRICT, &files, &Progress::default()).expect("good");
-    let warnings: Vec<String> = loaded.warnings.iter().map(ToString::to_string).collect();
+    let warnings: Vec<String> = loaded
+        .report
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect();
     assert!(warnings.len() < 150, "{}", warnings.len());
     for expected in [
         "2\u{202f}980 more material libraries like these",
@@ -199,7 +204,7 @@ fn of_thousands_of_warnings_some_are_listed_and_the_rest_counted() {
         assert!(warnings.iter().any(|w| w.contains(expected)), "{expected}");
     }
     // All pictures share one checker.
-    assert_eq!(loaded.mesh.textures.len(), 1);
+    assert_eq!(loaded.mesh.attributes().textures.len(), 1);
 }
 
 /// A picture whose header declares a size beyond all memory.
@@ -220,9 +225,9 @@ fn a_texture_bomb_gives_a_checker_and_a_warning() {
     let text = format!("mtllib m.mtl\n{TRIANGLE}vt 0 0\nusemtl a\nf 1/1 2/1 3/1\n");
     let (path, bytes) = (Path::new("x.obj"), text.as_bytes());
     let loaded = obj::parse(bytes, path, STRICT, &files, &Progress::default()).expect("good");
-    let warning = loaded.warnings[0].to_string();
+    let warning = loaded.report.warnings[0].to_string();
     assert!(warning.starts_with("texture “bomb.png”: "), "{warning}");
-    assert!(loaded.mesh.textures[0].bytes() < 20_000);
+    assert!(loaded.mesh.attributes().textures[0].bytes() < 20_000);
 }
 
 /// A reader that panics, in place of a dependency that does.

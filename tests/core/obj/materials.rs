@@ -7,7 +7,7 @@ use hitscope_core::obj::Loaded;
 use std::collections::BTreeMap;
 
 fn materials(loaded: &Loaded) -> BTreeMap<&str, &Material> {
-    let materials = loaded.mesh.materials.iter();
+    let materials = loaded.mesh.attributes().materials.entries().iter();
     materials.map(|m| (m.name.as_str(), m)).collect()
 }
 
@@ -25,7 +25,7 @@ fn unusual_materials_are_read_and_skipped_statements_are_reported() {
         (Vec2::splat(2.0), Vec2::new(0.5, 0.0))
     );
     // Half of texel.png is red, half is green; (0.375, 0) of the surface maps to u = 1.25.
-    let colour = map.colour(&loaded.mesh.textures, Vec2::new(0.375, 0.0));
+    let colour = map.colour(&loaded.mesh.attributes().textures, Vec2::new(0.375, 0.0));
     assert_eq!(colour, Vec3::X);
     let skipped = ["Kd", "Pm", "Pr", "illum", "map_Kd", "map_Kd -bm", "map_Ke"];
     let warnings = warnings(&loaded);
@@ -48,8 +48,9 @@ fn libraries_are_found_by_several_names_odd_names_and_wrong_case() {
     assert_eq!(diffuse("inner"), Some(Vec3::new(1.0, 1.0, 0.0)));
     assert_eq!(diffuse("capital"), Some(Vec3::new(0.0, 1.0, 1.0)));
     // The library in the folder names a picture in the mesh's folder.
-    assert_eq!(loaded.mesh.textures.len(), 1);
+    assert_eq!(loaded.mesh.attributes().textures.len(), 1);
     let names: Vec<_> = loaded
+        .report
         .files
         .iter()
         .filter_map(|path| path.file_name())
@@ -61,7 +62,7 @@ fn libraries_are_found_by_several_names_odd_names_and_wrong_case() {
 fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
     let loaded = load("missing.obj");
     let warnings = warnings(&loaded);
-    assert_eq!(loaded.mesh.triangles.len(), 2);
+    assert_eq!(loaded.mesh.triangles().len(), 2);
     assert!(
         warnings[0].starts_with("line 1: material library “nowhere.mtl”: "),
         "{warnings:?}"
@@ -79,10 +80,10 @@ fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
         "1 material without a definition, the first is “nobody”"
     );
     // Missing files are listed, so that they can be watched.
-    let looked_for = |name: &str| loaded.files.iter().any(|path| path.ends_with(name));
+    let looked_for = |name: &str| loaded.report.files.iter().any(|path| path.ends_with(name));
     assert!(looked_for("nowhere.mtl") && looked_for("lost.png"));
     let map = materials(&loaded)["picture"].diffuse_map.expect("a map");
-    let of = |x| map.colour(&loaded.mesh.textures, Vec2::new(x, 1.0 / 16.0));
+    let of = |x| map.colour(&loaded.mesh.attributes().textures, Vec2::new(x, 1.0 / 16.0));
     assert_ne!(of(1.0 / 16.0), of(3.0 / 16.0));
 }
 
@@ -132,11 +133,14 @@ fn quirks_of_programs_are_understood() {
     );
     let loaded = load_path(&folder.path().join("x.obj"), STRICT).expect("good");
     let mesh = &loaded.mesh;
-    let diffuse = [0, 1, 2, 3].map(|t| mesh.material_of(t).and_then(|m| m.diffuse));
+    let diffuse = [0, 1, 2, 3].map(|t| mesh.attributes().materials.of(t).and_then(|m| m.diffuse));
     let yellow = Vec3::new(1.0, 1.0, 0.0);
     assert_eq!(diffuse, [Vec3::X, Vec3::Y, Vec3::Z, yellow].map(Some));
-    assert_eq!(mesh.colours, [Vec3::X, Vec3::Y, Vec3::new(0.0, 0.0, 0.2)]);
-    assert_eq!(mesh.corner_normals[0], [NO_INDEX, 1, 1]);
+    assert_eq!(
+        mesh.attributes().colours,
+        [Vec3::X, Vec3::Y, Vec3::new(0.0, 0.0, 0.2)]
+    );
+    assert_eq!(mesh.attributes().normals.indices(0), [NO_INDEX, 1, 1]);
     let warnings = warnings(&loaded);
     assert_eq!(
         warnings,
@@ -167,9 +171,9 @@ fn libraries_in_the_folder_of_a_links_target_are_found() {
     let loaded = load_path(&link, STRICT).expect("good");
     for folder in [there.canonicalize().expect("there"), here] {
         assert!(
-            loaded.files.contains(&folder.join("a.mtl")),
+            loaded.report.files.contains(&folder.join("a.mtl")),
             "{:?}",
-            loaded.files
+            loaded.report.files
         );
     }
 }
@@ -179,6 +183,6 @@ fn colours_slightly_above_one_are_not_taken_as_bytes() {
     let text = "v 0 0 0 1 1 1.5\nv 1 0 0 0.5 0 0\nv 0 1 0 0 -1 nan\nf 1 2 3\n";
     let loaded = super::parse(text.as_bytes(), STRICT).expect("good");
     let expected = [Vec3::ONE, Vec3::new(0.5, 0.0, 0.0), Vec3::ZERO];
-    assert_eq!(loaded.mesh.colours, expected);
+    assert_eq!(loaded.mesh.attributes().colours, expected);
     assert_eq!(warnings(&loaded), [""; 0]);
 }

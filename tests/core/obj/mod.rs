@@ -62,7 +62,12 @@ fn load(name: &str) -> Loaded {
 
 /// The warnings about a file, as text.
 fn warnings(loaded: &Loaded) -> Vec<String> {
-    loaded.warnings.iter().map(ToString::to_string).collect()
+    loaded
+        .report
+        .warnings
+        .iter()
+        .map(ToString::to_string)
+        .collect()
 }
 
 /// Parses a text that refers to no other file.

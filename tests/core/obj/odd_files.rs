@@ -25,31 +25,35 @@ fn unusual_notations_are_read() {
         "packed.obj.gz",
     ] {
         let loaded = load(name);
-        assert_eq!(loaded.mesh.triangles.len(), 1, "{name}");
+        assert_eq!(loaded.mesh.triangles().len(), 1, "{name}");
         let corners = loaded.mesh.corners(0);
         assert_eq!(corners, [Vec3::ZERO, Vec3::X, Vec3::Y], "{name}");
         let warned = usize::from(name == "no_textures.obj");
         assert_eq!(
-            loaded.warnings.len(),
+            loaded.report.warnings.len(),
             warned,
             "{name}: {:?}",
-            loaded.warnings
+            loaded.report.warnings
         );
     }
     for name in ["latin1.obj", "utf16.obj"] {
-        assert_eq!(load(name).mesh.groups, ["", "café"], "{name}");
+        assert_eq!(
+            load(name).mesh.attributes().groups.entries(),
+            ["", "café"],
+            "{name}"
+        );
     }
 }
 
 fn areas_by_group(loaded: &Loaded) -> BTreeMap<&str, f64> {
     let mesh = &loaded.mesh;
     let mut areas = BTreeMap::new();
-    for triangle in 0..mesh.triangles.len() as u32 {
+    for triangle in 0..mesh.triangles().len() as u32 {
         let [a, b, c] = mesh.corners(triangle).map(Vec3::as_dvec3);
         // All polygons in the file are counterclockwise around +z.
         let area = 0.5 * (b - a).cross(c - a).dot(DVec3::Z);
         assert!(area > 0.0, "triangle {triangle} is flipped");
-        let group = &mesh.groups[mesh.group.of(triangle) as usize];
+        let group = mesh.attributes().groups.of(triangle).expect("a group");
         *areas.entry(group.as_str()).or_default() += area;
     }
     areas
@@ -62,13 +66,20 @@ fn concave_polygons_and_holes_keep_their_area_and_outline() {
     assert_eq!(areas_by_group(&loaded), BTreeMap::from(expected));
     assert_eq!(warnings(&loaded), [""; 0]);
     let mesh = &loaded.mesh;
-    assert_eq!(mesh.face_count, 4);
+    assert_eq!(mesh.face_count(), 4);
     // The arrow: both triangles of face 0 have two of its edges and share the diagonal.
-    let of_arrow = (0..2).map(|t| (mesh.face_of(t), mesh.outline_of(t).count_ones()));
+    let of_arrow = (0..2).map(|t| {
+        (
+            mesh.face_of(t),
+            mesh.attributes().faces.outline(t).count_ones(),
+        )
+    });
     assert!(of_arrow.eq([(0, 2), (0, 2)]));
     // The frame's eight edges, without the bridge between its two squares.
-    let of_frame = (0..mesh.triangles.len() as u32).filter(|&t| mesh.face_of(t) == 3);
-    let edges: u32 = of_frame.map(|t| mesh.outline_of(t).count_ones()).sum();
+    let of_frame = (0..mesh.triangles().len() as u32).filter(|&t| mesh.face_of(t) == 3);
+    let edges: u32 = of_frame
+        .map(|t| mesh.attributes().faces.outline(t).count_ones())
+        .sum();
     assert_eq!(edges, 8);
 }
 
@@ -81,27 +92,34 @@ fn non_planar_polygons_are_triangulated_the_same_way_each_time() {
             "line 11: 1 polygon triangulated as a fan: self-intersecting, without a plane or with too many corners"
         ]
     );
-    assert_eq!(first.mesh.triangles[..2], [[0, 1, 2], [0, 2, 3]]);
-    assert_eq!(load("not_flat.obj").mesh.triangles, first.mesh.triangles);
+    assert_eq!(first.mesh.triangles()[..2], [[0, 1, 2], [0, 2, 3]]);
+    assert_eq!(
+        load("not_flat.obj").mesh.triangles(),
+        first.mesh.triangles()
+    );
 }
 
 #[test]
 fn lines_and_points_are_stored_apart_from_faces() {
     let mesh = load("elements.obj").mesh;
-    assert_eq!(mesh.triangles, [[0, 1, 2]]);
-    assert_eq!(mesh.lines, [[0, 1], [1, 3], [3, 4], [0, 1], [4, 3]]);
-    assert_eq!(mesh.points, [3, 4]);
+    assert_eq!(mesh.triangles(), [[0, 1, 2]]);
+    assert_eq!(
+        mesh.attributes().lines,
+        [[0, 1], [1, 3], [3, 4], [0, 1], [4, 3]]
+    );
+    assert_eq!(mesh.attributes().points, [3, 4]);
     // Unused vertices aren't kept.
-    assert_eq!(mesh.positions.len(), 5);
-    assert_eq!((mesh.face_of(0), mesh.face_count), (0, 1));
+    assert_eq!(mesh.positions().len(), 5);
+    assert_eq!((mesh.face_of(0), mesh.face_count()), (0, 1));
 }
 
 #[test]
 fn normals_are_read_where_present_and_computed_elsewhere() {
     let mesh = load("mixed.obj").mesh;
-    assert_eq!(mesh.corner_normals[0], [0; 3]);
-    assert_eq!(mesh.corner_normals[2], [NO_INDEX; 3]);
-    assert_eq!(mesh.corner_normals[4], [0, NO_INDEX, NO_INDEX]);
+    let given = &mesh.attributes().normals;
+    assert_eq!(given.indices(0), [0; 3]);
+    assert_eq!(given.indices(2), [NO_INDEX; 3]);
+    assert_eq!(given.indices(4), [0, NO_INDEX, NO_INDEX]);
     let normals = VertexNormals::of(&mesh, Crease::FromFile);
     assert_eq!(normals.of_triangle(&mesh, 0), [Vec3::Y; 3]);
     // The second quad's normals lean to the other side of the ridge where the quads meet.
@@ -133,18 +151,18 @@ fn smoothing_groups_are_obeyed_across_seams() {
 fn colours_stay_with_their_vertices() {
     let loaded = load("colours.obj");
     let expected = [Vec3::ONE, Vec3::X, Vec3::new(0.0, 0.5, 0.0), Vec3::ONE];
-    assert_eq!(loaded.mesh.colours, expected);
+    assert_eq!(loaded.mesh.attributes().colours, expected);
     assert_eq!(warnings(&loaded), ["2 vertices without a colour are white"]);
     let all = load("all_coloured.obj");
-    assert_eq!(all.mesh.colours, [Vec3::X, Vec3::Y, Vec3::Z]);
+    assert_eq!(all.mesh.attributes().colours, [Vec3::X, Vec3::Y, Vec3::Z]);
     assert_eq!(warnings(&all), [""; 0]);
 }
 
 #[test]
 fn faces_with_a_non_finite_vertex_are_dropped_and_counted() {
     let loaded = load("not_finite.obj");
-    assert_eq!(loaded.mesh.triangles.len(), 1);
-    assert_eq!(loaded.mesh.dropped.non_finite, 4);
+    assert_eq!(loaded.mesh.triangles().len(), 1);
+    assert_eq!(loaded.report.dropped.non_finite, 4);
     assert_eq!(
         warnings(&loaded),
         ["line 8: 4 triangles dropped: a corner is not finite or too large"]
@@ -154,7 +172,7 @@ fn faces_with_a_non_finite_vertex_are_dropped_and_counted() {
 #[test]
 fn free_form_statements_are_named_and_counted() {
     let loaded = load("free_form.obj");
-    assert_eq!(loaded.mesh.triangles.len(), 1);
+    assert_eq!(loaded.mesh.triangles().len(), 1);
     let ignored = [
         (5, 1, "cstype"),
         (6, 1, "deg"),
@@ -185,9 +203,13 @@ fn a_millimetre_in_utm_coordinates_is_kept() {
     std::fs::write(&path, text).expect("written");
     let loaded = load_path(Path::new(&path), STRICT).expect("good");
     let mesh = &loaded.mesh;
-    assert!(loaded.max_rounding < 1e-9, "{}", loaded.max_rounding);
+    assert!(
+        loaded.report.max_rounding < 1e-9,
+        "{}",
+        loaded.report.max_rounding
+    );
     let spelt: Vec<DVec3> = mesh
-        .positions
+        .positions()
         .iter()
         .map(|&p| mesh.vertex_in_file(p))
         .collect();
@@ -221,25 +243,39 @@ fn elements_of_many_kinds_keep_their_own_data() {
     }
     let loaded = super::parse(text.as_bytes(), super::LENIENT).expect("good");
     let mesh = &loaded.mesh;
-    assert_eq!(mesh.dropped.bad_index, 70);
+    assert_eq!(loaded.report.dropped.bad_index, 70);
     assert_eq!(
-        (mesh.triangles.len(), mesh.lines.len(), mesh.points.len()),
+        (
+            mesh.triangles().len(),
+            mesh.attributes().lines.len(),
+            mesh.attributes().points.len()
+        ),
         (42_000, 14_000, 14_000)
     );
     // Lines use two vertices, points one.
-    assert_eq!(mesh.positions.len(), 42_000 * 3 + 14_000 * 2 + 14_000);
+    assert_eq!(mesh.positions().len(), 42_000 * 3 + 14_000 * 2 + 14_000);
     for triangle in 0..42_000 {
         let k = triangle / 3 * 5 + triangle % 3;
-        let x = mesh.origin.x + f64::from(mesh.corners(triangle)[0].x);
+        let x = mesh.origin().x + f64::from(mesh.corners(triangle)[0].x);
         assert_eq!(x, f64::from(k), "triangle {triangle}");
-        let normal = mesh.corner_normals[triangle as usize];
+        let normal = mesh.attributes().normals.indices(triangle);
         assert_eq!(normal, [if k % 5 == 1 { 0 } else { NO_INDEX }; 3]);
-        let first = mesh.triangles[triangle as usize][0] as usize;
+        let first = mesh.triangles()[triangle as usize][0] as usize;
         let colour = if k % 3 == 1 { Vec3::X } else { Vec3::ONE };
-        assert_eq!(mesh.colours[first], colour, "triangle {triangle}");
+        assert_eq!(
+            mesh.attributes().colours[first],
+            colour,
+            "triangle {triangle}"
+        );
     }
-    let x = |vertex: u32| mesh.origin.x + f64::from(mesh.positions[vertex as usize].x);
-    for (index, (ends, &point)) in mesh.lines.iter().zip(&mesh.points).enumerate() {
+    let x = |vertex: u32| mesh.origin().x + f64::from(mesh.positions()[vertex as usize].x);
+    for (index, (ends, &point)) in mesh
+        .attributes()
+        .lines
+        .iter()
+        .zip(&mesh.attributes().points)
+        .enumerate()
+    {
         let k = 5.0 * index as f64;
         assert_eq!(
             [x(ends[0]), x(ends[1]), x(point)],

@@ -6,6 +6,7 @@ use hitscope_core::Ray;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::shapes::scene;
 use hitscope_core::mesh::{Flaw, Health};
+use hitscope_core::obj::Loaded;
 use hitscope_core::random::Random;
 use std::fmt::Write as _;
 
@@ -88,18 +89,18 @@ fn prisms_with_concave_outlines_and_corners_on_edges_are_closed() {
             DMat3::from_quat(DQuat::from_axis_angle(axis.normalize(), random.unit()))
         };
         let text = prism(&mut random, turn);
-        let mesh = parse(text.as_bytes(), STRICT).expect("a mesh").mesh;
+        let Loaded { mesh, report } = parse(text.as_bytes(), STRICT).expect("a mesh");
         let health = Health::of(&mesh);
         for flaw in [Flaw::OpenEdge, Flaw::NonManifoldEdge, Flaw::FlippedEdge] {
             assert_eq!(health.places(flaw).count(), Some(0), "{flaw:?}:\n{text}");
         }
-        assert_eq!(mesh.dropped.zero_area, 0, "{text}");
+        assert_eq!(report.dropped.zero_area, 0, "{text}");
         // The outline is star-shaped about the origin, which is inside.
         let scene = scene(mesh);
         let (mesh, intersector) = (scene.mesh(), scene.intersector(default_triangle_kernel()));
         for _ in 0..RAYS {
-            let [a, b, _] = mesh.corners(random.index(mesh.triangles.len()) as u32);
-            let inside = mesh.origin.as_vec3() * -1.0;
+            let [a, b, _] = mesh.corners(random.index(mesh.triangles().len()) as u32);
+            let inside = mesh.origin().as_vec3() * -1.0;
             let target = a.lerp(b, random.unit() as f32) + 1e-4 * random.in_cube_f32();
             let Ok(ray) = Ray::new(inside, target - inside) else {
                 continue;

@@ -32,7 +32,13 @@ fn load(text: &str, library: &str) -> Loaded {
 /// The opacity of material `m` of a textured triangle, and the warnings.
 fn opacity(library: &str) -> (f32, Vec<String>) {
     let loaded = load(TEXTURED, library);
-    let opacity = loaded.mesh.material_of(0).expect("a material").opacity;
+    let opacity = loaded
+        .mesh
+        .attributes()
+        .materials
+        .of(0)
+        .expect("a material")
+        .opacity;
     (opacity, super::warnings(&loaded))
 }
 
@@ -65,15 +71,23 @@ fn a_transparency_of_1_in_every_material_means_opaque() {
         &format!("{TEXTURED}usemtl n\nf 1 2 3\n"),
         "newmtl m\nTr 1\nnewmtl n\n",
     );
-    assert_eq!(half.mesh.material_of(0).map(|m| m.opacity), Some(0.0));
-    assert_eq!(half.warnings, []);
+    assert_eq!(
+        half.mesh.attributes().materials.of(0).map(|m| m.opacity),
+        Some(0.0)
+    );
+    assert_eq!(half.report.warnings, []);
 }
 
 #[test]
 fn values_above_1_are_clamped() {
     let library = "newmtl m\nKd 1.000001 0.5 0\nKs 1.5\nKe 7\nd 1.000001\n";
     let loaded = load(TEXTURED, library);
-    let material = loaded.mesh.material_of(0).expect("a material");
+    let material = loaded
+        .mesh
+        .attributes()
+        .materials
+        .of(0)
+        .expect("a material");
     assert_eq!(material.diffuse, Some(Vec3::new(1.0, 0.5, 0.0)));
     assert_eq!(material.specular, Vec3::ONE);
     assert_eq!(material.emission, Vec3::splat(7.0));
@@ -90,7 +104,12 @@ fn values_above_1_are_clamped() {
 #[test]
 fn black_reflectance_does_not_hide_a_texture() {
     let loaded = load(TEXTURED, "newmtl m\nKd 0 0 0\nmap_Kd wood.png\n");
-    let material = loaded.mesh.material_of(0).expect("a material");
+    let material = loaded
+        .mesh
+        .attributes()
+        .materials
+        .of(0)
+        .expect("a material");
     assert_eq!(material.diffuse, Some(Vec3::ONE));
     assert_eq!(
         super::warnings(&loaded),
@@ -98,10 +117,15 @@ fn black_reflectance_does_not_hide_a_texture() {
     );
     let black = load(TEXTURED, "newmtl m\nKd 0\n");
     assert_eq!(
-        black.mesh.material_of(0).and_then(|m| m.diffuse),
+        black
+            .mesh
+            .attributes()
+            .materials
+            .of(0)
+            .and_then(|m| m.diffuse),
         Some(Vec3::ZERO)
     );
-    assert_eq!(black.warnings, []);
+    assert_eq!(black.report.warnings, []);
 }
 
 #[test]
@@ -112,12 +136,12 @@ fn a_number_sign_in_a_texture_name_begins_a_comment_only_if_no_such_file_exists(
         ("oak.png # a comment", false),
     ] {
         let loaded = load(TEXTURED, &format!("newmtl m\nKd 1\nmap_Kd {map}\n"));
-        assert_eq!(loaded.mesh.textures.len(), 1, "{map}");
+        assert_eq!(loaded.mesh.attributes().textures.len(), 1, "{map}");
         assert_eq!(
-            loaded.warnings.is_empty(),
+            loaded.report.warnings.is_empty(),
             is_found,
             "{map}: {:?}",
-            loaded.warnings
+            loaded.report.warnings
         );
     }
 }
@@ -126,14 +150,23 @@ fn a_number_sign_in_a_texture_name_begins_a_comment_only_if_no_such_file_exists(
 fn keywords_and_materials_are_found_in_another_case() {
     let library = "NEWMTL M\nKD 1 0 0\nmap_KD wood.png\n";
     let loaded = load(&TEXTURED.replace('v', "V").replace('f', "F"), library);
-    let material = loaded.mesh.material_of(0).expect("a material");
+    let material = loaded
+        .mesh
+        .attributes()
+        .materials
+        .of(0)
+        .expect("a material");
     assert_eq!(material.diffuse, Some(Vec3::X));
     assert!(material.diffuse_map.is_some());
-    assert_eq!(loaded.warnings, []);
+    assert_eq!(loaded.report.warnings, []);
     // The exact name counts first.
     let both = load(TEXTURED, "newmtl M\nKd 1 0 0\nnewmtl m\nKd 0 1 0\n");
     assert_eq!(
-        both.mesh.material_of(0).and_then(|m| m.diffuse),
+        both.mesh
+            .attributes()
+            .materials
+            .of(0)
+            .and_then(|m| m.diffuse),
         Some(Vec3::Y)
     );
 }
@@ -146,8 +179,8 @@ fn numbers_that_are_not_finite_are_read_in_any_form() {
              f 1/1/1 2/1/1 3/1/1\nf 1 2 4\n"
         );
         let loaded = load(&text, "");
-        assert_eq!(loaded.mesh.triangles.len(), 1, "{word}");
-        assert_eq!(loaded.mesh.dropped.non_finite, 1, "{word}");
+        assert_eq!(loaded.mesh.triangles().len(), 1, "{word}");
+        assert_eq!(loaded.report.dropped.non_finite, 1, "{word}");
     }
 }
 
@@ -161,7 +194,7 @@ fn indices_of_lists_that_the_file_does_not_have_are_ignored() {
     ] {
         let text = format!("v 0 0 0\nv 1 0 0\nv 0 1 0\nf {corner} 2 3\n");
         let loaded = load(&text, "");
-        assert_eq!(loaded.mesh.triangles.len(), 1);
+        assert_eq!(loaded.mesh.triangles().len(), 1);
         assert_eq!(
             super::warnings(&loaded),
             [format!(
@@ -197,7 +230,11 @@ fn tower() -> String {
 #[test]
 fn a_few_stray_elements_do_not_cost_a_survey_its_detail() {
     let alone = load(&tower(), "");
-    assert!(alone.max_rounding < 1e-6, "{}", alone.max_rounding);
+    assert!(
+        alone.report.max_rounding < 1e-6,
+        "{}",
+        alone.report.max_rounding
+    );
     for (stray, is_far) in [
         ("v 0 0 0\np -1\n", false),
         ("v 0 0 0\nv 0.1 0 0\nl -1 -2\n", true),
@@ -206,8 +243,12 @@ fn a_few_stray_elements_do_not_cost_a_survey_its_detail() {
     ] {
         let loaded = load(&format!("{}{stray}", tower()), "");
         let mesh = &loaded.mesh;
-        assert_eq!(mesh.origin, alone.mesh.origin, "{stray}");
-        assert_eq!(mesh.positions[..104], alone.mesh.positions[..], "{stray}");
+        assert_eq!(mesh.origin(), alone.mesh.origin(), "{stray}");
+        assert_eq!(
+            mesh.positions()[..104],
+            alone.mesh.positions()[..],
+            "{stray}"
+        );
         let says_so =
             |warning: &String| warning.contains("far from the rest of the mesh, rounded by up to");
         assert_eq!(
@@ -219,5 +260,5 @@ fn a_few_stray_elements_do_not_cost_a_survey_its_detail() {
     // The same, if the surface is a single triangle.
     let one = "v 500000.12 5600000.45 100.7\nv 500000.13 5600000.45 100.7\n\
                v 500000.12 5600000.46 100.7\nf 1 2 3\nv 0 0 0\nf 4 4 4\np 4\n";
-    assert_eq!(load(one, "").mesh.triangles.len(), 1);
+    assert_eq!(load(one, "").mesh.triangles().len(), 1);
 }

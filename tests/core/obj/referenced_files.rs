@@ -117,10 +117,12 @@ fn a_texture_with_several_spellings_of_its_path_is_decoded_once() {
     fs::write(&path, text).expect("written");
     let loaded = load_path(&path, STRICT).expect("good");
     assert_eq!(warnings(&loaded), [""; 0]);
-    assert_eq!(loaded.mesh.textures.len(), 1);
+    assert_eq!(loaded.mesh.attributes().textures.len(), 1);
     let maps = loaded
         .mesh
+        .attributes()
         .materials
+        .entries()
         .iter()
         .filter(|m| m.diffuse_map.is_some());
     assert_eq!(maps.count(), 60);
@@ -161,7 +163,7 @@ fn a_truncated_jpeg_is_shown_with_a_warning() {
         let loaded = load(&bytes);
         let expected: Vec<String> = expected.into_iter().map(str::to_owned).collect();
         assert_eq!(warnings(&loaded), expected);
-        assert_eq!(loaded.mesh.textures[0].bytes(), 3 * 256 * 256);
+        assert_eq!(loaded.mesh.attributes().textures[0].bytes(), 3 * 256 * 256);
     }
 }
 
@@ -203,8 +205,8 @@ fn a_picture_beyond_the_memory_limit_is_refused_before_decoding() {
     let expected = "texture “p.png”: decoding needs 1526 MB of memory, 1199 MB are left (--max-memory); shown as a checker";
     assert_eq!(refused, [expected]);
     // 15.3 MB.
-    assert_eq!(load(2000, 14 * MB).warnings.len(), 1);
+    assert_eq!(load(2000, 14 * MB).report.warnings.len(), 1);
     let loaded = load(2000, 17 * MB);
     assert_eq!(warnings(&loaded), [""; 0]);
-    assert_eq!(loaded.mesh.textures[0].bytes(), 12_000_000);
+    assert_eq!(loaded.mesh.attributes().textures[0].bytes(), 12_000_000);
 }

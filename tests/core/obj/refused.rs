@@ -43,14 +43,23 @@ fn an_invalid_index_is_an_error_or_drops_its_face() {
     ] {
         assert_eq!(error(name), message);
         let loaded = load_path(&files().join(name), LENIENT).expect(name);
-        assert_eq!(loaded.mesh.dropped.bad_index, dropped, "{name}");
-        assert_eq!(loaded.warnings.len(), 1, "{name}: {:?}", loaded.warnings);
-        assert!(loaded.warnings[0].line.is_some(), "{name}");
+        assert_eq!(loaded.report.dropped.bad_index, dropped, "{name}");
+        assert_eq!(
+            loaded.report.warnings.len(),
+            1,
+            "{name}: {:?}",
+            loaded.report.warnings
+        );
+        assert!(loaded.report.warnings[0].line.is_some(), "{name}");
     }
     let loaded = load_path(&files().join("too_high.obj"), LENIENT).expect("lenient");
-    assert_eq!(loaded.mesh.triangles, [[0, 1, 2], [0, 1, 2], [0, 2, 1]]);
+    assert_eq!(loaded.mesh.triangles(), [[0, 1, 2], [0, 1, 2], [0, 2, 1]]);
     let loaded = load_path(&files().join("no_normal.obj"), LENIENT).expect("lenient");
-    assert_eq!(loaded.mesh.corner_normals, [[0; 3], [0, NO_INDEX, 0]]);
+    let normals = &loaded.mesh.attributes().normals;
+    assert_eq!(
+        [0, 1].map(|t| normals.indices(t)),
+        [[0; 3], [0, NO_INDEX, 0]]
+    );
 }
 
 #[test]
@@ -137,7 +146,7 @@ fn a_file_that_changes_during_reading_never_gives_a_partial_mesh() {
         loading.join().expect("no panic")
     });
     match result {
-        Ok(loaded) => assert!(loaded.mesh.triangles.len() >= 200_000),
+        Ok(loaded) => assert!(loaded.mesh.triangles().len() >= 200_000),
         Err(error) => assert!(error.to_string().contains("changed"), "{error}"),
     }
 }

@@ -39,9 +39,9 @@ fn of_f64(x: f64) -> IBig {
 fn exact_rounding(loaded: &Loaded, vertices: &[[String; 3]]) -> IBig {
     let mesh = &loaded.mesh;
     let mut most = IBig::ZERO;
-    for (position, words) in mesh.positions.iter().zip(vertices) {
+    for (position, words) in mesh.positions().iter().zip(vertices) {
         for axis in 0..3 {
-            let used = of_f64(f64::from(position[axis])) + of_f64(mesh.origin[axis]);
+            let used = of_f64(f64::from(position[axis])) + of_f64(mesh.origin()[axis]);
             let distance = used - of_decimal(&words[axis]);
             most = most.max(if distance < IBig::ZERO {
                 -distance
@@ -73,7 +73,7 @@ fn exact_coordinates_have_a_rounding_of_zero() {
         ["4096.125", "3e2", "1"],
         ["0", "0.0009765625", "12"],
     ]);
-    assert_eq!(load(&exact).max_rounding, 0.0);
+    assert_eq!(load(&exact).report.max_rounding, 0.0);
 }
 
 #[test]
@@ -93,13 +93,13 @@ fn rounding_includes_the_error_of_parsing_decimals() {
     ] {
         let loaded = load(&vertices);
         let (bound, exact) = (
-            of_f64(loaded.max_rounding),
+            of_f64(loaded.report.max_rounding),
             exact_rounding(&loaded, &vertices),
         );
         assert!(
             exact > IBig::ZERO && bound >= exact,
             "{vertices:?}: {}",
-            loaded.max_rounding
+            loaded.report.max_rounding
         );
     }
 }
@@ -129,21 +129,25 @@ fn the_bound_holds_for_random_decimals_and_is_tight() {
             continue;
         };
         let exact = exact_rounding(&loaded, &vertices);
-        let bound = of_f64(loaded.max_rounding);
-        assert!(bound >= exact, "{vertices:?}: {}", loaded.max_rounding);
+        let bound = of_f64(loaded.report.max_rounding);
+        assert!(
+            bound >= exact,
+            "{vertices:?}: {}",
+            loaded.report.max_rounding
+        );
         // The bound exceeds the exact value by at most two ulps of the largest coordinate and the rounding of
         // the sum.
         let largest = loaded
             .mesh
-            .positions
+            .positions()
             .iter()
-            .map(|p| (p.as_dvec3() + loaded.mesh.origin).abs().max_element());
+            .map(|p| (p.as_dvec3() + loaded.mesh.origin()).abs().max_element());
         let slack = largest.fold(0.0, f64::max) * 2.0 * f64::EPSILON
-            + loaded.max_rounding * 8.0 * f64::EPSILON;
+            + loaded.report.max_rounding * 8.0 * f64::EPSILON;
         assert!(
             bound - exact <= of_f64(slack),
             "{vertices:?}: {}",
-            loaded.max_rounding
+            loaded.report.max_rounding
         );
     }
 }

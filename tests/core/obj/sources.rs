@@ -26,7 +26,7 @@ fn gzip_with_several_members_or_trailing_zeros_is_read() {
         ),
     ] {
         let loaded = parse(&bytes, STRICT).expect("good");
-        assert_eq!(loaded.mesh.triangles.len(), 1);
+        assert_eq!(loaded.mesh.triangles().len(), 1);
         let expected: Vec<String> = expected.into_iter().map(str::to_owned).collect();
         assert_eq!(warnings(&loaded), expected);
     }
@@ -43,7 +43,7 @@ fn a_pipe_is_read() {
         threads.spawn(|| std::fs::write(&path, MESH).expect("written"));
         load_path(&path, STRICT).expect("good")
     });
-    assert_eq!(loaded.mesh.triangles.len(), 1);
+    assert_eq!(loaded.mesh.triangles().len(), 1);
 }
 
 #[cfg(target_os = "linux")]

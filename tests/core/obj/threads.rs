@@ -51,7 +51,7 @@ fn load(text: &str, options: LoadOptions, threads: usize) -> String {
     match result {
         Ok(loaded) => format!(
             "{:?} {:?} {:?}",
-            loaded.mesh, loaded.warnings, loaded.max_rounding
+            loaded.mesh, loaded.report.warnings, loaded.report.max_rounding
         ),
         Err(error) => error.to_string(),
     }

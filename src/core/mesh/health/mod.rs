@@ -231,11 +231,8 @@ mod tests {
     use glam::Vec3;
 
     fn tetrahedron() -> TriangleMesh {
-        TriangleMesh {
-            positions: vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z],
-            triangles: vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]],
-            ..TriangleMesh::default()
-        }
+        let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::Z];
+        TriangleMesh::new(positions, vec![[0, 2, 1], [0, 1, 3], [0, 3, 2], [1, 2, 3]])
     }
 
     fn counts(mesh: &TriangleMesh) -> [usize; 7] {
@@ -277,11 +274,8 @@ mod tests {
     #[test]
     fn a_sliver_is_a_thousand_times_longer_than_high() {
         for (height, expected) in [(1.0 / 999.0, 0), (1.0 / 1001.0, 1)] {
-            let mesh = TriangleMesh {
-                positions: vec![Vec3::ZERO, Vec3::X, Vec3::new(0.5, height, 0.0)],
-                triangles: vec![[0, 1, 2]],
-                ..TriangleMesh::default()
-            };
+            let positions = vec![Vec3::ZERO, Vec3::X, Vec3::new(0.5, height, 0.0)];
+            let mesh = TriangleMesh::new(positions, vec![[0, 1, 2]]);
             assert_eq!(counts(&mesh)[6], expected, "{height}");
         }
     }
@@ -311,13 +305,10 @@ mod tests {
     #[test]
     fn a_vertex_inside_a_border_edge_is_a_t_junction() {
         let flat = |x: f32, y: f32| Vec3::new(x, y, 0.3 * x + 0.1 * y);
-        let mesh = TriangleMesh {
-            positions: [(0, 0), (3, 0), (3, 1), (0, 1), (1, 0), (0, -1), (3, -1)]
-                .map(|(x, y)| flat(x as f32 / 3.0, y as f32))
-                .to_vec(),
-            triangles: vec![[0, 1, 3], [1, 2, 3], [0, 5, 4], [4, 5, 6], [4, 6, 1]],
-            ..TriangleMesh::default()
-        };
+        let positions = [(0, 0), (3, 0), (3, 1), (0, 1), (1, 0), (0, -1), (3, -1)]
+            .map(|(x, y)| flat(x as f32 / 3.0, y as f32));
+        let triangles = vec![[0, 1, 3], [1, 2, 3], [0, 5, 4], [4, 5, 6], [4, 6, 1]];
+        let mesh = TriangleMesh::new(positions.to_vec(), triangles);
         let health = Health::of(&mesh);
         assert_eq!(
             health.places(Flaw::TJunction),

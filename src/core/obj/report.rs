@@ -1,0 +1,47 @@
+//! What loading found out about a file.
+
+use super::error::Warning;
+use super::tally::LineRuns;
+use std::path::PathBuf;
+use std::time::Duration;
+
+/// What loading found out about a file.
+#[derive(Clone, Debug, Default)]
+pub struct LoadReport {
+    /// Warnings about dropped, ignored or unusual parts of the file.
+    pub warnings: Vec<Warning>,
+    /// What was dropped.
+    pub dropped: Dropped,
+    /// Number of `v` statements in the file.
+    pub vertex_count: usize,
+    /// Upper bound on the difference between a coordinate of the traced mesh and its decimal in the file.
+    pub max_rounding: f64,
+    /// The line of each face, indexed like [`TriangleMesh::face_of`](crate::TriangleMesh::face_of).
+    pub face_lines: LineRuns,
+    /// Paths of the libraries and textures that were looked for, including missing ones.
+    pub files: Vec<PathBuf>,
+    /// Time for reading, parsing and checking.
+    pub duration: Duration,
+}
+
+/// Counts of the file's triangles and other elements that were dropped, by reason.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Dropped {
+    /// Triangles whose area is exactly zero after rounding their corners to f32.
+    pub zero_area: usize,
+    /// Triangles with a corner that is NaN, infinite or too large for f32.
+    pub non_finite: usize,
+    /// Faces (not triangles) with an invalid index or fewer than three corners.
+    pub bad_index: usize,
+    /// Lines and points, dropped for any of these reasons.
+    pub elements: usize,
+}
+
+impl Dropped {
+    pub(super) fn append(&mut self, other: Self) {
+        self.zero_area += other.zero_area;
+        self.non_finite += other.non_finite;
+        self.bad_index += other.bad_index;
+        self.elements += other.elements;
+    }
+}
