@@ -6,6 +6,7 @@
 //! |---|---|
 //! | [`obj`] | OBJ and MTL reader |
 //! | [`mesh`] | triangle mesh, its origin, and checks of its quality |
+//! | `polygon` | triangulation of polygons |
 //! | [`scene`] | the scene: mesh, bounds and acceleration structure |
 //! | [`camera`] | camera rays and navigation |
 //! | [`bvh`] | bounding volume hierarchy: building and traversal |
@@ -33,6 +34,7 @@ pub mod kernel;
 mod lane;
 pub mod mesh;
 pub mod obj;
+mod polygon;
 pub mod progress;
 pub mod random;
 pub mod ray;

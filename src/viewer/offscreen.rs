@@ -31,7 +31,7 @@ pub fn draw_over(
         wire_colour: crate::settings::Settings::default().wire_colour,
         normals,
         normal_length: crate::settings::Settings::default().normal_length,
-        elements: scene.mesh().has_elements(),
+        elements: scene.mesh().has_lines_or_points(),
         line_width_px: 1.0,
         ..Options::NOTHING
     };

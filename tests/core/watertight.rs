@@ -66,7 +66,7 @@ fn cases() -> Vec<Case> {
     }
     // A torus stretched to needles; many of the rays are nearly parallel to them.
     let stretch = Vec3::new(STRETCH as f32, 1.0, 1.0);
-    let stretched = torus(32, 16, Placement::UNIT).moved(|p| p * stretch);
+    let stretched = torus(32, 16, Placement::UNIT).map_positions(|p| p * stretch);
     cases.push(Case {
         name: "torus stretched to needles".to_owned(),
         mesh: stretched,
@@ -203,7 +203,7 @@ fn rays_that_once_left_a_box_hit_its_wall() {
     let cube = Corridor::new(Footprint::Square, 1.0, false).mesh;
     let long = Corridor::new(Footprint::Square, 30.0, false).mesh;
     // Along x, as when the ray was found.
-    let long = long.moved(|p| p.zxy());
+    let long = long.map_positions(|p| p.zxy());
     for (mesh, origin, dir, t) in [
         (
             cube,
@@ -284,7 +284,7 @@ fn an_axis_aligned_ray_hits_the_border_edges_and_corners_of_a_flat_grid() {
             for axis in 0..3 {
                 // The grid rotated, so that the ray is parallel to each axis in turn.
                 let turned = |p: Vec3| [p.yzx(), p.zxy(), p][axis];
-                let intersector = scene(mesh.moved(turned)).intersector(kernel);
+                let intersector = scene(mesh.map_positions(turned)).intersector(kernel);
                 for (dir, &point) in
                     directions().flat_map(|dir| points.iter().map(move |p| (dir, p)))
                 {

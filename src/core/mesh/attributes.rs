@@ -1,37 +1,37 @@
-//! What a mesh has besides its surface.
+//! Attributes of a mesh: faces, normals, texture coordinates, colours, materials and groups, with lines and points.
 
 use super::{Faces, Material, NO_INDEX, PerTriangle, Runs, Texture};
 use glam::{Vec2, Vec3};
 
-/// What a mesh has besides its surface; all empty by default.
+/// The attributes of a mesh, with its lines and points. By default each triangle is a face, and all else is empty.
 #[derive(Clone, Debug, Default)]
 pub struct Attributes {
-    /// The polygons.
+    /// The polygon of each triangle in the file.
     pub faces: Faces,
-    /// The file's normals, unchanged: not always unit length.
+    /// The file's normals, unchanged; they needn't be unit length.
     pub normals: CornerValues<Vec3>,
     /// Texture coordinates. Empty if no material has a texture.
     pub texture_coordinates: CornerValues<Vec2>,
-    /// Vertex colours, sRGB from 0 to 1: as many as positions, or none.
+    /// Vertex colours, sRGB from 0 to 1: one per position, or none.
     pub colours: Vec<Vec3>,
-    /// The materials that faces use; the first one is for faces without a material.
+    /// The material of each triangle. The first entry is for faces without a material.
     pub materials: Assigned<Material>,
-    /// The groups and objects that contain faces; the first one is for faces outside any.
+    /// The group or object of each triangle. The first entry is for faces outside all groups.
     pub groups: Assigned<String>,
-    /// Smoothing groups: edges between triangles of the same group are smooth, all others are creases; 0 is flat. `None`
-    /// if the file has none: all triangles are smooth.
+    /// Smoothing group of each triangle. Edges within a group are smooth, all others are creases; group 0 is flat.
+    /// `None` if the file has no smoothing groups: all edges are smooth.
     pub smoothing: Option<Runs>,
-    /// The materials' textures.
+    /// The textures that the materials' texture maps refer to.
     pub textures: Vec<Texture>,
-    /// The ends of line elements, which aren't edges of faces.
+    /// End vertices of each segment of the file's line elements.
     pub lines: Vec<[u32; 2]>,
-    /// Vertices of point elements.
+    /// Vertices of the file's point elements.
     pub points: Vec<u32>,
 }
 
 impl Attributes {
-    /// Adds those of `count` later triangles, the first of which is `first`, with their lines and points; lists that
-    /// triangles refer to stay as they are. The later faces are counted from `first_face`.
+    /// Appends the faces, corner indices, lines and points of `later`, which has `count` triangles. Its triangle 0
+    /// becomes triangle `first`, and its face 0 becomes face `first_face`. The lists of values stay the same.
     pub(crate) fn append(&mut self, first: u32, count: u32, mut later: Self, first_face: u32) {
         self.faces.append(first, count, later.faces, first_face);
         self.normals.corners.append(first, later.normals.corners);
@@ -41,7 +41,7 @@ impl Attributes {
         self.points.append(&mut later.points);
     }
 
-    /// Releases the unused memory of the lists per triangle.
+    /// Releases unused memory of the per-triangle lists.
     pub(crate) fn shrink(&mut self) {
         self.faces.shrink();
         self.normals.corners.shrink();
@@ -49,7 +49,7 @@ impl Attributes {
     }
 }
 
-/// Values that corners of triangles refer to.
+/// A list of values, and each triangle corner's index into it.
 #[derive(Clone, Debug)]
 pub struct CornerValues<T> {
     values: Vec<T>,
@@ -59,41 +59,43 @@ pub struct CornerValues<T> {
 
 impl<T> Default for CornerValues<T> {
     fn default() -> Self {
-        let values = Vec::new();
+        Self::with_values(Vec::new())
+    }
+}
+
+impl<T> CornerValues<T> {
+    /// Creates the list with values that no corner refers to yet.
+    pub(crate) fn with_values(values: Vec<T>) -> Self {
         let corners = PerTriangle::new([NO_INDEX; 3]);
         Self { values, corners }
     }
 }
 
 impl<T: Copy> CornerValues<T> {
-    /// Values, and the indices of each triangle's corners into them; an index beyond the last value means that the corner
-    /// has none.
+    /// Creates the list from values and the indices of each triangle's corners. A corner whose index is out of range
+    /// has no value.
     pub fn new(values: Vec<T>, corners: impl IntoIterator<Item = [u32; 3]>) -> Self {
-        let mut of_corners = Self::of(values);
+        let mut list = Self::with_values(values);
         for (triangle, indices) in (0..).zip(corners) {
-            of_corners.push(triangle, indices);
+            let is_valid = |index: &u32| (*index as usize) < list.values.len();
+            let indices = indices.map(|index| Some(index).filter(is_valid).unwrap_or(NO_INDEX));
+            list.push(triangle, indices);
         }
-        of_corners
+        list
     }
 
-    /// Values that no corner refers to yet.
-    pub(crate) fn of(values: Vec<T>) -> Self {
-        let corners = PerTriangle::new([NO_INDEX; 3]);
-        Self { values, corners }
-    }
-
-    /// Sets the indices of a triangle's corners; it must come after all that have been set.
+    /// Sets the indices of a triangle's corners. Triangles must be set in ascending order.
     #[inline]
     pub(crate) fn push(&mut self, triangle: u32, indices: [u32; 3]) {
         self.corners.push(triangle, indices);
     }
 
-    /// The indices of a triangle's corners, or [`NO_INDEX`].
+    /// The indices of a triangle's corners; [`NO_INDEX`] for a corner without a value.
     pub fn indices(&self, triangle: u32) -> [u32; 3] {
         self.corners.of(triangle)
     }
 
-    /// The values of a triangle's corners.
+    /// The values of a triangle's corners; `None` for a corner without one.
     pub fn of_triangle(&self, triangle: u32) -> [Option<T>; 3] {
         let value = |index: u32| self.values.get(index as usize).copied();
         self.indices(triangle).map(value)
@@ -109,7 +111,7 @@ impl<T: Copy> CornerValues<T> {
         self.corners.is_default()
     }
 
-    /// The values.
+    /// All values.
     pub fn values(&self) -> &[T] {
         &self.values
     }
@@ -120,7 +122,7 @@ impl<T: Copy> CornerValues<T> {
     }
 }
 
-/// A list, and the entry of it that each triangle has.
+/// A list of entries, and each triangle's index into it.
 #[derive(Clone, Debug)]
 pub struct Assigned<T> {
     entries: Vec<T>,
@@ -134,7 +136,7 @@ impl<T> Default for Assigned<T> {
 }
 
 impl<T> Assigned<T> {
-    /// Entries, and the index of each triangle's entry.
+    /// Creates the list from entries and each triangle's index. A triangle whose index is out of range has no entry.
     pub fn new(entries: Vec<T>, indices: Runs) -> Self {
         Self { entries, indices }
     }
@@ -144,12 +146,12 @@ impl<T> Assigned<T> {
         self.indices.of(triangle)
     }
 
-    /// An entry by its index, if there is one.
+    /// The entry with this index; `None` if out of range.
     pub fn get(&self, index: u32) -> Option<&T> {
         self.entries.get(index as usize)
     }
 
-    /// A triangle's entry, if it has one.
+    /// The entry of a triangle; `None` if its index is out of range.
     pub fn of(&self, triangle: u32) -> Option<&T> {
         self.get(self.index(triangle))
     }
@@ -159,8 +161,23 @@ impl<T> Assigned<T> {
         &self.entries
     }
 
-    /// Size in bytes of the indices.
+    /// Size in bytes of the indices, without the entries.
     pub fn bytes(&self) -> usize {
         self.indices.bytes()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_corner_whose_index_is_out_of_range_has_no_value() {
+        let list = CornerValues::new(vec!['a', 'b'], [[5, 5, 5], [0, 2, 1]]);
+        assert_eq!(list.of_triangle(0), [None; 3]);
+        assert_eq!(list.indices(1), [0, NO_INDEX, 1]);
+        assert_eq!(list.of_triangle(1), [Some('a'), None, Some('b')]);
+        assert!(!list.is_empty() && !list.are_complete(1));
+        assert!(CornerValues::new(vec!['a'], [[1, 2, 3]]).is_empty());
     }
 }

@@ -1,6 +1,6 @@
-//! Long closed meshes of long triangles, and rays from inside them, for tests and measurements.
+//! Procedural corridors: long closed meshes of long triangles, and rays from inside them, for tests and measurements.
 //!
-//! Each is a footprint in the plane, extruded along z and optionally rotated:
+//! A corridor is a footprint in the xy plane, extruded along z and optionally rotated:
 //!
 //! ```text
 //!   box       prism       strips          L-shaped, extruded by 2
@@ -14,16 +14,16 @@ use crate::random::Random;
 use crate::ray::Ray;
 use glam::{DQuat, DVec2, DVec3, Vec3};
 
-/// Footprint of a corridor.
+/// The footprint of a corridor.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Footprint {
     /// A square of 2 × 2.
     Square,
     /// A triangle.
     Triangle,
-    /// A square whose sides are divided into many strips.
+    /// The square, with each side divided into many strips.
     Strips,
-    /// A square and two arms from it, as long as the corridor.
+    /// The square, with two arms of the corridor's length.
     L,
 }
 
@@ -46,7 +46,7 @@ impl Footprint {
         }
     }
 
-    /// Its corners, counterclockwise; every corner is visible from (0, 0).
+    /// The footprint's corners, counterclockwise. Every corner is visible from (0, 0).
     fn outline(self, length: f64) -> Vec<DVec2> {
         let p = DVec2::new;
         let square = [p(-1.0, -1.0), p(1.0, -1.0), p(1.0, 1.0), p(-1.0, 1.0)];
@@ -73,23 +73,24 @@ impl Footprint {
     }
 }
 
-/// Strips per side. A power of two, so that their corners are exact.
+/// Strips per side. A power of two, so that the corners are exact.
 const STRIPS: u32 = 16;
 
-/// A long closed mesh and the geometry from which rays inside it are drawn.
+/// A long closed mesh, with the geometry for drawing random rays inside it.
 pub struct Corridor {
     /// The mesh; its normals point outwards.
     pub mesh: TriangleMesh,
     outline: Vec<DVec2>,
-    /// It is extruded from minus this to plus this.
+    /// The footprint is extruded from z = −`half_height` to z = `half_height`.
     half_height: f64,
     turn: DQuat,
-    /// Distance from the walls beyond which rounding can't move a point out.
+    /// Minimum distance of ray origins from the walls, so that rounding can't move them out of the mesh.
     margin: f64,
 }
 
 impl Corridor {
-    /// A corridor twice as long as `length`, or with arms of that length.
+    /// Creates a corridor of length 2·`length`, or for an [L](Footprint::L), of height 2 with arms of length `length`.
+    /// `is_turned` rotates the mesh away from the coordinate axes.
     pub fn new(footprint: Footprint, length: f64, is_turned: bool) -> Self {
         let outline = footprint.outline(length);
         let half_height = match footprint {
@@ -101,7 +102,7 @@ impl Corridor {
         } else {
             DQuat::IDENTITY
         };
-        // The mesh's corners and the point itself are each moved by up to √3·2⁻²⁴ of the largest coordinate.
+        // Rounding moves the mesh's corners and the origin by at most √3·2⁻²⁴ of the largest coordinate each.
         let largest = if is_turned { 2.0 * length } else { 1.0 };
         let ends = [-half_height, half_height];
         let at = |p: DVec2, z: f64| (turn * p.extend(z)).as_vec3();
@@ -116,8 +117,8 @@ impl Corridor {
         }
     }
 
-    /// A random ray from inside the mesh. Half of the origins are near walls, edges or corners, and half of the
-    /// directions point at or just beside edges and corners.
+    /// A random ray from inside the mesh. Half of the origins are near walls, edges or corners. Half of the directions
+    /// point at edges and corners or just beside them.
     pub fn ray(&self, random: &mut Random) -> Ray {
         loop {
             let origin = self.origin(random);
@@ -148,7 +149,7 @@ impl Corridor {
         let p = point.truncate();
         let next = self.outline.iter().skip(1).chain(&self.outline[..1]);
         let mut edges = self.outline.iter().zip(next);
-        // Walls and ends are at least the margin away.
+        // The origin is at least the margin away from walls and ends.
         self.half_height - point.z.abs() >= self.margin
             && edges.all(|(a, b)| {
                 let part = ((p - a).dot(b - a) / (b - a).length_squared()).clamp(0.0, 1.0);
@@ -170,8 +171,8 @@ impl Corridor {
                 let corners = self.mesh.corners(triangle).map(Vec3::as_dvec3);
                 let start = random.index(3);
                 let (a, b) = (corners[start], corners[(start + 1) % 3]);
-                // Near the foot of the perpendicular from the origin, so that much of the edge lies behind it,
-                // anywhere along the edge, or at a corner.
+                // Three kinds of target: near the foot of the perpendicular from the origin, so that much of the edge
+                // lies behind the origin; anywhere along the edge; a corner.
                 let foot = (origin - a).dot(b - a) / (b - a).length_squared();
                 let away = random.signed() * near_zero(random);
                 let along = [foot + away, random.unit(), 0.0][random.index(3)];
@@ -187,17 +188,17 @@ impl Corridor {
     }
 }
 
-/// A number between 0 and 1; half of them are close to 0, down to 10⁻⁷.
+/// A random number between 0 and 1. Half of the numbers are scaled towards 0, by factors down to 2⁻²³ ≈ 10⁻⁷.
 fn near_zero(random: &mut Random) -> f64 {
     if random.index(2) == 0 {
         random.unit()
     } else {
-        // A power of 2, because machines may round other powers differently.
+        // A power of 2 is exact; other powers may round differently on different machines.
         random.unit() * 2f64.powi(-(random.index(24) as i32))
     }
 }
 
-/// Triangles over corners that lie alternately below and above, `count` of each, followed by the two centres.
+/// Triangles of an extrusion. The vertices are `count` pairs of a low and a high corner, then the low and high centres.
 fn triangles(count: u32) -> Vec<[u32; 3]> {
     let (low_middle, high_middle) = (2 * count, 2 * count + 1);
     let side = |i: u32| {

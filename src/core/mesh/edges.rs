@@ -1,28 +1,32 @@
-//! Table of the triangles at each edge, and fans of corners around each vertex.
+//! Mesh adjacency: the triangles at each edge, and the fans of corners around each vertex.
 
-use super::TriangleMesh;
+use super::{TriangleMesh, Welded};
 use rayon::prelude::*;
 
-/// A triangle at an edge.
+/// One triangle's use of an edge.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub(crate) struct EdgeUse {
-    /// The edge's ends, the lower index first.
+    /// The edge's end vertices, lower index first.
     pub ends: [u32; 2],
-    /// The triangle, and the corner of it from which the edge goes to the next corner.
+    /// The triangle, and its corner from which the edge leads to the next corner.
     pub triangle: u32,
     pub corner: u8,
-    /// Whether the triangle traverses the edge from the lower to the higher index.
+    /// Whether the triangle traverses the edge from the lower to the higher vertex index.
     pub is_forward: bool,
 }
 
-/// All triangles at all edges, sorted by edge.
+/// All edge uses of a mesh, sorted by edge.
 pub(crate) struct EdgeTable {
     uses: Vec<EdgeUse>,
 }
 
 impl EdgeTable {
-    /// Builds the table. `vertex` maps each vertex to its representative, such as the first one at its
-    /// position.
+    /// Builds the table with the vertices at each position as one.
+    pub(crate) fn welded(mesh: &TriangleMesh, welded: &Welded) -> Self {
+        Self::of(mesh, |vertex| welded.vertex(vertex))
+    }
+
+    /// Builds the table. `vertex` maps each vertex to its representative, such as the first one at its position.
     pub(crate) fn of(mesh: &TriangleMesh, vertex: impl Fn(u32) -> u32 + Sync) -> Self {
         let of_triangle = |(triangle, corners): (usize, &[u32; 3])| {
             let ends = corners.map(&vertex);
@@ -42,14 +46,14 @@ impl EdgeTable {
         Self { uses }
     }
 
-    /// The triangles at each edge.
+    /// The uses of each edge.
     pub(crate) fn iter(&self) -> impl Iterator<Item = &[EdgeUse]> {
         self.uses.chunk_by(|a, b| a.ends == b.ends)
     }
 }
 
 impl EdgeUse {
-    /// The triangle's corners at the lower and the higher end, numbered as in [`VertexFans`].
+    /// The triangle's corners at the lower and higher end, numbered as in [`VertexFans`].
     fn corners(&self) -> [u32; 2] {
         let k = u32::from(self.corner);
         let [from, to] = [k, (k + 1) % 3].map(|k| 3 * self.triangle + k);
@@ -61,7 +65,7 @@ impl EdgeUse {
     }
 }
 
-/// Sets of corners around a vertex that are connected by edges. Corner k of triangle t is number 3·t + k.
+/// Disjoint sets of corners around vertices, joined across edges. Corner k of triangle t is number 3·t + k.
 ///
 /// Source: Tarjan, "Efficiency of a Good But Not Linear Set Union Algorithm", JACM 22(2), 1975.
 pub(crate) struct VertexFans {
@@ -69,7 +73,7 @@ pub(crate) struct VertexFans {
 }
 
 impl VertexFans {
-    /// Connects triangles at an edge if `is_joined` holds for two consecutive uses of it.
+    /// Builds the sets. Two consecutive uses of an edge are connected if `is_joined` holds for them.
     pub(crate) fn of(
         mesh: &TriangleMesh,
         edges: &EdgeTable,
@@ -91,7 +95,7 @@ impl VertexFans {
         fans
     }
 
-    /// The corner that represents a corner's set.
+    /// The representative of a corner's set.
     pub(crate) fn find(&mut self, mut corner: u32) -> u32 {
         while self.parent[corner as usize] != corner {
             let above = self.parent[self.parent[corner as usize] as usize];

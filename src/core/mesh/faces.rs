@@ -1,14 +1,12 @@
-//! The polygons that triangles come from.
+//! Maps triangles to the file's polygons.
 
 use super::PerTriangle;
 
-/// All edges of a triangle are edges of its polygon.
-const ALL_EDGES: u8 = 0b111;
-
-/// The file's polygons, and which edges of triangles are theirs. By default each triangle is a polygon.
+/// The polygon of each triangle, and which of the triangle's edges are polygon edges. By default each triangle is a
+/// polygon.
 #[derive(Clone, Debug)]
 pub struct Faces {
-    /// A triangle's face less the triangle, modulo 2³².
+    /// Face index minus triangle index, modulo 2³².
     shifts: PerTriangle<u32>,
     outlines: PerTriangle<u8>,
 }
@@ -17,31 +15,35 @@ impl Default for Faces {
     fn default() -> Self {
         Self {
             shifts: PerTriangle::new(0),
-            outlines: PerTriangle::new(ALL_EDGES),
+            outlines: PerTriangle::new(Self::ALL_EDGES),
         }
     }
 }
 
 impl Faces {
-    /// The face of a triangle.
+    /// Outline of a triangle whose edges are all edges of its polygon.
+    pub const ALL_EDGES: u8 = 0b111;
+
+    /// The index of a triangle's face.
     #[inline]
     pub fn of(&self, triangle: u32) -> u32 {
         triangle.wrapping_add(self.shifts.of(triangle))
     }
 
-    /// Bit k is set if the edge from corner k to the next corner is an edge of the polygon, not a diagonal.
+    /// The polygon edges of a triangle: bit k is set unless the edge from corner k to the next corner is a diagonal.
     pub fn outline(&self, triangle: u32) -> u8 {
         self.outlines.of(triangle)
     }
 
-    /// Sets the face and the outline of a triangle, which must come after all that have been set.
+    /// Sets the face and outline of a triangle. Triangles must be set in ascending order, and those of a face must be
+    /// consecutive.
     #[inline]
     pub fn push(&mut self, triangle: u32, face: u32, outline: u8) {
         self.shifts.push(triangle, face.wrapping_sub(triangle));
         self.outlines.push(triangle, outline);
     }
 
-    /// Number of faces that `triangles` triangles belong to; those of a face follow one another.
+    /// Number of faces of the first `triangles` triangles. The triangles of a face must be consecutive.
     pub(super) fn count(&self, triangles: usize) -> usize {
         if self.shifts.is_default() {
             return triangles;
@@ -50,8 +52,8 @@ impl Faces {
         (0..triangles as u32).filter(begins).count()
     }
 
-    /// Adds the faces of `count` later triangles, the first of which is `first`. Their faces are counted from
-    /// `first_face`.
+    /// Appends the faces of `count` triangles. Triangle 0 of `later` becomes triangle `first`, and its face 0 becomes
+    /// face `first_face`.
     pub(super) fn append(&mut self, first: u32, count: u32, later: Self, first_face: u32) {
         let shift = first_face.wrapping_sub(first);
         if shift == 0 {
@@ -80,8 +82,8 @@ mod tests {
     use super::*;
 
     #[test]
-    fn faces_are_numbered_on_across_parts() {
-        // A triangle, a quad, and a triangle after a face that was dropped.
+    fn appended_faces_continue_the_numbering() {
+        // A triangle, a quad, a dropped face, and another triangle.
         let mut faces = Faces::default();
         for (triangle, face, outline) in
             [(0, 0, 0b111), (1, 1, 0b011), (2, 1, 0b110), (3, 3, 0b111)]

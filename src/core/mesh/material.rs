@@ -1,33 +1,33 @@
-//! Materials: colours, highlights and textures of faces.
+//! Materials of faces: colours, highlights and textures.
 
 use super::Texture;
 use glam::{Vec2, Vec3};
 
-/// A material. Colours are linear RGB.
+/// A material of the MTL format. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The name in the file.
     pub name: String,
-    /// Diffuse reflectance (`Kd`), if the material library has one.
+    /// Diffuse reflectance (`Kd`); `None` if the material library has none.
     pub diffuse: Option<Vec3>,
-    /// Reflectance of highlights (`Ks`).
+    /// Specular reflectance (`Ks`).
     pub specular: Vec3,
-    /// Exponent of the highlights (`Ns`): larger values give smaller highlights.
+    /// Specular exponent (`Ns`): larger values give smaller highlights.
     pub shininess: f32,
     /// Emitted light (`Ke`).
     pub emission: Vec3,
-    /// 1 is opaque, 0 is invisible (`d`, or 1 − `Tr`).
+    /// Opacity (`d`, or 1 − `Tr`): 1 is opaque, 0 is invisible.
     pub opacity: f32,
-    /// The shading terms in use (`illum`).
+    /// Shading terms in use (`illum`).
     pub illumination: Illumination,
-    /// Texture that the diffuse reflectance is multiplied by (`map_Kd`).
+    /// Texture that multiplies the diffuse reflectance (`map_Kd`).
     pub diffuse_map: Option<TextureMap>,
 }
 
 /// The shading terms of a material.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum Illumination {
-    /// The diffuse colour without shading.
+    /// Unshaded diffuse colour.
     Constant,
     /// Diffuse reflection only.
     Diffuse,
@@ -36,20 +36,20 @@ pub enum Illumination {
     Highlights,
 }
 
-/// A texture and its mapping: it is sampled at `scale`·(u, v) + `offset`.
+/// A texture and its mapping: the texture is sampled at `scale`·(u, v) + `offset`.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct TextureMap {
     /// Index into the mesh's textures.
     pub texture: u32,
-    /// Number of repetitions per unit.
+    /// Repetitions per unit of the texture coordinates.
     pub scale: Vec2,
-    /// Offset of the texture coordinates.
+    /// Offset, added to the scaled texture coordinates.
     pub offset: Vec2,
 }
 
 impl TextureMap {
-    /// The colour at texture coordinates `uv`, in linear RGB; white if there is no such texture. A coordinate
-    /// that isn't finite counts as 0.
+    /// The colour at texture coordinates `uv`, in linear RGB; white if `textures` lacks the texture. A coordinate that
+    /// isn't finite counts as 0.
     pub fn colour(&self, textures: &[Texture], uv: Vec2) -> Vec3 {
         let texture = textures.get(self.texture as usize);
         texture.map_or(Vec3::ONE, |texture| {

@@ -1,7 +1,7 @@
-//! Triangle meshes.
+//! Indexed triangle meshes.
 //!
-//! An indexed mesh as given by the file: each vertex once, triangles as three indices, and for each triangle
-//! the polygon that it came from, so that a wireframe can hide triangulation diagonals.
+//! Vertices are stored once, as in the file, and triangles as three vertex indices. Each triangle also refers to the
+//! polygon that it came from, so that a wireframe can hide triangulation diagonals.
 
 mod area;
 mod attributes;
@@ -19,6 +19,7 @@ mod texture;
 mod weld;
 
 pub use area::has_zero_area;
+pub(crate) use area::{aspect, two_sum};
 pub use attributes::{Assigned, Attributes, CornerValues};
 pub use faces::Faces;
 pub use health::{FLAWS, Flaw, FlawInfo, FlawLocations, Health, SLIVER_ASPECT};
@@ -28,18 +29,17 @@ pub use per_triangle::PerTriangle;
 pub use runs::Runs;
 pub use strips::bytes_as;
 pub use texture::Texture;
-use weld::Welded;
 
 use crate::aabb::Aabb;
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
+use weld::Welded;
 
-/// Mesh sizes at which f32 kernels work best: from a distance of ten times the size, products of two lengths
+/// Range of mesh sizes that f32 kernels handle well: from a distance of ten times the size, products of two lengths
 /// stay well inside the range of f32.
 pub const SAFE_SIZE: std::ops::RangeInclusive<f64> = 1e-15..=1e16;
 
-/// The unit normal by the right-hand rule over A, B, C; zero for a triangle of zero area, and for one too
-/// thin for f64.
+/// The unit normal by the right-hand rule over A, B, C. Zero if the area is zero in f64 or a corner isn't finite.
 ///
 /// Computed in f64, where neither products nor lengths of f32 numbers under- or overflow.
 pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
@@ -47,13 +47,15 @@ pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// Marks a corner without a normal or texture coordinates in per-corner lists.
+/// The largest number of triangles: corners are numbered by u32.
+pub(crate) const MAX_TRIANGLES: usize = u32::MAX as usize / 3;
+
+/// The index of a corner without a normal or texture coordinates.
 pub const NO_INDEX: u32 = u32::MAX;
 
-/// An indexed triangle mesh. Its positions are f32 relative to an f64 origin; kernels test exactly these
-/// positions.
+/// An indexed triangle mesh with f32 positions relative to an f64 origin. Kernels test exactly these positions.
 ///
-/// No triangle has zero area or a corner that isn't finite: no ray can hit those.
+/// Every triangle has finite corners and an area above zero, because no ray can hit others.
 #[derive(Clone, Debug, Default)]
 pub struct TriangleMesh {
     origin: DVec3,
@@ -64,21 +66,24 @@ pub struct TriangleMesh {
 }
 
 impl TriangleMesh {
-    /// A mesh of triangles, each three indices into the positions, without those that no ray can hit: of zero area or with
-    /// a corner that isn't finite. Its origin is (0, 0, 0), each triangle is a face, and there are no other attributes.
+    /// Creates a mesh from triangles, each three indices into the positions. Triangles that no ray can hit are dropped:
+    /// those of zero area or with a corner that isn't finite.
+    ///
+    /// The origin is (0, 0, 0), each triangle is a face, and there are no other attributes.
     ///
     /// # Panics
-    /// An index is out of range.
+    /// If an index is out of range, or there are more than 2³²/3 triangles.
     pub fn new(positions: Vec<Vec3>, mut triangles: Vec<[u32; 3]>) -> Self {
         triangles.retain(|triangle| {
             let corners = triangle.map(|vertex| positions[vertex as usize]);
             corners.iter().all(|p| p.is_finite()) && !has_zero_area(corners)
         });
-        Self::of_valid(positions, triangles)
+        Self::new_unchecked(positions, triangles)
     }
 
-    /// [`new`](Self::new) for triangles of which none has to be dropped.
-    pub(crate) fn of_valid(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
+    /// [`new`](Self::new) without its check, for triangles with finite corners and an area above zero.
+    pub(crate) fn new_unchecked(positions: Vec<Vec3>, triangles: Vec<[u32; 3]>) -> Self {
+        assert!(triangles.len() <= MAX_TRIANGLES, "too many triangles");
         Self {
             origin: DVec3::ZERO,
             positions,
@@ -88,32 +93,37 @@ impl TriangleMesh {
         }
     }
 
-    /// The same positions relative to another point of the file's coordinates: the mesh is moved.
+    /// Moves the mesh: the positions stay the same, and the origin becomes this point in the file's coordinates.
+    ///
+    /// # Panics
+    /// If the origin isn't finite.
     #[must_use]
     pub fn with_origin(self, origin: DVec3) -> Self {
+        assert!(origin.is_finite(), "a finite origin");
         Self { origin, ..self }
     }
 
-    /// The mesh with its vertices moved, and as [`new`](Self::new) makes it otherwise.
+    /// Applies `to` to each position and makes a [`new`](Self::new) mesh of the same triangles, without this mesh's
+    /// origin and attributes.
     #[must_use]
-    pub fn moved(&self, to: impl Fn(Vec3) -> Vec3) -> Self {
+    pub fn map_positions(&self, to: impl Fn(Vec3) -> Vec3) -> Self {
         let positions = self.positions.iter().map(|&p| to(p)).collect();
         Self::new(positions, self.triangles.clone())
     }
 
-    /// The same surface with other attributes.
+    /// Replaces the attributes. Per-triangle attributes follow [`triangles`](Self::triangles), without dropped ones.
     ///
     /// # Panics
-    /// There are colours, but not as many as positions; or a line or a point has a vertex that doesn't exist.
+    /// If the number of colours is neither 0 nor that of positions, or a line or point refers to a missing vertex.
     #[must_use]
     pub fn with_attributes(self, attributes: Attributes) -> Self {
         let (count, colours) = (self.positions.len(), attributes.colours.len());
-        assert!(colours == 0 || colours == count, "a colour per position");
+        assert!(colours == 0 || colours == count, "one colour per position");
         let ends = attributes.lines.as_flattened().iter();
         let mut vertices = ends.chain(&attributes.points);
         assert!(
             vertices.all(|&vertex| (vertex as usize) < count),
-            "a vertex of a line or a point that doesn't exist"
+            "a line or point refers to a missing vertex"
         );
         Self {
             face_count: attributes.faces.count(self.triangles.len()),
@@ -122,43 +132,44 @@ impl TriangleMesh {
         }
     }
 
-    /// The file's coordinates of the positions' origin (0, 0, 0).
+    /// The origin of the positions, in the file's coordinates.
     pub fn origin(&self) -> DVec3 {
         self.origin
     }
 
-    /// The vertices in use, relative to [`origin`](Self::origin), in the file's order.
+    /// Vertex positions relative to [`origin`](Self::origin), in the file's order. The OBJ reader keeps only the
+    /// vertices in use; positions outside triangles may be NaN or infinite.
     pub fn positions(&self) -> &[Vec3] {
         &self.positions
     }
 
-    /// Triangles as three indices into the positions.
+    /// The triangles, each three indices into the positions.
     pub fn triangles(&self) -> &[[u32; 3]] {
         &self.triangles
     }
 
-    /// The corners of a triangle.
+    /// The corner positions of a triangle.
     #[inline]
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
     }
 
-    /// What the mesh has besides its surface.
+    /// The mesh's attributes.
     pub fn attributes(&self) -> &Attributes {
         &self.attributes
     }
 
-    /// The file's face (counted from 0) that contains a triangle.
+    /// The index of the file's face that contains a triangle, from 0.
     pub fn face_of(&self, triangle: u32) -> u32 {
         self.attributes.faces.of(triangle)
     }
 
-    /// Number of faces that the triangles come from, without dropped ones.
+    /// Number of faces that have a triangle.
     pub fn face_count(&self) -> usize {
         self.face_count
     }
 
-    /// The box around all triangles.
+    /// The bounding box of all triangles; empty if there are none.
     pub fn bounds(&self) -> Aabb {
         let of = |triangle: &[u32; 3]| {
             Aabb::around(triangle.map(|vertex| self.positions[vertex as usize]))
@@ -167,30 +178,30 @@ impl TriangleMesh {
         boxes.reduce(|| Aabb::EMPTY, Aabb::union)
     }
 
-    /// The box around all lines and points.
-    pub fn element_bounds(&self) -> Aabb {
+    /// The bounding box of all lines and points; empty if there are none.
+    pub fn line_and_point_bounds(&self) -> Aabb {
         let vertices = self.attributes.lines.as_flattened().iter();
         let vertices = vertices.chain(&self.attributes.points);
         Aabb::around(vertices.map(|&vertex| self.positions[vertex as usize]))
     }
 
-    /// The corners of every triangle.
+    /// The corner positions of every triangle.
     pub fn corner_list(&self) -> Vec<[Vec3; 3]> {
         let count = self.triangles.len() as u32;
         (0..count).map(|triangle| self.corners(triangle)).collect()
     }
 
-    /// A point of the mesh in the file's coordinates.
+    /// Converts a point from the mesh's coordinates to the file's.
     pub fn in_file(&self, p: DVec3) -> DVec3 {
         p + self.origin
     }
 
-    /// Whether all positions are also f32 numbers in the file's coordinates: with the origin at (0, 0, 0)
-    /// they would be the same points.
+    /// Whether every position has f32 coordinates in the file's frame too: moving the origin to (0, 0, 0) would round
+    /// none. False if a position isn't finite.
     pub fn are_f32_in_file(&self) -> bool {
         let is_f32 = |own: f32, origin: f64| {
             let (own, in_file) = (f64::from(own), f64::from(own) + origin);
-            // Both differences equal the terms only if the sum isn't rounded.
+            // Each difference equals the other term only if the sum isn't rounded.
             let is_exact = in_file - origin == own && in_file - own == origin;
             is_exact && f64::from(in_file as f32) == in_file
         };
@@ -198,8 +209,7 @@ impl TriangleMesh {
         self.positions.par_iter().all(are_f32_coordinates)
     }
 
-    /// A vertex as written in the file: of all coordinates that would have been loaded as this vertex, those
-    /// with the fewest digits.
+    /// A vertex as written in the file: of all coordinates that load as this vertex, those with the fewest digits.
     pub fn vertex_in_file(&self, p: Vec3) -> DVec3 {
         let shortest = |axis: usize| {
             let (origin, own) = (self.origin[axis], p[axis]);
@@ -214,17 +224,17 @@ impl TriangleMesh {
         DVec3::new(shortest(0), shortest(1), shortest(2))
     }
 
-    /// [`unit_normal`], rounded to f32.
+    /// The [`unit_normal`] of a triangle, rounded to f32.
     pub fn geometric_normal(&self, triangle: u32) -> Vec3 {
         unit_normal(self.corners(triangle)).as_vec3()
     }
 
-    /// Whether there are lines or points besides triangles.
-    pub fn has_elements(&self) -> bool {
+    /// Whether the mesh has lines or points.
+    pub fn has_lines_or_points(&self) -> bool {
         !self.attributes.lines.is_empty() || !self.attributes.points.is_empty()
     }
 
-    /// Number of materials that faces name.
+    /// Number of materials that faces name, without the default material.
     pub fn named_material_count(&self) -> usize {
         self.attributes.materials.entries().len().saturating_sub(1)
     }
@@ -234,7 +244,7 @@ impl TriangleMesh {
         self.attributes.groups.entries().len().saturating_sub(1)
     }
 
-    /// Name and size in bytes of each part.
+    /// Memory of each part of the mesh: its name and size in bytes.
     pub fn bytes(&self) -> [(&'static str, usize); 6] {
         let Attributes {
             faces,
@@ -275,14 +285,13 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_vertex_is_printed_as_in_the_file_far_from_the_origin_and_near_it() {
+    fn a_vertex_is_printed_as_in_the_file_near_and_far_from_the_origin() {
         for (origin, written) in [
             (500_000.0, 500_000.001),
             (4_649_776.0, 4_649_776.25),
             (0.0, 0.1),
             (0.0, -1.234_567e-20),
-            // These have 14 and 16 digits: fewer digits give another vertex, and the exact f64 is another
-            // number.
+            // 14 and 16 digits: fewer digits load as another vertex, and the exact f64 is another number.
             (4_649_776.0, 4_649_776.123_456_7),
             (1.0, 1.000_000_012_345_679),
         ] {
@@ -293,18 +302,18 @@ mod tests {
     }
 
     #[test]
-    fn positions_are_f32_in_the_file_if_their_sums_with_the_origin_are() {
+    fn positions_are_f32_in_the_file_if_their_exact_sums_with_the_origin_are() {
         let are_f32 = |origin: f64, own: f32| {
             let mesh = TriangleMesh::new(vec![Vec3::splat(own)], Vec::new());
             mesh.with_origin(DVec3::splat(origin)).are_f32_in_file()
         };
         assert!(are_f32(0.0, 0.1) && are_f32(1000.0, 0.25) && are_f32(-3.0, 4.0));
-        // 1000.1 isn't an f32, nor is a sum that only rounding makes one.
+        // 1000.1 isn't an f32. 1000 + 1e-20 isn't either, but rounds to one.
         assert!(!are_f32(1000.0, 0.1) && !are_f32(1000.0, 1e-20));
     }
 
     #[test]
-    fn triangles_that_no_ray_can_hit_are_left_out() {
+    fn triangles_that_no_ray_can_hit_are_dropped() {
         let positions = vec![Vec3::ZERO, Vec3::X, Vec3::Y, Vec3::NAN, 2.0 * Vec3::X];
         let triangles = vec![[0, 1, 4], [0, 1, 2], [0, 1, 3]];
         let mesh = TriangleMesh::new(positions, triangles);
@@ -312,8 +321,8 @@ mod tests {
     }
 
     #[test]
-    #[should_panic(expected = "a colour per position")]
-    fn colours_are_as_many_as_positions() {
+    #[should_panic(expected = "one colour per position")]
+    fn a_wrong_number_of_colours_panics() {
         let attributes = Attributes {
             colours: vec![Vec3::ONE],
             ..Attributes::default()

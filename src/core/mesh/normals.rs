@@ -5,37 +5,39 @@ use super::{NO_INDEX, TriangleMesh, Welded, unit_normal};
 use glam::{DVec3, Vec3};
 use std::collections::HashMap;
 
-/// Source of the creases in smooth shading.
+/// The edges that smooth shading keeps sharp.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub enum Crease {
-    /// The file's normals and smoothing groups; without them there are no creases.
+    /// Creases given by the file's normals and smoothing groups. Without those, all edges are smooth.
     #[default]
     FromFile,
-    /// Edges at which the triangles' normals differ by more than this angle in radians, regardless of the
-    /// file. NaN is less than any angle: everything is flat.
+    /// Edges at which the triangles' normals differ by more than this angle in radians, regardless of the file. With
+    /// NaN every edge is a crease.
     Above(f32),
 }
 
-/// A unit normal per corner; zero if the normals of the faces around it cancel.
+/// One unit normal per corner; zero where the normals of the adjacent faces cancel.
 #[derive(Clone, Debug)]
 pub struct VertexNormals {
     normals: Vec<Vec3>,
     indices: Indices,
 }
 
-/// Maps corners to normals.
+/// The index of each corner's normal.
 #[derive(Clone, Debug)]
 enum Indices {
-    /// By the corner's vertex.
+    /// The mesh's vertex indices.
     OfVertices,
-    /// By the file's indices.
+    /// The file's normal indices.
     OfFile,
+    /// A separate list of indices, per triangle.
     Own(Vec<[u32; 3]>),
 }
 
 impl VertexNormals {
-    /// Uses the file's normals. A missing normal is the normalized sum of the normals of the faces around the
-    /// vertex, each weighted by its angle there.
+    /// Computes the vertex normals of a mesh. A computed normal is the normalized sum of the normals of the triangles
+    /// around the vertex, up to the creases, each weighted by its angle there. With [`Crease::FromFile`], the file's
+    /// normals take precedence.
     ///
     /// Vertices at the same position count as one, so that seams don't show.
     /// Source: Thürmer, Wüthrich, "Computing Vertex Normals from Polygonal Facets", JGT 3(1), 1998.
@@ -57,7 +59,7 @@ impl VertexNormals {
         mixed(mesh)
     }
 
-    /// The normals at a triangle's corners. `mesh` must be the mesh that they were computed for.
+    /// The normals at a triangle's corners. `mesh` must be the mesh that was passed to [`of`](Self::of).
     pub fn of_triangle(&self, mesh: &TriangleMesh, triangle: u32) -> [Vec3; 3] {
         let indices = match &self.indices {
             Indices::OfVertices => mesh.triangles[triangle as usize],
@@ -68,7 +70,7 @@ impl VertexNormals {
     }
 }
 
-/// The file's normals, normalized. In f64, where the length of an f32 vector neither under- nor overflows.
+/// The file's normals, normalized in f64, where the length of an f32 vector neither under- nor overflows.
 fn from_file(mesh: &TriangleMesh) -> impl Iterator<Item = DVec3> {
     mesh.attributes
         .normals
@@ -110,8 +112,8 @@ fn of_vertices(mesh: &TriangleMesh) -> VertexNormals {
     }
 }
 
-/// Takes the file's normal for a corner that has one. Other corners get one normal per vertex and smoothing
-/// group, or their triangle's normal if it is in no group.
+/// Uses the file's normals where corners have one. Other corners get one normal per vertex and smoothing group, or the
+/// triangle's normal if the triangle is in group 0.
 fn mixed(mesh: &TriangleMesh) -> VertexNormals {
     let welded = Welded::of(mesh);
     let mut sums: Vec<DVec3> = from_file(mesh).collect();
@@ -140,7 +142,7 @@ fn mixed(mesh: &TriangleMesh) -> VertexNormals {
             })
         }));
     }
-    // Faces with normals in the file also contribute to their neighbours' normals.
+    // Triangles with normals in the file also contribute to computed normals of their neighbours.
     for (triangle, &vertices) in (0..).zip(&mesh.triangles) {
         if is_flat(triangle) {
             continue;
@@ -166,11 +168,7 @@ fn creased(mesh: &TriangleMesh, radians: f32) -> VertexNormals {
         let angle = normal_of(a.triangle).angle_between(normal_of(b.triangle));
         angle <= f64::from(radians)
     };
-    let mut fans = VertexFans::of(
-        mesh,
-        &EdgeTable::of(mesh, |vertex| welded.vertex(vertex)),
-        is_smooth,
-    );
+    let mut fans = VertexFans::of(mesh, &EdgeTable::welded(mesh, &welded), is_smooth);
     let (mut sums, mut of_fan) = (Vec::new(), vec![NO_INDEX; 3 * mesh.triangles.len()]);
     let mut own = Vec::with_capacity(mesh.triangles.len());
     for triangle in 0..mesh.triangles.len() as u32 {
@@ -197,7 +195,7 @@ mod tests {
     use crate::mesh::{CornerValues, Runs};
     use std::f32::consts::PI;
 
-    /// Two sides of a roof that share the ridge from (0, 0, 1) to (0, 1, 1).
+    /// The two sides of a roof, with the ridge from (0, 0, 1) to (0, 1, 1).
     fn roof() -> TriangleMesh {
         let positions = vec![
             Vec3::new(0.0, 0.0, 1.0),
@@ -214,14 +212,14 @@ mod tests {
         [0, 1].map(|triangle| normals.of_triangle(mesh, triangle))
     }
 
-    /// Whether `a` is the direction of `b`, rounded. Its components, at most 1, are off by at most 2⁻²⁵, so
-    /// the vector is off by at most √3 of that.
+    /// Whether `a` is the direction of `b`, rounded to f32. The components are at most 1, so each is off by at most
+    /// 2⁻²⁵ and the vector by at most √3 times that.
     fn is_near(a: Vec3, b: Vec3) -> bool {
         (a.as_dvec3() - b.as_dvec3().normalize()).length() < 2f64.powi(-24)
     }
 
     #[test]
-    fn a_seam_of_doubled_vertices_does_not_show() {
+    fn a_seam_of_duplicate_vertices_is_smooth() {
         let [left, right] = normals(&roof(), Crease::FromFile);
         assert_eq!(left[1], right[2]);
         assert!(is_near(left[1], Vec3::Z), "{left:?}");
@@ -235,9 +233,9 @@ mod tests {
         mesh.attributes.normals = given([NO_INDEX; 3]);
         let [left, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(left, [Vec3::Y; 3]);
-        // Computed, including the other face's contribution.
+        // The right triangle's normals are computed, with the left triangle's contribution.
         assert!(is_near(right[0], Vec3::Z), "{right:?}");
-        // Per corner.
+        // A normal in the file for one corner only.
         mesh.attributes.normals = given([NO_INDEX, 0, NO_INDEX]);
         let [_, right] = normals(&mesh, Crease::FromFile);
         assert_eq!(right[1], Vec3::Y);
@@ -280,7 +278,7 @@ mod tests {
     }
 
     #[test]
-    fn normals_that_cancel_leave_a_zero_normal() {
+    fn normals_that_cancel_give_a_zero_normal() {
         let mut mesh = roof();
         mesh.triangles = vec![[0, 1, 2], [0, 2, 1]];
         assert_eq!(normals(&mesh, Crease::FromFile)[0][0], Vec3::ZERO);

@@ -1,6 +1,6 @@
-//! A value per triangle that many meshes don't have.
+//! Storage for optional per-triangle values.
 
-/// A value per triangle, stored up to the last triangle whose value isn't the default.
+/// One value per triangle, stored up to the last triangle whose value differs from the default.
 #[derive(Clone, Debug, PartialEq)]
 pub struct PerTriangle<T> {
     default: T,
@@ -8,7 +8,7 @@ pub struct PerTriangle<T> {
 }
 
 impl<T: Copy + PartialEq> PerTriangle<T> {
-    /// The default for every triangle.
+    /// Creates the list with the default value for every triangle.
     pub fn new(default: T) -> Self {
         let values = Vec::new();
         Self { default, values }
@@ -21,22 +21,24 @@ impl<T: Copy + PartialEq> PerTriangle<T> {
         value.copied().unwrap_or(self.default)
     }
 
-    /// Whether every triangle has the default.
+    /// Whether every triangle has the default value.
     pub fn is_default(&self) -> bool {
         self.values.is_empty()
     }
 
-    /// Sets the value of a triangle, which must come after all that have been set.
+    /// Sets the value of a triangle. Triangles must be set in ascending order; those left out get the default.
     #[inline]
     pub fn push(&mut self, triangle: u32, value: T) {
+        debug_assert!(triangle as usize >= self.values.len(), "set before");
         if value != self.default {
             self.values.resize(triangle as usize, self.default);
             self.values.push(value);
         }
     }
 
-    /// Adds the values of later triangles, the first of which is `first`.
+    /// Appends the values of later triangles. Triangle 0 of `later` becomes triangle `first`.
     pub(crate) fn append(&mut self, first: u32, mut later: Self) {
+        debug_assert!(first as usize >= self.values.len(), "set before");
         if !later.values.is_empty() {
             self.values.resize(first as usize, self.default);
             self.values.append(&mut later.values);

@@ -1,6 +1,6 @@
-//! A number per triangle, stored as runs of equal numbers.
+//! Run-length encoded numbers per triangle.
 
-/// Numbers per triangle, stored as runs of equal numbers; 0 before the first run.
+/// One number per triangle, stored as runs of equal numbers; 0 before the first run.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct Runs {
     /// The first triangle of each run, in ascending order, and the run's number.
@@ -8,9 +8,12 @@ pub struct Runs {
 }
 
 impl Runs {
-    /// Starts a run at `triangle`, which must not lie before the start of the last run.
+    /// Starts a run at `triangle`. Runs must start in ascending order; a later run at the same triangle replaces the
+    /// earlier one.
     pub fn begin(&mut self, triangle: u32, number: u32) {
-        // A run without triangles is removed.
+        let is_later = |&(first, _): &(u32, u32)| first <= triangle;
+        debug_assert!(self.runs.last().is_none_or(is_later), "begun before");
+        // Remove a run without triangles.
         if self
             .runs
             .last()

@@ -1,12 +1,12 @@
-//! Procedural meshes for tests and measurements. They have the same bits on every machine, as only sums,
-//! products, quotients and roots are used.
+//! Procedural meshes for tests and measurements. They are bit-identical on every machine, because only sums, products,
+//! quotients and square roots are used.
 
 use super::TriangleMesh;
 use crate::progress::Progress;
 use crate::scene::Scene;
 use glam::{DVec2, DVec3, Vec3};
 
-/// Placement of a shape of size 1 about the origin.
+/// Scale and offset of a shape.
 #[derive(Clone, Copy, Debug)]
 pub struct Placement {
     /// Scale factor, applied first.
@@ -16,13 +16,13 @@ pub struct Placement {
 }
 
 impl Placement {
-    /// Unchanged.
+    /// The identity.
     pub const UNIT: Self = Self {
         scale: 1.0,
         offset: DVec3::ZERO,
     };
 
-    /// Scales, then moves by `offset_in_scales` times the scale, differently along each axis.
+    /// Scales by `scale`, then moves by (1, −0.75, 0.5) · `offset_in_scales` · `scale`.
     pub fn new(scale: f64, offset_in_scales: f64) -> Self {
         Self {
             scale,
@@ -30,7 +30,7 @@ impl Placement {
         }
     }
 
-    /// The position of a point of the shape, rounded to f32.
+    /// Applies the placement to a point of the shape and rounds it to f32.
     pub fn of(&self, point: DVec3) -> Vec3 {
         (self.scale * point + self.offset).as_vec3()
     }
@@ -41,7 +41,7 @@ pub const TORUS_RADIUS: f64 = 0.75;
 /// Radius of the torus's tube.
 pub const TUBE_RADIUS: f64 = 0.3;
 
-/// A point on the unit circle; `turn` from 0 to 1 goes once around, not quite uniformly.
+/// A point on the unit circle; `turn` from 0 to 1 goes once around, not at uniform speed.
 ///
 /// Source: the rational parametrisation ((1 − s²)/(1 + s²), 2s/(1 + s²)), one quarter at a time.
 pub fn circle(turn: f64) -> DVec2 {
@@ -56,13 +56,14 @@ pub fn circle(turn: f64) -> DVec2 {
     }
 }
 
-/// A point of the torus about the z axis, at `depth` tube radii from its centre line.
+/// A point of the torus about the z axis, `depth` tube radii away from its centre line. `around` is the turn around the
+/// axis and `across` the turn around the tube, as for [`circle`].
 pub fn in_torus(around: f64, across: f64, depth: f64) -> DVec3 {
     let (ring, tube) = (circle(around), circle(across) * (TUBE_RADIUS * depth));
     (ring * (TORUS_RADIUS + tube.x)).extend(tube.y)
 }
 
-/// A closed torus of `around` × `across` quads, two triangles each, with normals pointing outwards.
+/// A closed torus about the z axis: `around` × `across` quads of two triangles, with outward normals.
 pub fn torus(around: u32, across: u32, place: Placement) -> TriangleMesh {
     let turn = |k: u32, n: u32| f64::from(k) / f64::from(n);
     let points = (0..around).flat_map(|i| {
@@ -78,7 +79,7 @@ pub fn torus(around: u32, across: u32, place: Placement) -> TriangleMesh {
     TriangleMesh::new(points.collect(), triangles.collect())
 }
 
-/// A closed sphere of radius 1: a cube of `cells` × `cells` quads per side, projected onto the sphere.
+/// A closed unit sphere: a cube of `cells` × `cells` quads per side, projected onto the sphere.
 pub fn sphere(cells: u32, place: Placement) -> TriangleMesh {
     surface_of_cube(cells, |corner| {
         let p = 2.0 * corner.as_dvec3() / f64::from(cells) - 1.0;
@@ -86,12 +87,12 @@ pub fn sphere(cells: u32, place: Placement) -> TriangleMesh {
     })
 }
 
-/// A closed cube from (0, 0, 0) to `cells` along each axis; every face is a grid of unit squares.
+/// A closed cube from 0 to `cells` along each axis; each side is a grid of unit squares.
 pub fn cube(cells: u32, place: Placement) -> TriangleMesh {
     surface_of_cube(cells, |corner| place.of(corner.as_dvec3()))
 }
 
-/// An open mesh of unit squares: the grid z = 0 from (0, 0) to (`cells`, `cells`).
+/// An open grid of unit squares in the plane z = 0, from (0, 0) to (`cells`, `cells`).
 pub fn flat_grid(cells: u32, place: Placement) -> TriangleMesh {
     let row = cells + 1;
     let points = (0..row)
@@ -101,7 +102,8 @@ pub fn flat_grid(cells: u32, place: Placement) -> TriangleMesh {
     TriangleMesh::new(points.collect(), triangles.collect())
 }
 
-/// The six sides of a cube of cells; each side has its own vertices, at the same positions.
+/// The six sides of a cube of `cells` × `cells` × `cells`, with outward normals. Each side has its own vertices; those
+/// on shared edges have the same positions. `place` maps a grid point to a position.
 fn surface_of_cube(cells: u32, place: impl Fn(glam::UVec3) -> Vec3) -> TriangleMesh {
     let row = cells + 1;
     let (mut points, mut triangles) = (Vec::new(), Vec::new());
@@ -126,14 +128,15 @@ fn surface_of_cube(cells: u32, place: impl Fn(glam::UVec3) -> Vec3) -> TriangleM
     TriangleMesh::new(points, triangles)
 }
 
-/// A mesh of separate triangles without shared vertices.
+/// A mesh of separate triangles that share no vertices. As in [`TriangleMesh::new`], triangles of zero area are
+/// dropped.
 pub fn soup(corners: &[[Vec3; 3]]) -> TriangleMesh {
     let triangle = |k: u32| [3 * k, 3 * k + 1, 3 * k + 2];
     let triangles = (0..corners.len() as u32).map(triangle).collect();
     TriangleMesh::new(corners.as_flattened().to_vec(), triangles)
 }
 
-/// A scene of the mesh with its tree.
+/// A scene of the mesh, with its tree built.
 pub fn scene(mesh: TriangleMesh) -> Scene {
     Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
@@ -153,7 +156,7 @@ mod tests {
             let health = Health::of(&mesh);
             assert!(health.is_closed());
             assert_eq!(health.places(Flaw::FlippedEdge).count(), Some(0));
-            // Six times the volume, positive if normals point outwards.
+            // Six times the volume; positive if the normals point outwards.
             let six_volumes: f64 = (0..mesh.triangles.len() as u32)
                 .map(|k| mesh.corners(k).map(Vec3::as_dvec3))
                 .map(|[a, b, c]| a.dot(b.cross(c)))

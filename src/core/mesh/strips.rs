@@ -2,26 +2,26 @@
 //!
 //! ```text
 //!   b───d───f     a strip a b c d e f: each index after the second makes a triangle with the two
-//!  ╱ ╲ ╱ ╲ ╱      before it, every other one wound the other way
+//!  ╱ ╲ ╱ ╲ ╱      before it; every other triangle has the opposite winding
 //! a───c───e
 //! ```
 //!
 //! Source: Akeley, Haeberli, Burns, tomesh.c, Silicon Graphics, 1990: a strip starts at the triangle with the
 //!   fewest remaining neighbours, to avoid isolated triangles.
-//! Differs from it: the longest of the three possible strips from there is taken.
+//! Differs from it: takes the longest of the three possible strips from there.
 //!
-//! The overlay nevertheless draws indexed triangles: with software Vulkan strips took 0.7 times as long on 69
-//! thousand triangles, but 1.05 to 1.25 times as long on 1.1 million, and building them took 0.2 s (2026-11).
+//! The overlay draws indexed triangles instead. With software Vulkan, strips took 0.7 times as long on 69 thousand
+//! triangles, but 1.05 to 1.25 times as long on 1.1 million, and building them took 0.2 s (2026-11).
 
 use super::edges::EdgeTable;
 use super::{NO_INDEX, TriangleMesh};
 use glam::Vec3;
 
-/// Ends a strip in a list of indices; the primitive restart index of GPUs.
+/// Separator between strips in an index list: the primitive restart index of GPUs.
 const RESTART: u32 = u32::MAX;
 
-/// The mesh's triangles as strips of vertices, separated by [`RESTART`]. Each triangle occurs once, with its
-/// winding preserved.
+/// The mesh's triangles as vertex strips, separated by [`RESTART`]. Each triangle occurs once, with its winding
+/// preserved.
 fn strips(mesh: &TriangleMesh) -> Vec<u32> {
     let mut stripper = Stripper::new(mesh);
     let mut indices = Vec::with_capacity(mesh.triangles.len() * 3 / 2);
@@ -45,8 +45,8 @@ fn strips(mesh: &TriangleMesh) -> Vec<u32> {
     indices
 }
 
-/// Size in bytes of the mesh's surface in the formats that a lecture teaches: a triangle list; vertices and
-/// three indices per triangle; vertices and strips.
+/// Name and size in bytes of the mesh's surface in three formats: a triangle list; vertices and three indices per
+/// triangle; vertices and triangle strips.
 pub fn bytes_as(mesh: &TriangleMesh) -> [(&'static str, usize); 3] {
     let positions = size_of_val(&mesh.positions[..]);
     let list = mesh.triangles.len() * size_of::<[Vec3; 3]>();
@@ -57,20 +57,23 @@ pub fn bytes_as(mesh: &TriangleMesh) -> [(&'static str, usize); 3] {
     ]
 }
 
+/// A vertex or triangle along a strip.
 enum Step {
     Vertex(u32),
     Triangle(u32),
 }
 
+/// State of the decomposition into strips.
 struct Stripper<'m> {
     triangles: &'m [[u32; 3]],
-    /// The triangle across each edge from corner k to the next one.
+    /// For each triangle and k, the triangle across the edge from corner k to the next corner, or [`NO_INDEX`].
     neighbours: Vec<[u32; 3]>,
     is_taken: Vec<bool>,
-    /// The last walk that met each triangle.
-    met_in: Vec<u32>,
+    /// Number of the last walk that visited each triangle.
+    last_walk: Vec<u32>,
+    /// Number of the current walk, from 1.
     walk: u32,
-    /// Triangles by their number of remaining neighbours when they were added.
+    /// Triangles by their number of remaining neighbours when they were added to the list.
     waiting: [Vec<u32>; 4],
 }
 
@@ -90,18 +93,18 @@ impl<'m> Stripper<'m> {
             triangles: &mesh.triangles,
             neighbours,
             is_taken: vec![false; count],
-            met_in: vec![0; count],
+            last_walk: vec![0; count],
             walk: 0,
             waiting: Default::default(),
         };
-        // Reversed, because the last one pushed is the first one popped.
+        // Reversed, because the last triangle pushed is popped first.
         for triangle in (0..count as u32).rev() {
             stripper.waiting[stripper.degree(triangle)].push(triangle);
         }
         stripper
     }
 
-    /// Number of a triangle's remaining neighbours.
+    /// The number of a triangle's remaining neighbours.
     fn degree(&self, triangle: u32) -> usize {
         let is_left = |&&n: &&u32| n != NO_INDEX && !self.is_taken[n as usize];
         self.neighbours[triangle as usize]
@@ -123,7 +126,8 @@ impl<'m> Stripper<'m> {
         None
     }
 
-    /// Walks the longest strip from a corner of a triangle, and returns its number of triangles.
+    /// Walks along the longest strip from a corner of a triangle, calls `each` for its vertices and triangles, and
+    /// returns the number of triangles.
     fn walk(&mut self, start: u32, corner: usize, mut each: impl FnMut(Step)) -> usize {
         self.walk += 1;
         let vertices = self.triangles[start as usize];
@@ -133,7 +137,7 @@ impl<'m> Stripper<'m> {
         }
         let (mut triangle, mut length) = (start, 0);
         loop {
-            self.met_in[triangle as usize] = self.walk;
+            self.last_walk[triangle as usize] = self.walk;
             each(Step::Triangle(triangle));
             length += 1;
             let vertices = self.triangles[triangle as usize];
@@ -145,7 +149,7 @@ impl<'m> Stripper<'m> {
             let next = beyond.map_or(NO_INDEX, |k| self.neighbours[triangle as usize][k]);
             if next == NO_INDEX
                 || self.is_taken[next as usize]
-                || self.met_in[next as usize] == self.walk
+                || self.last_walk[next as usize] == self.walk
             {
                 return length;
             }
@@ -158,6 +162,7 @@ impl<'m> Stripper<'m> {
         }
     }
 
+    /// Removes a triangle from the remaining ones.
     fn take(&mut self, triangle: u32) {
         self.is_taken[triangle as usize] = true;
         for neighbour in self.neighbours[triangle as usize] {
@@ -173,7 +178,7 @@ mod tests {
     use super::*;
     use crate::mesh::shapes::{Placement, flat_grid, soup, sphere, torus};
 
-    /// The triangles that a GPU draws for strips, each starting at its lowest vertex.
+    /// The triangles that a GPU draws for strips, sorted, each starting at its lowest vertex.
     fn drawn(indices: &[u32]) -> Vec<[u32; 3]> {
         let of_strip = |strip: &[u32]| -> Vec<[u32; 3]> {
             let triangle = |(k, t): (usize, &[u32])| match k % 2 {
@@ -215,7 +220,7 @@ mod tests {
     }
 
     #[test]
-    fn a_regular_surface_takes_little_more_than_one_index_per_triangle() {
+    fn a_torus_takes_less_than_1_2_indices_per_triangle() {
         let mesh = torus(64, 32, Placement::UNIT);
         let per_triangle = strips(&mesh).len() as f64 / mesh.triangles.len() as f64;
         assert!(per_triangle < 1.2, "{per_triangle}");

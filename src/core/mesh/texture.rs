@@ -3,8 +3,7 @@
 use crate::srgb::from_texel;
 use glam::{UVec2, Vec2, Vec3};
 
-/// An image that repeats over the plane, with its lower left corner at (0, 0) and its upper right corner at
-/// (1, 1).
+/// An image that repeats over the plane. Its lower left corner is at (0, 0), its upper right corner at (1, 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
     /// The name in the file; empty for the checkerboard.
@@ -15,8 +14,8 @@ pub struct Texture {
 }
 
 impl Texture {
-    /// Makes a texture from sRGB texels of three bytes, row by row from the top; `None` if their number
-    /// doesn't match `size` or is 0.
+    /// Creates a texture from sRGB texels, three bytes each, row by row from the top. `None` if their number doesn't
+    /// match `size` (width and height in texels) or is 0.
     pub fn new(name: &str, size: UVec2, texels: Vec<u8>) -> Option<Self> {
         let count = 3 * size.x as usize * size.y as usize;
         (count > 0 && texels.len() == count).then(|| Self {
@@ -26,9 +25,9 @@ impl Texture {
         })
     }
 
-    /// The checkerboard that replaces a missing image.
+    /// A checkerboard, the replacement for a missing image.
     pub fn checker() -> Self {
-        // Eight fields per side; several texels per field, so that their edges are sharp.
+        // Eight fields per side. Several texels per field give sharp edges.
         const SIDE: u32 = 64;
         const FIELD: u32 = 8;
         let texel = |k: u32| {
@@ -46,11 +45,10 @@ impl Texture {
         }
     }
 
-    /// The colour at `uv` in linear RGB, interpolated between the four nearest texels. A coordinate that
-    /// isn't finite counts as 0.
+    /// The colour at `uv` in linear RGB, bilinearly interpolated. A coordinate that isn't finite counts as 0.
     pub fn colour(&self, uv: Vec2) -> Vec3 {
         let size = self.size.as_vec2();
-        // Texel centres have the texel's colour; rows are counted from the top.
+        // Texel centres are at half-integers; rows are counted from the top.
         let uv = uv.map(|x| if x.is_finite() { x } else { 0.0 });
         let at = Vec2::new(uv.x, 1.0 - uv.y);
         let at = (at - at.floor()) * size - 0.5;
@@ -83,7 +81,7 @@ mod tests {
     }
 
     #[test]
-    fn the_origin_is_the_lower_left_and_the_image_repeats() {
+    fn the_origin_is_the_lower_left_corner_and_the_image_repeats() {
         let texture = texture();
         for (uv, colour) in [
             ([0.25, 0.25], Vec3::Z),

@@ -1,10 +1,10 @@
-//! Welds vertices at the same position.
+//! Vertex welding: vertices at the same position count as one.
 
 use super::TriangleMesh;
 use glam::Vec3;
 use rayon::prelude::*;
 
-/// Maps vertices at exactly the same position to one vertex, so that seams don't divide the surface.
+/// Maps vertices at exactly the same position to one of them, so that seams don't divide the surface.
 #[derive(Clone, Debug)]
 pub(super) struct Welded {
     /// For each vertex, the first one at its position.
@@ -12,7 +12,7 @@ pub(super) struct Welded {
 }
 
 impl Welded {
-    /// Compares positions bit by bit, except that −0 equals 0.
+    /// Welds the vertices of a mesh. Positions are compared bit by bit, except that −0 equals 0.
     pub(super) fn of(mesh: &TriangleMesh) -> Self {
         let place = |(vertex, &p): (usize, &Vec3)| (bits(p), vertex as u32);
         let mut order: Vec<([u32; 3], u32)> =
@@ -27,7 +27,7 @@ impl Welded {
         Self { first }
     }
 
-    /// The vertex that represents all vertices at this one's position.
+    /// The vertex that represents all vertices at this vertex's position.
     pub(super) fn vertex(&self, vertex: u32) -> u32 {
         self.first[vertex as usize]
     }
@@ -38,7 +38,7 @@ impl Welded {
     }
 }
 
-/// A position as comparable bits.
+/// The bits of a position, with −0 replaced by 0.
 fn bits(p: Vec3) -> [u32; 3] {
     (p + Vec3::ZERO).to_array().map(f32::to_bits)
 }
@@ -48,7 +48,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn vertices_at_equal_positions_are_welded_and_one_bit_keeps_them_apart() {
+    fn only_vertices_at_equal_positions_are_welded() {
         let next = f32::from_bits(1.0f32.to_bits() + 1);
         let points = [0.0, 1.0, -0.0, next, 1.0];
         let positions = points.map(|x| Vec3::new(x, 0.0, 2.0)).to_vec();

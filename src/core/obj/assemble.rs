@@ -7,13 +7,14 @@ use super::contents::Contents;
 use super::corner::List;
 use super::elements::Elements;
 use super::error::{Problem, Warning};
+use super::materials::{self, ReferencedFiles};
 use super::oddities::{Oddities, no_triangles};
-use super::place::{far_vertices, max_rounding, placement, sample_surface};
-use super::referenced_files::ReferencedFiles;
+use super::origin::{choose_origin, far_vertices, sample_surface};
 use super::report::{Dropped, LoadReport};
+use super::rounding::max_rounding;
 use super::triangulate::{Assembly, ChunkTriangles};
 use super::used::Used;
-use super::{LoadOptions, Loaded, materials};
+use super::{LoadOptions, Loaded};
 use crate::counts::counted;
 use crate::mesh::{Assigned, Attributes, CornerValues, Runs, TriangleMesh};
 use crate::progress::{Phase, Progress};
@@ -47,18 +48,17 @@ pub(super) fn assemble(
     used.keep(List::Normal, &mut contents.normals);
     let (unusable_normals, warning) = unusable(&contents.normals);
     warnings.extend(warning);
-    let found = materials::look_up(&contents, files, options.max_memory, progress)?;
+    let found = materials::resolve(&contents, files, options.max_memory, progress)?;
     warnings.extend(found.warnings);
     // Without a texture, texture coordinates aren't used.
     let has_textures = !found.textures.is_empty();
     progress.check()?;
 
-    let placement = placement(&contents.positions, &surface, options.recentre);
-    let origin = placement.origin;
+    let chosen = choose_origin(&contents.positions, &surface, options.recentre);
+    let origin = chosen.origin;
     let exact = std::mem::take(&mut contents.positions);
     let positions: Vec<Vec3> = exact.par_iter().map(|&p| (p - origin).as_vec3()).collect();
     let elements = std::mem::take(&mut contents.elements);
-    progress.set_steps(0, elements.len());
     let assembly = Assembly {
         exact: &exact,
         positions: &positions,
@@ -69,34 +69,18 @@ pub(super) fn assemble(
         large_polygons: Mutex::new(()),
         progress,
     };
-    // Each chunk fills its own part of the list.
-    let most: usize = elements.iter().map(Elements::most_triangles).sum();
-    let mut triangles = vec![[0; 3]; most];
-    let mut rest = &mut triangles[..];
-    let mut part_of = |elements: Elements| {
-        let (part, after) = std::mem::take(&mut rest).split_at_mut(elements.most_triangles());
-        rest = after;
-        (elements, part)
-    };
-    let chunks: Vec<_> = elements.into_iter().map(&mut part_of).collect();
-    let parts: Vec<ChunkTriangles> = chunks
-        .into_par_iter()
-        .map(|(elements, triangles)| {
-            progress.check()?;
-            progress.add_step();
-            assembly.triangulate(elements, triangles)
-        })
-        .collect::<Result<_, Problem>>()?;
+    let (mut triangles, parts) = triangulate(&assembly, elements)?;
     progress.check()?;
 
     let mut attributes = Attributes {
         colours,
-        normals: CornerValues::of(std::mem::take(&mut contents.normals)),
+        normals: CornerValues::with_values(std::mem::take(&mut contents.normals)),
         textures: found.textures,
         ..Attributes::default()
     };
     if has_textures {
-        attributes.texture_coordinates = CornerValues::of(std::mem::take(&mut contents.textures));
+        attributes.texture_coordinates =
+            CornerValues::with_values(std::mem::take(&mut contents.textures));
     }
     let Gathered {
         runs: [materials, groups, smoothing],
@@ -106,19 +90,19 @@ pub(super) fn assemble(
     attributes.materials = Assigned::new(found.materials, materials);
     attributes.groups = Assigned::new(contents.groups.names.clone(), groups);
     attributes.smoothing = (!contents.smoothing.is_empty()).then_some(smoothing);
-    dropped.bad_index = contents.dropped_faces.count;
-    dropped.elements += contents.dropped_others.count;
+    dropped.bad_index = contents.skipped.faces.count;
+    dropped.elements += contents.skipped.others.count;
     warnings.extend(oddities.warnings(dropped));
     progress.check()?;
     if triangles.is_empty() {
         return Err(no_triangles(&contents, dropped, vertex_count));
     }
-    let mesh = TriangleMesh::of_valid(positions, triangles)
+    let mesh = TriangleMesh::new_unchecked(positions, triangles)
         .with_origin(origin)
         .with_attributes(attributes);
     let has_long_numbers = contents.has_long_numbers;
     warnings.extend(
-        placement
+        chosen
             .core
             .and_then(|core| far_vertices(&mesh, &exact, core, has_long_numbers)),
     );
@@ -149,7 +133,32 @@ fn unusable(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
     (normals, Some(Warning::of_file(message)))
 }
 
-/// What the chunks' triangles have besides the mesh's lists.
+/// Triangulates all chunks. Each fills its own part of the list of triangles, which may leave gaps.
+fn triangulate(
+    assembly: &Assembly,
+    elements: Vec<Elements>,
+) -> Result<(Vec<[u32; 3]>, Vec<ChunkTriangles>), Problem> {
+    let progress = assembly.progress;
+    progress.set_steps(0, elements.len());
+    let most: usize = elements.iter().map(Elements::fan_triangles).sum();
+    let mut triangles = vec![[0; 3]; most];
+    let mut rest = &mut triangles[..];
+    let mut part_of = |elements: Elements| {
+        let (part, after) = std::mem::take(&mut rest).split_at_mut(elements.fan_triangles());
+        rest = after;
+        (elements, part)
+    };
+    let chunks: Vec<_> = elements.into_iter().map(&mut part_of).collect();
+    let parts = chunks.into_par_iter().map(|(elements, triangles)| {
+        progress.check()?;
+        progress.add_step();
+        assembly.triangulate(elements, triangles)
+    });
+    let parts = parts.collect::<Result<_, Problem>>()?;
+    Ok((triangles, parts))
+}
+
+/// Materials, groups, smoothing groups and oddities of all chunks' triangles.
 struct Gathered {
     /// The materials, groups and smoothing groups of all triangles.
     runs: [Runs; 3],
@@ -157,7 +166,7 @@ struct Gathered {
     oddities: Oddities,
 }
 
-/// Closes the gaps between the chunks' triangles, and appends their attributes.
+/// Moves the chunks' triangles together, and appends their attributes.
 fn gather(
     triangles: &mut Vec<[u32; 3]>,
     attributes: &mut Attributes,
@@ -168,11 +177,9 @@ fn gather(
         dropped: Dropped::default(),
         oddities: Oddities::default(),
     };
-    let (mut count, mut start) = (0, 0);
+    close_gaps(triangles, &parts);
+    let mut count = 0;
     for part in parts {
-        if count < start {
-            triangles.copy_within(start..start + part.count, count);
-        }
         let first = count as u32;
         for (runs, begun) in gathered.runs.iter_mut().zip(&part.runs) {
             for &(triangle, number) in begun {
@@ -184,10 +191,33 @@ fn gather(
         gathered.dropped.append(part.dropped);
         gathered.oddities.append(part.oddities);
         count += part.count;
-        start += part.capacity;
+    }
+    attributes.shrink();
+    gathered
+}
+
+/// Moves the chunks' triangles together.
+fn close_gaps(triangles: &mut Vec<[u32; 3]>, parts: &[ChunkTriangles]) {
+    if parts.iter().any(|part| !part.overflow.is_empty()) {
+        let mut rest = &triangles[..];
+        let mut all = Vec::with_capacity(parts.iter().map(|part| part.count).sum());
+        for part in parts {
+            let own;
+            (own, rest) = rest.split_at(part.space);
+            all.extend(&own[..part.count.min(part.space)]);
+            all.extend(&part.overflow);
+        }
+        *triangles = all;
+        return;
+    }
+    let (mut count, mut start) = (0, 0);
+    for part in parts {
+        if count < start {
+            triangles.copy_within(start..start + part.count, count);
+        }
+        count += part.count;
+        start += part.space;
     }
     triangles.truncate(count);
     triangles.shrink_to_fit();
-    attributes.shrink();
-    gathered
 }

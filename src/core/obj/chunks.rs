@@ -11,9 +11,9 @@ use std::ops::ControlFlow;
 use crate::progress::Progress;
 
 /// Largest size of a chunk in bytes, unless a statement is larger.
-pub(super) const CHUNK: usize = 1 << 18;
+pub(super) const CHUNK_SIZE: usize = 1 << 18;
 /// Longest statement that is read; a polygon of ten million corners would fit.
-const LONGEST: usize = 128 << 20;
+const LONGEST_STATEMENT: usize = 128 << 20;
 /// Bytes needed to recognise other file formats.
 const ENOUGH_TO_TELL: usize = 1 << 10;
 
@@ -47,15 +47,15 @@ impl<'p> Chunks<'p> {
             searched: 0,
             is_at_end: false,
             next_line: 1,
-            longest: LONGEST,
+            longest: LONGEST_STATEMENT,
             spare: Vec::new(),
         })
     }
 
     /// Limits statements to a quarter of the allowed memory, as the buffer doubles when it grows.
     pub(super) fn limit_statements(&mut self, max_memory: u64) {
-        let most = usize::try_from(max_memory / 4).unwrap_or(LONGEST);
-        self.longest = most.clamp(CHUNK, LONGEST);
+        let most = usize::try_from(max_memory / 4).unwrap_or(LONGEST_STATEMENT);
+        self.longest = most.clamp(CHUNK_SIZE, LONGEST_STATEMENT);
     }
 
     /// Checks the first bytes, before the first chunk is taken.
@@ -76,7 +76,7 @@ impl<'p> Chunks<'p> {
     /// The file can't be read, a statement is too long, or the load was cancelled.
     pub(super) fn next(&mut self) -> Result<Option<Chunk>, Problem> {
         while !self.is_at_end {
-            if self.buffer.len() >= CHUNK {
+            if self.buffer.len() >= CHUNK_SIZE {
                 if let Some(end) = self.last_end() {
                     return Ok(Some(self.take(end)));
                 }
@@ -102,7 +102,7 @@ impl<'p> Chunks<'p> {
 
     fn read_more(&mut self) -> Result<(), Problem> {
         // To a fixed size, as a source may return few bytes at a time: chunks have the same bounds for any source.
-        let (mut filled, size) = (self.buffer.len(), self.buffer.len() + CHUNK);
+        let (mut filled, size) = (self.buffer.len(), self.buffer.len() + CHUNK_SIZE);
         self.buffer.resize(size, 0);
         while filled < size && !self.is_at_end {
             let count = self.source.read(&mut self.buffer[filled..])?;
@@ -134,7 +134,7 @@ impl<'p> Chunks<'p> {
 
     /// Takes back a chunk that is no longer needed, to reuse its buffer.
     pub(super) fn recycle(&mut self, chunk: Chunk) {
-        if chunk.bytes.capacity() <= 4 * CHUNK {
+        if chunk.bytes.capacity() <= 4 * CHUNK_SIZE {
             self.spare.push(chunk.bytes);
         }
     }

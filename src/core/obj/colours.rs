@@ -7,25 +7,27 @@ use glam::Vec3;
 /// The colours of a file's vertices.
 #[derive(Default)]
 pub(super) struct Colours {
-    /// Up to the last vertex that has one. Vertices without a colour have a value that is white on either scale.
+    /// The colour of each vertex up to the last coloured one. Vertices without a colour have infinity, which is
+    /// white on both scales.
     values: Vec<[f32; 3]>,
-    given: usize,
+    /// The number of vertices with a colour.
+    coloured_count: usize,
 }
 
 impl Colours {
-    /// Sets the colour of a vertex after all those that have one.
+    /// Sets the colour of a vertex. Its index must exceed those of all coloured vertices.
     pub(super) fn add(&mut self, vertex: usize, colour: [f32; 3]) {
         self.values.resize(vertex, [f32::INFINITY; 3]);
         self.values.push(colour);
-        self.given += 1;
+        self.coloured_count += 1;
     }
 
     pub(super) fn len(&self) -> usize {
         self.values.len()
     }
 
-    /// A colour for each of `count` vertices, sRGB from 0 to 1, or an empty list; and whether the file's numbers
-    /// were from 0 to 255, as some programs write them.
+    /// The sRGB colours of `count` vertices, from 0 to 1, and whether the file's values range from 0 to 255, as some
+    /// programs write them. The list is empty if no vertex has a colour.
     pub(super) fn take(&mut self, count: usize) -> (Vec<Vec3>, bool) {
         let mut values = std::mem::take(&mut self.values);
         if !values.is_empty() {
@@ -49,10 +51,10 @@ impl Colours {
         (values.into_iter().map(colour).collect(), are_bytes)
     }
 
-    /// The warning if some of `count` vertices have no colour.
+    /// A warning if some, but not all, of `count` vertices have no colour.
     pub(super) fn warning(&self, count: usize) -> Option<Warning> {
-        let colourless = count - self.given;
-        (self.given > 0 && colourless > 0).then(|| {
+        let colourless = count - self.coloured_count;
+        (self.coloured_count > 0 && colourless > 0).then(|| {
             let vertices = counted_as(
                 colourless,
                 "vertex without a colour is",

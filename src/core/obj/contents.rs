@@ -1,37 +1,21 @@
-//! Reads an OBJ file: chunks are parsed in parallel and merged in file order.
-//!
-//! The loading thread cuts the file into chunks and merges the parts that rayon's threads have parsed. The result
-//! doesn't depend on the number of threads: chunks have the same bounds on every machine.
+//! The contents of a file: those of its chunks, appended in file order, and everything that depends on the whole file.
 
-use super::chunks::{CHUNK, Chunk, Chunks};
+use super::chunk_contents::{ChunkContents, StateChange};
+use super::chunks::Chunk;
 use super::colours::Colours;
 use super::corner::List;
-use super::elements::{Element, Elements};
+use super::elements::{ElementKind, Elements};
 use super::error::{Problem, Warning};
-use super::fence::fenced;
-use super::memory;
-use super::names::{Libraries, NamedRuns};
-use super::part::{Mark, Part};
-use super::reader::{self, PartOptions};
-use super::tally::{LineRuns, Tally, add_by_keyword, lines_or_points};
-use super::{FaultPolicy, LoadOptions};
-use crate::counts::{counted, counted_as};
-use crate::mesh::NO_INDEX;
-use crate::progress::Progress;
+use super::names::{LibraryNames, NamedRuns};
+use super::reader::{self, ChunkOptions};
+use super::skipped::Skipped;
+use super::tally::LineRuns;
+use super::{FaultPolicy, memory};
+use crate::mesh::{MAX_TRIANGLES, NO_INDEX};
 use glam::{DVec3, Vec2, Vec3};
-use std::collections::{BTreeMap, VecDeque};
-use std::io::Read;
-use std::sync::mpsc::{Receiver, channel};
 
-/// Corners of triangles are numbered by u32, and the largest vertex number marks a missing one.
-const MOST_TRIANGLES: usize = u32::MAX as usize / 3;
-const MOST_ENTRIES: usize = u32::MAX as usize - 1;
-/// Chunks per thread that are in memory at a time.
-const CHUNKS_PER_THREAD: usize = 3;
-
-/// A chunk takes its own bytes, and its part less than four times as many: `f 1 1 1` has 8 bytes and gives three indices
-/// of 4 bytes, which may be listed a second time as relative ones.
-const BYTES_PER_PENDING_BYTE: u64 = 5;
+/// The largest u32 is the index of a missing entry.
+const MAX_ENTRIES: usize = NO_INDEX as usize - 1;
 
 /// The contents of a file.
 #[derive(Default)]
@@ -50,11 +34,9 @@ pub(super) struct Contents {
     pub groups: NamedRuns,
     /// Runs of faces with their smoothing group; 0 is no group. Empty if the file has no `s` statement.
     pub smoothing: Vec<(usize, u32)>,
-    pub libraries: Libraries,
+    pub libraries: LibraryNames,
     pub face_lines: LineRuns,
-    /// Dropped faces; `dropped_others` counts lines and points.
-    pub dropped_faces: Tally,
-    pub dropped_others: Tally,
+    pub skipped: Skipped,
     /// Whether a vertex coordinate may have more than 15 digits.
     pub has_long_numbers: bool,
     /// Number of corners, and of triangles if every face becomes a fan.
@@ -66,81 +48,10 @@ pub(super) struct Contents {
     pub largest_element: usize,
     /// Bytes of names and of lists that are small in most files.
     pub other_bytes: usize,
-    marks: Vec<Vec<(u32, Mark)>>,
-    ignored: BTreeMap<String, Tally>,
-    bad_indices: [Tally; 3],
-    bad_index: [Option<Problem>; 3],
+    state_changes: Vec<Vec<(u32, StateChange)>>,
     /// The first line with an index of a list that the file doesn't have.
     missing_list_line: [Option<usize>; 3],
     has_garbage: bool,
-}
-
-/// Reads a file.
-///
-/// # Errors
-/// The first error in the file.
-pub(super) fn read(
-    bytes: impl Read,
-    options: &LoadOptions,
-    progress: &Progress,
-) -> Result<Contents, Problem> {
-    let mut chunks = Chunks::new(bytes, progress)?;
-    chunks.limit_statements(options.max_memory);
-    chunks.require_obj()?;
-    let mut contents = Contents::default();
-    let part_options = PartOptions {
-        faults: options.faults,
-        counts: None,
-        progress,
-    };
-    let most = CHUNKS_PER_THREAD * rayon::current_num_threads();
-    // A small part of the allowed memory.
-    let most_bytes = (options.max_memory / 100).min((most * CHUNK) as u64) as usize;
-    rayon::in_place_scope(|scope| {
-        let (mut pending, mut pending_bytes) = (VecDeque::new(), 0);
-        let mut end = None;
-        loop {
-            while end.is_none() && pending.len() < most && pending_bytes <= most_bytes {
-                match chunks.next() {
-                    Ok(Some(chunk)) => {
-                        let (sender, receiver) = channel();
-                        pending_bytes += chunk.bytes.len();
-                        pending.push_back((receiver, chunk.bytes.len()));
-                        scope.spawn(move |_| {
-                            let part = fenced("reading", || reader::read(&chunk, part_options));
-                            // The receiver is gone after an error in an earlier chunk.
-                            _ = sender.send((chunk, part));
-                        });
-                    }
-                    Ok(None) => end = Some(Ok(())),
-                    // An earlier chunk may have an error, which comes first.
-                    Err(problem) => end = Some(Err(problem)),
-                }
-            }
-            contents.check_size(options.max_memory, pending_bytes)?;
-            let Some((first, bytes)) = pending.pop_front() else {
-                return end.unwrap_or(Ok(()));
-            };
-            let (chunk, part) = wait(&first);
-            contents.append(&chunk, part?, part_options)?;
-            chunks.recycle(chunk);
-            pending_bytes -= bytes;
-        }
-    })?;
-    contents.has_garbage = chunks.has_garbage();
-    contents.finish(options.faults)?;
-    Ok(contents)
-}
-
-/// Waits for a task's result. On one of rayon's threads it runs other tasks meanwhile: that thread may be the only one.
-fn wait<T>(result: &Receiver<T>) -> T {
-    while rayon::current_thread_index().is_some() {
-        match result.try_recv() {
-            Ok(result) => return result,
-            Err(_) => _ = rayon::yield_now(),
-        }
-    }
-    result.recv().expect("each task sends")
 }
 
 impl Contents {
@@ -154,7 +65,15 @@ impl Contents {
     }
 
     /// Appends the contents of the next chunk.
-    fn append(&mut self, chunk: &Chunk, part: Part, options: PartOptions) -> Result<(), Problem> {
+    ///
+    /// # Errors
+    /// The first error in the chunk.
+    pub(super) fn append(
+        &mut self,
+        chunk: &Chunk,
+        part: ChunkContents,
+        options: ChunkOptions,
+    ) -> Result<(), Problem> {
         let before = self.counts();
         let reaches_too_far = |list: List| {
             let at = list as usize;
@@ -162,7 +81,7 @@ impl Contents {
         };
         let mut part = if part.needs_counts || List::ALL.into_iter().any(reaches_too_far) {
             let counts = Some(before);
-            reader::read(chunk, PartOptions { counts, ..options })
+            reader::read(chunk, ChunkOptions { counts, ..options })
         } else {
             part
         };
@@ -179,29 +98,19 @@ impl Contents {
             self.other_bytes += 2 * name.len() + 128;
             self.libraries.add(line, name);
         }
-        let mut ignored: Vec<(String, Tally)> = part.ignored.into_iter().collect();
-        ignored.sort_by_key(|(_, tally)| tally.first_line);
-        for (keyword, tally) in ignored {
-            add_by_keyword(&mut self.ignored, &keyword, tally);
-        }
-        self.dropped_faces.append(part.dropped_faces);
-        self.dropped_others.append(part.dropped_others);
-        for list in 0..3 {
-            self.bad_indices[list].append(part.bad_indices[list]);
-            let first = self.bad_index[list].take();
-            self.bad_index[list] = first.or(part.bad_index[list].take());
-        }
+        self.skipped.append(part.skipped);
         let elements = part.elements;
         for (has_indices, corners) in self.has_indices.iter_mut().zip(&elements.corners) {
             *has_indices |= !corners.is_empty();
         }
         self.corner_count += elements.corners[0].len();
-        self.triangle_count += elements.most_triangles();
+        self.triangle_count += elements.fan_triangles();
         self.has_polygons |= !elements.arities.is_empty();
         self.largest_element = self.largest_element.max(elements.largest);
-        self.other_bytes += elements.other_bytes() + part.marks.iter().map(bytes_of).sum::<usize>();
+        self.other_bytes +=
+            elements.other_bytes() + part.state_changes.iter().map(bytes_of).sum::<usize>();
         self.elements.push(elements);
-        self.marks.push(part.marks);
+        self.state_changes.push(part.state_changes);
         match part.problem {
             Some(Problem::Cancelled) => Err(Problem::Cancelled),
             Some(problem) => self.first_problem(Some(problem)).map_or(Ok(()), Err),
@@ -216,7 +125,7 @@ impl Contents {
         let of_lists = lists
             .into_iter()
             .filter(|&list| counts[list] > 0)
-            .filter_map(|list| self.bad_index[list].take());
+            .filter_map(|list| self.skipped.first_index[list].take());
         let line = |problem: &Problem| match problem {
             Problem::Line { line, .. } => *line,
             _ => usize::MAX,
@@ -224,14 +133,16 @@ impl Contents {
         of_lists.chain(problem).min_by_key(line)
     }
 
-    /// Refuses a file that is too large. `pending_bytes` are the bytes of chunks that are being read.
-    fn check_size(&self, max_memory: u64, pending_bytes: usize) -> Result<(), Problem> {
-        let is_too_large = |&count: &usize| count > MOST_ENTRIES;
-        if self.triangle_count > MOST_TRIANGLES || self.counts().iter().any(is_too_large) {
+    /// Refuses a file that is too large; `pending` bytes of memory are needed besides.
+    ///
+    /// # Errors
+    /// The file needs more memory than allowed, or 32-bit indices can't count its vertices or triangles.
+    pub(super) fn check_size(&self, max_memory: u64, pending: u64) -> Result<(), Problem> {
+        let is_too_large = |&count: &usize| count > MAX_ENTRIES;
+        if self.triangle_count > MAX_TRIANGLES || self.counts().iter().any(is_too_large) {
             let message = "more vertices or triangles than 32-bit indices allow".to_owned();
             return Err(Problem::Content(message));
         }
-        let pending = BYTES_PER_PENDING_BYTE * pending_bytes as u64;
         if memory::bytes(self) + pending > max_memory {
             return Err(Problem::Content(format!(
                 "loading needs more than the {} MB of memory allowed (--max-memory)",
@@ -241,8 +152,12 @@ impl Contents {
         Ok(())
     }
 
-    /// Resolves everything that depends on the whole file.
-    fn finish(&mut self, faults: FaultPolicy) -> Result<(), Problem> {
+    /// Resolves everything that depends on the whole file. `has_garbage` says whether anything follows its gzip data.
+    ///
+    /// # Errors
+    /// An index is out of range, and `faults` is strict.
+    pub(super) fn finish(&mut self, faults: FaultPolicy, has_garbage: bool) -> Result<(), Problem> {
+        self.has_garbage = has_garbage;
         let counts = self.counts();
         for list in [List::Texture, List::Normal] {
             if counts[list as usize] == 0 {
@@ -254,15 +169,15 @@ impl Contents {
             FaultPolicy::Lenient => self.drop_missing(counts),
         }
         let mut face = 0;
-        let marks = std::mem::take(&mut self.marks);
-        for (elements, marks) in self.elements.iter_mut().zip(marks) {
+        let state_changes = std::mem::take(&mut self.state_changes);
+        for (elements, state_changes) in self.elements.iter_mut().zip(state_changes) {
             elements.first_face = face;
-            for (first, mark) in marks {
+            for (first, change) in state_changes {
                 let first = face + first as usize;
-                match mark {
-                    Mark::Material(name) => self.materials.begin(first, name),
-                    Mark::Group(name) => self.groups.begin(first, name),
-                    Mark::Smoothing(group) => {
+                match change {
+                    StateChange::Material(name) => self.materials.begin(first, name),
+                    StateChange::Group(name) => self.groups.begin(first, name),
+                    StateChange::Smoothing(group) => {
                         let last = self.smoothing.last();
                         if last.is_none_or(|&(_, last)| last != group) {
                             self.smoothing.push((first, group));
@@ -287,10 +202,8 @@ impl Contents {
             let first = corners.iter().position(|&index| index != NO_INDEX)?;
             Some(elements.line_of_corner(first))
         });
-        let bad = std::mem::take(&mut self.bad_indices[at]);
-        self.bad_index[at] = None;
-        let bad_line = (bad.count > 0).then_some(bad.first_line);
-        self.missing_list_line[at] = line.into_iter().chain(bad_line).min();
+        let skipped = self.skipped.forget_indices(list);
+        self.missing_list_line[at] = line.into_iter().chain(skipped).min();
         for elements in &mut self.elements {
             elements.corners[at] = Vec::new();
             elements.highest[at] = 0;
@@ -313,7 +226,7 @@ impl Contents {
 
     /// Drops elements with vertices that don't exist, and other indices of entries that don't exist.
     fn drop_missing(&mut self, counts: [usize; 3]) {
-        for (elements, marks) in self.elements.iter_mut().zip(&mut self.marks) {
+        for (elements, state_changes) in self.elements.iter_mut().zip(&mut self.state_changes) {
             if (0..3).all(|list| elements.highest[list] <= counts[list]) {
                 continue;
             }
@@ -324,13 +237,13 @@ impl Contents {
                 let [vertices, ..] = &elements.corners;
                 let exists = |&vertex: &u32| (vertex as usize) < counts[0];
                 let is_kept = vertices[corners.clone()].iter().all(exists);
-                if kind == Element::Face {
+                if kind == ElementKind::Face {
                     kept_faces.push(is_kept);
                 }
                 if !is_kept {
                     match kind {
-                        Element::Face => self.dropped_faces.add(line),
-                        Element::Line | Element::Points => self.dropped_others.add(line),
+                        ElementKind::Face => self.skipped.faces.add(line),
+                        ElementKind::Line | ElementKind::Points => self.skipped.others.add(line),
                     }
                     continue;
                 }
@@ -343,7 +256,7 @@ impl Contents {
                             .copied()
                             .unwrap_or(NO_INDEX);
                         if index != NO_INDEX && index as usize >= counts[at] {
-                            self.bad_indices[at].add(line);
+                            self.skipped.indices[at].add(line);
                             index = NO_INDEX;
                         }
                         kept.push(list, index);
@@ -355,7 +268,7 @@ impl Contents {
             for is_kept in kept_faces {
                 kept_before.push(kept_before[kept_before.len() - 1] + u32::from(is_kept));
             }
-            for (face, _) in marks {
+            for (face, _) in state_changes {
                 *face = kept_before[*face as usize];
             }
             *elements = kept;
@@ -364,28 +277,7 @@ impl Contents {
 
     /// Warnings about everything ignored or dropped, in the order of their first lines.
     pub(super) fn warnings(&self) -> Vec<Warning> {
-        let mut warnings: Vec<Warning> = Vec::new();
-        warnings.extend(self.ignored.iter().filter_map(|(keyword, tally)| {
-            tally.warning(|count| {
-                let statements = counted(count, &format!("“{keyword}” statement"));
-                format!("{statements} ignored")
-            })
-        }));
-        let why = "dropped: an index is out of range, or there are too few corners";
-        let faces = |count| format!("{} {why}", counted(count, "face"));
-        warnings.extend(self.dropped_faces.warning(faces));
-        let others = |count| format!("{} {why}", lines_or_points(count));
-        warnings.extend(self.dropped_others.warning(others));
-        let mut bad = self.bad_indices[List::Texture as usize];
-        bad.append(self.bad_indices[List::Normal as usize]);
-        warnings.extend(bad.warning(|count| {
-            let indices = counted_as(
-                count,
-                "texture or normal index",
-                "texture or normal indices",
-            );
-            format!("{indices} ignored: out of range")
-        }));
+        let mut warnings: Vec<Warning> = self.skipped.warnings().collect();
         for (list, entries) in [
             (List::Texture, "texture coordinates"),
             (List::Normal, "normals"),
@@ -406,11 +298,11 @@ impl Contents {
     }
 }
 
-fn bytes_of((_, mark): &(u32, Mark)) -> usize {
-    let text = match mark {
-        Mark::Material(name) | Mark::Group(name) => 3 * name.len(),
-        Mark::Smoothing(_) => 0,
+fn bytes_of((_, change): &(u32, StateChange)) -> usize {
+    let text = match change {
+        StateChange::Material(name) | StateChange::Group(name) => 3 * name.len(),
+        StateChange::Smoothing(_) => 0,
     };
     // A name is stored three times, with an entry in a half-full hash map.
-    size_of::<(u32, Mark)>() + 160 + text
+    size_of::<(u32, StateChange)>() + 160 + text
 }

@@ -7,7 +7,7 @@ use std::ops::Range;
 
 /// Kinds of statements with corners.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Element {
+pub(super) enum ElementKind {
     Face,
     /// A polyline through its corners.
     Line,
@@ -15,7 +15,7 @@ pub(super) enum Element {
     Points,
 }
 
-impl Element {
+impl ElementKind {
     /// The minimum number of corners, and a sentence for the error message.
     pub(super) fn least_corners(self) -> (usize, &'static str) {
         match self {
@@ -27,8 +27,8 @@ impl Element {
 }
 
 /// One element.
-pub(super) struct ElementRef {
-    pub kind: Element,
+pub(super) struct Element {
+    pub kind: ElementKind,
     /// Its index among the faces, or among the lines and points.
     pub index: usize,
     /// Its corners in the lists.
@@ -53,7 +53,7 @@ pub(super) struct Elements {
     /// Number of faces before the chunk, once the whole file has been read.
     pub first_face: usize,
     /// Indices of the elements that aren't faces, in ascending order.
-    pub non_faces: Vec<(u32, Element)>,
+    pub non_faces: Vec<(u32, ElementKind)>,
     pub face_lines: LineRuns,
     pub other_lines: LineRuns,
     /// Largest number of corners of an element.
@@ -65,20 +65,20 @@ impl Elements {
         self.count - self.non_faces.len()
     }
 
-    /// Upper bound on the number of triangles: what fans of all faces have.
-    pub(super) fn most_triangles(&self) -> usize {
+    /// Number of triangles if every face becomes a fan, or a little more.
+    pub(super) fn fan_triangles(&self) -> usize {
         self.corners[0].len().saturating_sub(2 * self.face_count())
     }
 
     /// Ends an element whose corners have been added since `first`.
-    pub(super) fn end(&mut self, kind: Element, first: usize, line: usize) {
+    pub(super) fn end(&mut self, kind: ElementKind, first: usize, line: usize) {
         let arity = self.corners[0].len() - first;
         if arity != 3 || !self.arities.is_empty() {
             self.arities.resize(self.count, 3);
             self.arities.push(arity as u32);
         }
         self.largest = self.largest.max(arity);
-        if kind == Element::Face {
+        if kind == ElementKind::Face {
             self.face_lines.push(line);
         } else {
             self.non_faces.push((self.count as u32, kind));
@@ -120,7 +120,7 @@ impl Elements {
 
     /// All elements, in the file's order.
     #[inline]
-    pub(super) fn iter(&self) -> impl Iterator<Item = ElementRef> {
+    pub(super) fn iter(&self) -> impl Iterator<Item = Element> {
         let (mut start, mut face) = (0, 0);
         let mut others = (0..).zip(&self.non_faces).peekable();
         (0..self.count).map(move |element| {
@@ -130,10 +130,10 @@ impl Elements {
             let other = others.next_if(|(_, (at, _))| *at as usize == element);
             let (kind, index) = match other {
                 Some((index, &(_, kind))) => (kind, index),
-                None => (Element::Face, face),
+                None => (ElementKind::Face, face),
             };
-            face += usize::from(kind == Element::Face);
-            ElementRef {
+            face += usize::from(kind == ElementKind::Face);
+            Element {
                 kind,
                 index,
                 corners,
@@ -142,10 +142,10 @@ impl Elements {
     }
 
     /// The line of an element.
-    pub(super) fn line(&self, element: &ElementRef) -> usize {
+    pub(super) fn line(&self, element: &Element) -> usize {
         match element.kind {
-            Element::Face => self.face_lines.line(element.index),
-            Element::Line | Element::Points => self.other_lines.line(element.index),
+            ElementKind::Face => self.face_lines.line(element.index),
+            ElementKind::Line | ElementKind::Points => self.other_lines.line(element.index),
         }
     }
 

@@ -1,14 +1,14 @@
-//! Errors and warnings about OBJ files.
+//! Errors and warnings from loading OBJ files.
 
 use crate::progress::Cancelled;
 use std::fmt;
 use std::io;
 use std::path::{Path, PathBuf};
 
-/// The reason why a file couldn't be loaded. Every message names the file and, if known, the line.
+/// An error that prevents a file from loading. Every message names the file and, if known, the line.
 #[derive(Debug, thiserror::Error)]
 pub enum LoadError {
-    /// The file doesn't exist, or can't be read.
+    /// The file can't be opened or read.
     #[error("{}: {source}", shown(path))]
     Unreadable {
         /// The file.
@@ -31,15 +31,15 @@ pub enum LoadError {
         line: usize,
         /// The character at which the malformed word starts, counted from 1.
         column: Option<usize>,
-        /// What is wrong there.
+        /// The problem.
         message: String,
     },
-    /// The file as a whole has nothing to show, or too much.
+    /// The file isn't an OBJ, has nothing to show, or exceeds a limit.
     #[error("{}: {message}", shown(path))]
     Content {
         /// The file.
         path: PathBuf,
-        /// What is wrong with the file.
+        /// The problem.
         message: String,
     },
     /// The load was cancelled.
@@ -50,25 +50,25 @@ pub enum LoadError {
     },
 }
 
-/// A path for messages, without control characters, which could move a terminal's cursor.
+/// A path for messages. Replaces control characters, which could move a terminal's cursor.
 pub fn shown(path: &Path) -> String {
     printable(&path.to_string_lossy())
 }
 
-/// A text without control characters and without marks that change the writing direction.
+/// Replaces control characters and bidirectional formatting characters in a text.
 pub(super) fn printable(text: &str) -> String {
-    let turns = |c: char| matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
-    let plain = |c: char| {
-        if c.is_control() || turns(c) {
+    let is_bidi_control = |c: char| matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
+    let replaced = |c: char| {
+        if c.is_control() || is_bidi_control(c) {
             '\u{FFFD}'
         } else {
             c
         }
     };
-    text.chars().map(plain).collect()
+    text.chars().map(replaced).collect()
 }
 
-/// An error without the file's name.
+/// A [`LoadError`] without the file's path.
 #[derive(Debug)]
 pub(super) enum Problem {
     Line {
@@ -119,9 +119,9 @@ impl From<Cancelled> for Problem {
 /// A warning about a file whose mesh was loaded.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Warning {
-    /// The first line that it refers to, counted from 1.
+    /// The first line with the problem, counted from 1; `None` if the warning is about the file as a whole.
     pub line: Option<usize>,
-    /// What is unusual, and how often.
+    /// The problem, and how often it occurs.
     pub message: String,
 }
 

@@ -1,9 +1,10 @@
-//! Reads a face's statement from the file again.
+//! Reader of single face statements in files that are already loaded.
 
 use super::chunks::each_statement;
-use super::corner::{Corner, Corners, List, is_blank};
-use super::error::{LoadError, Problem, printable};
+use super::corner::{Corner, Corners, List};
+use super::error::{LoadError, Problem};
 use super::statement::Statement;
+use super::tally::shortened_to;
 use super::words::{Words, number, text, without_comment};
 use crate::progress::Progress;
 use glam::{DVec2, DVec3};
@@ -32,15 +33,14 @@ pub struct FaceCorner {
     pub normal: Option<usize>,
     /// The vertex's coordinates.
     pub position: DVec3,
-    /// The texture coordinates; `None` if the corner has none, or they don't exist.
+    /// The texture coordinates; `None` if the corner has no index or the index is out of range.
     pub uv: Option<DVec2>,
 }
 
-/// Reads the `f` statement that starts on a line (from 1), and the vertices and texture coordinates that it
-/// refers to.
+/// Reads the `f` statement that starts on a line (from 1), and its vertices and texture coordinates.
 ///
-/// `open` opens the file's bytes at their start; it is called twice. `path` is used in errors. Returns `None`
-/// if no face starts on that line, or a vertex doesn't exist: the file has changed since it was loaded.
+/// `open` opens the file at its start and is called twice. `path` is used in errors. Returns `None` if no face
+/// starts on that line or a vertex doesn't exist, because the file has changed since it was loaded.
 ///
 /// # Errors
 /// See [`LoadError`].
@@ -55,33 +55,29 @@ pub fn face_source<R: Read>(
             return Ok(None);
         };
         let bytes = open().map_err(Problem::Read)?;
-        let is_complete = look_up(bytes, &mut source.corners, progress)?;
+        let is_complete = read_coordinates(bytes, &mut source.corners, progress)?;
         Ok(is_complete.then_some(source))
     };
     read().map_err(|problem: Problem| problem.in_file(path))
 }
 
-/// The statement on a line and the indices of its corners.
+/// The face statement on a line, with the indices of its corners but no coordinates.
 fn statement_on(
     bytes: impl Read,
     line: usize,
     progress: &Progress,
 ) -> Result<Option<FaceSource>, Problem> {
-    /// Fits a polygon of about ten corners.
+    /// Enough for a polygon of about ten corners.
     const LONGEST_TEXT: usize = 160;
     let (mut counts, mut found) = ([0; 3], None);
     each_statement(bytes, progress, |statement| {
-        let keyword = keyword(&statement);
-        if statement.line == line && keyword == b"f" {
+        let (keyword, after) = statement.keyword().unwrap_or_default();
+        if statement.line == line && keyword.eq_ignore_ascii_case(b"f") {
             let plain = without_comment(statement.bytes);
-            let corners = Corners::of(plain, start_of(&statement) + 1);
+            let corners = Corners::of(plain, after);
             let corners = corners.map(|corner| from_one(corner.ok()?, counts));
-            let statement = printable(text(plain).trim());
-            let is_long = statement.chars().count() > LONGEST_TEXT;
-            let mut shortened: String = statement.chars().take(LONGEST_TEXT).collect();
-            shortened.extend(is_long.then_some('…'));
             found = corners.collect::<Option<_>>().map(|corners| FaceSource {
-                statement: shortened,
+                statement: shortened_to(LONGEST_TEXT, text(plain).trim()),
                 corners,
             });
         }
@@ -96,7 +92,7 @@ fn statement_on(
     Ok(found)
 }
 
-/// Converts a corner's indices to start at 1. Negative ones count back from the last entry read.
+/// Converts a corner's indices to indices from 1. Negative indices count back from the last entry read.
 fn from_one(corner: Corner, counts: [usize; 3]) -> Option<FaceCorner> {
     let index = |list: List| {
         let written = corner.indices[list as usize]?;
@@ -115,8 +111,8 @@ fn from_one(corner: Corner, counts: [usize; 3]) -> Option<FaceCorner> {
     })
 }
 
-/// Reads the coordinates of the corners. Returns whether every vertex was found.
-fn look_up(
+/// Reads the coordinates of corners. Returns whether every vertex exists.
+fn read_coordinates(
     bytes: impl Read,
     corners: &mut [FaceCorner],
     progress: &Progress,
@@ -128,7 +124,10 @@ fn look_up(
     let mut missing = vertices.len() + uvs.len();
     let mut counts = [0; 3];
     each_statement(bytes, progress, |statement| {
-        let Some(list) = list_of(keyword(&statement)) else {
+        let Some(list) = statement
+            .keyword()
+            .and_then(|(keyword, _)| list_of(keyword))
+        else {
             return Ok(ControlFlow::Continue(()));
         };
         counts[list as usize] += 1;
@@ -167,7 +166,7 @@ fn look_up(
 /// The first numbers of a statement, padded with zeros.
 fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Problem> {
     let plain = statement.without_comment();
-    let after = start_of(statement) + keyword(statement).len();
+    let (_, after) = statement.keyword().unwrap_or_default();
     let mut numbers = [0.0; N];
     for (slot, word) in numbers.iter_mut().zip(Words::of(plain.bytes, after)) {
         *slot = number(&plain, word)?;
@@ -175,23 +174,14 @@ fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Proble
     Ok(numbers)
 }
 
+/// The list that a statement with this keyword adds to.
 fn list_of(keyword: &[u8]) -> Option<List> {
     match keyword {
-        b"v" => Some(List::Vertex),
-        b"vt" => Some(List::Texture),
-        b"vn" => Some(List::Normal),
+        [b'v' | b'V'] => Some(List::Vertex),
+        [b'v' | b'V', b't' | b'T'] => Some(List::Texture),
+        [b'v' | b'V', b'n' | b'N'] => Some(List::Normal),
         _ => None,
     }
-}
-
-fn start_of(statement: &Statement<'_>) -> usize {
-    let blanks = statement.bytes.iter().take_while(|&&b| is_blank(b));
-    blanks.count()
-}
-
-fn keyword<'l>(statement: &Statement<'l>) -> &'l [u8] {
-    let rest = &statement.bytes[start_of(statement)..];
-    rest.split(|&b| is_blank(b)).next().unwrap_or_default()
 }
 
 #[cfg(test)]
@@ -199,7 +189,7 @@ mod tests {
     use super::*;
 
     const FILE: &str = "# a square\nv 0 0 0\nv 1 0 0\nv 1 1 0 # here\nvt 0.5 0.25\n\
-        f 1/1 2 \\\n3\nv 0 1 0\n  f -4 -2/-1 -1//9 5\nv 7 8 9\n";
+        f 1/1 2 \\\n3\nV 0 1 0\n  F -4 -2/-1 -1//9 5\nv 7 8 9\n";
 
     fn source(line: usize) -> Option<FaceSource> {
         let progress = Progress::default();
@@ -207,7 +197,7 @@ mod tests {
     }
 
     #[test]
-    fn a_face_is_read_with_its_corners_coordinates() {
+    fn a_face_is_read_with_the_coordinates_of_its_corners() {
         let joined = source(6).expect("a face");
         assert_eq!(joined.statement, "f 1/1 2  3");
         assert_eq!(joined.corners[0].uv, Some(DVec2::new(0.5, 0.25)));
@@ -225,7 +215,7 @@ mod tests {
     }
 
     #[test]
-    fn a_line_without_a_face_gives_none() {
+    fn a_line_without_a_face_returns_none() {
         for line in [0, 1, 7, 10, 99] {
             assert_eq!(source(line), None, "{line}");
         }

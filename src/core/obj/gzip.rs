@@ -1,24 +1,24 @@
-//! Decompresses gzip as gzip(1) does: consecutive members, ignoring zeros after the last one.
+//! Gzip decompressor. Like gzip(1), it reads consecutive members and ignores zeros after the last one.
 //!
-//! Source: RFC 1952, 2.2: a file is a series of members. Tapes and some servers pad it with zeros.
+//! Source: RFC 1952, 2.2: a file is a series of members. Tapes and some servers pad files with zeros.
 
 use flate2::bufread::GzDecoder;
 use std::cell::Cell;
 use std::io::{self, BufRead, Read};
 use std::rc::Rc;
 
-/// The first bytes of a gzip member.
+/// The first bytes of every gzip member.
 pub(super) const MAGIC: [u8; 2] = [0x1F, 0x8B];
 
 /// Reads the decompressed bytes of all members.
 pub(super) struct GzipMembers<R> {
-    /// The current member; `None` after the last one.
+    /// The current member, or `None` after the last one.
     member: Option<GzDecoder<R>>,
     has_garbage: Rc<Cell<bool>>,
 }
 
 impl<R: BufRead> GzipMembers<R> {
-    /// `has_garbage` is set to true if bytes other than zeros follow the last member; they are left unread.
+    /// Sets `has_garbage` if non-zero bytes follow the last member. Doesn't read them.
     pub(super) fn new(source: R, has_garbage: Rc<Cell<bool>>) -> Self {
         Self {
             member: Some(GzDecoder::new(source)),
@@ -48,13 +48,15 @@ impl<R: BufRead> Read for GzipMembers<R> {
     }
 }
 
-/// What follows a member.
+/// The data after a member.
 enum Next {
     Member,
+    /// Non-zero bytes, possibly after zeros.
     Garbage,
     End,
 }
 
+/// Determines the data after a member; skips zeros.
 fn next(source: &mut impl BufRead) -> io::Result<Next> {
     if source.fill_buf()?.first() == Some(&MAGIC[0]) {
         return Ok(Next::Member);
@@ -83,9 +85,9 @@ mod tests {
         encoder.finish().expect("memory")
     }
 
-    /// The text, and whether garbage follows it.
+    /// The decompressed text, and whether garbage follows it.
     fn unpacked(bytes: &[u8]) -> io::Result<(String, bool)> {
-        // A small odd size, so that members end anywhere in the buffer.
+        // A small odd size, so that members end at any position in the buffer.
         let source = BufReader::with_capacity(7, bytes);
         let has_garbage = Rc::default();
         let mut text = String::new();

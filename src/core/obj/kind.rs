@@ -1,15 +1,15 @@
-//! Recognises other file formats by their first bytes.
+//! Detection of other file formats by their first bytes.
 
 use memchr::memchr;
 
-/// The first bytes of a file format, and its name.
-const BEGINNINGS: [(&[u8], &str); 16] = [
+/// The first bytes of other file formats, and their descriptions. Case is ignored.
+const SIGNATURES: [(&[u8], &str); 16] = [
     (b"<!doctype", "an HTML page"),
     (b"<html", "an HTML page"),
     (b"<?xml", "an XML file"),
     (
         b"version https://git-lfs",
-        "a Git LFS pointer to a file that wasn't fetched",
+        "a Git LFS pointer whose file wasn't fetched",
     ),
     (b"solid ", "an STL file"),
     (b"ply\n", "a PLY file"),
@@ -25,19 +25,19 @@ const BEGINNINGS: [(&[u8], &str); 16] = [
     (b"BZh", "a bzip2 file"),
 ];
 
-/// A message with the file's format, if its first bytes show that it isn't an OBJ.
+/// The error message if the first bytes show that a file isn't an OBJ.
 pub(super) fn not_an_obj(first_bytes: &[u8]) -> Option<String> {
     if first_bytes.is_empty() {
         return Some("the file is empty".to_owned());
     }
     let start = first_bytes.trim_ascii_start();
-    let begins =
+    let starts_with =
         |with: &[u8]| start.len() >= with.len() && start[..with.len()].eq_ignore_ascii_case(with);
-    let known = BEGINNINGS.iter().find(|(beginning, _)| begins(beginning));
-    let what = known.map(|(_, what)| *what);
+    let known = SIGNATURES.iter().find(|(bytes, _)| starts_with(bytes));
+    let format = known.map(|(_, format)| *format);
     let is_binary = || memchr(0, first_bytes).map(|_| "a binary file");
-    let what = what.or_else(is_binary)?;
-    Some(format!("this is {what}, not an OBJ file"))
+    let format = format.or_else(is_binary)?;
+    Some(format!("this is {format}, not an OBJ file"))
 }
 
 #[cfg(test)]
@@ -46,7 +46,7 @@ mod tests {
 
     #[test]
     fn other_formats_are_recognised() {
-        for (bytes, what) in [
+        for (bytes, format) in [
             (&b"\n  <HTML><body>"[..], "an HTML page"),
             (b"ply\nformat ascii 1.0", "a PLY file"),
             (b"solid cube\nfacet", "an STL file"),
@@ -54,7 +54,7 @@ mod tests {
             (b"\x7fELF\0\0", "a binary file"),
             (b"BZh91AY", "a bzip2 file"),
         ] {
-            let expected = format!("this is {what}, not an OBJ file");
+            let expected = format!("this is {format}, not an OBJ file");
             assert_eq!(
                 not_an_obj(bytes),
                 Some(expected),

@@ -5,14 +5,14 @@
 //! | phase | lists |
 //! |---|---|
 //! | reading | the file's numbers, positions in f64, and the elements' indices |
-//! | assembling | the same, and the mesh, part of it twice |
+//! | assembling | the same, and the mesh |
 //! | building the tree | the mesh, the tree, and the builder's lists |
 //!
 //! A growing list has up to twice the capacity that it needs, of which only the used part takes memory.
 
 use super::contents::Contents;
-use super::polygon;
 use crate::bvh;
+use crate::polygon;
 use glam::{DVec3, Vec2, Vec3};
 
 /// Bytes of an entry of each list in the file's contents.
@@ -20,15 +20,15 @@ const IN_FILE: [usize; 3] = [size_of::<DVec3>(), size_of::<Vec2>(), size_of::<Ve
 /// The same in a mesh.
 const IN_MESH: [usize; 3] = [size_of::<Vec3>(), size_of::<Vec2>(), size_of::<Vec3>()];
 /// Per triangle: its indices; and its face and outline, if polygons are among the elements.
-const INDICES: usize = 12;
-const OF_POLYGON: usize = 4 + 1;
+const BYTES_PER_TRIANGLE: usize = 12;
+const BYTES_PER_POLYGON_TRIANGLE: usize = 4 + 1;
 /// Per triangle: the indices of its corners' normals, or of their texture coordinates.
-const CORNERS: usize = 12;
+const BYTES_PER_CORNER_LIST: usize = 12;
 /// Memory per corner for triangulating a large polygon (measured 2026-11).
-const POLYGON_CORNER: usize = 450;
+const BYTES_PER_POLYGON_CORNER: usize = 450;
 
 /// Flag and new index of each entry of a list, while entries that aren't used are removed.
-const USE: usize = 1 + 4;
+const BYTES_PER_FLAG: usize = 1 + 4;
 
 /// Upper bound on the bytes that loading takes, if the file ended here, besides the chunks that are being read.
 pub(super) fn bytes(contents: &Contents) -> u64 {
@@ -41,12 +41,20 @@ pub(super) fn bytes(contents: &Contents) -> u64 {
         _ => size_of::<Vec3>() as u64 * counts[0],
     };
     let file = per_entry(counts, IN_FILE) + corners + colours;
-    let of_polygon = if contents.has_polygons { OF_POLYGON } else { 0 };
-    let of_triangle = (INDICES + of_polygon) as u64 + CORNERS as u64 * (textures + normals);
+    let of_polygon = if contents.has_polygons {
+        BYTES_PER_POLYGON_TRIANGLE
+    } else {
+        0
+    };
+    let of_triangle = (BYTES_PER_TRIANGLE + of_polygon) as u64
+        + BYTES_PER_CORNER_LIST as u64 * (textures + normals);
     let triangle_count = contents.triangle_count as u64;
     let mesh = per_entry(counts, IN_MESH) + colours + of_triangle * triangle_count;
     let polygon = contents.largest_element.min(polygon::LARGEST);
-    let assembling = file + mesh + per_entry(counts, [USE; 3]) + (POLYGON_CORNER * polygon) as u64;
+    let assembling = file
+        + mesh
+        + per_entry(counts, [BYTES_PER_FLAG; 3])
+        + (BYTES_PER_POLYGON_CORNER * polygon) as u64;
     let building = mesh + bvh::BYTES_WHILE_BUILDING as u64 * triangle_count;
     assembling.max(building) + contents.other_bytes as u64
 }

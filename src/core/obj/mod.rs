@@ -4,18 +4,18 @@
 //! |---|---|
 //! | bytes are decompressed and decoded | `source`, `gzip` |
 //! | the file is cut into chunks of whole statements | `chunks`, `kind` |
-//! | **chunks are parsed in parallel, statement by statement** | `plain`, or `reader` with `statement`, `words`, `corner`; `part`, `elements` |
+//! | **chunks are parsed in parallel, statement by statement** | `plain`, or `reader` with `statement`, `words`, `corner`; `chunk_contents`, `elements` |
 //! | the chunks' contents are merged in file order | `contents`: `names`, `colours`, `tally`, `memory` |
-//! | material names are resolved to materials and textures | `materials`, `mtl`, `picture`, `referenced_files`, `stored_file` |
-//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `place`, `triangulate`, `polygon`, `delaunay`, `outline`, `oddities` |
+//! | material names are resolved to materials and textures | `materials` |
+//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `origin`, `rounding`, `triangulate` with `crate::polygon`, `oddities` |
 //! | a face's statement is read again for the inspector | `face_source` |
 
 mod assemble;
+mod chunk_contents;
 mod chunks;
 mod colours;
 mod contents;
 mod corner;
-mod delaunay;
 mod elements;
 mod error;
 mod face_source;
@@ -24,21 +24,17 @@ mod gzip;
 mod kind;
 mod materials;
 mod memory;
-mod mtl;
 mod names;
 mod oddities;
-mod outline;
-mod part;
-mod picture;
-mod place;
+mod origin;
+mod parallel;
 mod plain;
-mod polygon;
 mod reader;
-mod referenced_files;
 mod report;
+mod rounding;
+mod skipped;
 mod source;
 mod statement;
-mod stored_file;
 mod tally;
 mod triangulate;
 mod used;
@@ -46,7 +42,7 @@ mod words;
 
 pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
-pub use referenced_files::ReadFile;
+pub use materials::ReadFile;
 pub use report::{Dropped, LoadReport};
 pub use tally::LineRuns;
 
@@ -54,7 +50,7 @@ use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};
 use error::Problem;
 use fence::fenced;
-use referenced_files::{Folder, NamedFiles, ReferencedFiles};
+use materials::{Folder, NamedFiles, ReferencedFiles};
 use std::fs::{File, Metadata};
 use std::io::Read;
 use std::path::Path;
@@ -144,7 +140,7 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
         return Err(Problem::Content(CHANGED.to_owned()).in_file(path));
     }
     let mut loaded = parsed?;
-    loaded.report.files = folder.into_wanted();
+    loaded.report.files = folder.into_looked_for();
     loaded.report.duration = start.elapsed();
     Ok(loaded)
 }
@@ -195,7 +191,8 @@ fn parse_with(
     let start = Instant::now();
     let parse = || {
         progress.enter(Phase::Reading);
-        let contents = fenced("reading", || contents::read(bytes, &options, progress))??;
+        let contents = fenced("reading", || parallel::read(bytes, &options, progress));
+        let contents = contents.map_err(Problem::Content)??;
         // Textures get the remaining memory.
         let held = memory::bytes(&contents);
         let options = LoadOptions {

@@ -1,16 +1,16 @@
-//! Materials, groups and libraries named in a file.
+//! The names of materials, groups and material libraries in a file.
 
 use std::collections::{HashMap, HashSet};
 
-/// Named runs of faces: groups or materials.
+/// Named runs of consecutive faces: groups or materials.
 #[derive(Debug)]
 pub(super) struct NamedRuns {
-    /// Distinct names; the first, empty one is for faces before any run.
+    /// The distinct names. The first is empty, for faces before the first run.
     pub names: Vec<String>,
     by_name: HashMap<String, u32>,
-    /// The newest name, and the first face that it applies to.
-    newest: Option<(usize, String)>,
-    /// The first face of each run, and the index of its name.
+    /// The current run: its first face and its name.
+    current: Option<(usize, String)>,
+    /// The first face and the name index of each run.
     pub runs: Vec<(usize, u32)>,
 }
 
@@ -19,22 +19,22 @@ impl Default for NamedRuns {
         Self {
             names: vec![String::new()],
             by_name: HashMap::from([(String::new(), 0)]),
-            newest: None,
+            current: None,
             runs: Vec::new(),
         }
     }
 }
 
 impl NamedRuns {
-    /// Sets the name of the faces from `face` on.
+    /// Begins a run at `face`.
     pub(super) fn begin(&mut self, face: usize, name: String) {
         self.end(face);
-        self.newest = Some((face, name));
+        self.current = Some((face, name));
     }
 
-    /// Ends the newest run before `face`. Names without faces aren't kept.
+    /// Ends the current run before `face`. Discards the run if it has no faces.
     pub(super) fn end(&mut self, face: usize) {
-        let Some((first, name)) = self.newest.take().filter(|(first, _)| *first < face) else {
+        let Some((first, name)) = self.current.take().filter(|(first, _)| *first < face) else {
             return;
         };
         let next = self.names.len() as u32;
@@ -46,14 +46,15 @@ impl NamedRuns {
     }
 }
 
-/// Distinct names of material libraries in a file, with their lines.
+/// The distinct arguments of a file's `mtllib` statements.
 #[derive(Debug, Default)]
-pub(super) struct Libraries {
+pub(super) struct LibraryNames {
+    /// The line and the argument of each statement.
     pub names: Vec<(usize, String)>,
     seen: HashSet<String>,
 }
 
-impl Libraries {
+impl LibraryNames {
     pub(super) fn add(&mut self, line: usize, name: String) {
         if self.seen.insert(name.clone()) {
             self.names.push((line, name));
@@ -66,7 +67,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_repeated_name_is_stored_once_and_an_unused_one_not_at_all() {
+    fn repeated_names_are_stored_once_and_unused_names_are_discarded() {
         let mut runs = NamedRuns::default();
         for (face, name) in [(0, "a"), (2, "unused"), (2, "c"), (4, "a"), (6, "unused")] {
             runs.begin(face, name.to_owned());

@@ -83,7 +83,7 @@ pub(super) fn no_triangles(contents: &Contents, dropped: Dropped, vertex_count: 
             "no faces left: {} with an index that is out of range or fewer than three corners",
             grouped(bad_index)
         );
-        return Problem::line(contents.dropped_faces.first_line, message);
+        return Problem::line(contents.skipped.faces.first_line, message);
     } else if element_count > 0 {
         format!(
             "there are lines or points ({}), but no faces: nothing to trace",

@@ -1,23 +1,24 @@
-//! Fast paths for the statements that most lines of large files hold.
+//! Fast paths for plain statements, which make up most lines of large files.
 //!
-//! A statement is plain if it is a vertex, texture coordinates or a normal with just the numbers that are used, or a face
-//! whose indices are positive, and if nothing but blanks follows. It is read straight from the chunk, without first
-//! searching for the end of its line. All other statements are left to [`reader`](super::reader), errors among them.
+//! Plain statements are vertices, texture coordinates and normals without extra numbers, and faces with positive indices,
+//! on one line without a comment. They are parsed straight from the chunk, without first searching for the end of the
+//! line. [`reader`](super::reader) parses all other statements and reports errors.
 
+use super::chunk_contents::ChunkContents;
 use super::corner::{List, is_blank};
-use super::elements::{Element, Elements};
-use super::part::Part;
+use super::elements::{ElementKind, Elements};
 use super::words::is_long_number;
 use crate::mesh::NO_INDEX;
 use glam::{DVec3, Vec2};
 
-/// Longer faces are left to the reader, which checks for cancellation between corners.
+/// Longer faces are left to the reader, which checks for cancellation between corners. 65 536 corners take about a
+/// millisecond.
 const MOST_CORNERS: usize = 1 << 16;
 
-/// Reads the statement at the start of `text` if it is plain, and returns its length, with the end of its line. Adds
-/// nothing if it isn't.
+/// Parses the statement at the start of `text` if it is plain, and returns its length, including the line end. Otherwise
+/// adds nothing.
 #[inline]
-pub(super) fn read(part: &mut Part, text: &[u8], line: usize) -> Option<usize> {
+pub(super) fn read(part: &mut ChunkContents, text: &[u8], line: usize) -> Option<usize> {
     let rest = match text {
         [b'v', b' ', rest @ ..] => {
             let mut cursor = Cursor { rest };
@@ -49,7 +50,7 @@ pub(super) fn read(part: &mut Part, text: &[u8], line: usize) -> Option<usize> {
     Some(text.len() - rest.len())
 }
 
-/// Reads a face's corners, and returns the text after the end of its line.
+/// Parses a face, and returns the text after its line.
 fn face<'t>(elements: &mut Elements, text: &'t [u8], line: usize) -> Option<&'t [u8]> {
     let (first, highest) = (elements.corners[0].len(), elements.highest);
     let [_, textures, normals] = &elements.corners;
@@ -67,13 +68,13 @@ fn face<'t>(elements: &mut Elements, text: &'t [u8], line: usize) -> Option<&'t 
         elements.highest = highest;
         return None;
     }
-    elements.end(Element::Face, first, line);
+    elements.end(ElementKind::Face, first, line);
     rest
 }
 
-/// Reads corners that are vertices alone.
+/// Parses corners without texture coordinates and normals, and returns the text after the line.
 ///
-/// Not inlined, as the next function isn't: in a larger function its few variables wouldn't stay in registers.
+/// Not inlined, like [`corners`]: inside a larger function, the compiler keeps the loop's variables on the stack.
 #[inline(never)]
 fn vertices<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
     let mut cursor = Cursor { rest: text };
@@ -90,7 +91,7 @@ fn vertices<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
     cursor.end_line()
 }
 
-/// Reads corners of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`.
+/// Parses corners of the form `v`, `v/vt`, `v//vn` or `v/vt/vn`, and returns the text after the line.
 #[inline(never)]
 fn corners<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
     let mut cursor = Cursor { rest: text };
@@ -118,7 +119,7 @@ fn corners<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
     cursor.end_line()
 }
 
-/// The text that hasn't been read.
+/// The rest of a text that is being parsed.
 struct Cursor<'t> {
     rest: &'t [u8],
 }
@@ -133,7 +134,7 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    /// Passes the end of the line, and returns what follows.
+    /// Skips blanks and the line end, and returns the text after them; `None` if anything else follows.
     #[inline]
     fn end_line(&mut self) -> Option<&'t [u8]> {
         self.skip_blanks();
@@ -143,10 +144,11 @@ impl<'t> Cursor<'t> {
         }
     }
 
-    /// Reads an index from 1 as one from 0; `None` if there are no digits, or too many, or it is 0.
+    /// Parses an index that counts from 1, and returns it counted from 0. Returns `None`, without moving on, if there are no
+    /// digits, more than nine, or only zeros.
     #[inline]
     fn index(&mut self) -> Option<u32> {
-        /// All numbers of as many digits fit in a u32.
+        /// All numbers of nine digits fit in a u32.
         const MOST_DIGITS: usize = 9;
         self.skip_blanks();
         let (from_one, digits) = digits(self.rest, 0);
@@ -157,7 +159,7 @@ impl<'t> Cursor<'t> {
         Some(from_one as u32 - 1)
     }
 
-    /// Reads numbers; `other` is given those that [`decimal`] doesn't parse.
+    /// Parses numbers separated by blanks. Calls `other` with each word that [`decimal`] doesn't parse.
     #[inline]
     fn numbers<const N: usize>(&mut self, mut other: impl FnMut(&[u8])) -> Option<[f64; N]> {
         let mut numbers = [0.0; N];
@@ -182,19 +184,20 @@ impl<'t> Cursor<'t> {
     }
 }
 
-/// Parses the number at the start of a text if it has no exponent and at most 15 digits; returns its length, too.
+/// Parses the number at the start of a text, and returns it with its length. `None` if it has an exponent or more than 15
+/// digits.
 ///
-/// An integer below 10¹⁵ and a power of ten up to 10²² are exact in f64, so that their quotient is rounded once.
+/// Integers below 10¹⁵ and powers of ten up to 10²² are exact in f64, so their quotient is correctly rounded.
 /// Source: Clinger, "How to read floating point numbers accurately", PLDI 1990.
 #[inline]
 fn decimal(text: &[u8]) -> Option<(f64, usize)> {
-    /// As many digits don't overflow a u64.
+    /// 18 digits, including leading zeros, fit in a u64.
     const MOST_DIGITS: usize = 18;
     const POWERS_OF_TEN: [f64; MOST_DIGITS + 1] = [
         1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
         1e17, 1e18,
     ];
-    const END: u64 = 1_000_000_000_000_000;
+    const TOO_LARGE: u64 = 1_000_000_000_000_000;
     let (is_negative, unsigned) = match text {
         [b'-', rest @ ..] => (true, rest),
         _ => (false, text),
@@ -208,7 +211,7 @@ fn decimal(text: &[u8]) -> Option<(f64, usize)> {
         _ => (whole, 0, places),
     };
     let has_exponent = matches!(unsigned[length..], [b'e' | b'E', ..]);
-    if !(1..=MOST_DIGITS).contains(&(places + decimals)) || mantissa >= END || has_exponent {
+    if !(1..=MOST_DIGITS).contains(&(places + decimals)) || mantissa >= TOO_LARGE || has_exponent {
         return None;
     }
     let value = mantissa as f64 / POWERS_OF_TEN[decimals];
@@ -216,7 +219,8 @@ fn decimal(text: &[u8]) -> Option<(f64, usize)> {
     Some((if is_negative { -value } else { value }, length))
 }
 
-/// Appends the digits at the start of a text to a number, which wraps if they are too many; returns their count, too.
+/// Appends the digits at the start of a text to a number. Returns the number, which wraps on overflow, and the count of
+/// digits.
 #[inline]
 fn digits(text: &[u8], mut number: u64) -> (u64, usize) {
     let mut count = 0;
@@ -284,7 +288,7 @@ mod tests {
 
     /// The corners' indices that are read from a face, and the length that is.
     fn read_face(text: &str) -> Option<([Vec<u32>; 3], usize)> {
-        let mut part = Part::default();
+        let mut part = ChunkContents::default();
         let length = read(&mut part, text.as_bytes(), 1);
         let elements = part.elements;
         if length.is_none() {
@@ -360,7 +364,7 @@ mod tests {
             "# v",
             "",
         ] {
-            let mut part = Part::default();
+            let mut part = ChunkContents::default();
             assert_eq!(read(&mut part, text.as_bytes(), 1), None, "{text}");
             assert_eq!(
                 part.positions.len() + part.textures.len() + part.normals.len(),

@@ -8,11 +8,11 @@
 //! [`Contents`]: super::contents::Contents
 
 use super::FaultPolicy;
+use super::chunk_contents::{ChunkContents, StateChange};
 use super::chunks::Chunk;
-use super::corner::{Corner, Corners, List, is_blank};
-use super::elements::Element;
+use super::corner::{Corner, Corners, List};
+use super::elements::ElementKind;
 use super::error::Problem;
-use super::part::{Mark, Part};
 use super::plain;
 use super::statement::{Statement, Statements};
 use super::tally::{count_by_keyword, shortened};
@@ -26,7 +26,7 @@ use glam::{DVec3, Vec2};
 #[derive(Clone, Copy)]
 enum Keyword {
     Numbers(List),
-    Element(Element),
+    Element(ElementKind),
     Material,
     Group,
     Smoothing,
@@ -39,9 +39,9 @@ impl Keyword {
             b"v" => Self::Numbers(List::Vertex),
             b"vt" => Self::Numbers(List::Texture),
             b"vn" => Self::Numbers(List::Normal),
-            b"f" => Self::Element(Element::Face),
-            b"l" => Self::Element(Element::Line),
-            b"p" => Self::Element(Element::Points),
+            b"f" => Self::Element(ElementKind::Face),
+            b"l" => Self::Element(ElementKind::Line),
+            b"p" => Self::Element(ElementKind::Points),
             b"usemtl" => Self::Material,
             b"o" | b"g" => Self::Group,
             b"s" => Self::Smoothing,
@@ -52,7 +52,8 @@ impl Keyword {
 
     /// Some programs write `V` and `F`.
     fn in_another_case(word: &[u8]) -> Option<Self> {
-        const LONGEST: usize = 6;
+        /// Length of the longest keywords, `usemtl` and `mtllib`.
+        const LONGEST: usize = "usemtl".len();
         let word = (word.len() <= LONGEST).then_some(word)?;
         Self::of(&word.to_ascii_lowercase())
     }
@@ -66,9 +67,9 @@ enum Index {
     OutOfRange,
 }
 
-/// How a chunk is read.
+/// Options for reading a chunk.
 #[derive(Clone, Copy)]
-pub(super) struct PartOptions<'p> {
+pub(super) struct ChunkOptions<'p> {
     pub faults: FaultPolicy,
     /// Number of entries in each list before the chunk, if they are known.
     pub counts: Option<[usize; 3]>,
@@ -76,9 +77,9 @@ pub(super) struct PartOptions<'p> {
 }
 
 /// Reads a chunk.
-pub(super) fn read(chunk: &Chunk, options: PartOptions<'_>) -> Part {
-    let mut reader = PartReader {
-        part: Part::default(),
+pub(super) fn read(chunk: &Chunk, options: ChunkOptions<'_>) -> ChunkContents {
+    let mut reader = ChunkReader {
+        part: ChunkContents::default(),
         options,
     };
     let mut statements = Statements::of(chunk);
@@ -102,44 +103,41 @@ pub(super) fn read(chunk: &Chunk, options: PartOptions<'_>) -> Part {
     reader.part
 }
 
-struct PartReader<'p> {
-    part: Part,
-    options: PartOptions<'p>,
+struct ChunkReader<'p> {
+    part: ChunkContents,
+    options: ChunkOptions<'p>,
 }
 
-impl PartReader<'_> {
+impl ChunkReader<'_> {
     /// Reads a statement.
     fn take(&mut self, statement: Statement<'_>) -> Result<(), Problem> {
-        let bytes = statement.bytes;
-        let Some(start) = bytes.iter().position(|&b| !is_blank(b)) else {
+        let Some((word, after)) = statement.keyword() else {
             return Ok(());
         };
-        let length = bytes[start..].iter().position(|&b| is_blank(b));
-        let after = length.map_or(bytes.len(), |length| start + length);
-        let (word, rest) = (&bytes[start..after], &bytes[after..]);
+        let rest = &statement.bytes[after..];
         match Keyword::of(word).or_else(|| Keyword::in_another_case(word)) {
             Some(Keyword::Numbers(list)) => self.numbers(list, statement, after)?,
             Some(Keyword::Element(kind)) => self.element(kind, statement, after)?,
-            Some(Keyword::Material) => self.mark(Mark::Material(name(rest))),
-            Some(Keyword::Group) => self.mark(Mark::Group(name(rest))),
+            Some(Keyword::Material) => self.change_state(StateChange::Material(name(rest))),
+            Some(Keyword::Group) => self.change_state(StateChange::Group(name(rest))),
             Some(Keyword::Smoothing) => {
                 let group = smoothing_group(&name(without_comment(rest)));
-                self.mark(Mark::Smoothing(group));
+                self.change_state(StateChange::Smoothing(group));
             }
             Some(Keyword::Library) => self.part.libraries.push((statement.line, name(rest))),
             None if word[0] == b'#' => {}
             None => {
                 let keyword = shortened(&text(word));
-                count_by_keyword(&mut self.part.ignored, &keyword, statement.line);
+                count_by_keyword(&mut self.part.skipped.statements, &keyword, statement.line);
             }
         }
         Ok(())
     }
 
-    /// Applies a mark to the faces that follow.
-    fn mark(&mut self, mark: Mark) {
+    /// Changes the state for the faces that follow.
+    fn change_state(&mut self, change: StateChange) {
         let face = self.part.elements.face_count() as u32;
-        self.part.marks.push((face, mark));
+        self.part.state_changes.push((face, change));
     }
 
     /// Reads a vertex (three numbers, optionally a weight or a colour), texture coordinates (one to three numbers,
@@ -196,7 +194,7 @@ impl PartReader<'_> {
     /// Reads a face, a line or points.
     fn element(
         &mut self,
-        kind: Element,
+        kind: ElementKind,
         statement: Statement<'_>,
         after: usize,
     ) -> Result<(), Problem> {
@@ -209,8 +207,8 @@ impl PartReader<'_> {
         }
         elements.truncate(first);
         match kind {
-            Element::Face => self.part.dropped_faces.add(statement.line),
-            Element::Line | Element::Points => self.part.dropped_others.add(statement.line),
+            ElementKind::Face => self.part.skipped.faces.add(statement.line),
+            ElementKind::Line | ElementKind::Points => self.part.skipped.others.add(statement.line),
         }
         Ok(())
     }
@@ -218,7 +216,7 @@ impl PartReader<'_> {
     /// Reads an element's corners; returns `false` if the element must be dropped.
     fn corners(
         &mut self,
-        kind: Element,
+        kind: ElementKind,
         statement: Statement<'_>,
         after: usize,
     ) -> Result<bool, Problem> {
@@ -283,8 +281,8 @@ impl PartReader<'_> {
                     if list == List::Vertex {
                         return if is_strict { Err(problem()) } else { Ok(false) };
                     }
-                    self.part.bad_index[at].get_or_insert_with(problem);
-                    self.part.bad_indices[at].add(statement.line);
+                    self.part.skipped.first_index[at].get_or_insert_with(problem);
+                    self.part.skipped.indices[at].add(statement.line);
                     self.part.elements.push(list, NO_INDEX);
                 }
             }

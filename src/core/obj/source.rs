@@ -1,20 +1,21 @@
-//! The bytes of an OBJ or MTL file: gzip decompressed, UTF-16 converted to UTF-8, without a byte order mark.
+//! Reader of an OBJ or MTL file: decompresses gzip, converts UTF-16 to UTF-8 and removes the byte order mark.
 
 use super::error::Problem;
 use super::gzip::{GzipMembers, MAGIC};
 use crate::progress::Progress;
 use encoding_rs_io::DecodeReaderBytesBuilder;
 use std::cell::Cell;
-use std::io::{self, BufRead, BufReader, Read};
+use std::io::{self, BufRead, BufReader, Cursor, Read};
 use std::rc::Rc;
 
-/// Bytes read from the file at a time.
-const PIECE: usize = 1 << 18;
+/// The buffer size for file reads and for decompressed data, in bytes.
+const BUFFER_SIZE: usize = 1 << 18;
 
-/// Decoded bytes of a file.
+/// Reads the decoded bytes of a file.
 pub(super) struct Source<'p> {
     bytes: Box<dyn Read + 'p>,
     progress: &'p Progress,
+    /// Set by [`GzipMembers`] if non-zero bytes follow the gzip data.
     has_garbage: Rc<Cell<bool>>,
 }
 
@@ -23,23 +24,18 @@ impl<'p> Source<'p> {
     /// The file can't be read, or the load was cancelled.
     pub(super) fn new(bytes: impl Read + 'p, progress: &'p Progress) -> Result<Self, Problem> {
         let counted = CountingReader { bytes, progress };
-        let mut source = BufReader::with_capacity(PIECE, counted);
         progress.check()?;
-        let is_gzip = source
-            .fill_buf()
-            .map_err(Problem::Read)?
-            .starts_with(&MAGIC);
+        let (start, source) = peeked(BufReader::with_capacity(BUFFER_SIZE, counted))?;
         let has_garbage = Rc::default();
-        let mut source: Box<dyn BufRead + 'p> = if is_gzip {
+        let source: Box<dyn BufRead + 'p> = if start.starts_with(&MAGIC) {
             let members = GzipMembers::new(source, Rc::clone(&has_garbage));
-            Box::new(BufReader::with_capacity(PIECE, members))
+            Box::new(BufReader::with_capacity(BUFFER_SIZE, members))
         } else {
             Box::new(source)
         };
-        // The first read may return less than a whole byte order mark.
-        let start = source.fill_buf().map_err(Problem::Read)?;
-        let may_be_marked = start.len() < 3 || start[0] >= 0x80;
-        let bytes: Box<dyn Read + 'p> = if may_be_marked {
+        let (start, source) = peeked(source)?;
+        let may_have_bom = start.first().is_some_and(|&b| b >= 0x80);
+        let bytes: Box<dyn Read + 'p> = if may_have_bom {
             let mut decoder = DecodeReaderBytesBuilder::new();
             decoder.bom_sniffing(true).utf8_passthru(true);
             Box::new(decoder.strip_bom(true).build(source))
@@ -53,7 +49,7 @@ impl<'p> Source<'p> {
         })
     }
 
-    /// Reads some bytes; returns 0 at the end.
+    /// Reads bytes into `out` and returns their number; 0 at the end.
     ///
     /// # Errors
     /// The file can't be read, or the load was cancelled.
@@ -71,13 +67,22 @@ impl<'p> Source<'p> {
         }
     }
 
-    /// Whether bytes other than zeros follow the gzip data.
+    /// Whether non-zero bytes follow the gzip data.
     pub(super) fn has_garbage(&self) -> bool {
         self.has_garbage.get()
     }
 }
 
-/// Counts the bytes read, and returns an error once the load is cancelled.
+/// The first three bytes of a source, as many as a byte order mark has, and the source with them. The first read of a
+/// pipe may return fewer.
+fn peeked<R: BufRead>(mut source: R) -> Result<(Vec<u8>, impl BufRead + use<R>), Problem> {
+    let mut start = Vec::new();
+    let read = source.by_ref().take(3).read_to_end(&mut start);
+    read.map_err(Problem::Read)?;
+    Ok((start.clone(), Cursor::new(start).chain(source)))
+}
+
+/// Counts the bytes read as progress. Returns an error after cancellation.
 struct CountingReader<'p, R> {
     bytes: R,
     progress: &'p Progress,
@@ -85,7 +90,7 @@ struct CountingReader<'p, R> {
 
 impl<R: Read> Read for CountingReader<'_, R> {
     fn read(&mut self, out: &mut [u8]) -> io::Result<usize> {
-        // Compressed bytes may decompress to nothing for a long time.
+        // Check here too: a long run of compressed bytes may produce no output.
         self.progress.check().map_err(io::Error::other)?;
         let count = self.bytes.read(out)?;
         self.progress.add_read(count as u64);

@@ -4,7 +4,7 @@
 
 use super::chunks::Chunk;
 use super::error::Problem;
-use super::words::without_comment;
+use super::words::{Words, without_comment};
 use memchr::{memchr_iter, memchr2};
 
 /// A statement as written in the file.
@@ -17,7 +17,13 @@ pub(super) struct Statement<'c> {
     pub is_joined: bool,
 }
 
-impl Statement<'_> {
+impl<'c> Statement<'c> {
+    /// The first word, and the offset after it; `None` if the line is empty.
+    pub(super) fn keyword(&self) -> Option<(&'c [u8], usize)> {
+        let (start, word) = Words::of(self.bytes, 0).next()?;
+        Some((word, start + word.len()))
+    }
+
     pub(super) fn without_comment(self) -> Self {
         Self {
             bytes: without_comment(self.bytes),

@@ -1,10 +1,10 @@
-//! Counts of unusual statements, and the lines of statements.
+//! Counts of unusual statements, and line numbers of statements.
 
 use super::error::{Warning, printable};
 use crate::counts::counted_as;
 use std::collections::BTreeMap;
 
-/// Number of occurrences, and the line of the first.
+/// A number of occurrences, and the line of the first.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Tally {
     pub count: usize,
@@ -19,7 +19,7 @@ impl Tally {
         });
     }
 
-    /// Adds other occurrences.
+    /// Adds the occurrences of another tally.
     pub(super) fn append(&mut self, other: Self) {
         if self.count == 0 || (other.count > 0 && other.first_line < self.first_line) {
             self.first_line = other.first_line;
@@ -27,24 +27,25 @@ impl Tally {
         self.count += other.count;
     }
 
-    /// A warning if the count isn't zero.
+    /// A warning at the first line, if the count isn't zero.
     pub(super) fn warning(self, message: impl FnOnce(usize) -> String) -> Option<Warning> {
         (self.count > 0).then(|| Warning::at(self.first_line, message(self.count)))
     }
 }
 
-/// Counts a statement by its keyword.
+/// Counts a statement under its keyword.
 pub(super) fn count_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, line: usize) {
     let mut one = Tally::default();
     one.add(line);
     add_by_keyword(tallies, keyword, one);
 }
 
-/// Adds the count of a keyword. Files of random bytes have many keywords: all after the first 40 share a count.
+/// Adds a tally to that of a keyword.
 pub(super) fn add_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &str, more: Tally) {
-    const MOST_KEYWORDS: usize = 40;
+    /// Files of random bytes have many keywords. Those after the first 40 share one tally.
+    const MAX_KEYWORDS: usize = 40;
     let is_known = tallies.contains_key(keyword);
-    let name = if is_known || tallies.len() < MOST_KEYWORDS {
+    let name = if is_known || tallies.len() < MAX_KEYWORDS {
         keyword
     } else {
         "…"
@@ -55,9 +56,10 @@ pub(super) fn add_by_keyword(tallies: &mut BTreeMap<String, Tally>, keyword: &st
 /// Line numbers of statements, stored as runs of statements on consecutive lines.
 #[derive(Clone, Debug, Default)]
 pub struct LineRuns {
-    /// The first statement of each run, and its line.
+    /// The index of the first statement in each run, and its line.
     runs: Vec<(usize, usize)>,
     count: usize,
+    /// The line after the last statement.
     next_line: usize,
 }
 
@@ -83,7 +85,7 @@ impl LineRuns {
         self.count += later.count;
     }
 
-    /// The line (from 1) of a statement (from 0); 0 if there are no statements.
+    /// The line (from 1) of a statement (from 0), or 0 if there are no statements.
     pub fn line(&self, statement: usize) -> usize {
         let run = self.runs.partition_point(|(first, _)| *first <= statement);
         match run.checked_sub(1).map(|run| self.runs[run]) {
@@ -97,16 +99,21 @@ impl LineRuns {
     }
 }
 
-/// The number of elements that aren't faces, with their noun.
+/// A number of elements that aren't faces, with the noun.
 pub(super) fn lines_or_points(count: usize) -> String {
     counted_as(count, "line or point", "lines or points")
 }
 
-/// A word for messages: shortened, and without control characters.
+/// A word for messages, shortened to fit on a line.
 pub(super) fn shortened(word: &str) -> String {
     const LENGTH: usize = 60;
-    let rest = word.chars().nth(LENGTH).map(|_| '…');
-    printable(word).chars().take(LENGTH).chain(rest).collect()
+    shortened_to(LENGTH, word)
+}
+
+/// At most `length` characters of a text, with control characters replaced.
+pub(super) fn shortened_to(length: usize, text: &str) -> String {
+    let rest = text.chars().nth(length).map(|_| '…');
+    printable(text).chars().take(length).chain(rest).collect()
 }
 
 #[cfg(test)]

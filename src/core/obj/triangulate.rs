@@ -2,20 +2,19 @@
 
 use super::contents::Contents;
 use super::corner::List;
-use super::elements::{Element, ElementRef, Elements};
+use super::elements::{Element, ElementKind, Elements};
 use super::error::Problem;
 use super::oddities::Oddities;
-use super::outline::Outline;
-use super::polygon::{Cut, Triangulator};
 use super::report::Dropped;
 use super::used::Used;
-use crate::mesh::{Attributes, NO_INDEX, has_zero_area};
+use crate::mesh::{Attributes, Faces, NO_INDEX, has_zero_area};
+use crate::polygon::{Cut, Outline, Triangulator};
 use crate::progress::Progress;
 use glam::{DVec3, Vec3};
 use std::sync::Mutex;
 
 /// A polygon of more corners takes more than some megabytes to cut.
-const LARGE: usize = 10_000;
+const LARGE_POLYGON: usize = 10_000;
 
 /// The data from which the chunks' triangles are built.
 pub(super) struct Assembly<'c> {
@@ -34,9 +33,11 @@ pub(super) struct Assembly<'c> {
 
 /// The triangles of a chunk; faces are counted from the chunk's first.
 pub(super) struct ChunkTriangles {
-    /// Number of triangles, and the space that there was for them.
+    /// Number of triangles, and the space that there was for them in the mesh's list.
     pub count: usize,
-    pub capacity: usize,
+    pub space: usize,
+    /// The last triangles, for which there was no space: a polygon that touches itself may have more than a fan.
+    pub overflow: Vec<[u32; 3]>,
     /// Those of the triangles, and lines and points.
     pub attributes: Attributes,
     pub first_face: usize,
@@ -47,7 +48,7 @@ pub(super) struct ChunkTriangles {
 }
 
 impl Assembly<'_> {
-    /// Triangulates the faces of a chunk into `triangles`, which has space for all.
+    /// Triangulates the faces of a chunk into `triangles`.
     pub(super) fn triangulate(
         &self,
         mut elements: Elements,
@@ -70,7 +71,8 @@ impl Assembly<'_> {
             assembly: self,
             result: ChunkTriangles {
                 count: 0,
-                capacity: triangles.len(),
+                space: triangles.len(),
+                overflow: Vec::new(),
                 attributes: Attributes::default(),
                 first_face,
                 runs: Default::default(),
@@ -90,8 +92,8 @@ impl Assembly<'_> {
         };
         for element in elements.iter() {
             match element.kind {
-                Element::Face => builder.add_face(&elements, &element)?,
-                Element::Line | Element::Points => {
+                ElementKind::Face => builder.add_face(&elements, &element)?,
+                ElementKind::Line | ElementKind::Points => {
                     builder
                         .add_lines_or_points(element.kind, &elements.corners[0][element.corners]);
                 }
@@ -115,7 +117,7 @@ struct TriangleBuilder<'c, 't> {
 }
 
 impl TriangleBuilder<'_, '_> {
-    fn add_lines_or_points(&mut self, kind: Element, vertices: &[u32]) {
+    fn add_lines_or_points(&mut self, kind: ElementKind, vertices: &[u32]) {
         let ChunkTriangles {
             attributes,
             dropped,
@@ -126,7 +128,7 @@ impl TriangleBuilder<'_, '_> {
         if !vertices.iter().all(is_finite) {
             dropped.elements += 1;
             oddities.not_finite_elements += 1;
-        } else if kind == Element::Points {
+        } else if kind == ElementKind::Points {
             attributes.points.extend(vertices);
         } else {
             let pairs = vertices.windows(2).map(|pair| [pair[0], pair[1]]);
@@ -135,11 +137,12 @@ impl TriangleBuilder<'_, '_> {
     }
 
     /// Triangulates a face, and drops triangles that no ray can hit.
-    fn add_face(&mut self, elements: &Elements, element: &ElementRef) -> Result<(), Problem> {
+    fn add_face(&mut self, elements: &Elements, element: &Element) -> Result<(), Problem> {
         let line = || elements.line(element);
         let corners = element.corners.clone();
         let ChunkTriangles {
             count,
+            overflow,
             attributes,
             first_face,
             runs,
@@ -173,11 +176,14 @@ impl TriangleBuilder<'_, '_> {
                 return;
             }
             let outline = if is_triangle {
-                0b111
+                Faces::ALL_EDGES
             } else {
                 self.outline.of(local, vertices)
             };
-            self.triangles[*count] = triangle;
+            match self.triangles.get_mut(*count) {
+                Some(slot) => *slot = triangle,
+                None => overflow.push(triangle),
+            }
             let index = *count as u32;
             *count += 1;
             attributes.faces.push(index, face as u32, outline);
@@ -203,7 +209,7 @@ impl TriangleBuilder<'_, '_> {
         self.placed.clear();
         self.placed.extend(placed);
         let progress = self.assembly.progress;
-        let is_large = vertices.len() > LARGE;
+        let is_large = vertices.len() > LARGE_POLYGON;
         let large_polygons = &self.assembly.large_polygons;
         let _alone = is_large.then(|| large_polygons.lock());
         let how = self

@@ -63,7 +63,7 @@ impl Scene {
         let bounds = mesh.bounds();
         Ok(Self {
             bounds,
-            bounds_with_elements: framed(bounds, mesh.element_bounds()),
+            bounds_with_elements: framed(bounds, mesh.line_and_point_bounds()),
             tree: Arc::new(Tree::build(&mesh, options, progress)?),
             mesh: Arc::new(mesh),
             crease: Crease::default(),
@@ -95,7 +95,7 @@ impl Scene {
             .iter()
             .flat_map(|&triangle| mesh.corners(triangle));
         let indices = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
-        let mesh = TriangleMesh::of_valid(corners.collect(), indices.collect());
+        let mesh = TriangleMesh::new_unchecked(corners.collect(), indices.collect());
         Self::new(mesh, &Progress::default()).expect("nobody cancels")
     }
 
@@ -107,7 +107,7 @@ impl Scene {
         }
         let in_file = |p: &Vec3| self.mesh.in_file(p.as_dvec3()).as_vec3();
         let positions = self.mesh.positions().iter().map(in_file).collect();
-        let mesh = TriangleMesh::of_valid(positions, self.mesh.triangles().to_vec());
+        let mesh = TriangleMesh::new_unchecked(positions, self.mesh.triangles().to_vec());
         let options = SceneOptions {
             packing: self.tree.packing(),
             ..SceneOptions::default()

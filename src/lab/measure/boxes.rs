@@ -207,7 +207,7 @@ fn aimed(mesh: &TriangleMesh, random: &mut Random, distance: f64) -> Option<Ray>
 fn grid(random: &mut Random) -> TriangleMesh {
     let place = Placement::new(1.0, [0.0, 0.5, 4096.0][random.index(3)]);
     let turn = random.index(3);
-    flat_grid(2, place).moved(|p| Vec3::new(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]))
+    flat_grid(2, place).map_positions(|p| Vec3::new(p[turn], p[(turn + 1) % 3], p[(turn + 2) % 3]))
 }
 
 /// A perpendicular ray at an edge or a corner of a grid, with zeros of either sign in the other components.

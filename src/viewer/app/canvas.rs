@@ -188,7 +188,7 @@ impl App {
             wire_colour: settings.wire_colour,
             normals: settings.shows_normals.then_some(settings.shading()),
             normal_length: settings.normal_length,
-            elements: self.document.loaded.scene.mesh().has_elements(),
+            elements: self.document.loaded.scene.mesh().has_lines_or_points(),
             flaw: self.flaw.as_ref().map(|place| place.flaw),
             picked: hit.map(|hit| hit.triangle),
             line_width_px: pixels_per_point.max(1.0),

@@ -19,7 +19,7 @@ impl App {
         let scene = &posted.context.scene;
         let is_shown = Arc::ptr_eq(scene, &self.document.loaded.scene);
         // Lines and points are drawn by the overlay; rays don't hit them.
-        if self.document.is_blank || !is_shown || scene.mesh().has_elements() {
+        if self.document.is_blank || !is_shown || scene.mesh().has_lines_or_points() {
             self.shows_nothing = false;
         } else if let Some(shows_surface) = self.tracer.shows_surface() {
             self.shows_nothing = !shows_surface;

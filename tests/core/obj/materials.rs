@@ -72,13 +72,10 @@ fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
         "{warnings:?}"
     );
     assert!(
-        warnings[1].ends_with("; shown as a checker"),
+        warnings[1].ends_with("; shown as a checkerboard"),
         "{warnings:?}"
     );
-    assert_eq!(
-        warnings[2],
-        "1 material without a definition, the first is “nobody”"
-    );
+    assert_eq!(warnings[2], "1 undefined material, the first is “nobody”");
     // Missing files are listed, so that they can be watched.
     let looked_for = |name: &str| loaded.report.files.iter().any(|path| path.ends_with(name));
     assert!(looked_for("nowhere.mtl") && looked_for("lost.png"));

@@ -111,3 +111,50 @@ fn prisms_with_concave_outlines_and_corners_on_edges_are_closed() {
     }
     assert!(rays > PRISMS * RAYS * 9 / 10, "{rays}");
 }
+
+/// A frame whose ends touch: a corner of one lies on an edge of the other. Its triangulation has more triangles than a fan,
+/// for which no space was reserved.
+#[test]
+fn a_polygon_that_touches_itself_may_have_more_triangles_than_a_fan() {
+    const CORNERS: [[f64; 2]; 12] = [
+        [0.0, 2.0],
+        [0.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 4.0],
+        [0.0, 4.0],
+        [0.0, 3.0],
+        [0.45, 2.0],
+        [1.0, 3.0],
+        [3.0, 3.0],
+        [3.0, 1.0],
+        [1.0, 1.0],
+        [1.0, 2.0],
+    ];
+    // Enough for a Delaunay triangulation.
+    const PER_EDGE: usize = 10;
+    let (mut text, mut face) = (String::new(), "f".to_owned());
+    for (k, start) in CORNERS.iter().enumerate() {
+        let end = CORNERS[(k + 1) % CORNERS.len()];
+        for step in 0..PER_EDGE {
+            let along = |axis: usize| {
+                start[axis] + (end[axis] - start[axis]) * step as f64 / PER_EDGE as f64
+            };
+            writeln!(text, "v {} {} 0", along(0), along(1)).expect("memory");
+            write!(face, " {}", k * PER_EDGE + step + 1).expect("memory");
+        }
+    }
+    let last = "f 11 21 31\n";
+    let mesh = parse(format!("{text}{face}\n{last}").as_bytes(), STRICT)
+        .expect("good")
+        .mesh;
+    let count = mesh.triangles().len() as u32;
+    assert!(count as usize > CORNERS.len() * PER_EDGE - 2 + 1, "{count}");
+    let area = |triangle: u32| {
+        let [a, b, c] = mesh.corners(triangle).map(|p| p.as_dvec3());
+        0.5 * (b - a).cross(c - a).z
+    };
+    // The frame without its hole and the gaps on both sides of the corner; and a triangle.
+    let frame: f64 = (0..count - 1).map(area).sum();
+    assert!((frame - (16.0 - 4.0 - 0.5)).abs() < 1e-6, "{frame}");
+    assert_eq!((area(count - 1), mesh.face_of(count - 1)), (8.0, 1));
+}

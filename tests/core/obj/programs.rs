@@ -49,20 +49,20 @@ fn a_transparency_of_1_in_every_material_means_opaque() {
     assert_eq!(value, 1.0);
     assert_eq!(
         warnings,
-        ["material library “m.mtl”: every material has “Tr 1” and no “d”; taken as opaque"]
+        ["material library “m.mtl”: every material has “Tr 1” and no “d”; treated as opaque"]
     );
     // Another material is opaque, but no face has it.
     let (value, warnings) = opacity("newmtl m\nTr 1\nnewmtl n\nTr 0\n");
     assert_eq!(value, 1.0);
     assert_eq!(
         warnings,
-        ["nothing would be visible: “Tr 1” taken as opaque"]
+        ["nothing would be visible; “Tr 1” treated as opaque"]
     );
     let (value, warnings) = opacity("newmtl m\nd 0\n");
     assert_eq!(value, 0.0);
     assert_eq!(
         warnings,
-        ["nothing is visible: the materials of all faces have the opacity 0"]
+        ["nothing is visible: the material of every face has opacity 0"]
     );
     let (value, warnings) = opacity("newmtl m\nd 0.5\nTr 1\n");
     assert_eq!((value, warnings), (0.5, vec![]));
@@ -94,7 +94,7 @@ fn values_above_1_are_clamped() {
     assert_eq!(material.opacity, 1.0);
     let clamped = |keyword: &str, line: u32| {
         format!(
-            "material library “m.mtl”: 1 “{keyword}” statement with a value above 1, clamped; the first on line {line}"
+            "material library “m.mtl”: 1 “{keyword}” statement with a value above 1 clamped, the first on line {line}"
         )
     };
     let expected = [clamped("Kd", 2), clamped("Ks", 3), clamped("d", 5)];
@@ -113,7 +113,7 @@ fn black_reflectance_does_not_hide_a_texture() {
     assert_eq!(material.diffuse, Some(Vec3::ONE));
     assert_eq!(
         super::warnings(&loaded),
-        ["material library “m.mtl”: material “m”: “Kd 0” would hide its texture; taken as 1"]
+        ["material library “m.mtl”: material “m”: “Kd 0” would hide the texture; treated as 1"]
     );
     let black = load(TEXTURED, "newmtl m\nKd 0\n");
     assert_eq!(

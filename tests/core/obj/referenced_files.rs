@@ -43,7 +43,7 @@ fn a_file_that_is_no_library_or_picture_is_named_but_not_quoted() {
         ),
         (
             "mtllib m.mtl",
-            "texture “secret”: not a PNG or JPEG picture; shown as a checker",
+            "texture “secret”: not a PNG or JPEG picture; shown as a checkerboard",
         ),
     ] {
         let loaded = load_beside(line, &[("secret", SECRET), library], STRICT);
@@ -79,7 +79,7 @@ fn devices_pipes_and_kernel_files_are_rejected_as_libraries_and_textures() {
     ] {
         std::os::unix::fs::symlink(to, at(link)).expect("linked");
     }
-    let of_system = "a virtual system file";
+    let of_system = "in a virtual file system";
     for (name, why) in [
         ("/proc/self/pagemap", of_system),
         ("/proc/self/environ", of_system),
@@ -94,7 +94,7 @@ fn devices_pipes_and_kernel_files_are_rejected_as_libraries_and_textures() {
         assert_eq!(warnings(&loaded)[0], expected);
         fs::write(at("m.mtl"), format!("newmtl a\nmap_Kd {name}\n")).expect("written");
         let loaded = load_in(folder.path(), "mtllib m.mtl", STRICT);
-        let expected = format!("texture “{name}”: {why}; shown as a checker");
+        let expected = format!("texture “{name}”: {why}; shown as a checkerboard");
         assert_eq!(warnings(&loaded), [expected]);
     }
 }
@@ -152,7 +152,7 @@ fn a_truncated_jpeg_is_shown_with_a_warning() {
         .expect("memory");
     let library = ("m.mtl", &b"newmtl a\nmap_Kd p.jpg\n"[..]);
     let load = |bytes: &[u8]| load_beside("mtllib m.mtl", &[library, ("p.jpg", bytes)], STRICT);
-    let early = "texture “p.jpg”: the file ends early: part of the picture is missing";
+    let early = "texture “p.jpg”: truncated file: part of the picture is missing";
     for (bytes, expected) in [
         (whole.clone(), None),
         // Cameras append their own data.
@@ -202,7 +202,7 @@ fn a_picture_beyond_the_memory_limit_is_refused_before_decoding() {
     };
     // One byte per pixel while decoding, and three when stored: 1526 MB.
     let refused = warnings(&load(20_000, 1200 * MB));
-    let expected = "texture “p.png”: decoding needs 1526 MB of memory, 1199 MB are left (--max-memory); shown as a checker";
+    let expected = "texture “p.png”: decoding needs 1526 MB of memory, but only 1199 MB is left (--max-memory); shown as a checkerboard";
     assert_eq!(refused, [expected]);
     // 15.3 MB.
     assert_eq!(load(2000, 14 * MB).report.warnings.len(), 1);

@@ -1,5 +1,4 @@
-//! Finds the flaws of a mesh: borders, edges with more than two triangles, flipped triangles, slivers and
-//! others.
+//! Mesh checks: borders, non-manifold edges, flipped triangles, slivers and other flaws.
 
 mod t_junctions;
 mod triangles;
@@ -18,32 +17,32 @@ pub enum Flaw {
     OpenEdge,
     /// An edge with more than two triangles.
     NonManifoldEdge,
-    /// An edge whose two triangles traverse it in the same direction: one of them is flipped.
+    /// An edge that its two triangles traverse in the same direction: one of them is flipped.
     FlippedEdge,
-    /// A border vertex inside another border edge: the mesh looks closed there, but isn't.
+    /// A border vertex in the interior of another border edge: the mesh looks closed there, but isn't.
     TJunction,
-    /// A vertex where parts of the surface touch without a common edge.
+    /// A vertex at which parts of the surface touch without a common edge.
     TouchingVertex,
     /// A triangle with the same corners as an earlier one.
     Duplicate,
-    /// A triangle more than [`SLIVER_ASPECT`] times longer than high.
+    /// A triangle whose longest edge is more than [`SLIVER_ASPECT`] times its height.
     Sliver,
 }
 
-/// The name and description of a kind of flaw.
+/// Names and description of a kind of flaw.
 #[derive(Clone, Copy, Debug)]
 pub struct FlawInfo {
-    /// The kind.
+    /// The kind of flaw.
     pub flaw: Flaw,
     /// The name in reports.
     pub name: &'static str,
     /// The name in menus.
     pub title: &'static str,
-    /// A sentence that describes it.
+    /// A description of one sentence.
     pub about: &'static str,
 }
 
-/// Every kind of flaw.
+/// Every kind of flaw, in the order of [`Flaw`].
 pub static FLAWS: [FlawInfo; 7] = [
     FlawInfo {
         flaw: Flaw::OpenEdge,
@@ -61,19 +60,19 @@ pub static FLAWS: [FlawInfo; 7] = [
         flaw: Flaw::FlippedEdge,
         name: "flipped_edges",
         title: "Flipped edges",
-        about: "Edges between two triangles with opposite winding.",
+        about: "Edges between two triangles of opposite winding.",
     },
     FlawInfo {
         flaw: Flaw::TJunction,
         name: "t_junctions",
         title: "T-junctions",
-        about: "Border vertices that lie inside another border edge.",
+        about: "Border vertices in the interior of another border edge.",
     },
     FlawInfo {
         flaw: Flaw::TouchingVertex,
         name: "touching_vertices",
         title: "Touching vertices",
-        about: "Vertices where parts of the surface touch without a common edge.",
+        about: "Vertices at which parts of the surface touch without a common edge.",
     },
     FlawInfo {
         flaw: Flaw::Duplicate,
@@ -85,25 +84,25 @@ pub static FLAWS: [FlawInfo; 7] = [
         flaw: Flaw::Sliver,
         name: "slivers",
         title: "Slivers",
-        about: "Triangles longer than 1000 times their height.",
+        about: "Triangles whose longest edge is more than 1000 times their height.",
     },
 ];
 
-/// The places of a kind of flaw.
+/// The locations of one kind of flaw.
 #[derive(Clone, Debug, PartialEq)]
 pub enum FlawLocations {
-    /// Edges, by their end vertices.
+    /// The end vertices of edges.
     Edges(Vec<[u32; 2]>),
-    /// Triangles.
+    /// Triangle indices.
     Triangles(Vec<u32>),
-    /// Vertices.
+    /// Vertex indices.
     Vertices(Vec<u32>),
-    /// Not checked, because it would take too long.
+    /// Not checked, because the check would take too long.
     Unknown,
 }
 
 impl FlawLocations {
-    /// The number of places, or `None` if they weren't checked.
+    /// The number of locations; `None` if they weren't checked.
     pub fn count(&self) -> Option<usize> {
         match self {
             Self::Edges(edges) => Some(edges.len()),
@@ -117,20 +116,20 @@ impl FlawLocations {
 /// The flaws of a mesh.
 #[derive(Clone, Debug)]
 pub struct Health {
-    /// The places of each [`Flaw`], in the order of [`FLAWS`].
+    /// The locations of each [`Flaw`], in the order of [`FLAWS`].
     places: [FlawLocations; 7],
-    /// The box around the triangles at each flaw's places.
+    /// The bounding box of the triangles at each flaw's locations.
     bounds: [Aabb; 7],
-    /// The largest ratio of longest edge to height.
+    /// The largest ratio of longest edge to height of any triangle; infinite if a height is 0 in f64.
     pub max_aspect: f64,
 }
 
 impl Health {
-    /// Upper bound on the memory in bytes that [`of`](Self::of) uses, including its result.
+    /// Upper bound on the memory that [`of`](Self::of) uses, including its result, in bytes.
     pub fn bytes(mesh: &TriangleMesh) -> u64 {
-        // Per edge: its use, twice while the table is collected, and its ends in the list of open edges.
+        // Per edge: two copies of its use while the table is collected, and its ends in the list of open edges.
         let of_edge = 2 * size_of::<EdgeUse>() + 2 * size_of::<[u32; 2]>();
-        // Per vertex: its position and index in order, and its representative.
+        // Per vertex: its position and index in the sorted list, and its representative.
         let of_vertex = size_of::<([u32; 3], u32)>() + size_of::<u32>();
         let edges = 3 * mesh.triangles.len() as u64;
         edges * of_edge as u64 + mesh.positions.len() as u64 * of_vertex as u64
@@ -139,7 +138,7 @@ impl Health {
     /// Checks every triangle and every edge. Vertices at the same position count as one.
     pub fn of(mesh: &TriangleMesh) -> Self {
         let welded = Welded::of(mesh);
-        let edges = EdgeTable::of(mesh, |vertex| welded.vertex(vertex));
+        let edges = EdgeTable::welded(mesh, &welded);
         let (mut open, mut non_manifold, mut flipped) = (Vec::new(), Vec::new(), Vec::new());
         for uses in edges.iter() {
             match uses {
@@ -167,18 +166,18 @@ impl Health {
         }
     }
 
-    /// The places of a kind of flaw.
+    /// The locations of a kind of flaw.
     pub fn places(&self, flaw: Flaw) -> &FlawLocations {
         &self.places[flaw as usize]
     }
 
-    /// The box around all triangles with a vertex at a place of this flaw; `None` if there are none.
+    /// The bounding box of all triangles with a vertex at one of the flaw's locations; `None` if there are none.
     pub fn bounds(&self, flaw: Flaw) -> Option<Aabb> {
         let bounds = self.bounds[flaw as usize];
         (!bounds.is_empty()).then_some(bounds)
     }
 
-    /// Whether the mesh is closed: each edge has two triangles.
+    /// Whether the mesh is closed: every edge has exactly two triangles.
     pub fn is_closed(&self) -> bool {
         [Flaw::OpenEdge, Flaw::NonManifoldEdge]
             .into_iter()
@@ -186,7 +185,7 @@ impl Health {
     }
 }
 
-/// The box around all triangles that have a vertex at one of the places.
+/// The bounding box of all triangles with a vertex at one of the locations.
 fn bounds(mesh: &TriangleMesh, places: &FlawLocations) -> Aabb {
     let mut is_there = vec![false; mesh.positions.len()];
     let mut mark = |vertex: u32| is_there[vertex as usize] = true;
@@ -253,7 +252,7 @@ mod tests {
     }
 
     #[test]
-    fn flaws_of_edges_are_counted() {
+    fn edge_flaws_are_counted() {
         let mut mesh = tetrahedron();
         mesh.triangles.truncate(3);
         assert_eq!(counts(&mesh), [3, 0, 0, 0, 0, 0, 0]);
@@ -272,7 +271,7 @@ mod tests {
     }
 
     #[test]
-    fn a_sliver_is_a_thousand_times_longer_than_high() {
+    fn a_sliver_is_more_than_a_thousand_times_longer_than_high() {
         for (height, expected) in [(1.0 / 999.0, 0), (1.0 / 1001.0, 1)] {
             let positions = vec![Vec3::ZERO, Vec3::X, Vec3::new(0.5, height, 0.0)];
             let mesh = TriangleMesh::new(positions, vec![[0, 1, 2]]);
@@ -281,7 +280,7 @@ mod tests {
     }
 
     #[test]
-    fn two_solids_that_share_a_point_touch_there() {
+    fn two_solids_that_share_one_point_have_a_touching_vertex() {
         let mut mesh = tetrahedron();
         let mirrored = [Vec3::NEG_X, Vec3::NEG_Y, Vec3::NEG_Z, Vec3::ZERO];
         mesh.positions.extend(mirrored);
@@ -298,12 +297,12 @@ mod tests {
     /// ```text
     ///   3───────2
     ///   │ \     │
-    ///   0───4───1    one triangle above the edge from 0 to 1, two below
+    ///   0───4───1    one triangle above the edge 0–1, two below
     ///   │ /   \ │
     ///   5───────6
     /// ```
     #[test]
-    fn a_vertex_inside_a_border_edge_is_a_t_junction() {
+    fn a_vertex_in_the_interior_of_a_border_edge_is_a_t_junction() {
         let flat = |x: f32, y: f32| Vec3::new(x, y, 0.3 * x + 0.1 * y);
         let positions = [(0, 0), (3, 0), (3, 1), (0, 1), (1, 0), (0, -1), (3, -1)]
             .map(|(x, y)| flat(x as f32 / 3.0, y as f32));

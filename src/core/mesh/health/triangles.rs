@@ -1,14 +1,13 @@
-//! Finds slivers and duplicate triangles.
+//! Checks of single triangles: slivers and duplicates.
 
-use crate::mesh::{TriangleMesh, Welded};
-use glam::{DVec3, Vec3};
+use crate::mesh::{TriangleMesh, Welded, aspect};
 use rayon::prelude::*;
 
-/// Ratio of longest edge to height above which a triangle counts as a sliver. From there on f32 kernels
-/// decide some rays wrongly, so the count is a warning.
+/// Ratio of longest edge to height above which a triangle counts as a sliver. Above it, f32 kernels decide some rays
+/// wrongly.
 pub const SLIVER_ASPECT: f64 = 1e3;
 
-/// The slivers, and the largest aspect of any triangle.
+/// The slivers, and the largest [`aspect`] of any triangle.
 pub(super) fn slivers(mesh: &TriangleMesh) -> (Vec<u32>, f64) {
     let triangles = (0..mesh.triangles.len() as u32).into_par_iter();
     let aspects = triangles.map(|triangle| (triangle, aspect(mesh.corners(triangle))));
@@ -18,17 +17,7 @@ pub(super) fn slivers(mesh: &TriangleMesh) -> (Vec<u32>, f64) {
     (slivers.map(|(triangle, _)| triangle).collect(), max_aspect)
 }
 
-/// Longest edge divided by the height on it; infinite if the height is 0 in f64.
-fn aspect(corners: [Vec3; 3]) -> f64 {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let longest = [b - a, c - b, a - c]
-        .map(DVec3::length_squared)
-        .into_iter()
-        .fold(0.0, f64::max);
-    longest / (b - a).cross(c - a).length()
-}
-
-/// Triangles with the same three vertices as an earlier one, with either winding.
+/// Triangles with the same three vertices as an earlier one, regardless of winding.
 pub(super) fn duplicates(mesh: &TriangleMesh, welded: &Welded) -> Vec<u32> {
     let key = |(triangle, &corners): (usize, &[u32; 3])| {
         let mut places = welded.corners(corners);

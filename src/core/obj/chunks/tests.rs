@@ -82,7 +82,7 @@ fn chunks_end_between_statements_and_know_their_lines() {
 
 #[test]
 fn a_statement_may_be_longer_than_a_chunk() {
-    let long = "1 ".repeat(CHUNK);
+    let long = "1 ".repeat(CHUNK_SIZE);
     let text = format!("v 1\nf {long}\\\n{long}\\\n2\nv 2\n");
     let lines: Vec<usize> = statements_of(text.as_bytes())
         .iter()

@@ -1,70 +1,64 @@
-//! Decodes texture pictures: PNG and JPEG.
+//! Decoder of texture pictures in PNG or JPEG format.
 
-use super::error::{Problem, printable};
-use super::fence::fenced;
 use crate::mesh::Texture;
+use crate::obj::error::printable;
+use crate::obj::fence::fenced;
 use glam::UVec2;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// A texture, without the picture's transparency.
+/// A decoded picture, without its alpha channel.
 pub(super) struct Picture {
     pub texture: Texture,
     /// Whether the file is truncated.
-    pub is_cut_short: bool,
-    /// Whether the picture has places that aren't opaque.
+    pub is_truncated: bool,
+    /// Whether any pixel isn't opaque.
     pub is_transparent: bool,
 }
 
-/// Decodes a picture, unless that takes more than `max_bytes` besides the file's own.
+/// Decodes a picture with at most `max_bytes` of memory, not counting the file's bytes.
 ///
 /// # Errors
-/// The reason, without quoting anything from a file that isn't a picture.
-pub(super) fn decoded(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
-    let decode = || decode(bytes, max_bytes);
-    let (picture, is_transparent) = match fenced("decoding", decode) {
-        Ok(decoded) => decoded?,
-        Err(Problem::Content(message)) => return Err(message),
-        Err(_) => return Err("decoding failed".to_owned()),
-    };
+/// The reason. It never quotes the content of a file that isn't a picture.
+pub(super) fn decode(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
+    let (picture, is_transparent) = fenced("decoding", || pixels(bytes, max_bytes))??;
     let size = UVec2::new(picture.width(), picture.height());
     let texture = Texture::new(name, size, picture.into_raw());
     Ok(Picture {
         texture: texture.ok_or("the picture is empty")?,
         is_transparent,
-        is_cut_short: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
+        is_truncated: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
     })
 }
 
-/// The picture, and whether it has places that aren't opaque.
-fn decode(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), String> {
-    // Some messages end with a line end.
-    let words = |error: image::ImageError| printable(error.to_string().trim());
+/// The pixels, and whether any isn't opaque.
+fn pixels(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), String> {
+    // Some messages end with a newline.
+    let message = |error: image::ImageError| printable(error.to_string().trim());
     let mut reader = ImageReader::new(Cursor::new(bytes))
         .with_guessed_format()
-        .map_err(|error| words(error.into()))?;
+        .map_err(|error| message(error.into()))?;
     let Some(format @ (ImageFormat::Png | ImageFormat::Jpeg)) = reader.format() else {
         return Err("not a PNG or JPEG picture".to_owned());
     };
     let mut limits = Limits::default();
     limits.max_alloc = Some(max_bytes);
     reader.limits(limits);
-    let decoder = reader.into_decoder().map_err(words)?;
+    let decoder = reader.into_decoder().map_err(message)?;
     let needed = needed_bytes(&decoder, format, bytes.len() as u64);
+    let megabytes = needed.div_ceil(1 << 20);
     if needed > max_bytes {
+        let left = max_bytes >> 20;
         return Err(format!(
-            "decoding needs {} MB of memory, {} MB are left (--max-memory)",
-            needed.div_ceil(1 << 20),
-            max_bytes >> 20
+            "decoding needs {megabytes} MB of memory, but only {left} MB is left (--max-memory)"
         ));
     }
-    // A failed allocation in the decoder would abort the program.
+    // Try the allocation first: a failure in the decoder would abort the program.
     let memory = usize::try_from(needed).unwrap_or(usize::MAX);
     if Vec::<u8>::new().try_reserve_exact(memory).is_err() {
-        let megabytes = needed.div_ceil(1 << 20);
         return Err(format!("can't allocate {megabytes} MB"));
     }
-    let decoded = DynamicImage::from_decoder(decoder).map_err(words)?;
+    let decoded = DynamicImage::from_decoder(decoder).map_err(message)?;
     let is_transparent = match &decoded {
         DynamicImage::ImageRgba8(picture) => picture.pixels().any(|p| p[3] < u8::MAX),
         DynamicImage::ImageLumaA8(picture) => picture.pixels().any(|p| p[1] < u8::MAX),
@@ -75,11 +69,10 @@ fn decode(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), Strin
     Ok((decoded.into_rgb8(), is_transparent))
 }
 
-/// Peak memory of the decoder and of the conversion to 8-bit RGB.
+/// The peak memory of decoding and of the conversion to 8-bit RGB, in bytes.
 fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u64) -> u64 {
-    /// Per pixel of a JPEG: 16-bit coefficients for up to four components, which a progressive file keeps for
-    /// the whole picture.
-    const JPEG_COEFFICIENTS: u64 = 8;
+    /// 16-bit coefficients of up to four components. A progressive JPEG keeps them for the whole picture.
+    const JPEG_BYTES_PER_PIXEL: u64 = 8;
     let (width, height) = decoder.dimensions();
     let pixels = u64::from(width) * u64::from(height);
     let decoded = decoder.total_bytes();
@@ -89,25 +82,26 @@ fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u6
     };
     let working = match format {
         // The decoder copies the file.
-        ImageFormat::Jpeg => JPEG_COEFFICIENTS * pixels + file_bytes,
+        ImageFormat::Jpeg => JPEG_BYTES_PER_PIXEL * pixels + file_bytes,
         _ => 0,
     };
     // The coefficients are freed before the conversion.
     decoded.saturating_add(working.max(converted))
 }
 
+/// The start marker (SOI).
 const JPEG_START: &[u8] = b"\xFF\xD8";
 
-/// Whether a JPEG has its end marker; without it the decoder fills missing rows with grey.
+/// Whether a JPEG has its end marker (EOI). If it is missing, the decoder fills missing rows with grey.
 ///
-/// Source: ITU-T T.81 (1992), B.1.1: markers and their segments.
+/// Source: ITU-T T.81 (1992), B.1.1, markers and their segments.
 fn has_jpeg_end(bytes: &[u8]) -> bool {
     let mut at = JPEG_START.len();
     while let Some(found) = memchr::memchr(0xFF, bytes.get(at..).unwrap_or_default()) {
         at += found + 1;
         match bytes.get(at) {
             Some(0xD9) => return true,
-            // A fill byte; the marker follows.
+            // A fill byte before the marker.
             Some(0xFF) | None => {}
             // A data byte 0xFF, a restart marker, a marker without a segment, or a second start marker.
             Some(0x00 | 0x01 | 0xD0..=0xD8) => at += 1,

@@ -1,14 +1,14 @@
-//! Triangulates a polygon with many corners by a constrained Delaunay triangulation, in O(n log n).
+//! Constrained Delaunay triangulation of large polygons, in O(n log n).
 //!
-//! Source: L. P. Chew, "Constrained Delaunay Triangulations", Algorithmica 4, 1989; the crate `spade` for the
-//! triangulation, whose predicates are exact.
+//! Source: L. P. Chew, "Constrained Delaunay Triangulations", Algorithmica 4, 1989; implemented by the crate `spade`,
+//! whose predicates are exact.
 //!
-//! The polygon is projected onto the coordinate plane to which it is most nearly parallel, so that no
-//! coordinate is rounded: corners that touch an edge, and bridges to holes, stay in place. Its edges are
-//! forced into the triangulation of its corners one by one; the first that crosses another ends the attempt.
-//! Triangles with winding number one are inside.
+//! The polygon is projected onto the coordinate plane most nearly parallel to it, so that no coordinate is rounded:
+//! corners that touch an edge, and bridges to holes, stay in place. The polygon's edges are forced into the
+//! triangulation of its corners one by one; an edge that crosses another ends the attempt. The polygon's triangles are
+//! those with winding number one.
 
-use super::polygon::vector_area;
+use super::vector_area;
 use crate::progress::{Cancelled, Progress};
 use glam::DVec3;
 use spade::handles::{FixedDirectedEdgeHandle, FixedFaceHandle, FixedVertexHandle, InnerTag};
@@ -18,24 +18,26 @@ use spade::{
 };
 use std::collections::HashMap;
 
-/// Limit on the steps for forcing edges: a constant, about a second, and one per corner. Ordinary polygons
-/// need a few steps per edge.
-const MOST_STEPS: usize = 1 << 24;
-const MOST_STEPS_PER_CORNER: usize = 64;
-/// Corners or edges between two cancellation checks.
+/// Limits on the steps for forcing edges: a constant, which takes about a second, plus a number per corner. Ordinary
+/// polygons need a few steps per edge.
+const MAX_STEPS: usize = 1 << 24;
+const MAX_STEPS_PER_CORNER: usize = 64;
+/// Number of corners or edges between two cancellation checks.
 const CORNERS_PER_CHECK: usize = 1 << 8;
-/// Marks a directed edge that isn't an edge of the polygon.
+/// The corner of a directed edge that isn't an edge of the polygon.
 const NO_CORNER: u32 = u32::MAX;
 
-/// Corners are inserted one by one, located through a hierarchy of the previous ones. Bulk insertion takes
-/// quadratic time if the corners lie on few circles or lines (14 s for a comb of 100 000, 2026-11).
+/// A constrained triangulation that locates each inserted point through a hierarchy of the previous ones.
+///
+/// Points are inserted one by one: bulk insertion takes quadratic time if they lie on few circles or lines (14 s for a
+/// comb of 100 000, 2026-11).
 type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyHintGenerator<f64>>;
 
-/// Appends a polygon's triangles, three corners each, with its winding. Returns `false` if the polygon
-/// crosses itself, has no plane, or takes too many steps.
+/// Appends the corner indices of a polygon's triangles, three per triangle, with the polygon's winding. Returns `false`
+/// if the polygon crosses itself, has no plane, or takes too many steps.
 ///
 /// # Errors
-/// Cancelled by `progress`.
+/// [`Cancelled`] by `progress`.
 pub(super) fn triangulate(
     corners: &[DVec3],
     progress: &Progress,
@@ -64,8 +66,8 @@ pub(super) fn triangulate(
     Ok(true)
 }
 
-/// The corners projected onto the coordinate plane most nearly parallel to the polygon, counterclockwise,
-/// scaled by a power of two to a size of about 1.
+/// The corners projected onto the coordinate plane most nearly parallel to the polygon, counterclockwise, scaled by a
+/// power of two to a size of about 1. `None` if the vector area is zero or not finite.
 fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let area = vector_area(corners);
     if !area.is_finite() || area == DVec3::ZERO {
@@ -79,11 +81,11 @@ fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     let largest = corners
         .iter()
         .fold(0.0, |most: f64, p| most.max(p.abs().max_element()));
-    // The logarithm's integer part is f64's exponent, so the scale is exact, except for subnormal sizes.
+    // The logarithm's integer part is the f64 exponent. The scaling is exact, except for subnormal sizes.
     let scale = 2f64.powi(-(largest.log2().floor() as i32).clamp(-1000, 1000));
     let scaled = |x: f64| {
         let x = x * scale;
-        // spade rejects smaller numbers; compared with 1 they are negligible. Also, −0 becomes 0.
+        // spade rejects smaller numbers. They are negligible compared with 1. −0 also becomes 0.
         if x.abs() < spade::MIN_ALLOWED_VALUE {
             0.0
         } else {
@@ -94,22 +96,23 @@ fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
     Some(corners.iter().map(point).collect())
 }
 
-/// A polygon in the triangulation of its corners. Several corners may share a vertex.
+/// A polygon and the triangulation of its corners. Several corners may share a vertex.
 struct Polygon {
     mesh: Mesh,
+    /// For each corner, its vertex in the triangulation.
     vertex_of: Vec<FixedVertexHandle>,
-    /// For each vertex, its first corner and the number of its corners.
+    /// For each vertex, its first corner and its number of corners.
     corners_at: Vec<(u32, u32)>,
-    /// For each directed edge, the corner of the polygon where the edge starts and to which the inside on its
-    /// left belongs; [`NO_CORNER`] if the polygon has no such edge.
+    /// For each directed edge, the corner at which the edge starts and to which the inside on the edge's left belongs;
+    /// [`NO_CORNER`] if the polygon has no such edge.
     corner_of: Vec<u32>,
-    /// For each undirected edge, the number of times that the polygon passes along its first directed edge,
-    /// minus the number in the other direction.
+    /// For each undirected edge, how many times the polygon traverses it along its first directed edge, minus how many
+    /// times in the other direction.
     passes: Vec<i32>,
 }
 
 impl Polygon {
-    /// Triangulates the corners; `None` if all lie on one line.
+    /// Triangulates the corners. `None` if all are collinear.
     fn new(points: &[Point2<f64>], progress: &Progress) -> Result<Option<Self>, Cancelled> {
         let mut places: Vec<(Point2<f64>, u32, u32)> = Vec::new();
         let mut known: HashMap<[u64; 2], usize> = HashMap::with_capacity(points.len());
@@ -151,11 +154,11 @@ impl Polygon {
         }))
     }
 
-    /// Forces every edge of the polygon into the triangulation. Returns `false` if two cross, or it takes too
-    /// long.
+    /// Forces every edge of the polygon into the triangulation. Returns `false` if two edges cross or the limit on
+    /// steps is exceeded.
     fn force_edges(&mut self, progress: &Progress) -> Result<bool, Cancelled> {
         let count = self.vertex_of.len();
-        let most_steps = MOST_STEPS + MOST_STEPS_PER_CORNER * count;
+        let max_steps = MAX_STEPS + MAX_STEPS_PER_CORNER * count;
         let mut steps = 0;
         for (number, corner) in scattered(count).enumerate() {
             if number % CORNERS_PER_CHECK == 0 {
@@ -165,20 +168,20 @@ impl Polygon {
             if from == to {
                 continue;
             }
-            // Searching an edge iterates over the corners at its first vertex.
+            // The search for an edge iterates over the corners at its first vertex.
             steps += self.corners_at[from.index()].1 as usize;
             let mut crossings = 0;
             for crossed in LineIntersectionIterator::new_from_handles(&self.mesh, from, to) {
                 if let Intersection::EdgeIntersection(edge) = crossed {
                     crossings += 1;
-                    if edge.is_constraint_edge() || steps + steps_for(crossings) > most_steps {
+                    if edge.is_constraint_edge() || steps + steps_for(crossings) > max_steps {
                         return Ok(false);
                     }
                 }
             }
             steps += steps_for(crossings);
             let parts = self.mesh.try_add_constraint(from, to);
-            if parts.is_empty() || steps > most_steps {
+            if parts.is_empty() || steps > max_steps {
                 return Ok(false);
             }
             for part in parts {
@@ -188,7 +191,7 @@ impl Polygon {
         Ok(true)
     }
 
-    /// Records an edge, or a part of one that passes through other vertices.
+    /// Records an edge of the polygon, or one part of an edge that passes through other vertices.
     fn note_edge(&mut self, corner: u32, from: FixedVertexHandle, part: FixedDirectedEdgeHandle) {
         let start = self.mesh.directed_edge(part).from().fix();
         let corner = if start == from {
@@ -200,20 +203,20 @@ impl Polygon {
         self.passes[part.as_undirected().index()] += if is_first(part) { 1 } else { -1 };
     }
 
-    /// Number of passes of the polygon along a directed edge, minus those in the other direction.
+    /// How many times the polygon traverses a directed edge, minus how many times in the other direction.
     fn passes_along(&self, edge: FixedDirectedEdgeHandle) -> i32 {
         let passes = self.passes[edge.as_undirected().index()];
         if is_first(edge) { passes } else { -passes }
     }
 
-    /// The triangles with winding number one; `None` if any has a winding number other than 0 or 1, so that
-    /// the polygon isn't simple.
+    /// The triangles with winding number one. `None` if a triangle has a winding number other than 0 and 1: the polygon
+    /// crosses itself.
     fn inside(&self) -> Option<Vec<FixedFaceHandle<InnerTag>>> {
         const UNSEEN: i32 = i32::MAX;
         let mut winding = vec![UNSEEN; self.mesh.num_all_faces()];
         let (mut inside, mut open) = (Vec::new(), vec![self.mesh.outer_face().fix()]);
         winding[0] = 0;
-        // The outer face's edges are those of the hull.
+        // The edges of the outer face are those of the convex hull.
         let hull = self.mesh.convex_hull().map(|edge| edge.fix());
         let mut across: Vec<FixedDirectedEdgeHandle> = hull.collect();
         while let Some(face) = open.pop() {
@@ -226,7 +229,7 @@ impl Polygon {
                 }
                 across.extend(inner.adjacent_edges().map(|edge| edge.fix()));
             }
-            // The inside is on the left of the polygon's edges: the winding number is one more than on the
+            // The inside is on the left of the polygon's edges, so the winding number there is one higher than on the
             // right.
             for edge in across.drain(..) {
                 let edge = self.mesh.directed_edge(edge);
@@ -246,15 +249,15 @@ impl Polygon {
         Some(inside)
     }
 
-    /// Where several corners share a vertex, gives the corner of each polygon edge to the edges that follow
-    /// it counterclockwise around that vertex.
+    /// Where several corners share a vertex, copies the corner of each polygon edge to the edges that follow it
+    /// counterclockwise around the vertex.
     ///
     /// ```text
-    ///   in of corner 1 ╲   ╱ out of corner 2
+    ///    into corner 1 ╲   ╱ out of corner 2
     ///                   ╲ ╱
-    ///       inside of 1  •  inside of 2        each inside begins at its corner's edge out
+    ///       inside of 1  •  inside of 2        each inside starts at the edge out of its corner
     ///                   ╱ ╲
-    ///  out of corner 1 ╱   ╲ in of corner 2
+    ///  out of corner 1 ╱   ╲ into corner 2
     /// ```
     fn spread_corners(&mut self) {
         let mut around = Vec::new();
@@ -279,7 +282,7 @@ impl Polygon {
         }
     }
 
-    /// The corner at an edge's start for the triangle on its left.
+    /// The corner at which an edge starts, for the triangle on the edge's left.
     fn corner_left_of(&self, edge: FixedDirectedEdgeHandle) -> u32 {
         let vertex = self.mesh.directed_edge(edge).from().fix();
         match self.corners_at[vertex.index()] {
@@ -289,16 +292,16 @@ impl Polygon {
     }
 }
 
-/// Steps for forcing a polygon edge that crosses this many edges of the triangulation. They are flipped, then
-/// further edges are flipped until the triangles are Delaunay again (1 µs each, and 12 ns times their square,
-/// 2026-11).
+/// Estimated steps for forcing a polygon edge that crosses this many edges of the triangulation. The crossed edges are
+/// flipped, then others until the triangulation is Delaunay again: 1 µs per crossing, plus 12 ns times the square of
+/// their number (2026-11).
 fn steps_for(crossings: usize) -> usize {
     16 * crossings + crossings * crossings / 4
 }
 
-/// The numbers below `count` in an order in which any run of them is spread evenly over the range. In the
-/// polygon's own order each long edge next to another would cross all edges that the last one crossed: 12 s
-/// for a sheared comb of 10 000 corners.
+/// The numbers below `count`, in an order in which every run of them is spread evenly over the range. In the polygon's
+/// own order, each of several long parallel edges would cross all edges that the previous one crossed: 12 s for a
+/// sheared comb of 10 000 corners.
 fn scattered(count: usize) -> impl Iterator<Item = usize> {
     /// The golden ratio minus 1.
     const GOLDEN: f64 = 0.618_033_988_749_895;
@@ -317,6 +320,7 @@ fn greatest_common_divisor(a: usize, b: usize) -> usize {
     }
 }
 
+/// Whether a directed edge is the first of its undirected edge.
 fn is_first(edge: FixedDirectedEdgeHandle) -> bool {
     edge.as_undirected().as_directed() == edge
 }

@@ -1,60 +1,51 @@
-//! Reads material libraries.
+//! Parser of material libraries.
 //!
-//! A statement that is malformed or unknown is skipped, with a warning; the rest of the library is read.
+//! Malformed and unknown statements are skipped with a warning.
 //!
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
-use super::Warning;
-use super::chunks::each_statement;
-use super::error::Problem;
-use super::statement::Statement;
-use super::tally::{Tally, count_by_keyword, shortened};
-use super::words::{name, without_comment};
+use super::map_file::{self, MapFile};
 use crate::counts::counted;
 use crate::mesh::{Illumination, Material};
+use crate::obj::chunks::each_statement;
+use crate::obj::error::{Problem, Warning};
+use crate::obj::statement::Statement;
+use crate::obj::tally::{Tally, count_by_keyword, shortened};
+use crate::obj::words::{name, without_comment};
 use crate::progress::Progress;
-use glam::{Vec2, Vec3};
+use glam::Vec3;
 use std::collections::{BTreeMap, HashSet};
 use std::ops::ControlFlow;
 
-/// A material and its texture file.
+/// A material as defined in a library, and its texture file.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Definition {
     pub material: Material,
     pub diffuse_map: Option<MapFile>,
     line: usize,
-    /// Whether a `d` was read, which overrides `Tr`.
+    /// Whether a `d` statement was read. It overrides `Tr`.
     has_opacity: bool,
     /// Whether a value above 1 was clamped.
     is_clamped: bool,
 }
 
 impl Definition {
-    /// Whether only a `Tr 1` makes the material invisible. Some programs write it for opaque materials.
-    pub(super) fn is_invisible_by_transparency(&self) -> bool {
+    /// Whether only `Tr 1` makes the material invisible. Some programs write `Tr 1` for opaque materials.
+    pub(super) fn is_invisible_only_by_tr(&self) -> bool {
         self.material.opacity == 0.0 && !self.has_opacity
     }
 }
 
-/// A `map_Kd`: a file's name, and its placement on the surface.
-#[derive(Clone, Debug, PartialEq)]
-pub(super) struct MapFile {
-    pub name: String,
-    pub scale: Vec2,
-    pub offset: Vec2,
-}
+/// Keywords that programs write for every material but shading doesn't use. Warnings about them would hide others.
+const IGNORED: [&str; 3] = ["ka", "ni", "sharpness"];
 
-/// Statements that programs write for every material and that shading doesn't use. Warnings about them would
-/// hide others.
-const SILENT: [&str; 3] = ["ka", "ni", "sharpness"];
-
-/// Statements between two cancellation checks.
+/// The number of statements between cancellation checks: a millisecond's work.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
-/// Largest library in bytes, decompressed: four times the largest file that is read at all.
-const LARGEST: usize = 1 << 30;
+/// The maximum size of a decompressed library: four times the maximum size of a referenced file.
+const MAX_BYTES: usize = 1 << 30;
 
-/// Keywords of the format and its common extensions, in lower case. Warnings quote only these: any file can
-/// be named as a library, and its content must not be shown.
+/// The keywords of the format and its common extensions, in lower case. Warnings quote no others: an OBJ can name
+/// any file as a library, and its content must not be shown.
 const KEYWORDS: [&str; 45] = [
     "ka",
     "kd",
@@ -103,17 +94,17 @@ const KEYWORDS: [&str; 45] = [
     "map_opacity",
 ];
 
-/// A library's materials and the warnings about it.
+/// The wanted materials of a library, and warnings about it.
 pub(super) struct MaterialLibrary {
-    /// The wanted materials, each by its first definition.
+    /// The first definition of each wanted material.
     pub definitions: Vec<Definition>,
     pub warnings: Vec<Warning>,
 }
 
-/// Reads the wanted materials of a library; `None` if the file isn't a library.
+/// Parses the wanted materials of a library; `None` if the file isn't a library.
 ///
 /// # Errors
-/// Cancelled by `progress`.
+/// The load was cancelled.
 pub(super) fn parse(
     bytes: &[u8],
     library: &str,
@@ -131,23 +122,20 @@ pub(super) fn parse(
         return Ok(None);
     }
     let about = format!("material library “{}”", shortened(library));
-    let skipped = parser.skipped.into_iter().map(|(keyword, tally)| {
-        let Tally { count, first_line } = tally;
-        let statements = counted(count, &format!("“{keyword}” statement"));
-        format!("{about}: {statements} skipped, the first on line {first_line}")
-    });
-    let unknown = (parser.unknown.count > 0).then(|| {
-        let Tally { count, first_line } = parser.unknown;
-        let statements = counted(count, "unknown statement");
-        format!("{about}: {statements} skipped, the first on line {first_line}")
-    });
-    let clamped = parser.clamped.into_iter().map(|(keyword, tally)| {
-        let Tally { count, first_line } = tally;
-        let statements = counted(count, &format!("“{keyword}” statement"));
-        format!(
-            "{about}: {statements} with a value above 1, clamped; the first on line {first_line}"
-        )
-    });
+    let describe = |what: &str, tally: Tally, outcome: &str| {
+        let statements = counted(tally.count, &format!("{what} statement"));
+        let line = tally.first_line;
+        format!("{about}: {statements} {outcome}, the first on line {line}")
+    };
+    let quoted = |keyword: &str| format!("“{keyword}”");
+    let skipped = parser.skipped.iter();
+    let skipped = skipped.map(|(keyword, &tally)| describe(&quoted(keyword), tally, "skipped"));
+    let clamped = parser
+        .clamped
+        .iter()
+        .map(|(keyword, &tally)| describe(&quoted(keyword), tally, "with a value above 1 clamped"));
+    let unknown =
+        (parser.unknown.count > 0).then(|| describe("unknown", parser.unknown, "skipped"));
     let warnings = skipped.chain(clamped).chain(unknown);
     let mut warnings: Vec<String> = warnings.chain(failure).collect();
     if parser.material_count > 0 && parser.transparent_count == parser.material_count {
@@ -155,7 +143,7 @@ pub(super) fn parse(
             definition.material.opacity = 1.0;
         }
         warnings.push(format!(
-            "{about}: every material has “Tr 1” and no “d”; taken as opaque"
+            "{about}: every material has “Tr 1” and no “d”; treated as opaque"
         ));
     }
     for definition in &mut parser.found {
@@ -164,7 +152,7 @@ pub(super) fn parse(
             material.diffuse = Some(Vec3::ONE);
             let name = shortened(&material.name);
             warnings.push(format!(
-                "{about}: material “{name}”: “Kd 0” would hide its texture; taken as 1"
+                "{about}: material “{name}”: “Kd 0” would hide the texture; treated as 1"
             ));
         }
     }
@@ -174,22 +162,22 @@ pub(super) fn parse(
     }))
 }
 
-/// State of parsing a library.
+/// The state of parsing a library.
 #[derive(Default)]
 struct Parser {
     found: Vec<Definition>,
     names: HashSet<String>,
     current: Option<Definition>,
-    /// Number of statements, not counting comments.
+    /// The number of statements, without comments.
     statement_count: usize,
     material_count: usize,
     /// Skipped statements by keyword.
     skipped: BTreeMap<String, Tally>,
-    /// Statements with values above 1, which were clamped.
+    /// Statements with a value clamped to 1, by keyword.
     clamped: BTreeMap<String, Tally>,
     /// Skipped statements whose keyword isn't in [`KEYWORDS`].
     unknown: Tally,
-    /// Number of materials that only a `Tr 1` makes invisible.
+    /// The number of materials that only `Tr 1` makes invisible.
     transparent_count: usize,
 }
 
@@ -200,18 +188,18 @@ impl Parser {
         is_wanted: impl Fn(&str) -> bool,
         progress: &Progress,
     ) -> Result<(), Problem> {
-        // A library's bytes don't count as progress.
-        let own = Progress::default();
+        // Don't count a library's bytes as progress.
+        let uncounted = Progress::default();
         let (mut count, mut length) = (0, 0);
-        each_statement(bytes, &own, |statement| {
+        each_statement(bytes, &uncounted, |statement| {
             if count % STATEMENTS_PER_CHECK == 0 {
                 progress.check()?;
             }
             count += 1;
             length += statement.bytes.len() + 1;
-            if length > LARGEST {
+            if length > MAX_BYTES {
                 return Err(
-                    statement.problem(format!("the library is larger than {} MB", LARGEST >> 20))
+                    statement.problem(format!("the library is larger than {} MB", MAX_BYTES >> 20))
                 );
             }
             self.take(statement, &is_wanted);
@@ -228,9 +216,9 @@ impl Parser {
             return;
         }
         self.statement_count += 1;
-        // Keywords have one meaning in any case.
+        // Keywords are case-insensitive.
         let lower_case = keyword.to_ascii_lowercase();
-        if SILENT.contains(&lower_case.as_str()) {
+        if IGNORED.contains(&lower_case.as_str()) {
             return;
         }
         if lower_case == "newmtl" {
@@ -243,13 +231,13 @@ impl Parser {
             });
             return;
         }
-        // The name of a file may contain a #.
+        // A file name may contain a #.
         let rest = match lower_case.as_str() {
             "map_kd" => rest.trim().to_owned(),
             _ => name(without_comment(rest.as_bytes())),
         };
         let current = self.current.as_mut();
-        let Some(skipped) = current.and_then(|material| material.read(&lower_case, &rest)) else {
+        let Some(skipped) = current.and_then(|material| material.apply(&lower_case, &rest)) else {
             if KEYWORDS.contains(&lower_case.as_str()) {
                 count_by_keyword(&mut self.skipped, keyword, statement.line);
             } else {
@@ -272,7 +260,7 @@ impl Parser {
         let Some(ended) = self.current.take() else {
             return;
         };
-        self.transparent_count += usize::from(ended.is_invisible_by_transparency());
+        self.transparent_count += usize::from(ended.is_invisible_only_by_tr());
         let name = &ended.material.name;
         if !is_wanted(name) {
             return;
@@ -286,13 +274,13 @@ impl Parser {
 }
 
 impl Definition {
-    /// Reads a statement and returns the skipped options; `None` if it is malformed or unknown.
-    fn read(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
+    /// Applies a statement. Returns its skipped options, or `None` if the statement is malformed or unknown.
+    fn apply(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
         let material = &mut self.material;
         match keyword {
-            "kd" => material.diffuse = Some(clamped(light(rest)?, &mut self.is_clamped)),
-            "ks" => material.specular = clamped(light(rest)?, &mut self.is_clamped),
-            "ke" => material.emission = light(rest)?,
+            "kd" => material.diffuse = Some(clamped(colour(rest)?, &mut self.is_clamped)),
+            "ks" => material.specular = clamped(colour(rest)?, &mut self.is_clamped),
+            "ke" => material.emission = colour(rest)?,
             "ns" => material.shininess = number(rest).filter(|x| *x >= 0.0)?,
             "d" => {
                 // With -halo, the value is the opacity at the centre.
@@ -319,7 +307,7 @@ impl Definition {
                 };
             }
             "map_kd" => {
-                let (map, skipped) = map_file(rest)?;
+                let (map, skipped) = map_file::parse(rest)?;
                 self.diffuse_map = Some(map);
                 return Some(skipped);
             }
@@ -329,75 +317,27 @@ impl Definition {
     }
 }
 
-/// Three numbers, or one for all three channels; none may be negative.
-fn light(rest: &str) -> Option<Vec3> {
+/// Parses a colour: three non-negative numbers, or one for all channels.
+fn colour(rest: &str) -> Option<Vec3> {
     let numbers: Option<Vec<f32>> = rest.split_whitespace().map(number).collect();
-    let light = match numbers?[..] {
+    let colour = match numbers?[..] {
         [grey] => Vec3::splat(grey),
         [r, g, b] => Vec3::new(r, g, b),
         _ => return None,
     };
-    light.cmpge(Vec3::ZERO).all().then_some(light)
+    colour.cmpge(Vec3::ZERO).all().then_some(colour)
 }
 
-/// A reflectance, at most 1 in each channel.
+/// A reflectance clamped to 1 per channel; sets `is_clamped`.
 fn clamped(colour: Vec3, is_clamped: &mut bool) -> Vec3 {
     *is_clamped = colour.cmpgt(Vec3::ONE).any();
     colour.min(Vec3::ONE)
 }
 
-/// A finite number.
-fn number(word: &str) -> Option<f32> {
+/// Parses a finite number.
+pub(super) fn number(word: &str) -> Option<f32> {
     let number: f32 = word.trim().parse().ok()?;
     number.is_finite().then_some(number)
-}
-
-/// Parses `-option value… name with spaces`; also returns the options that shading doesn't use.
-fn map_file(rest: &str) -> Option<(MapFile, Vec<String>)> {
-    let mut map = MapFile {
-        name: String::new(),
-        scale: Vec2::ONE,
-        offset: Vec2::ZERO,
-    };
-    let mut skipped = Vec::new();
-    let mut rest = rest.trim();
-    while rest.starts_with('-') {
-        let (option, mut after) = word(rest);
-        let least_most = match option {
-            "-s" | "-o" | "-t" => (1, 3),
-            "-mm" => (2, 2),
-            "-blendu" | "-blendv" | "-cc" | "-clamp" | "-boost" | "-bm" | "-texres"
-            | "-imfchan" | "-type" => (1, 1),
-            // A name may start with a dash.
-            _ => break,
-        };
-        let mut values = Vec::new();
-        for k in 0..least_most.1 {
-            let (value, next) = word(after);
-            let is_number = number(value).is_some();
-            if k >= least_most.0 && !is_number {
-                break;
-            }
-            values.push(number(value).unwrap_or(0.0));
-            after = next;
-        }
-        let pair = Vec2::new(values[0], values.get(1).copied().unwrap_or(values[0]));
-        match option {
-            "-s" => map.scale = pair,
-            "-o" => map.offset = Vec2::new(values[0], values.get(1).copied().unwrap_or(0.0)),
-            _ => skipped.push(option.to_owned()),
-        }
-        rest = after;
-    }
-    map.name = rest.trim_matches('"').replace('\\', "/");
-    (!map.name.is_empty()).then_some((map, skipped))
-}
-
-/// The first word, and the rest.
-fn word(text: &str) -> (&str, &str) {
-    let text = text.trim_start();
-    let (word, rest) = text.split_once(char::is_whitespace).unwrap_or((text, ""));
-    (word, rest.trim_start())
 }
 
 #[cfg(test)]

@@ -2,13 +2,12 @@
 
 use super::elements::Elements;
 use super::error::Problem;
-use super::tally::Tally;
+use super::skipped::Skipped;
 use glam::{DVec3, Vec2, Vec3};
-use std::collections::BTreeMap;
 
 /// The contents of a chunk.
 #[derive(Default)]
-pub(super) struct Part {
+pub(super) struct ChunkContents {
     pub positions: Vec<DVec3>,
     pub textures: Vec<Vec2>,
     pub normals: Vec<Vec3>,
@@ -16,18 +15,10 @@ pub(super) struct Part {
     pub colours: Vec<(u32, [f32; 3])>,
     pub elements: Elements,
     /// Names and smoothing groups, each with the index of the first face that it may apply to.
-    pub marks: Vec<(u32, Mark)>,
+    pub state_changes: Vec<(u32, StateChange)>,
     /// Material libraries, and their lines.
     pub libraries: Vec<(usize, String)>,
-    /// Ignored statements by keyword.
-    pub ignored: BTreeMap<String, Tally>,
-    /// Dropped faces; `dropped_others` counts lines and points.
-    pub dropped_faces: Tally,
-    pub dropped_others: Tally,
-    /// Indices of texture coordinates and normals that were ignored, by list.
-    pub bad_indices: [Tally; 3],
-    /// The error about the first of them: it matters if the file has such a list and is read strictly.
-    pub bad_index: [Option<Problem>; 3],
+    pub skipped: Skipped,
     /// Whether a vertex coordinate may have more than 15 digits.
     pub has_long_numbers: bool,
     /// The error at which reading stopped.
@@ -37,7 +28,7 @@ pub(super) struct Part {
 }
 
 /// A statement that applies to the faces after it.
-pub(super) enum Mark {
+pub(super) enum StateChange {
     Material(String),
     Group(String),
     Smoothing(u32),

@@ -1,7 +1,9 @@
-//! Which statements of material libraries are read, and warnings about the rest.
+//! Tests of the material library parser.
 
 use super::*;
+use glam::Vec2;
 
+/// The materials and warnings of a library.
 fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
     let parsed = parse(text.as_bytes(), "m.mtl", |_| true, &Progress::default());
     let library = parsed.expect("not cancelled").expect("a library");
@@ -56,7 +58,7 @@ fn a_file_that_is_not_a_library_is_not_quoted() {
 }
 
 #[test]
-fn all_properties_that_shading_uses_are_read() {
+fn every_property_used_by_shading_is_read() {
     let (materials, warnings) = messages(
         "newmtl glass\nKs .1 .2 .3\nKe 2 0 0\nNs 50\nillum 1\nTr 0.75\nnewmtl b\nd -halo 0.5\nTr 1\nKa 1 1 1\nNi 1.5\n",
     );
@@ -74,7 +76,7 @@ fn all_properties_that_shading_uses_are_read() {
 }
 
 #[test]
-fn a_maps_options_precede_its_name() {
+fn map_options_precede_the_file_name() {
     let map = |name: &str, scale, offset| Some((name.to_owned(), scale, offset));
     let (one, zero) = (Vec2::ONE, Vec2::ZERO);
     for (text, expected) in [
@@ -92,7 +94,7 @@ fn a_maps_options_precede_its_name() {
         ("-odd-name.png", map("-odd-name.png", one, zero)),
         ("-s 2 3", None),
     ] {
-        let found = map_file(text).map(|(map, _)| (map.name, map.scale, map.offset));
+        let found = map_file::parse(text).map(|(map, _)| (map.name, map.scale, map.offset));
         assert_eq!(found, expected, "{text}");
     }
 }

@@ -1,4 +1,4 @@
-//! Triangulation of polygons: areas, holes, touching corners and crossings.
+//! Tests of polygon triangulation: areas, holes, touching corners and crossings.
 
 use super::*;
 
@@ -6,8 +6,8 @@ fn placed(corners: &[DVec3]) -> Vec<Vec3> {
     corners.iter().map(|p| p.as_vec3()).collect()
 }
 
+/// Triangulates a polygon in a slanted plane, away from the origin. Returns the outcome and the triangles' signed area.
 fn cut(points: &[[f64; 2]]) -> (Cut, f64) {
-    // In a slanted plane, far away.
     let place = |p: &[f64; 2]| DVec3::new(p[0] + 1e4, p[1], 0.3 * p[0] - 0.2 * p[1]);
     let corners: Vec<DVec3> = points.iter().map(place).collect();
     let mut area = 0.0;
@@ -78,7 +78,7 @@ fn a_polygon_that_crosses_itself_or_has_no_plane_becomes_a_fan() {
     assert_eq!(cut(&star).0, Cut::Fan);
 }
 
-/// A star with this many corners.
+/// A star with `count` corners.
 fn star(count: u32) -> Vec<[f64; 2]> {
     let corner = |k: u32| {
         let angle = f64::from(k) / f64::from(count) * std::f64::consts::TAU;
@@ -92,11 +92,11 @@ fn star(count: u32) -> Vec<[f64; 2]> {
 fn stars_of_any_size_are_triangulated() {
     for count in [FEW as u32 - 2, FEW as u32 + 2, 10_000] {
         let (how, area) = cut(&star(count));
-        // As many triangles of radii 1 and 0.7 as corners.
+        // One triangle per corner, with sides of length 1 and 0.7.
         let angle = std::f64::consts::TAU / f64::from(count);
         let expected = f64::from(count) * 0.5 * 0.7 * angle.sin();
         assert_eq!(how, Cut::Good);
-        // Sums of n numbers of at most 1, each with an error of a few 2⁻⁵³ times 1e4, the polygon's position.
+        // Sums of n numbers of at most 1. Each has an error of a few times 2⁻⁵³ · 1e4, as the polygon is at x = 1e4.
         assert!((area - expected).abs() < 1e-8, "{area}, {expected}");
     }
     assert_eq!(cut(&star(LARGEST as u32 + 2)).0, Cut::Fan);
@@ -121,11 +121,11 @@ fn triangulation_stops_when_cancelled() {
     progress.cancel();
     let corners: Vec<DVec3> = star(10_000).iter().map(in_plane).collect();
     let result = Triangulator::new().cut(&corners, &placed(&corners), &progress, |_| {});
-    assert!(matches!(result, Err(Problem::Cancelled)));
+    assert!(matches!(result, Err(Cancelled)));
 }
 
-/// Asserts that every edge of a simple polygon belongs to exactly one triangle, which requires the right ones
-/// of corners that share a vertex.
+/// Asserts that every edge of a simple polygon belongs to exactly one triangle. Where corners share a vertex, this
+/// fails for a triangle with the wrong one of them.
 fn assert_edges_are_covered(points: &[[f64; 2]]) {
     let corners: Vec<DVec3> = points.iter().map(|p| DVec3::new(0.0, p[0], p[1])).collect();
     let count = corners.len();
@@ -143,7 +143,7 @@ fn assert_edges_are_covered(points: &[[f64; 2]]) {
     assert!(covered.iter().all(|&times| times == 1), "{covered:?}");
 }
 
-/// A ring of this many corners around a point.
+/// A ring of `count` corners around a point. `direction` is the number of turns; negative values are clockwise.
 fn ring(
     count: u32,
     centre: [f64; 2],
@@ -162,7 +162,7 @@ fn ring(
 #[test]
 fn holes_with_bridges_are_cut_out() {
     for count in [8, 60, 500] {
-        // Two holes, both with bridges from the first corner, the right one first.
+        // Two holes, both with a bridge from the first corner.
         let mut points: Vec<[f64; 2]> = ring(count, [0.0, 0.0], 10.0, 1.0).collect();
         for centre in [[5.0, -3.0], [5.0, 1.0]] {
             points.push(points[0]);
@@ -179,7 +179,7 @@ fn holes_with_bridges_are_cut_out() {
         };
         assert_eq!(how, Cut::Good);
         let expected = ring_area(10.0) - 2.0 * ring_area(1.5);
-        // As for stars.
+        // The same error bound as for stars.
         assert!((area - expected).abs() < 1e-8, "{area}, {expected}");
         assert_edges_are_covered(&points);
     }
@@ -187,7 +187,7 @@ fn holes_with_bridges_are_cut_out() {
 
 #[test]
 fn corners_may_touch_an_edge_or_another_corner() {
-    // Teeth from above touch the floor, or the tips of teeth from below.
+    // Teeth from above touch the bottom edge or the tips of teeth from below.
     for tip in [0.0, 1.0] {
         let mut points = vec![[0.0, 0.0]];
         for k in 0..FEW as u32 {
@@ -212,7 +212,7 @@ fn corners_may_touch_an_edge_or_another_corner() {
 }
 
 #[test]
-fn random_polygons_are_triangulated_as_by_ear_clipping() {
+fn delaunay_and_ear_clipping_give_equally_many_triangles() {
     let mut random = crate::random::Random::new(3);
     for count in [FEW + 1, 300, 1500] {
         let mut radius = || 0.2 + 0.8 * (random.index(1 << 20) as f64) / f64::from(1 << 20);
@@ -242,7 +242,7 @@ fn large_self_crossing_polygons_become_a_fan() {
     let count = 2500;
     let noise = (0..count).map(|_| [random.index(1000) as f64, random.index(1000) as f64]);
     assert_eq!(cut(&noise.collect::<Vec<_>>()).0, Cut::Fan);
-    // Twice around the same circle.
+    // Two turns around the same circle.
     for count in [200, 2000] {
         let twice = ring(count, [0.0, 0.0], 1.0, 2.0);
         assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
@@ -251,7 +251,7 @@ fn large_self_crossing_polygons_become_a_fan() {
             Cut::Good
         );
     }
-    // Around twice: once inside and once outside.
+    // Two turns around circles of different radii.
     let twice = ring(101, [0.0, 0.0], 1.0, 1.0).chain(ring(101, [0.0, 0.0], 2.0, 1.0));
     assert_eq!(cut(&twice.collect::<Vec<_>>()).0, Cut::Fan);
     // A figure eight whose halves only touch.

@@ -1,4 +1,4 @@
-//! Finds and reads the files that an OBJ and its material libraries name.
+//! The files named by an OBJ and its material libraries.
 
 use super::stored_file;
 use std::cell::RefCell;
@@ -8,20 +8,20 @@ use std::io;
 use std::path::{Path, PathBuf};
 use unicode_normalization::UnicodeNormalization as _;
 
-/// Reads a file named by an OBJ or its material library; names separate folders by `/`.
+/// Reads a file named by an OBJ or a material library. Names use `/` between folders.
 pub type ReadFile<'a> = &'a dyn Fn(&str) -> io::Result<Vec<u8>>;
 
-/// Finds and reads files by names that separate folders by `/`.
-pub(super) trait ReferencedFiles {
-    /// The path of a name; the same path for all its spellings.
+/// A source of files by name. Names use `/` between folders.
+pub(in crate::obj) trait ReferencedFiles {
+    /// The path of a named file; the same path for all spellings of the name.
     fn find(&self, name: &str) -> PathBuf;
 
-    /// The bytes of a found file of at most `most_bytes`.
-    fn read(&self, path: &Path, most_bytes: u64) -> io::Result<Vec<u8>>;
+    /// The bytes of a file of at most `max_bytes`, at a path returned by [`find`](Self::find).
+    fn read(&self, path: &Path, max_bytes: u64) -> io::Result<Vec<u8>>;
 }
 
-/// Files that a function reads by name.
-pub(super) struct NamedFiles<'a>(pub ReadFile<'a>);
+/// Files read by a caller's function.
+pub(in crate::obj) struct NamedFiles<'a>(pub ReadFile<'a>);
 
 impl ReferencedFiles for NamedFiles<'_> {
     fn find(&self, name: &str) -> PathBuf {
@@ -33,46 +33,46 @@ impl ReferencedFiles for NamedFiles<'_> {
     }
 }
 
-/// Files in and around an OBJ's folder, and at absolute paths.
-pub(super) struct Folder {
+/// Files at paths relative to an OBJ's folder, and at absolute paths.
+pub(in crate::obj) struct Folder {
     path: PathBuf,
-    /// The folder of the link's target, if the OBJ is a link.
-    behind_link: Option<PathBuf>,
-    /// Paths that were looked for, including missing ones.
-    wanted: RefCell<BTreeSet<PathBuf>>,
-    /// Contents of the folders searched.
+    /// The folder of the link's target, if the OBJ is a symbolic link.
+    link_target_folder: Option<PathBuf>,
+    /// The paths looked up so far, including missing files.
+    looked_for: RefCell<BTreeSet<PathBuf>>,
+    /// The listings of the folders searched so far.
     listings: RefCell<HashMap<PathBuf, Listing>>,
 }
 
-/// A folder's names, keyed by their [`folded`] form.
+/// The file names in a folder, by their [`folded`] form.
 type Listing = HashMap<String, OsString>;
 
 impl Folder {
-    pub(super) fn of(obj: &Path) -> Self {
+    pub(in crate::obj) fn of(obj: &Path) -> Self {
         let target = std::fs::read_link(obj)
             .and_then(|_| obj.canonicalize())
             .ok();
         Self {
             path: obj.parent().unwrap_or(Path::new("")).to_owned(),
-            behind_link: target.and_then(|target| Some(target.parent()?.to_owned())),
-            wanted: RefCell::default(),
+            link_target_folder: target.and_then(|target| Some(target.parent()?.to_owned())),
+            looked_for: RefCell::default(),
             listings: RefCell::default(),
         }
     }
 
-    pub(super) fn into_wanted(self) -> Vec<PathBuf> {
-        self.wanted.into_inner().into_iter().collect()
+    pub(in crate::obj) fn into_looked_for(self) -> Vec<PathBuf> {
+        self.looked_for.into_inner().into_iter().collect()
     }
 
     /// The folders to search.
     fn folders(&self) -> impl Iterator<Item = &PathBuf> {
-        [Some(&self.path), self.behind_link.as_ref()]
+        [Some(&self.path), self.link_target_folder.as_ref()]
             .into_iter()
             .flatten()
     }
 
-    /// The file with this name. Failing that, one that differs in case or in the form of accents, or is in the folder
-    /// itself.
+    /// The path of an existing file: `name`, or else `file_name` directly in the folder. Both ignore case and the
+    /// form of accents.
     fn file_of(&self, name: &Path, file_name: &Path) -> Option<PathBuf> {
         let mut folders = self.folders();
         folders.find_map(|folder| {
@@ -81,7 +81,7 @@ impl Folder {
         })
     }
 
-    /// The file at a path, or one whose path differs only in case.
+    /// The path of `name` in a folder. If it doesn't exist, an existing path with the same [`folded`] form.
     fn any_case(&self, folder: &Path, name: &Path) -> Option<PathBuf> {
         let exact = folder.join(name);
         if exact.exists() {
@@ -104,37 +104,37 @@ impl Folder {
 impl ReferencedFiles for Folder {
     fn find(&self, name: &str) -> PathBuf {
         let file_name = Path::new(name).file_name().map_or(Path::new(""), Path::new);
-        // A network path would make this computer contact another one.
+        // Opening a network path would contact another computer.
         let name = if name.starts_with("//") {
             file_name
         } else {
             Path::new(name)
         };
-        let mut wanted = self.wanted.borrow_mut();
+        let mut looked_for = self.looked_for.borrow_mut();
         let Some(found) = self.file_of(name, file_name) else {
-            // The file may be created in any of them later.
-            wanted.extend(self.folders().map(|folder| folder.join(name)));
+            // The file may be created in either folder later.
+            looked_for.extend(self.folders().map(|folder| folder.join(name)));
             return self.path.join(name);
         };
         let canonical = found.canonicalize();
-        wanted.insert(found.clone());
+        looked_for.insert(found.clone());
         canonical.unwrap_or(found)
     }
 
-    fn read(&self, path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
+    fn read(&self, path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
         /// A thousand times the largest library seen, and more than the largest texture.
-        const LARGEST: u64 = 256 << 20;
-        stored_file::read(path, most_bytes.min(LARGEST))
+        const MAX_BYTES: u64 = 256 << 20;
+        stored_file::read(path, max_bytes.min(MAX_BYTES))
     }
 }
 
-/// A name in lower case, with composed accents: macOS stores them decomposed.
+/// A name in lower case with composed accents. macOS stores them decomposed.
 fn folded(name: &OsStr) -> String {
     name.to_string_lossy().to_lowercase().nfc().collect()
 }
 
-/// The names in a folder; empty if it can't be read. Of names whose folded forms are the same, the last one by bytes
-/// counts.
+/// The names in a folder, or none if it can't be read. If names have the same folded form, the last one in byte order
+/// is used.
 fn listing(folder: &Path) -> Listing {
     let is_here = folder.as_os_str().is_empty();
     let folder = if is_here { Path::new(".") } else { folder };
@@ -154,7 +154,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn files_are_found_in_any_case_and_without_their_stated_folder() {
+    fn files_are_found_in_any_case_and_outside_their_stated_folder() {
         let folder = tempfile::tempdir().expect("a folder");
         let sub = folder.path().join("Maps");
         std::fs::create_dir(&sub).expect("written");
@@ -182,7 +182,7 @@ mod tests {
                 .read(&folder_files.find("Maps"), 1 << 20)
                 .is_err()
         );
-        let wanted = folder_files.into_wanted();
-        assert!(wanted.contains(&folder.path().join("missing.mtl")));
+        let looked_for = folder_files.into_looked_for();
+        assert!(looked_for.contains(&folder.path().join("missing.mtl")));
     }
 }

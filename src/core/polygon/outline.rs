@@ -1,6 +1,6 @@
-//! Distinguishes a polygon's edges from the diagonals of its triangles.
+//! The outline of a triangulated polygon: its edges, without diagonals and bridges to holes.
 
-/// Distinguishes a polygon's edges from diagonals and from bridges to its holes.
+/// The bridges of a polygon, to tell its edges from diagonals and bridges to holes.
 ///
 /// ```text
 ///   4───────────3
@@ -11,21 +11,21 @@
 ///   1───────────2
 /// ```
 #[derive(Default)]
-pub(super) struct Outline {
-    /// The polygon's vertices, sorted, for finding repeated ones.
+pub(crate) struct Outline {
+    /// The polygon's vertices, sorted to find repeated ones.
     sorted: Vec<u32>,
-    /// Edges that the polygon passes in both directions, each with its lower vertex first, sorted.
+    /// Edges that the polygon traverses in both directions, lower vertex first, sorted.
     bridges: Vec<[u32; 2]>,
 }
 
 impl Outline {
     /// Finds the bridges of a polygon.
-    pub(super) fn prepare(&mut self, vertices: &[u32]) {
-        /// Minimum number of corners of a polygon with a hole: three around each, and the bridge's ends
-        /// twice.
-        const LEAST_WITH_HOLE: usize = 8;
+    pub(crate) fn prepare(&mut self, vertices: &[u32]) {
+        /// Minimum number of corners of a polygon with a hole: three for the polygon, three for the hole, and one more
+        /// for each end of the bridge.
+        const MIN_CORNERS: usize = 8;
         self.bridges.clear();
-        if vertices.len() < LEAST_WITH_HOLE {
+        if vertices.len() < MIN_CORNERS {
             return;
         }
         self.sorted.clear();
@@ -38,14 +38,14 @@ impl Outline {
         let edge = |k: usize| [vertices[k], vertices[(k + 1) % count]];
         let mut edges: Vec<[u32; 2]> = (0..count).map(edge).collect();
         edges.sort_unstable();
-        let is_both_ways = |[a, b]: &[u32; 2]| a < b && edges.binary_search(&[*b, *a]).is_ok();
+        let is_bridge = |[a, b]: &[u32; 2]| a < b && edges.binary_search(&[*b, *a]).is_ok();
         self.bridges
-            .extend(edges.iter().filter(|edge| is_both_ways(edge)));
+            .extend(edges.iter().filter(|edge| is_bridge(edge)));
     }
 
-    /// Bit k is set if the triangle's edge from corner k to the next is an edge of the polygon. `local` holds
-    /// the triangle's corners as indices into the polygon's `vertices`.
-    pub(super) fn of(&self, local: [usize; 3], vertices: &[u32]) -> u8 {
+    /// The polygon edges of a triangle: bit k is set if its edge from corner k to the next corner is an edge of the
+    /// polygon. `local` holds the triangle's corners as indices into the polygon's `vertices`.
+    pub(crate) fn of(&self, local: [usize; 3], vertices: &[u32]) -> u8 {
         let count = vertices.len();
         let is_edge = |k: usize| {
             let (from, to) = (local[k], local[(k + 1) % 3]);
@@ -70,9 +70,9 @@ mod tests {
         assert_eq!(outline.of([0, 2, 3], &quad), 0b110);
         let frame = [1, 2, 3, 4, 1, 5, 6, 7, 8, 5];
         outline.prepare(&frame);
-        // 1 2 8: 2–8 and 8–1 are diagonals.
+        // Vertices 1 2 8: 2–8 and 8–1 are diagonals.
         assert_eq!(outline.of([0, 1, 8], &frame), 0b001);
-        // 4 1 5: 1–5 is the bridge.
+        // Vertices 4 1 5: 1–5 is the bridge.
         assert_eq!(outline.of([3, 4, 5], &frame), 0b001);
         outline.prepare(&quad);
         assert_eq!(outline.of([3, 0, 1], &quad), 0b011);

@@ -1,32 +1,32 @@
-//! Reads stored files: regular files, but not devices, pipes, or files in `/proc` and `/sys`.
+//! Reader of stored files: regular files outside `/proc`, `/sys` and other virtual file systems.
 //!
-//! A mesh names its material libraries and textures, and users open meshes from others. So the opened file is
-//! checked, and no more than the limit is read, whatever size the file claims to have.
+//! An untrusted mesh can name any file as its material library or texture. So the opened file is checked, and the
+//! limit applies to the bytes read, not to the size that the system reports.
 
 use std::fs::{File, Metadata, OpenOptions};
 use std::io::{self, Read};
 use std::path::Path;
 
-/// The bytes of a stored file of at most `most_bytes`.
+/// The bytes of a stored file of at most `max_bytes`.
 ///
 /// # Errors
-/// The file can't be read, is larger, or isn't a stored file.
-pub(super) fn read(path: &Path, most_bytes: u64) -> io::Result<Vec<u8>> {
-    // Opening a device may change its state.
+/// The file can't be read, is larger than `max_bytes`, or isn't a stored file.
+pub(super) fn read(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
+    // Check before opening, which may change a device's state.
     require_regular(&std::fs::metadata(path)?)?;
     let file = open(path)?;
-    // The path may refer to another file by now.
+    // Check again: the path may refer to another file by now.
     let info = file.metadata()?;
     require_regular(&info)?;
     if is_in_system_folder(path)? || is_of_kernel(&file) {
-        return Err(io::Error::other("a virtual system file"));
+        return Err(io::Error::other("in a virtual file system"));
     }
-    let size = info.len().min(most_bytes);
+    let size = info.len().min(max_bytes);
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
-    file.take(most_bytes.saturating_add(1))
+    file.take(max_bytes.saturating_add(1))
         .read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > most_bytes {
-        let message = format!("larger than the limit of {} MB", most_bytes >> 20);
+    if bytes.len() as u64 > max_bytes {
+        let message = format!("larger than the limit of {} MB", max_bytes >> 20);
         return Err(io::Error::other(message));
     }
     Ok(bytes)
@@ -40,7 +40,7 @@ fn require_regular(info: &Metadata) -> io::Result<()> {
     }
 }
 
-/// Opens a file; for a pipe, without waiting for its writer.
+/// Opens a file. Opening a pipe doesn't wait for its writer.
 fn open(path: &Path) -> io::Result<File> {
     let mut options = OpenOptions::new();
     options.read(true);
@@ -54,7 +54,7 @@ fn open(path: &Path) -> io::Result<File> {
     options.open(path)
 }
 
-/// Whether a path, with links resolved, is inside `/proc` or `/sys`.
+/// Whether a path is inside `/proc` or `/sys` after resolving links.
 fn is_in_system_folder(path: &Path) -> io::Result<bool> {
     let path = path.canonicalize()?;
     Ok(["/proc", "/sys"]
@@ -62,11 +62,12 @@ fn is_in_system_folder(path: &Path) -> io::Result<bool> {
         .any(|folder| path.starts_with(folder)))
 }
 
-/// Whether a file is in one of the kernel's virtual file systems, wherever it is mounted.
+/// Whether a file is in a virtual file system of the kernel, at any mount point.
 #[cfg(any(target_os = "linux", target_os = "android"))]
 fn is_of_kernel(file: &File) -> bool {
-    /// `f_type` of proc, sysfs, debugfs, tracefs, cgroup, cgroup2, securityfs, bpf, configfs and pstore, from
-    /// Linux' `include/uapi/linux/magic.h`.
+    /// `f_type` of proc, sysfs, debugfs, tracefs, cgroup, cgroup2, securityfs, bpf, configfs and pstore.
+    ///
+    /// Source: `include/uapi/linux/magic.h` of the Linux kernel.
     const KERNEL_FILE_SYSTEMS: [u32; 10] = [
         0x9fa0,
         0x6265_6572,
@@ -93,7 +94,7 @@ mod tests {
     use super::*;
 
     #[test]
-    fn a_file_beyond_the_limit_is_refused() {
+    fn a_file_larger_than_the_limit_is_refused() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("five");
         std::fs::write(&path, "12345").expect("written");
@@ -116,10 +117,10 @@ mod tests {
         rustix::fs::mknodat(rustix::fs::CWD, &pipe, rustix::fs::FileType::Fifo, mode, 0)
             .expect("a pipe");
         for (path, why) in [
-            (at("maps"), "a virtual system file"),
-            (at("self").join("maps"), "a virtual system file"),
-            ("/proc/self/pagemap".into(), "a virtual system file"),
-            ("/sys/kernel/notes".into(), "a virtual system file"),
+            (at("maps"), "in a virtual file system"),
+            (at("self").join("maps"), "in a virtual file system"),
+            ("/proc/self/pagemap".into(), "in a virtual file system"),
+            ("/sys/kernel/notes".into(), "in a virtual file system"),
             (at("zero"), "not a regular file"),
             (at("pipe"), "not a regular file"),
             (folder.path().to_owned(), "not a regular file"),

@@ -1,40 +1,43 @@
-//! Triangulates polygons.
+//! Polygon triangulation, and the outlines of triangulated polygons.
 
-use super::delaunay;
-use super::error::Problem;
-use super::fence::fenced;
-use crate::mesh::has_zero_area;
+mod delaunay;
+mod outline;
+
+pub(crate) use outline::Outline;
+
+use crate::mesh::{aspect, has_zero_area};
 use crate::progress::{Cancelled, Progress};
 use earcut::Earcut;
 use glam::{DVec3, Vec3};
+use std::panic::{AssertUnwindSafe, catch_unwind};
 
-/// Up to this many corners, ears are clipped, which takes up to FEW³ steps for a polygon that crosses itself:
-/// a tenth of a millisecond (2026-11). Larger polygons get a Delaunay triangulation in O(n log n): 50 ms for
-/// 10 000 corners.
+/// Maximum number of corners for ear clipping. It takes up to `FEW`³ steps for a polygon that crosses itself: a tenth
+/// of a millisecond (2026-11). Larger polygons get a Delaunay triangulation in O(n log n): 50 ms for 10 000 corners.
 const FEW: usize = 100;
-/// Above this many corners, rounding makes a circle concave in places, but by so little that a fan fits it.
-const MANY: usize = 1000;
+/// Above this many corners, a fan may have flipped triangles of negligible area: rounding makes large circles slightly
+/// concave in places.
+const EXACT_FAN: usize = 1000;
 /// Above this many corners, a concave polygon becomes a fan: a triangulation uses about 300 bytes per corner.
-pub(super) const LARGEST: usize = 1_000_000;
+pub(crate) const LARGEST: usize = 1_000_000;
 
-/// Triangulates polygons; reuses its buffers.
-pub(super) struct Triangulator {
+/// Buffers for triangulating polygons, reused for each polygon.
+pub(crate) struct Triangulator {
     earcut: Earcut<f64>,
     projected: Vec<[f64; 2]>,
     indices: Vec<u32>,
 }
 
-/// How a polygon was triangulated.
+/// The outcome of a triangulation.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Cut {
+pub(crate) enum Cut {
     /// The triangles cover the polygon once.
     Good,
-    /// The polygon crosses itself, has no plane, or is too large: a fan from its first corner.
+    /// A fan from the first corner, because the polygon crosses itself, has no plane, or is too large.
     Fan,
 }
 
 impl Triangulator {
-    pub(super) fn new() -> Self {
+    pub(crate) fn new() -> Self {
         Self {
             earcut: Earcut::new(),
             projected: Vec::new(),
@@ -42,28 +45,29 @@ impl Triangulator {
         }
     }
 
-    /// Calls `triangle` with three corners for each triangle of the polygon, in the polygon's winding. A fan
-    /// has n − 2 triangles; other triangulations may have fewer, or more if the polygon touches itself.
-    /// `corners` are the file's numbers, `placed` the mesh's, which are rounded.
+    /// Triangulates a polygon. Calls `triangle` with the corner indices of each triangle, in the polygon's winding. A
+    /// fan has n − 2 triangles. Other triangulations may have fewer, or more if the polygon touches itself. `corners`
+    /// are the file's coordinates; `placed` are the mesh's, which are rounded.
     ///
-    /// A convex polygon becomes a fan. A small one is ear-clipped in the plane of its vector area, a large
-    /// one gets a Delaunay triangulation. So does any polygon where that would give a triangle with little or no
-    /// area, or miss a corner, as it may where corners lie on a line: a closed mesh stays closed only if each
-    /// edge of the polygon has a triangle, and two polygons would share a diagonal beside a common corner.
+    /// A convex polygon becomes a fan. A small concave polygon is ear-clipped in the plane of its vector area; a large
+    /// one gets a Delaunay triangulation. If the result misses a corner or has a triangle of little or no area, as
+    /// happens with collinear corners, the rounded polygon gets a Delaunay triangulation. Otherwise a closed mesh could
+    /// open, as each edge of the polygon needs a triangle, and two polygons could share a diagonal beside a common
+    /// corner.
     ///
     /// # Errors
-    /// Cancelled by `progress`.
-    pub(super) fn cut(
+    /// [`Cancelled`] by `progress`.
+    pub(crate) fn cut(
         &mut self,
         corners: &[DVec3],
         placed: &[Vec3],
         progress: &Progress,
         mut triangle: impl FnMut([usize; 3]),
-    ) -> Result<Cut, Problem> {
+    ) -> Result<Cut, Cancelled> {
         let count = corners.len();
         let fan = || (1..count as u32 - 1).flat_map(|k| [0, k, k + 1]);
         let mut how = Cut::Good;
-        let is_fan = count == 3 || is_convex(corners) || (count > MANY && fan_fits(corners));
+        let is_fan = count == 3 || is_convex(corners) || (count > EXACT_FAN && fan_fits(corners));
         if is_fan {
             self.indices.clear();
             self.indices.extend(fan());
@@ -72,7 +76,7 @@ impl Triangulator {
             self.indices.extend(fan());
             how = Cut::Fan;
         }
-        // A large concave polygon has a Delaunay triangulation already; another helps only against rounding.
+        // A large concave polygon already has a Delaunay triangulation. Another one helps only against rounding.
         let is_bad = if is_fan || count <= FEW {
             is_thin
         } else {
@@ -91,19 +95,19 @@ impl Triangulator {
         Ok(how)
     }
 
-    /// Whether the triangles reach each corner, and none is bad.
+    /// Whether there are as many triangles as in a fan, so that no corner is missed, and none is bad.
     fn is_regular(&self, placed: &[Vec3], is_bad: fn([Vec3; 3]) -> bool) -> bool {
         let mut triangles = self.indices.chunks_exact(3);
         triangles.len() == placed.len() - 2
             && triangles.all(|t| !is_bad([0, 1, 2].map(|k| placed[t[k] as usize])))
     }
 
-    /// Fills the list of indices; `false` if the polygon can't be triangulated.
-    fn cut_concave(&mut self, corners: &[DVec3], progress: &Progress) -> Result<bool, Problem> {
+    /// Fills `self.indices` for a concave polygon. Returns `false` if it can't be triangulated.
+    fn cut_concave(&mut self, corners: &[DVec3], progress: &Progress) -> Result<bool, Cancelled> {
         if corners.len() <= FEW {
             // If a dependency panics, the polygon becomes a fan.
-            let is_cut = fenced("cutting a polygon", || self.clip_ears(corners));
-            return Ok(is_cut.unwrap_or(false));
+            let work = AssertUnwindSafe(|| self.clip_ears(corners));
+            return Ok(catch_unwind(work).unwrap_or(false));
         }
         self.indices.clear();
         if corners.len() > LARGEST {
@@ -112,13 +116,13 @@ impl Triangulator {
         triangulated(corners, progress, &mut self.indices)
     }
 
-    /// Clips ears. Returns whether the triangles' areas add up to the polygon's.
+    /// Triangulates by ear clipping. Returns whether the triangles' areas add up to the polygon's.
     fn clip_ears(&mut self, corners: &[DVec3]) -> bool {
         let Some(normal) = vector_area(corners).try_normalize() else {
             return false;
         };
         let (x, y) = normal.any_orthonormal_pair();
-        // Relative to a corner, so that a distant polygon keeps its shape.
+        // Project relative to a corner, so that a distant polygon keeps its shape.
         let project = |&p: &DVec3| [(p - corners[0]).dot(x), (p - corners[0]).dot(y)];
         self.projected.clear();
         self.projected.extend(corners.iter().map(project));
@@ -137,46 +141,38 @@ impl Triangulator {
         };
         let cut: f64 = self.indices.chunks_exact_mut(3).map(area).sum();
         let whole = 2.0 * vector_area(corners).length();
-        // Sums of n products each differ by about n·2⁻⁵². A polygon that isn't quite flat projects to
-        // slightly less than its area; a crossing changes far more.
+        // Both sums of n products have a relative error of about n·2⁻⁵². A polygon that isn't quite flat projects to
+        // slightly less than its area. A crossing changes the area far more.
         (cut - whole).abs() <= 1e-9 * whole
     }
 }
 
-/// Whether a triangle's height is so small, relative to its longest edge, that rounding may have caused it: a corner
-/// on an edge is off by half an ulp of its coordinates, which are up to some thousand times the edge's length.
+/// Whether a triangle's height is so small, relative to its longest edge, that it may come from rounding: a corner on
+/// an edge is off by half an ulp of its coordinates, which are up to some thousand times the edge's length.
 fn is_thin(corners: [Vec3; 3]) -> bool {
-    const THIN: f64 = 1.0 / 4096.0;
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    let edges = [b - a, c - b, a - c];
-    let longest = edges
-        .map(DVec3::length_squared)
-        .into_iter()
-        .fold(0.0, f64::max);
-    edges[0].cross(edges[1]).length() <= THIN * longest
+    const THIN: f64 = 4096.0;
+    aspect(corners) >= THIN
 }
 
-/// Fills `indices` with a Delaunay triangulation; `false` if there is none or the dependency panics.
+/// Appends a Delaunay triangulation to `indices`. Returns `false` if there is none or the dependency panics.
 fn triangulated(
     corners: &[DVec3],
     progress: &Progress,
     indices: &mut Vec<u32>,
-) -> Result<bool, Problem> {
+) -> Result<bool, Cancelled> {
     let work = || delaunay::triangulate(corners, progress, indices);
-    match fenced("cutting a polygon", work) {
-        Ok(is_cut) => is_cut.map_err(|Cancelled| Problem::Cancelled),
-        Err(_) => Ok(false),
-    }
+    catch_unwind(AssertUnwindSafe(work)).unwrap_or(Ok(false))
 }
 
-/// Half the sum of the cross products along the edges: the polygon's normal, whose length is its area.
-pub(super) fn vector_area(corners: &[DVec3]) -> DVec3 {
+/// The vector area: half the sum of the cross products along the edges. Its direction is the polygon's normal, its
+/// length the area.
+pub(crate) fn vector_area(corners: &[DVec3]) -> DVec3 {
     let from_first = |p: DVec3| p - corners[0];
     let edge = |pair: &[DVec3]| from_first(pair[0]).cross(from_first(pair[1]));
     0.5 * corners.windows(2).map(edge).sum::<DVec3>()
 }
 
-/// Whether the flipped triangles of a fan have negligible area.
+/// Whether the flipped triangles of a fan have negligible area, and the boundary winds once.
 fn fan_fits(corners: &[DVec3]) -> bool {
     let normal = vector_area(corners).normalize_or_zero();
     let doubled = |pair: &[DVec3]| {
@@ -190,10 +186,10 @@ fn fan_fits(corners: &[DVec3]) -> bool {
         .fold((0.0, 0.0), |(right, wrong), x| {
             (right + x.max(0.0), wrong + (-x).max(0.0))
         });
-    wrong <= 1e-9 * right && right > 0.0 && goes_round_once(corners, normal)
+    wrong <= 1e-9 * right && right > 0.0 && winds_once(corners, normal)
 }
 
-/// Whether every corner turns the same way and the boundary winds once, so that a fan fits.
+/// Whether every corner turns the same way and the boundary winds once, so that a fan covers the polygon.
 fn is_convex(corners: &[DVec3]) -> bool {
     let normal = vector_area(corners);
     let count = corners.len();
@@ -206,24 +202,23 @@ fn is_convex(corners: &[DVec3]) -> bool {
     normal != DVec3::ZERO
         && (0..count).all(turns_left)
         && fan_is_positive
-        && goes_round_once(corners, normal)
+        && winds_once(corners, normal)
 }
 
-/// Whether a polygon winds once around its centre, given that all its corners turn the same way but for
-/// rounding.
-fn goes_round_once(corners: &[DVec3], normal: DVec3) -> bool {
+/// Whether a polygon winds once around its centre. All its corners must turn the same way, except for rounding.
+fn winds_once(corners: &[DVec3], normal: DVec3) -> bool {
     // Polygons with fewer corners can't wind twice.
-    const LEAST: usize = 5;
+    const MIN_CORNERS: usize = 5;
     let count = corners.len();
     let Some(normal) = normal.try_normalize() else {
-        return count < LEAST;
+        return count < MIN_CORNERS;
     };
-    if count < LEAST {
+    if count < MIN_CORNERS {
         return true;
     }
     let y = normal.any_orthonormal_vector();
     let middle = corners.iter().sum::<DVec3>() / count as f64;
-    // Signed crossings of the ray from the centre along x.
+    // Count signed crossings of the ray from the centre along x.
     let mut turns = 0;
     for k in 0..count {
         let [from, to] = [k, (k + 1) % count].map(|k| corners[k] - middle);
