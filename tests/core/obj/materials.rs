@@ -27,7 +27,7 @@ fn unusual_materials_are_read_and_skipped_statements_are_reported() {
     // Half of texel.png is red, half is green; (0.375, 0) of the surface maps to u = 1.25.
     let colour = map.colour(&loaded.mesh.attributes().textures, Vec2::new(0.375, 0.0));
     assert_eq!(colour, Vec3::X);
-    let skipped = ["Kd", "Pm", "Pr", "illum", "map_Kd", "map_Kd -bm", "map_Ke"];
+    let skipped = ["Kd", "Pr", "Pm", "map_Ke", "illum", "map_Kd", "map_Kd -bm"];
     let warnings = warnings(&loaded);
     assert_eq!(warnings.len(), skipped.len(), "{warnings:?}");
     for (warning, keyword) in warnings.iter().zip(skipped) {
@@ -144,7 +144,7 @@ fn quirks_of_programs_are_understood() {
         [
             "vertex colours above 1: interpreted as bytes",
             "1 normal computed: zero or not finite in the file",
-            "material library “a.mtl”: 1 unknown statement skipped, the first on line 5",
+            "material library “a.mtl”: 1 unknown statement skipped, on line 5",
         ]
     );
 }

@@ -94,7 +94,7 @@ fn values_above_1_are_clamped() {
     assert_eq!(material.opacity, 1.0);
     let clamped = |keyword: &str, line: u32| {
         format!(
-            "material library “m.mtl”: 1 “{keyword}” statement with a value above 1 clamped, the first on line {line}"
+            "material library “m.mtl”: 1 “{keyword}” statement with a value above 1 clamped, on line {line}"
         )
     };
     let expected = [clamped("Kd", 2), clamped("Ks", 3), clamped("d", 5)];

@@ -57,8 +57,8 @@ fn a_file_that_is_no_library_or_picture_is_named_but_not_quoted() {
     assert_eq!(
         warnings,
         [
-            "material library “m.mtl”: 1 “Kd” statement skipped, the first on line 3",
-            "material library “m.mtl”: 1 unknown statement skipped, the first on line 2",
+            "material library “m.mtl”: 1 unknown statement skipped, on line 2",
+            "material library “m.mtl”: 1 “Kd” statement skipped, on line 3",
         ]
     );
 }
@@ -136,7 +136,7 @@ fn a_library_with_several_spellings_of_its_path_is_read_once() {
         &[library],
         STRICT,
     );
-    let expected = "material library “m.mtl”: 1 unknown statement skipped, the first on line 2";
+    let expected = "material library “m.mtl”: 1 unknown statement skipped, on line 2";
     assert_eq!(warnings(&loaded), [expected]);
 }
 

@@ -124,8 +124,10 @@ pub(super) fn parse(
     let about = format!("material library “{}”", shortened(library));
     let describe = |what: &str, tally: Tally, outcome: &str| {
         let statements = counted(tally.count, &format!("{what} statement"));
+        let first = if tally.count == 1 { "" } else { "the first " };
         let line = tally.first_line;
-        format!("{about}: {statements} {outcome}, the first on line {line}")
+        let warning = format!("{about}: {statements} {outcome}, {first}on line {line}");
+        (line, warning)
     };
     let quoted = |keyword: &str| format!("“{keyword}”");
     let skipped = parser.skipped.iter();
@@ -136,8 +138,10 @@ pub(super) fn parse(
         .map(|(keyword, &tally)| describe(&quoted(keyword), tally, "with a value above 1 clamped"));
     let unknown =
         (parser.unknown.count > 0).then(|| describe("unknown", parser.unknown, "skipped"));
-    let warnings = skipped.chain(clamped).chain(unknown);
-    let mut warnings: Vec<String> = warnings.chain(failure).collect();
+    let mut by_line: Vec<(usize, String)> = skipped.chain(clamped).chain(unknown).collect();
+    by_line.sort_by_key(|(line, _)| *line);
+    let by_line = by_line.into_iter().map(|(_, warning)| warning);
+    let mut warnings: Vec<String> = by_line.chain(failure).collect();
     if parser.material_count > 0 && parser.transparent_count == parser.material_count {
         for definition in &mut parser.found {
             definition.material.opacity = 1.0;

@@ -21,18 +21,22 @@ fn unusual_statements_do_not_affect_other_materials() {
     let diffuse: Vec<_> = materials.iter().map(|m| m.material.diffuse).collect();
     assert_eq!(diffuse, [Some(Vec3::splat(0.5)), Some(Vec3::X), None]);
     let skipped = |n: u32, keyword: &str, line: u32| {
-        let ending = if n == 1 { "" } else { "s" };
+        let (ending, first) = if n == 1 {
+            ("", "")
+        } else {
+            ("s", "the first ")
+        };
         format!(
-            "material library “m.mtl”: {n} “{keyword}” statement{ending} skipped, the first on line {line}"
+            "material library “m.mtl”: {n} “{keyword}” statement{ending} skipped, {first}on line {line}"
         )
     };
     assert_eq!(
         warnings,
         [
             skipped(3, "Kd", 3),
-            skipped(1, "Pr", 11),
             skipped(1, "illum", 4),
-            skipped(1, "map_Kd", 5)
+            skipped(1, "map_Kd", 5),
+            skipped(1, "Pr", 11)
         ]
     );
 }
@@ -51,8 +55,8 @@ fn a_file_that_is_not_a_library_is_not_quoted() {
     }
     let (_, warnings) = messages("newmtl a\nsecret 1\nroot:x\nPR 1\n");
     let expected = [
-        "material library “m.mtl”: 1 “PR” statement skipped, the first on line 4",
         "material library “m.mtl”: 2 unknown statements skipped, the first on line 2",
+        "material library “m.mtl”: 1 “PR” statement skipped, on line 4",
     ];
     assert_eq!(warnings, expected);
 }
