@@ -1,7 +1,8 @@
-//! A second opinion about an OBJ file: the crate tobj reads it, too, and the results are compared.
+//! Compares a loaded mesh with the result of the OBJ reader tobj.
 //!
-//! tobj 4.0.5 reads what most programs write. It refuses comments behind numbers and continued lines, takes polylines of
-//! three and more points for faces, and panics on some invalid indices. So a difference isn't always hitscope's fault.
+//! tobj 4.0.5 reads what most programs write. It refuses comments after numbers and continued lines, reads polylines of
+//! three or more points as faces, and panics on some invalid indices. A difference is therefore not always a bug in
+//! hitscope.
 
 use glam::{DVec3, Vec2, Vec3};
 use hitscope_core::TriangleMesh;
@@ -11,7 +12,7 @@ use serde::Serialize;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
-/// What tobj reads differently.
+/// The differences between a mesh and tobj's result.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SecondOpinion {
     /// Why tobj can't read the file; nothing is compared then.
@@ -41,45 +42,64 @@ pub fn compare(bytes: &[u8], mesh: &TriangleMesh, report: &LoadReport) -> Second
             return opinion;
         }
         Err(_) => {
-            opinion.refused = Some("it panics".to_owned());
+            opinion.refused = Some("tobj panicked".to_owned());
             return opinion;
         }
     };
-    for (triangle, ours) in (0..).zip(corners(mesh)) {
-        opinion.triangles += 1;
-        let face = mesh.face_of(triangle) as usize;
+    let triangles: Vec<[Corner; 3]> = corners(mesh).collect();
+    opinion.triangles = triangles.len();
+    let face_of = |triangle: usize| mesh.face_of(triangle as u32) as usize;
+    let mut start = 0;
+    while start < triangles.len() {
+        let face = face_of(start);
+        let end = (start..triangles.len()).find(|&triangle| face_of(triangle) != face);
+        let end = end.unwrap_or(triangles.len());
         let place = format!("face {}, line {}", face + 1, report.face_lines.line(face));
-        let Some(theirs) = faces.get(face) else {
-            opinion.add(format!("{place}: tobj reads only {} faces", faces.len()));
-            continue;
-        };
-        for (k, ours) in ours.iter().enumerate() {
-            let is_same = |theirs: &Corner| ours.is_same(theirs, mesh.origin());
-            // The corners of a polygon's triangles are in any order.
-            let is_there = match theirs.len() {
-                3 => is_same(&theirs[k]),
-                _ => theirs.iter().any(is_same),
-            };
-            if !is_there {
-                opinion.add(format!("{place}: tobj has {theirs:?}, not {ours:?}"));
-                break;
+        match faces.get(face) {
+            None => opinion.add(format!("{place}: tobj reads only {} faces", faces.len())),
+            Some(theirs) => {
+                if let Some(difference) = difference(&triangles[start..end], theirs, mesh.origin())
+                {
+                    opinion.add(format!("{place}: {difference}"));
+                }
             }
         }
+        start = end;
     }
-    // A face's triangles may all have been dropped, and so may the last faces.
-    let last = mesh.triangles().len().checked_sub(1);
-    let ours = last.map_or(0, |last| mesh.face_of(last as u32) as usize + 1);
-    let dropped = report.dropped.zero_area + report.dropped.non_finite;
-    if faces.len() > ours + dropped {
-        let count = faces.len();
-        opinion.add(format!("tobj reads {count} faces, hitscope {ours}"));
+    let (ours, theirs) = (report.face_lines.count(), faces.len());
+    if ours != theirs {
+        opinion.add(format!("tobj reads {theirs} faces, hitscope {ours}"));
     }
     opinion
 }
 
+/// The first difference between a face's triangles and its corners as read by tobj.
+fn difference(ours: &[[Corner; 3]], theirs: &[Corner], origin: DVec3) -> Option<String> {
+    // The corners of a polygon's triangles are in any order.
+    let is_there = |k: usize, own: &Corner| match theirs {
+        [_, _, _] => own.is_same(&theirs[k], origin),
+        _ => theirs.iter().any(|corner| own.is_same(corner, origin)),
+    };
+    for own in ours.iter().flat_map(|triangle| triangle.iter().enumerate()) {
+        if !is_there(own.0, own.1) {
+            return Some(format!("tobj has {theirs:?}, not {:?}", own.1));
+        }
+    }
+    // With fewer triangles than a fan, some were dropped.
+    let is_whole = ours.len() + 2 >= theirs.len();
+    let is_reached = |corner: &&Corner| {
+        let own = ours.as_flattened();
+        own.iter().any(|own| own.is_same(corner, origin))
+    };
+    let missed = theirs.iter().find(|corner| !is_reached(corner));
+    missed
+        .filter(|_| is_whole)
+        .map(|corner| format!("no triangle reaches tobj's {corner:?}"))
+}
+
 impl SecondOpinion {
     fn add(&mut self, difference: String) {
-        /// As many as one reads.
+        /// Enough to recognise the kind of difference.
         const MOST_LISTED: usize = 20;
         if self.differences.len() < MOST_LISTED {
             self.differences.push(difference);
@@ -98,16 +118,20 @@ struct Corner {
 }
 
 impl Corner {
-    /// Whether a corner of a mesh with this origin equals one of the file.
+    /// Whether a corner of a mesh with this origin has the bits of one in the file.
     fn is_same(&self, in_file: &Self, origin: DVec3) -> bool {
-        fn agree<T: PartialEq>(ours: Option<T>, theirs: Option<T>) -> bool {
-            ours.is_none() || theirs.is_none() || ours == theirs
+        fn agree<const N: usize>(ours: Option<[f32; N]>, theirs: Option<[f32; N]>) -> bool {
+            let bits = |values: [f32; N]| values.map(f32::to_bits);
+            ours.is_none() || theirs.is_none() || ours.map(bits) == theirs.map(bits)
         }
-        let rounded = (in_file.position - origin).as_vec3();
-        self.position.as_vec3() == rounded
-            && agree(self.colour, in_file.colour)
-            && agree(self.normal, in_file.normal)
-            && agree(self.texture, in_file.texture)
+        let of_three = |values: Option<Vec3>| values.map(|v| v.to_array());
+        let of_two = |values: Option<Vec2>| values.map(|v| v.to_array());
+        let own = self.position.as_vec3().to_array();
+        let rounded = (in_file.position - origin).as_vec3().to_array();
+        agree(Some(own), Some(rounded))
+            && agree(of_three(self.colour), of_three(in_file.colour))
+            && agree(of_three(self.normal), of_three(in_file.normal))
+            && agree(of_two(self.texture), of_two(in_file.texture))
     }
 }
 

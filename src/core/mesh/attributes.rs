@@ -41,6 +41,13 @@ impl Attributes {
         self.points.append(&mut later.points);
     }
 
+    /// One more than the last triangle with a face, normal or texture coordinates that aren't the default.
+    pub(super) fn end(&self) -> usize {
+        let normals = self.normals.corners.end();
+        let coordinates = self.texture_coordinates.corners.end();
+        self.faces.end().max(normals).max(coordinates)
+    }
+
     /// Releases unused memory of the per-triangle lists.
     pub(crate) fn shrink(&mut self) {
         self.faces.shrink();

@@ -35,8 +35,10 @@ impl Faces {
         self.outlines.of(triangle)
     }
 
-    /// Sets the face and outline of a triangle. Triangles must be set in ascending order, and those of a face must be
-    /// consecutive.
+    /// Sets the face and outline of a triangle. The triangles of a face must be consecutive.
+    ///
+    /// # Panics
+    /// If triangles aren't set in ascending order.
     #[inline]
     pub fn push(&mut self, triangle: u32, face: u32, outline: u8) {
         self.shifts.push(triangle, face.wrapping_sub(triangle));
@@ -65,6 +67,10 @@ impl Faces {
             }
         }
         self.outlines.append(first, later.outlines);
+    }
+
+    pub(super) fn end(&self) -> usize {
+        self.shifts.end().max(self.outlines.end())
     }
 
     pub(super) fn shrink(&mut self) {

@@ -47,7 +47,7 @@ pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
     (b - a).cross(c - a).normalize_or_zero()
 }
 
-/// The largest number of triangles: corners are numbered by u32.
+/// Maximum number of triangles, so that a u32 can number their corners.
 pub(crate) const MAX_TRIANGLES: usize = u32::MAX as usize / 3;
 
 /// The index of a corner without a normal or texture coordinates.
@@ -114,7 +114,8 @@ impl TriangleMesh {
     /// Replaces the attributes. Per-triangle attributes follow [`triangles`](Self::triangles), without dropped ones.
     ///
     /// # Panics
-    /// If the number of colours is neither 0 nor that of positions, or a line or point refers to a missing vertex.
+    /// If the number of colours is neither 0 nor that of positions, a line or point refers to a
+    /// missing vertex, or an attribute is of a missing triangle.
     #[must_use]
     pub fn with_attributes(self, attributes: Attributes) -> Self {
         let (count, colours) = (self.positions.len(), attributes.colours.len());
@@ -124,6 +125,11 @@ impl TriangleMesh {
         assert!(
             vertices.all(|&vertex| (vertex as usize) < count),
             "a line or point refers to a missing vertex"
+        );
+        let triangles = self.triangles.len();
+        assert!(
+            attributes.end() <= triangles,
+            "an attribute of a missing triangle"
         );
         Self {
             face_count: attributes.faces.count(self.triangles.len()),

@@ -26,11 +26,14 @@ impl<T: Copy + PartialEq> PerTriangle<T> {
         self.values.is_empty()
     }
 
-    /// Sets the value of a triangle. Triangles must be set in ascending order; those left out get the default.
+    /// Sets the value of a triangle. Triangles left out have the default.
+    ///
+    /// # Panics
+    /// If the value isn't the default, and that of this or a later triangle is set already.
     #[inline]
     pub fn push(&mut self, triangle: u32, value: T) {
-        debug_assert!(triangle as usize >= self.values.len(), "set before");
         if value != self.default {
+            assert!(triangle as usize >= self.values.len(), "set before");
             self.values.resize(triangle as usize, self.default);
             self.values.push(value);
         }
@@ -38,11 +41,16 @@ impl<T: Copy + PartialEq> PerTriangle<T> {
 
     /// Appends the values of later triangles. Triangle 0 of `later` becomes triangle `first`.
     pub(crate) fn append(&mut self, first: u32, mut later: Self) {
-        debug_assert!(first as usize >= self.values.len(), "set before");
         if !later.values.is_empty() {
+            assert!(first as usize >= self.values.len(), "set before");
             self.values.resize(first as usize, self.default);
             self.values.append(&mut later.values);
         }
+    }
+
+    /// One more than the last triangle whose value isn't the default.
+    pub(super) fn end(&self) -> usize {
+        self.values.len()
     }
 
     /// Releases unused memory.

@@ -12,7 +12,7 @@ impl Runs {
     /// earlier one.
     pub fn begin(&mut self, triangle: u32, number: u32) {
         let is_later = |&(first, _): &(u32, u32)| first <= triangle;
-        debug_assert!(self.runs.last().is_none_or(is_later), "begun before");
+        assert!(self.runs.last().is_none_or(is_later), "begun before");
         // Remove a run without triangles.
         if self
             .runs

@@ -7,7 +7,7 @@ use super::contents::Contents;
 use super::corner::List;
 use super::elements::Elements;
 use super::error::{Problem, Warning};
-use super::materials::{self, ReferencedFiles};
+use super::materials::{self, ReferencedFiles, ResolvedMaterials};
 use super::oddities::{Oddities, no_triangles};
 use super::origin::{choose_origin, far_vertices, sample_surface};
 use super::report::{Dropped, LoadReport};
@@ -15,7 +15,7 @@ use super::rounding::max_rounding;
 use super::triangulate::{Assembly, ChunkTriangles};
 use super::used::Used;
 use super::{LoadOptions, Loaded};
-use crate::counts::counted;
+use crate::counts::counted_as;
 use crate::mesh::{Assigned, Attributes, CornerValues, Runs, TriangleMesh};
 use crate::progress::{Phase, Progress};
 use glam::Vec3;
@@ -38,19 +38,11 @@ pub(super) fn assemble(
         warnings.push(Warning::of_file(message));
     }
     let surface = sample_surface(&contents.elements, &contents.positions);
-    let used = Used::in_elements(&contents.elements, contents.counts());
-    progress.check()?;
-    used.keep(List::Vertex, &mut contents.positions);
-    if !colours.is_empty() {
-        used.keep(List::Vertex, &mut colours);
-    }
-    used.keep(List::Texture, &mut contents.textures);
-    used.keep(List::Normal, &mut contents.normals);
+    let used = keep_used(&mut contents, &mut colours);
     let (unusable_normals, warning) = unusable(&contents.normals);
     warnings.extend(warning);
-    let found = materials::resolve(&contents, files, options.max_memory, progress)?;
-    warnings.extend(found.warnings);
-    // Without a texture, texture coordinates aren't used.
+    let mut found = materials::resolve(&contents, files, options.max_memory, progress)?;
+    warnings.append(&mut found.warnings);
     let has_textures = !found.textures.is_empty();
     progress.check()?;
 
@@ -72,26 +64,11 @@ pub(super) fn assemble(
     let (mut triangles, parts) = triangulate(&assembly, elements)?;
     progress.check()?;
 
-    let mut attributes = Attributes {
-        colours,
-        normals: CornerValues::with_values(std::mem::take(&mut contents.normals)),
-        textures: found.textures,
-        ..Attributes::default()
-    };
-    if has_textures {
-        attributes.texture_coordinates =
-            CornerValues::with_values(std::mem::take(&mut contents.textures));
-    }
     let Gathered {
-        runs: [materials, groups, smoothing],
-        mut dropped,
+        attributes,
+        dropped,
         oddities,
-    } = gather(&mut triangles, &mut attributes, parts);
-    attributes.materials = Assigned::new(found.materials, materials);
-    attributes.groups = Assigned::new(contents.groups.names.clone(), groups);
-    attributes.smoothing = (!contents.smoothing.is_empty()).then_some(smoothing);
-    dropped.bad_index = contents.skipped.faces.count;
-    dropped.elements += contents.skipped.others.count;
+    } = gather(&mut triangles, parts, &mut contents, found, colours);
     warnings.extend(oddities.warnings(dropped));
     progress.check()?;
     if triangles.is_empty() {
@@ -117,6 +94,18 @@ pub(super) fn assemble(
     Ok(Loaded { mesh, report })
 }
 
+/// Removes the entries that no element uses.
+fn keep_used(contents: &mut Contents, colours: &mut Vec<Vec3>) -> Used {
+    let used = Used::in_elements(&contents.elements, contents.counts());
+    used.keep(List::Vertex, &mut contents.positions);
+    if !colours.is_empty() {
+        used.keep(List::Vertex, colours);
+    }
+    used.keep(List::Texture, &mut contents.textures);
+    used.keep(List::Normal, &mut contents.normals);
+    used
+}
+
 /// Flags the normals that are zero or not finite, and returns the warning about them. The list is empty if there are
 /// none.
 fn unusable(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
@@ -127,8 +116,8 @@ fn unusable(normals: &[Vec3]) -> (Vec<bool>, Option<Warning>) {
     }
     let normals: Vec<bool> = normals.iter().map(is_unusable).collect();
     let message = format!(
-        "{} computed: zero or not finite in the file",
-        counted(count, "normal")
+        "{} zero or not finite in the file; computed instead",
+        counted_as(count, "normal is", "normals are")
     );
     (normals, Some(Warning::of_file(message)))
 }
@@ -158,42 +147,65 @@ fn triangulate(
     Ok((triangles, parts))
 }
 
-/// Materials, groups, smoothing groups and oddities of all chunks' triangles.
+/// What a mesh has besides its triangles, and what was dropped.
 struct Gathered {
-    /// The materials, groups and smoothing groups of all triangles.
-    runs: [Runs; 3],
+    attributes: Attributes,
     dropped: Dropped,
     oddities: Oddities,
 }
 
-/// Moves the chunks' triangles together, and appends their attributes.
+/// Moves the chunks' triangles together, and gathers their attributes and counts.
 fn gather(
     triangles: &mut Vec<[u32; 3]>,
-    attributes: &mut Attributes,
     parts: Vec<ChunkTriangles>,
+    contents: &mut Contents,
+    found: ResolvedMaterials,
+    colours: Vec<Vec3>,
 ) -> Gathered {
-    let mut gathered = Gathered {
-        runs: Default::default(),
-        dropped: Dropped::default(),
-        oddities: Oddities::default(),
-    };
     close_gaps(triangles, &parts);
+    let normals = std::mem::take(&mut contents.normals);
+    let coordinates = std::mem::take(&mut contents.textures);
+    // Without a texture, texture coordinates aren't used.
+    let coordinates = if found.textures.is_empty() {
+        Vec::new()
+    } else {
+        coordinates
+    };
+    let mut attributes = Attributes {
+        colours,
+        normals: CornerValues::with_values(normals),
+        texture_coordinates: CornerValues::with_values(coordinates),
+        textures: found.textures,
+        ..Attributes::default()
+    };
+    let (mut dropped, mut oddities) = (Dropped::default(), Oddities::default());
+    let mut all_runs: [Runs; 3] = Default::default();
     let mut count = 0;
     for part in parts {
         let first = count as u32;
-        for (runs, begun) in gathered.runs.iter_mut().zip(&part.runs) {
+        for (runs, begun) in all_runs.iter_mut().zip(&part.runs) {
             for &(triangle, number) in begun {
                 runs.begin(first + triangle, number);
             }
         }
         let first_face = part.first_face as u32;
         attributes.append(first, part.count as u32, part.attributes, first_face);
-        gathered.dropped.append(part.dropped);
-        gathered.oddities.append(part.oddities);
+        dropped.append(part.dropped);
+        oddities.append(part.oddities);
         count += part.count;
     }
     attributes.shrink();
-    gathered
+    let [materials, groups, smoothing] = all_runs;
+    attributes.materials = Assigned::new(found.materials, materials);
+    attributes.groups = Assigned::new(contents.groups.names.clone(), groups);
+    attributes.smoothing = (!contents.smoothing.is_empty()).then_some(smoothing);
+    dropped.bad_index = contents.skipped.faces.count;
+    dropped.elements += contents.skipped.others.count;
+    Gathered {
+        attributes,
+        dropped,
+        oddities,
+    }
 }
 
 /// Moves the chunks' triangles together.

@@ -10,7 +10,7 @@ use std::ops::ControlFlow;
 
 use crate::progress::Progress;
 
-/// Largest size of a chunk in bytes, unless a statement is larger.
+/// Bytes read at a time. A chunk ends with the last whole statement in them, and so has up to twice as many.
 pub(super) const CHUNK_SIZE: usize = 1 << 18;
 /// Longest statement that is read; a polygon of ten million corners would fit.
 const LONGEST_STATEMENT: usize = 128 << 20;
@@ -32,6 +32,7 @@ pub(super) struct Chunks<'p> {
     searched: usize,
     is_at_end: bool,
     next_line: usize,
+    chunk_size: usize,
     longest: usize,
     /// Buffers of finished chunks, for reuse.
     spare: Vec<Vec<u8>>,
@@ -40,13 +41,18 @@ pub(super) struct Chunks<'p> {
 impl<'p> Chunks<'p> {
     /// # Errors
     /// The file can't be read.
-    pub(super) fn new(bytes: impl Read + 'p, progress: &'p Progress) -> Result<Self, Problem> {
+    pub(super) fn new(
+        bytes: impl Read + 'p,
+        chunk_size: usize,
+        progress: &'p Progress,
+    ) -> Result<Self, Problem> {
         Ok(Self {
             source: Source::new(bytes, progress)?,
             buffer: Vec::new(),
             searched: 0,
             is_at_end: false,
             next_line: 1,
+            chunk_size,
             longest: LONGEST_STATEMENT,
             spare: Vec::new(),
         })
@@ -76,7 +82,7 @@ impl<'p> Chunks<'p> {
     /// The file can't be read, a statement is too long, or the load was cancelled.
     pub(super) fn next(&mut self) -> Result<Option<Chunk>, Problem> {
         while !self.is_at_end {
-            if self.buffer.len() >= CHUNK_SIZE {
+            if self.buffer.len() >= self.chunk_size {
                 if let Some(end) = self.last_end() {
                     return Ok(Some(self.take(end)));
                 }
@@ -85,7 +91,7 @@ impl<'p> Chunks<'p> {
                         0 => format!("{} kB", self.longest >> 10),
                         megabytes => format!("{megabytes} MB"),
                     };
-                    let message = format!("the line is longer than {longest}");
+                    let message = format!("the statement is longer than {longest}");
                     return Err(Problem::line(self.next_line, message));
                 }
             }
@@ -102,7 +108,7 @@ impl<'p> Chunks<'p> {
 
     fn read_more(&mut self) -> Result<(), Problem> {
         // To a fixed size, as a source may return few bytes at a time: chunks have the same bounds for any source.
-        let (mut filled, size) = (self.buffer.len(), self.buffer.len() + CHUNK_SIZE);
+        let (mut filled, size) = (self.buffer.len(), self.buffer.len() + self.chunk_size);
         self.buffer.resize(size, 0);
         while filled < size && !self.is_at_end {
             let count = self.source.read(&mut self.buffer[filled..])?;
@@ -134,7 +140,7 @@ impl<'p> Chunks<'p> {
 
     /// Takes back a chunk that is no longer needed, to reuse its buffer.
     pub(super) fn recycle(&mut self, chunk: Chunk) {
-        if chunk.bytes.capacity() <= 4 * CHUNK_SIZE {
+        if chunk.bytes.capacity() <= 4 * self.chunk_size {
             self.spare.push(chunk.bytes);
         }
     }
@@ -171,7 +177,7 @@ pub(super) fn each_statement(
     progress: &Progress,
     mut take: impl FnMut(Statement<'_>) -> Result<ControlFlow<()>, Problem>,
 ) -> Result<(), Problem> {
-    let mut chunks = Chunks::new(bytes, progress)?;
+    let mut chunks = Chunks::new(bytes, CHUNK_SIZE, progress)?;
     while let Some(chunk) = chunks.next()? {
         let mut statements = Statements::of(&chunk);
         while let Some(statement) = statements.next() {

@@ -22,7 +22,7 @@ impl List {
         let what = self.name();
         match written {
             0 => format!("{what} index 0; indices start at 1"),
-            // The reader gives up at once, before the file's entries have been counted.
+            // Reported before the file's entries have been counted.
             _ if written > i64::from(u32::MAX) => format!("{what} index {written} is out of range"),
             _ => format!("{what} index {written} is out of range: there are {count}"),
         }

@@ -1,4 +1,4 @@
-//! Reader of single face statements in files that are already loaded.
+//! Reads one face statement of a loaded file again, for the inspector.
 
 use super::chunks::each_statement;
 use super::corner::{Corner, Corners, List};

@@ -19,14 +19,14 @@ use glam::{DVec3, Vec2, Vec3};
 const IN_FILE: [usize; 3] = [size_of::<DVec3>(), size_of::<Vec2>(), size_of::<Vec3>()];
 /// The same in a mesh.
 const IN_MESH: [usize; 3] = [size_of::<Vec3>(), size_of::<Vec2>(), size_of::<Vec3>()];
-/// Per triangle: its indices; and its face and outline, if polygons are among the elements.
+/// Per triangle: its indices; and its face and outline, if polygons are among the elements. Faces are also listed after a
+/// dropped triangle.
 const BYTES_PER_TRIANGLE: usize = 12;
 const BYTES_PER_POLYGON_TRIANGLE: usize = 4 + 1;
 /// Per triangle: the indices of its corners' normals, or of their texture coordinates.
 const BYTES_PER_CORNER_LIST: usize = 12;
-/// Memory per corner for triangulating a large polygon (measured 2026-11).
-const BYTES_PER_POLYGON_CORNER: usize = 450;
-
+/// Per corner of the largest polygon: its positions, in f64 and f32, and its vertex twice.
+const BYTES_PER_OUTLINE_CORNER: usize = size_of::<DVec3>() + size_of::<Vec3>() + 8;
 /// Flag and new index of each entry of a list, while entries that aren't used are removed.
 const BYTES_PER_FLAG: usize = 1 + 4;
 
@@ -54,7 +54,8 @@ pub(super) fn bytes(contents: &Contents) -> u64 {
     let assembling = file
         + mesh
         + per_entry(counts, [BYTES_PER_FLAG; 3])
-        + (BYTES_PER_POLYGON_CORNER * polygon) as u64;
+        + (polygon::BYTES_PER_CORNER * polygon) as u64
+        + (BYTES_PER_OUTLINE_CORNER * contents.largest_element) as u64;
     let building = mesh + bvh::BYTES_WHILE_BUILDING as u64 * triangle_count;
     assembling.max(building) + contents.other_bytes as u64
 }

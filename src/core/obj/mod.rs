@@ -3,12 +3,25 @@
 //! | step | file |
 //! |---|---|
 //! | bytes are decompressed and decoded | `source`, `gzip` |
-//! | the file is cut into chunks of whole statements | `chunks`, `kind` |
-//! | **chunks are parsed in parallel, statement by statement** | `plain`, or `reader` with `statement`, `words`, `corner`; `chunk_contents`, `elements` |
-//! | the chunks' contents are merged in file order | `contents`: `names`, `colours`, `tally`, `memory` |
+//! | the file is cut into chunks of whole statements | `chunks`; `kind` recognises other formats |
+//! | **chunks are parsed in parallel** | `parallel`; `plain`, or `reader` with `statement`, `words`, `corner` |
+//! | the contents of a chunk | `chunk_contents`, `elements`, `skipped`, `tally` |
+//! | they are appended in file order, and checked | `contents`, `names`, `colours`, `memory` |
 //! | material names are resolved to materials and textures | `materials` |
-//! | vertices are recentred, polygons triangulated, and triangles that no ray can hit dropped | `assemble`: `used`, `origin`, `rounding`, `triangulate` with `crate::polygon`, `oddities` |
+//! | vertices are recentred, faces triangulated, and triangles that no ray can hit dropped | `assemble`, `used`, `origin`, `rounding`, `triangulate`, `oddities` |
+//! | warnings, errors, and the load report | `error`, `fence`, `report` |
 //! | a face's statement is read again for the inspector | `face_source` |
+//!
+//! What happens to `f 1 2 3`:
+//!
+//! 1. `Chunks::next` puts it into a chunk, whole.
+//! 2. `plain::read` parses it to the indices 0, 1 and 2. `f -3 -2 -1`, `f 1 2 3 # door` and errors take the general path,
+//!    `ChunkReader::take`, instead.
+//! 3. `Elements::end` records a face of three corners and its line.
+//! 4. `Contents::append` adds the chunk's vertices to the file's and makes relative indices absolute.
+//! 5. `Contents::finish` checks that the vertices exist.
+//! 6. `Assembly::triangulate` renumbers them without unused vertices, drops the face if it has no area, and writes the
+//!    triangle to its place in the mesh's list.
 
 mod assemble;
 mod chunk_contents;
@@ -48,6 +61,7 @@ pub use tally::LineRuns;
 
 use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};
+use chunks::CHUNK_SIZE;
 use error::Problem;
 use fence::fenced;
 use materials::{Folder, NamedFiles, ReferencedFiles};
@@ -100,12 +114,12 @@ impl Default for LoadOptions {
     }
 }
 
-/// A mesh, and what loading found out about its file.
+/// A mesh and its load report.
 #[derive(Clone, Debug)]
 pub struct Loaded {
     /// The mesh.
     pub mesh: TriangleMesh,
-    /// What was found out.
+    /// The load report.
     pub report: LoadReport,
 }
 
@@ -114,7 +128,6 @@ pub struct Loaded {
 /// # Errors
 /// See [`LoadError`], which gives the reason and the line.
 pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Loaded, LoadError> {
-    let start = Instant::now();
     let unreadable = |source| LoadError::Unreadable {
         path: path.to_owned(),
         source,
@@ -133,15 +146,16 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
     let folder = Folder::of(path);
     let opened = File::open(path).map_err(unreadable)?;
     let parsed = parse_with(opened, path, options, &folder, progress);
-    let is_cancelled = matches!(parsed, Err(LoadError::Cancelled { .. }));
+    if matches!(parsed, Err(LoadError::Cancelled { .. })) {
+        return parsed;
+    }
     let after = std::fs::metadata(path).map_err(unreadable)?;
-    if is_changed(&before, &after) && !is_cancelled {
+    if is_changed(&before, &after) {
         // A partial file's other errors don't matter.
         return Err(Problem::Content(CHANGED.to_owned()).in_file(path));
     }
     let mut loaded = parsed?;
     loaded.report.files = folder.into_looked_for();
-    loaded.report.duration = start.elapsed();
     Ok(loaded)
 }
 
@@ -191,7 +205,8 @@ fn parse_with(
     let start = Instant::now();
     let parse = || {
         progress.enter(Phase::Reading);
-        let contents = fenced("reading", || parallel::read(bytes, &options, progress));
+        let read = || parallel::read(bytes, CHUNK_SIZE, &options, progress);
+        let contents = fenced("reading", read);
         let contents = contents.map_err(Problem::Content)??;
         // Textures get the remaining memory.
         let held = memory::bytes(&contents);

@@ -12,6 +12,7 @@ pub(super) struct Oddities {
     pub non_finite: Tally,
     pub zero_area: Tally,
     pub fan: Tally,
+    pub incomplete: Tally,
     pub not_finite_elements: usize,
 }
 
@@ -20,6 +21,7 @@ impl Oddities {
         self.non_finite.append(later.non_finite);
         self.zero_area.append(later.zero_area);
         self.fan.append(later.fan);
+        self.incomplete.append(later.incomplete);
         self.not_finite_elements += later.not_finite_elements;
     }
 
@@ -48,6 +50,10 @@ impl Oddities {
                     "polygons triangulated as fans",
                 );
                 format!("{polygons}: self-intersecting, without a plane or with too many corners")
+            }),
+            self.incomplete.warning(|polygons| {
+                let polygons = counted(polygons, "polygon");
+                format!("{polygons} triangulated without some corners: the mesh may be open there")
             }),
             of_elements,
         ]
@@ -85,14 +91,11 @@ pub(super) fn no_triangles(contents: &Contents, dropped: Dropped, vertex_count: 
         );
         return Problem::line(contents.skipped.faces.first_line, message);
     } else if element_count > 0 {
-        format!(
-            "there are lines or points ({}), but no faces: nothing to trace",
-            grouped(element_count)
-        )
+        format!("no faces, only {}", lines_or_points(element_count))
     } else if vertex_count > 0 {
         format!(
-            "there are vertices ({}), but no faces: nothing to show",
-            grouped(vertex_count)
+            "no faces, only {}",
+            counted_as(vertex_count, "vertex", "vertices")
         )
     } else {
         "no vertices and no faces: this is not an OBJ file".to_owned()

@@ -73,7 +73,8 @@ fn origin_near([min, max]: [DVec3; 2]) -> Option<DVec3> {
     }
     // A mesh of one point: its own coordinates rounded to f32.
     if size == 0.0 {
-        return Some(centre.as_vec3().as_dvec3());
+        let origin = centre.as_vec3().as_dvec3();
+        return origin.is_finite().then_some(origin);
     }
     let grid = 2f64.powi(size.log2().floor() as i32);
     // Adding +0 clears the sign of a zero, which depends on the order of the points.
@@ -81,12 +82,11 @@ fn origin_near([min, max]: [DVec3; 2]) -> Option<DVec3> {
     origin.is_finite().then_some(origin)
 }
 
-/// The corners of some faces with an area, spread over the file.
+/// Three corners each of some faces with an area, spread over the file.
 pub(super) fn sample_surface(elements: &[Elements], positions: &[DVec3]) -> Vec<DVec3> {
     const MOST_CHUNKS: usize = 64;
     const FACES_PER_CHUNK: usize = 64;
     let mut sample = Vec::new();
-    let mut corners = Vec::new();
     for elements in elements
         .iter()
         .step_by(elements.len().div_ceil(MOST_CHUNKS).max(1))
@@ -95,12 +95,12 @@ pub(super) fn sample_surface(elements: &[Elements], positions: &[DVec3]) -> Vec<
             .iter()
             .filter(|element| element.kind == ElementKind::Face);
         for face in faces.step_by(elements.count.div_ceil(FACES_PER_CHUNK).max(1)) {
-            corners.clear();
             let vertices = &elements.corners[0][face.corners];
-            corners.extend(vertices.iter().map(|&vertex| positions[vertex as usize]));
+            let corner = |third: usize| positions[vertices[third * vertices.len() / 3] as usize];
+            let corners = [0, 1, 2].map(corner);
             let area = vector_area(&corners);
             if area.is_finite() && area != DVec3::ZERO {
-                sample.append(&mut corners);
+                sample.extend(corners);
             }
         }
     }

@@ -4,7 +4,7 @@
 //! chunks have the same bounds on every machine.
 
 use super::LoadOptions;
-use super::chunks::{CHUNK_SIZE, Chunks};
+use super::chunks::Chunks;
 use super::contents::Contents;
 use super::error::Problem;
 use super::fence::fenced;
@@ -12,24 +12,26 @@ use super::reader::{self, ChunkOptions};
 use crate::progress::Progress;
 use std::collections::VecDeque;
 use std::io::Read;
-use std::sync::mpsc::{Receiver, channel};
+use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
 
 /// Chunks per thread that are in memory at a time: one that is parsed, one that waits, and one that is appended.
 const CHUNKS_PER_THREAD: usize = 3;
 /// Memory for a byte of a chunk that is being parsed: the byte itself, and less than four bytes of contents. `f 1 1 1` has
-/// 8 bytes and gives three indices of 4 bytes, which may be listed a second time as relative ones.
+/// 8 bytes and gives three indices of 4 bytes, which may be listed a second time as relative ones. Lines such as `g` give up
+/// to 16 bytes each, but only a hundredth of the allowed memory is pending.
 const BYTES_PER_PENDING_BYTE: u64 = 5;
 
-/// Reads a file.
+/// Reads a file in chunks of `chunk_size` bytes.
 ///
 /// # Errors
 /// The first error in the file.
 pub(super) fn read(
     bytes: impl Read,
+    chunk_size: usize,
     options: &LoadOptions,
     progress: &Progress,
 ) -> Result<Contents, Problem> {
-    let mut chunks = Chunks::new(bytes, progress)?;
+    let mut chunks = Chunks::new(bytes, chunk_size, progress)?;
     chunks.limit_statements(options.max_memory);
     chunks.require_obj()?;
     let mut contents = Contents::default();
@@ -40,7 +42,7 @@ pub(super) fn read(
     };
     let most = CHUNKS_PER_THREAD * rayon::current_num_threads();
     // A small part of the allowed memory.
-    let most_bytes = (options.max_memory / 100).min((most * CHUNK_SIZE) as u64) as usize;
+    let most_bytes = (options.max_memory / 100).min((most * chunk_size) as u64) as usize;
     rayon::in_place_scope(|scope| {
         let (mut pending, mut pending_bytes) = (VecDeque::new(), 0);
         let mut end = None;
@@ -48,7 +50,7 @@ pub(super) fn read(
             while end.is_none() && pending.len() < most && pending_bytes <= most_bytes {
                 match chunks.next() {
                     Ok(Some(chunk)) => {
-                        let (sender, receiver) = channel();
+                        let (sender, receiver) = sync_channel(1);
                         pending_bytes += chunk.bytes.len();
                         pending.push_back((receiver, chunk.bytes.len()));
                         scope.spawn(move |_| {
@@ -83,7 +85,8 @@ fn wait<T>(result: &Receiver<T>) -> T {
     while rayon::current_thread_index().is_some() {
         match result.try_recv() {
             Ok(result) => return result,
-            Err(_) => _ = rayon::yield_now(),
+            Err(TryRecvError::Empty) => _ = rayon::yield_now(),
+            Err(TryRecvError::Disconnected) => break,
         }
     }
     result.recv().expect("each task sends")

@@ -7,16 +7,13 @@
 use super::chunk_contents::ChunkContents;
 use super::corner::{List, is_blank};
 use super::elements::{ElementKind, Elements};
-use super::words::is_long_number;
+use super::reader::WORDS_PER_CHECK;
+use super::words::{EXACT_DIGITS, is_long_number};
 use crate::mesh::NO_INDEX;
 use glam::{DVec3, Vec2};
 
-/// Longer faces are left to the reader, which checks for cancellation between corners. 65 536 corners take about a
-/// millisecond.
-const MOST_CORNERS: usize = 1 << 16;
-
 /// Parses the statement at the start of `text` if it is plain, and returns its length, including the line end. Otherwise
-/// adds nothing.
+/// adds nothing. Longer faces than the reader parses without checking for cancellation aren't plain.
 #[inline]
 pub(super) fn read(part: &mut ChunkContents, text: &[u8], line: usize) -> Option<usize> {
     let rest = match text {
@@ -79,7 +76,7 @@ fn face<'t>(elements: &mut Elements, text: &'t [u8], line: usize) -> Option<&'t 
 fn vertices<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
     let mut cursor = Cursor { rest: text };
     let vertices = &mut elements.corners[0];
-    let (end, mut highest) = (vertices.len() + MOST_CORNERS, 0);
+    let (end, mut highest) = (vertices.len() + WORDS_PER_CHECK, 0);
     while vertices.len() < end
         && let Some(vertex) = cursor.index()
     {
@@ -95,7 +92,7 @@ fn vertices<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
 #[inline(never)]
 fn corners<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
     let mut cursor = Cursor { rest: text };
-    let end = elements.corners[0].len() + MOST_CORNERS;
+    let end = elements.corners[0].len() + WORDS_PER_CHECK;
     while elements.corners[0].len() < end
         && let Some(vertex) = cursor.index()
     {
@@ -112,7 +109,7 @@ fn corners<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
             let index = corner[list as usize];
             elements.push(list, index);
             let highest = &mut elements.highest[list as usize];
-            // One more than NO_INDEX is 0.
+            // NO_INDEX + 1 wraps to 0 and leaves the maximum unchanged.
             *highest = (*highest).max(index.wrapping_add(1) as usize);
         }
     }
@@ -197,7 +194,7 @@ fn decimal(text: &[u8]) -> Option<(f64, usize)> {
         1e0, 1e1, 1e2, 1e3, 1e4, 1e5, 1e6, 1e7, 1e8, 1e9, 1e10, 1e11, 1e12, 1e13, 1e14, 1e15, 1e16,
         1e17, 1e18,
     ];
-    const TOO_LARGE: u64 = 1_000_000_000_000_000;
+    const TOO_LARGE: u64 = 10u64.pow(EXACT_DIGITS);
     let (is_negative, unsigned) = match text {
         [b'-', rest @ ..] => (true, rest),
         _ => (false, text),
@@ -286,7 +283,7 @@ mod tests {
         }
     }
 
-    /// The corners' indices that are read from a face, and the length that is.
+    /// The corner indices of a face, and the number of bytes parsed.
     fn read_face(text: &str) -> Option<([Vec<u32>; 3], usize)> {
         let mut part = ChunkContents::default();
         let length = read(&mut part, text.as_bytes(), 1);

@@ -22,6 +22,9 @@ use crate::mesh::NO_INDEX;
 use crate::progress::Progress;
 use glam::{DVec3, Vec2};
 
+/// Numbers or corners between two checks for cancellation: about a millisecond.
+pub(super) const WORDS_PER_CHECK: usize = 1 << 16;
+
 /// The first word of a statement that is read.
 #[derive(Clone, Copy)]
 enum Keyword {
@@ -50,7 +53,7 @@ impl Keyword {
         })
     }
 
-    /// Some programs write `V` and `F`.
+    /// The keyword in upper or lower case: some programs write `V` and `F`.
     fn in_another_case(word: &[u8]) -> Option<Self> {
         /// Length of the longest keywords, `usemtl` and `mtllib`.
         const LONGEST: usize = "usemtl".len();
@@ -83,6 +86,7 @@ pub(super) fn read(chunk: &Chunk, options: ChunkOptions<'_>) -> ChunkContents {
         options,
     };
     let mut statements = Statements::of(chunk);
+    // Most statements are plain. All others, and all errors, go through `take`.
     loop {
         let plain = plain::read(&mut reader.part, statements.rest(), statements.next_line());
         if let Some(length) = plain {
@@ -166,6 +170,9 @@ impl ChunkReader<'_> {
         }
         let mut values = [0.0; 3];
         for (k, word) in words.clone().enumerate() {
+            if (k + 1) % WORDS_PER_CHECK == 0 {
+                self.options.progress.check()?;
+            }
             let value = number::<f64>(&statement, word)?;
             if k < used {
                 values[k] = value;
@@ -220,8 +227,6 @@ impl ChunkReader<'_> {
         statement: Statement<'_>,
         after: usize,
     ) -> Result<bool, Problem> {
-        /// Corners between two checks for cancellation.
-        const PER_CHECK: usize = 1 << 16;
         let statement = statement.without_comment();
         let mut count = 0;
         for corner in Corners::of(statement.bytes, after) {
@@ -230,7 +235,7 @@ impl ChunkReader<'_> {
                 return Ok(false);
             }
             count += 1;
-            if count % PER_CHECK == 0 {
+            if count % WORDS_PER_CHECK == 0 {
                 self.options.progress.check()?;
             }
         }

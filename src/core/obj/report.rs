@@ -1,20 +1,21 @@
-//! What loading found out about a file.
+//! Warnings, counts and timing of a load.
 
 use super::error::Warning;
 use super::tally::LineRuns;
 use std::path::PathBuf;
 use std::time::Duration;
 
-/// What loading found out about a file.
+/// Warnings, counts and timing of a load.
 #[derive(Clone, Debug, Default)]
 pub struct LoadReport {
     /// Warnings about dropped, ignored or unusual parts of the file.
     pub warnings: Vec<Warning>,
-    /// What was dropped.
+    /// Counts of dropped triangles and elements.
     pub dropped: Dropped,
     /// Number of `v` statements in the file.
     pub vertex_count: usize,
-    /// Upper bound on the difference between a coordinate of the traced mesh and its decimal in the file.
+    /// Upper bound on the difference between a coordinate of the traced mesh and its decimal in the file, in the file's
+    /// units; 0 if no coordinate was rounded.
     pub max_rounding: f64,
     /// The line of each face, indexed like [`TriangleMesh::face_of`](crate::TriangleMesh::face_of).
     pub face_lines: LineRuns,

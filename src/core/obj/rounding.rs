@@ -1,5 +1,6 @@
 //! Bounds the difference between a mesh's coordinates and the decimals in the file.
 
+use super::words::EXACT_DIGITS;
 use crate::mesh::{TriangleMesh, two_sum};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
@@ -57,8 +58,8 @@ fn half_last_place(x: f64) -> f64 {
 /// Whether the exact decimal expansion of an f64 has at most 15 digits. Returns false for some integers above
 /// 2⁵³.
 fn has_15_digits(x: f64) -> bool {
-    const TOO_LARGE: u64 = 1_000_000_000_000_000;
-    // 5²² is larger.
+    const TOO_LARGE: u64 = 10u64.pow(EXACT_DIGITS);
+    // 5²² exceeds 10¹⁵.
     const LEAST_POWER: i32 = -21;
     if x == 0.0 {
         return true;

@@ -25,7 +25,8 @@ impl<'p> Source<'p> {
     pub(super) fn new(bytes: impl Read + 'p, progress: &'p Progress) -> Result<Self, Problem> {
         let counted = CountingReader { bytes, progress };
         progress.check()?;
-        let (start, source) = peeked(BufReader::with_capacity(BUFFER_SIZE, counted))?;
+        let source = BufReader::with_capacity(BUFFER_SIZE, counted);
+        let (start, source) = peeked(source, progress)?;
         let has_garbage = Rc::default();
         let source: Box<dyn BufRead + 'p> = if start.starts_with(&MAGIC) {
             let members = GzipMembers::new(source, Rc::clone(&has_garbage));
@@ -33,7 +34,7 @@ impl<'p> Source<'p> {
         } else {
             Box::new(source)
         };
-        let (start, source) = peeked(source)?;
+        let (start, source) = peeked(source, progress)?;
         let may_have_bom = start.first().is_some_and(|&b| b >= 0x80);
         let bytes: Box<dyn Read + 'p> = if may_have_bom {
             let mut decoder = DecodeReaderBytesBuilder::new();
@@ -73,11 +74,15 @@ impl<'p> Source<'p> {
     }
 }
 
-/// The first three bytes of a source, as many as a byte order mark has, and the source with them. The first read of a
-/// pipe may return fewer.
-fn peeked<R: BufRead>(mut source: R) -> Result<(Vec<u8>, impl BufRead + use<R>), Problem> {
+/// The first three bytes of a source, enough for a byte order mark or gzip's magic number, and the source with them. The
+/// first read of a pipe may return fewer.
+fn peeked<R: BufRead>(
+    mut source: R,
+    progress: &Progress,
+) -> Result<(Vec<u8>, impl BufRead + use<R>), Problem> {
     let mut start = Vec::new();
     let read = source.by_ref().take(3).read_to_end(&mut start);
+    progress.check()?;
     read.map_err(Problem::Read)?;
     Ok((start.clone(), Cursor::new(start).chain(source)))
 }

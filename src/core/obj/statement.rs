@@ -128,8 +128,17 @@ impl<'c> Statements<'c> {
 /// The line without its final backslash, if it continues on the next line. Comments don't continue.
 pub(super) fn before_backslash(line: &[u8]) -> Option<&[u8]> {
     let continued = line.trim_ascii_end().strip_suffix(b"\\")?;
+    let (_, keyword) = Words::of(line, 0).next()?;
+    let has_numbers = matches!(
+        &keyword.to_ascii_lowercase()[..],
+        b"v" | b"vt" | b"vn" | b"f" | b"l" | b"p"
+    );
     // A name may contain a #.
     let begins_word = |at: usize| at == 0 || line[at - 1].is_ascii_whitespace();
-    let has_comment = memchr_iter(b'#', line).any(begins_word);
+    let has_comment = if has_numbers {
+        without_comment(line).len() < line.len()
+    } else {
+        memchr_iter(b'#', line).any(begins_word)
+    };
     (!has_comment).then_some(continued)
 }

@@ -85,6 +85,11 @@ impl LineRuns {
         self.count += later.count;
     }
 
+    /// Number of statements.
+    pub fn count(&self) -> usize {
+        self.count
+    }
+
     /// The line (from 1) of a statement (from 0), or 0 if there are no statements.
     pub fn line(&self, statement: usize) -> usize {
         let run = self.runs.partition_point(|(first, _)| *first <= statement);
@@ -113,7 +118,8 @@ pub(super) fn shortened(word: &str) -> String {
 /// At most `length` characters of a text, with control characters replaced.
 pub(super) fn shortened_to(length: usize, text: &str) -> String {
     let rest = text.chars().nth(length).map(|_| '…');
-    printable(text).chars().take(length).chain(rest).collect()
+    let start: String = text.chars().take(length).collect();
+    printable(&start).chars().take(length).chain(rest).collect()
 }
 
 #[cfg(test)]

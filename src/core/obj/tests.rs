@@ -2,6 +2,7 @@
 
 use super::*;
 use crate::mesh::NO_INDEX;
+use crate::random::Random;
 use glam::{DVec3, Vec3};
 use std::io;
 
@@ -69,14 +70,8 @@ fn errors_name_the_line_and_the_word() {
         ),
         ("g é\nv é 1e 0\nf 1 2 3", "x.obj:5:3: “é” is not a number"),
         ("vn 0 1 1e\nf 1 2 3", "x.obj:4:8: “1e” is not a number"),
-        (
-            "l 1 2",
-            "x.obj: there are lines or points (1), but no faces: nothing to trace",
-        ),
-        (
-            "",
-            "x.obj: there are vertices (3), but no faces: nothing to show",
-        ),
+        ("l 1 2", "x.obj: no faces, only 1 line or point"),
+        ("", "x.obj: no faces, only 3 vertices"),
         ("f 1 1 2", "x.obj:4: no triangles left: 1 with zero area"),
         (
             "v nan 0 0\nf 1 2 4",
@@ -199,7 +194,7 @@ fn an_endless_line_is_refused() {
     );
     let error = result.expect_err("endless").to_string();
     assert!(
-        error.starts_with("x.obj:1: the line is longer than "),
+        error.starts_with("x.obj:1: the statement is longer than "),
         "{error}"
     );
     let zeros = parse(
@@ -210,4 +205,95 @@ fn an_endless_line_is_refused() {
         &progress,
     );
     assert!(zeros.expect_err("zeros").to_string().contains("binary"));
+}
+
+/// A file with everything that is resolved across chunks: indices of all kinds, names, smoothing groups, lines and points,
+/// and statements that aren't read.
+fn mixed_file(random: &mut Random) -> String {
+    let (mut text, mut vertices) = (String::new(), 0);
+    for _ in 0..400 {
+        let [x, y, z] = [(); 3].map(|()| 1000.0 * random.unit());
+        text += &format!("v {x:.3} {y:.3} {z:.3}\nvt {x:.1} {y:.1}\nvn {z:.1} 1 0\n");
+        vertices += 1;
+        let any = |random: &mut Random| 1 + random.index(vertices) as i64;
+        let mut index = || any(random) - [0, vertices as i64 + 1][random.index(2)];
+        let [a, b, c, d] = [(); 4].map(|()| index());
+        text += &match random.index(10) {
+            0 => format!("usemtl m{}\ng g{}\n", a.rem_euclid(9), b.rem_euclid(9)),
+            1 => format!("s {}\n", a.rem_euclid(3)),
+            2 => format!("l {a} {b}\np {c}\n"),
+            3 => format!("curv {a}\nF {a}// \\\n {b}//{c} {c}\n"),
+            4 => format!("f {a} {b} {c} {d}\n"),
+            5 => format!("f {a}/{b} {b}/{a}/{c} {c}/{d}\n"),
+            6 => format!("f {a} {b} {}\nf {a}/0 {b} {c}\n", 10_000),
+            _ => format!("f {a}/{b}/{c} {b}/{c}/{d} {c}/{d}/{a} # {d}\n"),
+        };
+    }
+    text
+}
+
+fn in_chunks(text: &str, chunk_size: usize) -> String {
+    let progress = Progress::default();
+    let options = LoadOptions {
+        faults: FaultPolicy::Lenient,
+        ..LoadOptions::default()
+    };
+    let contents = parallel::read(text.as_bytes(), chunk_size, &options, &progress).expect("good");
+    let none = NamedFiles(&|_| Err(io::ErrorKind::NotFound.into()));
+    let loaded = assemble::assemble(contents, &options, &none, &progress).expect("a mesh");
+    let Loaded { mesh, report } = loaded;
+    let lines: Vec<usize> = (0..report.face_lines.count())
+        .map(|face| report.face_lines.line(face))
+        .collect();
+    format!(
+        "{mesh:?} {:?} {:?} {lines:?}",
+        report.warnings, report.dropped
+    )
+}
+
+#[test]
+fn chunks_of_any_size_give_the_same_mesh() {
+    let mut random = Random::new(31);
+    for _ in 0..20 {
+        let text = mixed_file(&mut random);
+        let whole = in_chunks(&text, 1 << 20);
+        for size in [64, 300, 5000] {
+            assert!(in_chunks(&text, size) == whole, "chunks of {size} bytes");
+        }
+    }
+}
+
+/// A blank before a statement keeps it from being plain.
+#[test]
+fn plain_statements_are_read_as_others_are() {
+    let mut random = Random::new(32);
+    for _ in 0..50 {
+        let mut text = mixed_file(&mut random);
+        for number in [
+            "+1",
+            ".5",
+            "1.",
+            "1e3",
+            "-1E-2",
+            "0.30000000000000004",
+            "123456789012345678901",
+        ] {
+            text += &format!(
+                "v {number} 0 {number}\nvt {number} 1 2\nvt {number}\t0.5\nvn  0 {number} 1 \n"
+            );
+            text += "f -1 -2 -3\nf 1 2 3\t4\r\nf 5//6  7//8 9//10\n";
+        }
+        let indented: String = text.lines().map(|line| format!(" {line}\n")).collect();
+        assert!(in_chunks(&text, 1 << 20) == in_chunks(&indented, 1 << 20));
+    }
+}
+
+#[test]
+fn a_comment_directly_after_a_number_does_not_continue() {
+    let text = format!("{TRIANGLE}v 5 5 5# C:\\models\\\nf 1 2 3\n");
+    let loaded = load_text(&text).expect("good");
+    assert_eq!(
+        (loaded.report.vertex_count, loaded.mesh.triangles().len()),
+        (4, 1)
+    );
 }

@@ -13,7 +13,7 @@ use crate::progress::Progress;
 use glam::{DVec3, Vec3};
 use std::sync::Mutex;
 
-/// A polygon of more corners takes more than some megabytes to cut.
+/// Triangulating a larger polygon takes more than 4.5 MB.
 const LARGE_POLYGON: usize = 10_000;
 
 /// The data from which the chunks' triangles are built.
@@ -33,12 +33,12 @@ pub(super) struct Assembly<'c> {
 
 /// The triangles of a chunk; faces are counted from the chunk's first.
 pub(super) struct ChunkTriangles {
-    /// Number of triangles, and the space that there was for them in the mesh's list.
+    /// Number of triangles, and the places reserved for them in the mesh's list.
     pub count: usize,
     pub space: usize,
     /// The last triangles, for which there was no space: a polygon that touches itself may have more than a fan.
     pub overflow: Vec<[u32; 3]>,
-    /// Those of the triangles, and lines and points.
+    /// The triangles' attributes, and the chunk's lines and points.
     pub attributes: Attributes,
     pub first_face: usize,
     /// The first triangles of runs of materials, groups and smoothing groups, and their numbers.
@@ -55,12 +55,12 @@ impl Assembly<'_> {
         triangles: &mut [[u32; 3]],
     ) -> Result<ChunkTriangles, Problem> {
         let first_face = elements.first_face;
+        if !self.has_textures {
+            elements.corners[List::Texture as usize] = Vec::new();
+        }
         for list in List::ALL {
             self.used
                 .renumber(list, &mut elements.corners[list as usize]);
-        }
-        if !self.has_textures {
-            elements.corners[List::Texture as usize] = Vec::new();
         }
         for index in &mut elements.corners[List::Normal as usize] {
             if self.unusable_normals.get(*index as usize) == Some(&true) {
@@ -136,89 +136,106 @@ impl TriangleBuilder<'_, '_> {
         }
     }
 
-    /// Triangulates a face, and drops triangles that no ray can hit.
-    fn add_face(&mut self, elements: &Elements, element: &Element) -> Result<(), Problem> {
-        let line = || elements.line(element);
-        let corners = element.corners.clone();
+    /// Triangulates a face.
+    fn add_face(&mut self, elements: &Elements, face: &Element) -> Result<(), Problem> {
         let ChunkTriangles {
             count,
-            overflow,
-            attributes,
             first_face,
             runs,
             dropped,
             oddities,
             ..
         } = &mut self.result;
-        let face = element.index;
         for (begins, begun) in self.runs.iter_mut().zip(runs) {
-            begins.step(*first_face + face, *count as u32, begun);
+            begins.step(*first_face + face.index, *count as u32, begun);
         }
-
         let positions = self.assembly.positions;
-        let vertices = &elements.corners[0][corners.clone()];
+        let vertices = &elements.corners[0][face.corners.clone()];
         let is_finite = |v: &u32| positions[*v as usize].is_finite();
         if !vertices.iter().all(is_finite) {
             dropped.non_finite += vertices.len() - 2;
-            oddities.non_finite.add(line());
-            return Ok(());
+            oddities.non_finite.add(elements.line(face));
+        } else if vertices.len() == 3 {
+            self.add_triangle(elements, face, [0, 1, 2], Faces::ALL_EDGES);
+        } else {
+            self.cut_polygon(elements, face)?;
         }
-        let is_triangle = vertices.len() == 3;
-        if !is_triangle {
-            self.outline.prepare(vertices);
-        }
-        let [_, textures, normals] = &elements.corners;
-        let mut add = |local: [usize; 3]| {
-            let triangle = local.map(|k| vertices[k]);
-            if has_zero_area(triangle.map(|v| positions[v as usize])) {
-                dropped.zero_area += 1;
-                oddities.zero_area.add(line());
-                return;
-            }
-            let outline = if is_triangle {
-                Faces::ALL_EDGES
-            } else {
-                self.outline.of(local, vertices)
-            };
-            match self.triangles.get_mut(*count) {
-                Some(slot) => *slot = triangle,
-                None => overflow.push(triangle),
-            }
-            let index = *count as u32;
-            *count += 1;
-            attributes.faces.push(index, face as u32, outline);
-            let of_corner = |indices: &[u32]| {
-                local.map(|k| indices.get(corners.start + k).copied().unwrap_or(NO_INDEX))
-            };
-            if !normals.is_empty() {
-                attributes.normals.push(index, of_corner(normals));
-            }
-            if !textures.is_empty() {
-                let indices = of_corner(textures);
-                attributes.texture_coordinates.push(index, indices);
-            }
-        };
-        if is_triangle {
-            add([0, 1, 2]);
-            return Ok(());
-        }
-        let exact = vertices.iter().map(|&v| self.assembly.exact[v as usize]);
+        Ok(())
+    }
+
+    /// Triangulates a face of more than three corners.
+    fn cut_polygon(&mut self, elements: &Elements, face: &Element) -> Result<(), Problem> {
+        let vertices = &elements.corners[0][face.corners.clone()];
+        let large_polygons = &self.assembly.large_polygons;
+        let _alone = (vertices.len() > LARGE_POLYGON).then(|| large_polygons.lock());
+        let of = |vertex: &u32| *vertex as usize;
+        let exact = vertices.iter().map(|v| self.assembly.exact[of(v)]);
         self.polygon.clear();
         self.polygon.extend(exact);
-        let placed = vertices.iter().map(|&v| positions[v as usize]);
+        let placed = vertices.iter().map(|v| self.assembly.positions[of(v)]);
         self.placed.clear();
         self.placed.extend(placed);
         let progress = self.assembly.progress;
-        let is_large = vertices.len() > LARGE_POLYGON;
-        let large_polygons = &self.assembly.large_polygons;
-        let _alone = is_large.then(|| large_polygons.lock());
         let how = self
             .triangulator
-            .cut(&self.polygon, &self.placed, progress, &mut add)?;
-        if how == Cut::Fan {
-            oddities.fan.add(line());
+            .cut(&self.polygon, &self.placed, progress)?;
+        let oddities = &mut self.result.oddities;
+        match how {
+            Cut::Good => {}
+            Cut::Fan => oddities.fan.add(elements.line(face)),
+            Cut::Incomplete => oddities.incomplete.add(elements.line(face)),
+        }
+        self.outline.prepare(vertices);
+        for index in 0..self.triangulator.count() {
+            let local = self.triangulator.triangle(index);
+            let outline = self.outline.of(local, vertices);
+            self.add_triangle(elements, face, local, outline);
         }
         Ok(())
+    }
+
+    /// Adds a triangle of a face, given its corners among the face's, unless no ray can hit it.
+    #[inline]
+    fn add_triangle(
+        &mut self,
+        elements: &Elements,
+        face: &Element,
+        local: [usize; 3],
+        outline: u8,
+    ) {
+        let ChunkTriangles {
+            count,
+            overflow,
+            attributes,
+            dropped,
+            oddities,
+            ..
+        } = &mut self.result;
+        let corners = local.map(|k| face.corners.start + k);
+        let [vertices, textures, normals] = &elements.corners;
+        let triangle = corners.map(|corner| vertices[corner]);
+        if has_zero_area(triangle.map(|v| self.assembly.positions[v as usize])) {
+            dropped.zero_area += 1;
+            oddities.zero_area.add(elements.line(face));
+            return;
+        }
+        match self.triangles.get_mut(*count) {
+            Some(slot) => *slot = triangle,
+            None => overflow.push(triangle),
+        }
+        let index = *count as u32;
+        *count += 1;
+        attributes.faces.push(index, face.index as u32, outline);
+        let of_corners = |indices: &[u32]| {
+            corners.map(|corner| indices.get(corner).copied().unwrap_or(NO_INDEX))
+        };
+        if !normals.is_empty() {
+            attributes.normals.push(index, of_corners(normals));
+        }
+        if !textures.is_empty() {
+            let coordinates = &mut attributes.texture_coordinates;
+            coordinates.push(index, of_corners(textures));
+        }
     }
 }
 

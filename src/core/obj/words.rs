@@ -70,15 +70,17 @@ fn not_finite(word: &[u8]) -> Option<&'static [u8]> {
     }
 }
 
-/// Whether a word has more than 15 digits, without leading zeros and the exponent.
+/// Different decimals of at most 15 digits are different f64s; those of 16 digits may be the same.
+pub(super) const EXACT_DIGITS: u32 = f64::DIGITS;
+
+/// Whether a word has more than [`EXACT_DIGITS`] digits, without leading zeros and the exponent.
 pub(super) fn is_long_number(word: &[u8]) -> bool {
-    const MOST_DIGITS: usize = 15;
     let mantissa = word.split(|&b| matches!(b, b'e' | b'E')).next();
     let digits = mantissa
         .unwrap_or_default()
         .iter()
         .filter(|b| b.is_ascii_digit());
-    digits.skip_while(|&&b| b == b'0').count() > MOST_DIGITS
+    digits.skip_while(|&&b| b == b'0').count() > EXACT_DIGITS as usize
 }
 
 /// A line up to its comment. A # after a point starts no comment: Microsoft writes NaN as `-1.#IND`.

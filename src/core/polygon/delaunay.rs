@@ -36,14 +36,17 @@ type Mesh = ConstrainedDelaunayTriangulation<Point2<f64>, (), (), (), HierarchyH
 /// Appends the corner indices of a polygon's triangles, three per triangle, with the polygon's winding. Returns `false`
 /// if the polygon crosses itself, has no plane, or takes too many steps.
 ///
+/// `shear` tilts the direction of projection. Corners in a line along that direction become one.
+///
 /// # Errors
 /// [`Cancelled`] by `progress`.
 pub(super) fn triangulate(
     corners: &[DVec3],
+    shear: [f64; 2],
     progress: &Progress,
     triangles: &mut Vec<u32>,
 ) -> Result<bool, Cancelled> {
-    let Some(points) = projected(corners) else {
+    let Some(points) = projected(corners, shear) else {
         return Ok(false);
     };
     progress.check()?;
@@ -68,7 +71,10 @@ pub(super) fn triangulate(
 
 /// The corners projected onto the coordinate plane most nearly parallel to the polygon, counterclockwise, scaled by a
 /// power of two to a size of about 1. `None` if the vector area is zero or not finite.
-fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
+///
+/// A shear adds multiples of the third coordinate to the other two. For coordinates of 24 bits it is exact, too, unless
+/// they differ by more than 25 binary orders of magnitude: corners on a line stay on a line.
+fn projected(corners: &[DVec3], shear: [f64; 2]) -> Option<Vec<Point2<f64>>> {
     let area = vector_area(corners);
     if !area.is_finite() || area == DVec3::ZERO {
         return None;
@@ -92,7 +98,11 @@ fn projected(corners: &[DVec3]) -> Option<Vec<Point2<f64>>> {
             x
         }
     };
-    let point = |p: &DVec3| Point2::new(scaled(p[x]), scaled(p[y]));
+    let point = |p: &DVec3| {
+        let [x, y] =
+            [(x, shear[0]), (y, shear[1])].map(|(axis, shear)| p[axis] + shear * p[across]);
+        Point2::new(scaled(x), scaled(y))
+    };
     Some(corners.iter().map(point).collect())
 }
 

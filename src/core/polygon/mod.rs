@@ -9,6 +9,7 @@ use crate::mesh::{aspect, has_zero_area};
 use crate::progress::{Cancelled, Progress};
 use earcut::Earcut;
 use glam::{DVec3, Vec3};
+use std::collections::HashSet;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 /// Maximum number of corners for ear clipping. It takes up to `FEW`³ steps for a polygon that crosses itself: a tenth
@@ -17,7 +18,9 @@ const FEW: usize = 100;
 /// Above this many corners, a fan may have flipped triangles of negligible area: rounding makes large circles slightly
 /// concave in places.
 const EXACT_FAN: usize = 1000;
-/// Above this many corners, a concave polygon becomes a fan: a triangulation uses about 300 bytes per corner.
+/// Memory per corner for a Delaunay triangulation (measured 2026-11).
+pub(crate) const BYTES_PER_CORNER: usize = 450;
+/// Above this many corners, a concave polygon becomes a fan, to limit the memory.
 pub(crate) const LARGEST: usize = 1_000_000;
 
 /// Buffers for triangulating polygons, reused for each polygon.
@@ -34,6 +37,8 @@ pub(crate) enum Cut {
     Good,
     /// A fan from the first corner, because the polygon crosses itself, has no plane, or is too large.
     Fan,
+    /// Some corners belong to no triangle, or only to triangles without an area.
+    Incomplete,
 }
 
 impl Triangulator {
@@ -45,15 +50,15 @@ impl Triangulator {
         }
     }
 
-    /// Triangulates a polygon. Calls `triangle` with the corner indices of each triangle, in the polygon's winding. A
-    /// fan has n − 2 triangles. Other triangulations may have fewer, or more if the polygon touches itself. `corners`
-    /// are the file's coordinates; `placed` are the mesh's, which are rounded.
+    /// Triangulates a polygon; [`triangle`](Self::triangle) returns the result, in the polygon's winding. A fan has n − 2
+    /// triangles. Other triangulations may have fewer, or more if the polygon touches itself. `corners` are the file's
+    /// coordinates; `placed` are the mesh's, which are rounded.
     ///
     /// A convex polygon becomes a fan. A small concave polygon is ear-clipped in the plane of its vector area; a large
     /// one gets a Delaunay triangulation. If the result misses a corner or has a triangle of little or no area, as
-    /// happens with collinear corners, the rounded polygon gets a Delaunay triangulation. Otherwise a closed mesh could
-    /// open, as each edge of the polygon needs a triangle, and two polygons could share a diagonal beside a common
-    /// corner.
+    /// happens with collinear corners, the rounded polygon gets a Delaunay triangulation. Each edge of the polygon must
+    /// belong to a triangle; otherwise a closed mesh gets open edges. Two polygons must not share a diagonal; otherwise
+    /// an edge gets more than two triangles.
     ///
     /// # Errors
     /// [`Cancelled`] by `progress`.
@@ -62,8 +67,8 @@ impl Triangulator {
         corners: &[DVec3],
         placed: &[Vec3],
         progress: &Progress,
-        mut triangle: impl FnMut([usize; 3]),
     ) -> Result<Cut, Cancelled> {
+        progress.check()?;
         let count = corners.len();
         let fan = || (1..count as u32 - 1).flat_map(|k| [0, k, k + 1]);
         let mut how = Cut::Good;
@@ -76,23 +81,60 @@ impl Triangulator {
             self.indices.extend(fan());
             how = Cut::Fan;
         }
-        // A large concave polygon already has a Delaunay triangulation. Another one helps only against rounding.
+        // A large concave polygon already has a Delaunay triangulation. It needs a second one only if rounding flattened a
+        // triangle.
         let is_bad = if is_fan || count <= FEW {
             is_thin
         } else {
             has_zero_area
         };
         if how == Cut::Good && count > 3 && count <= LARGEST && !self.is_regular(placed, is_bad) {
-            let placed: Vec<DVec3> = placed.iter().map(|p| p.as_dvec3()).collect();
-            let mut indices = Vec::new();
-            if triangulated(&placed, progress, &mut indices)? {
-                self.indices = indices;
-            }
-        }
-        for corner in self.indices.chunks_exact(3) {
-            triangle([corner[0] as usize, corner[1] as usize, corner[2] as usize]);
+            how = self.retriangulate(placed, progress)?;
         }
         Ok(how)
+    }
+
+    /// Replaces the triangles by a Delaunay triangulation, if one reaches all corners with triangles that have an area.
+    fn retriangulate(&mut self, placed: &[Vec3], progress: &Progress) -> Result<Cut, Cancelled> {
+        /// Directions of projection, the first one along an axis: corners that it makes one are apart in the others.
+        const SHEARS: [[f64; 2]; 3] = [[0.0, 0.0], [0.25, 0.125], [-0.125, 0.25]];
+        /// Larger polygons take too long to be triangulated several times.
+        const MOST_SHEARED: usize = 10_000;
+        let corners: Vec<DVec3> = placed.iter().map(|p| p.as_dvec3()).collect();
+        let count = if corners.len() > MOST_SHEARED {
+            1
+        } else {
+            SHEARS.len()
+        };
+        let mut incomplete = None;
+        for &shear in &SHEARS[..count] {
+            let mut indices = Vec::new();
+            if !triangulated(&corners, shear, progress, &mut indices)? {
+                continue;
+            }
+            if is_complete(&indices, placed) {
+                self.indices = indices;
+                return Ok(Cut::Good);
+            }
+            incomplete.get_or_insert(indices);
+        }
+        if is_complete(&self.indices, placed) {
+            return Ok(Cut::Good);
+        }
+        if let Some(indices) = incomplete {
+            self.indices = indices;
+        }
+        Ok(Cut::Incomplete)
+    }
+
+    /// Number of triangles of the polygon that was triangulated last.
+    pub(crate) fn count(&self) -> usize {
+        self.indices.len() / 3
+    }
+
+    /// The corners of one of these triangles.
+    pub(crate) fn triangle(&self, index: usize) -> [usize; 3] {
+        [0, 1, 2].map(|k| self.indices[3 * index + k] as usize)
     }
 
     /// Whether there are as many triangles as in a fan, so that no corner is missed, and none is bad.
@@ -113,7 +155,7 @@ impl Triangulator {
         if corners.len() > LARGEST {
             return Ok(false);
         }
-        triangulated(corners, progress, &mut self.indices)
+        triangulated(corners, [0.0; 2], progress, &mut self.indices)
     }
 
     /// Triangulates by ear clipping. Returns whether the triangles' areas add up to the polygon's.
@@ -154,13 +196,39 @@ fn is_thin(corners: [Vec3; 3]) -> bool {
     aspect(corners) >= THIN
 }
 
+/// Whether each triangle has an area, and each corner, or another one at its position, belongs to a triangle.
+fn is_complete(indices: &[u32], placed: &[Vec3]) -> bool {
+    let mut is_reached = vec![false; placed.len()];
+    for triangle in indices.chunks_exact(3) {
+        let corners = [0, 1, 2].map(|k| triangle[k] as usize);
+        if has_zero_area(corners.map(|corner| placed[corner])) {
+            return false;
+        }
+        for corner in corners {
+            is_reached[corner] = true;
+        }
+    }
+    if !is_reached.contains(&false) {
+        return true;
+    }
+    // Adding +0 makes −0 equal to 0.
+    let bits = |corner: usize| (placed[corner] + Vec3::ZERO).to_array().map(f32::to_bits);
+    let (reached, missed): (Vec<usize>, Vec<usize>) =
+        (0..placed.len()).partition(|&corner| is_reached[corner]);
+    let reached: HashSet<[u32; 3]> = reached.into_iter().map(bits).collect();
+    missed
+        .into_iter()
+        .all(|corner| reached.contains(&bits(corner)))
+}
+
 /// Appends a Delaunay triangulation to `indices`. Returns `false` if there is none or the dependency panics.
 fn triangulated(
     corners: &[DVec3],
+    shear: [f64; 2],
     progress: &Progress,
     indices: &mut Vec<u32>,
 ) -> Result<bool, Cancelled> {
-    let work = || delaunay::triangulate(corners, progress, indices);
+    let work = || delaunay::triangulate(corners, shear, progress, indices);
     catch_unwind(AssertUnwindSafe(work)).unwrap_or(Ok(false))
 }
 

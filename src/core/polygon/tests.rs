@@ -12,10 +12,12 @@ fn cut(points: &[[f64; 2]]) -> (Cut, f64) {
     let corners: Vec<DVec3> = points.iter().map(place).collect();
     let mut area = 0.0;
     let progress = Progress::default();
-    let how = Triangulator::new().cut(&corners, &placed(&corners), &progress, |t| {
-        let [a, b, c] = t.map(|k| points[k]);
+    let mut triangulator = Triangulator::new();
+    let how = triangulator.cut(&corners, &placed(&corners), &progress);
+    for index in 0..triangulator.count() {
+        let [a, b, c] = triangulator.triangle(index).map(|k| points[k]);
         area += ((b[0] - a[0]) * (c[1] - a[1]) - (b[1] - a[1]) * (c[0] - a[0])) / 2.0;
-    });
+    }
     (how.expect("not cancelled"), area)
 }
 
@@ -120,7 +122,7 @@ fn triangulation_stops_when_cancelled() {
     let progress = Progress::default();
     progress.cancel();
     let corners: Vec<DVec3> = star(10_000).iter().map(in_plane).collect();
-    let result = Triangulator::new().cut(&corners, &placed(&corners), &progress, |_| {});
+    let result = Triangulator::new().cut(&corners, &placed(&corners), &progress);
     assert!(matches!(result, Err(Cancelled)));
 }
 
@@ -130,7 +132,7 @@ fn assert_edges_are_covered(points: &[[f64; 2]]) {
     let corners: Vec<DVec3> = points.iter().map(|p| DVec3::new(0.0, p[0], p[1])).collect();
     let count = corners.len();
     let mut covered = vec![0; count];
-    let add = |t: [usize; 3]| {
+    let mut add = |t: [usize; 3]| {
         for (from, to) in [(t[0], t[1]), (t[1], t[2]), (t[2], t[0])] {
             if to == (from + 1) % count {
                 covered[from] += 1;
@@ -138,7 +140,9 @@ fn assert_edges_are_covered(points: &[[f64; 2]]) {
         }
     };
     let progress = Progress::default();
-    let how = Triangulator::new().cut(&corners, &placed(&corners), &progress, add);
+    let mut triangulator = Triangulator::new();
+    let how = triangulator.cut(&corners, &placed(&corners), &progress);
+    (0..triangulator.count()).for_each(|index| add(triangulator.triangle(index)));
     assert_eq!(how.expect("not cancelled"), Cut::Good);
     assert!(covered.iter().all(|&times| times == 1), "{covered:?}");
 }
@@ -225,7 +229,8 @@ fn delaunay_and_ear_clipping_give_equally_many_triangles() {
         let (mut ears, mut delaunay) = (Triangulator::new(), Vec::new());
         assert!(ears.clip_ears(&corners));
         assert!(
-            triangulated(&corners, &Progress::default(), &mut delaunay).expect("not cancelled")
+            triangulated(&corners, [0.0; 2], &Progress::default(), &mut delaunay)
+                .expect("not cancelled")
         );
         assert_eq!(delaunay.len(), ears.indices.len());
         let normal = vector_area(&corners);

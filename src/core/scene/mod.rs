@@ -180,7 +180,7 @@ impl Scene {
 pub struct LoadedScene {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// What loading found out about the file.
+    /// The load report of the file.
     pub report: LoadReport,
 }
 

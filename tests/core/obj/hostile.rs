@@ -77,12 +77,12 @@ fn an_index_of_a_billion_is_out_of_range() {
 fn a_line_of_a_gigabyte_is_refused_early() {
     let bytes = Repeated::new(b"v 1 2 3 ", 1 << 30);
     let error = message(parse_with(bytes, 1 << 30));
-    assert_eq!(error, "x.obj:1: the line is longer than 128 MB");
+    assert_eq!(error, "x.obj:1: the statement is longer than 128 MB");
     // The limit is lower with less memory, also for a line with continuations.
     for line in [&b"v 1 2 3 "[..], b"v 1 2 3 \\\n"] {
         let bytes = Repeated::new(line, 1 << 30);
         let error = message(parse_with(bytes, 64 << 20));
-        assert_eq!(error, "x.obj:1: the line is longer than 16 MB");
+        assert_eq!(error, "x.obj:1: the statement is longer than 16 MB");
     }
 }
 

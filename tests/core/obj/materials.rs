@@ -143,7 +143,7 @@ fn quirks_of_programs_are_understood() {
         warnings,
         [
             "vertex colours above 1: interpreted as bytes",
-            "1 normal computed: zero or not finite in the file",
+            "1 normal is zero or not finite in the file; computed instead",
             "material library “a.mtl”: 1 unknown statement skipped, on line 5",
         ]
     );

@@ -158,3 +158,62 @@ fn a_polygon_that_touches_itself_may_have_more_triangles_than_a_fan() {
     assert!((frame - (16.0 - 4.0 - 0.5)).abs() < 1e-6, "{frame}");
     assert_eq!((area(count - 1), mesh.face_of(count - 1)), (8.0, 1));
 }
+
+/// Two corners of these polygons lie one above the other, or nearly, so that a projection makes them one. Other corners lie
+/// on a line.
+#[test]
+fn a_prism_with_corners_above_each_other_is_closed() {
+    let step: Vec<[f64; 3]> = [
+        [0.0, 0.0],
+        [2.0, 0.0],
+        [4.0, 0.0],
+        [4.0, 4.0],
+        [4.0, 4.0],
+        [0.0, 4.0],
+    ]
+    .iter()
+    .enumerate()
+    .map(|(k, [x, y])| [*x, *y, if k == 4 { 0.01 } else { 0.0 }])
+    .collect();
+    // A star of so many corners that it gets a Delaunay triangulation, with a step in it.
+    let star: Vec<[f64; 3]> = (0..131)
+        .map(|k: u32| {
+            let angle = f64::from(k - k / 100) * std::f64::consts::TAU / 130.0;
+            let radius = if k % 2 == 0 { 4.0 } else { 3.0 };
+            let z = if k == 100 { 0.01 } else { 0.0 };
+            let radius = if k == 100 { 3.0 } else { radius };
+            [radius * angle.cos(), radius * angle.sin(), z]
+        })
+        .collect();
+    for outline in [step, star] {
+        for up in [[1.0, 0.0, 5.0], [0.5, 0.25, 5.0]] {
+            let text = prism_of(&outline, up);
+            let mesh = parse(text.as_bytes(), STRICT).expect("a mesh").mesh;
+            let open = Health::of(&mesh).places(Flaw::OpenEdge).count();
+            assert_eq!(open, Some(0), "{text}");
+        }
+    }
+}
+
+/// A prism over an outline, extruded by `up`.
+fn prism_of(outline: &[[f64; 3]], up: [f64; 3]) -> String {
+    let (mut text, count) = (String::new(), outline.len());
+    for top in [0.0, 1.0] {
+        for p in outline {
+            let [x, y, z] = [0, 1, 2].map(|axis| p[axis] + top * up[axis]);
+            writeln!(text, "v {x:.3} {y:.3} {z:.3}").expect("memory");
+        }
+    }
+    let face = |corners: &mut dyn Iterator<Item = usize>| {
+        corners.fold("f".to_owned(), |face, corner| format!("{face} {corner}"))
+    };
+    let bottom = face(&mut (1..=count).rev());
+    let top = face(&mut (count + 1..=2 * count));
+    writeln!(text, "{bottom}\n{top}").expect("memory");
+    for k in 0..count {
+        let next = (k + 1) % count;
+        let side = [k + 1, next + 1, count + next + 1, count + k + 1];
+        writeln!(text, "{}", face(&mut side.into_iter())).expect("memory");
+    }
+    text
+}

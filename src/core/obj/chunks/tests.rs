@@ -62,7 +62,7 @@ fn chunks_end_between_statements_and_know_their_lines() {
         let text = lines.join(end);
         let mut chunks = 0;
         let progress = Progress::default();
-        let mut source = Chunks::new(text.as_bytes(), &progress).expect("bytes");
+        let mut source = Chunks::new(text.as_bytes(), CHUNK_SIZE, &progress).expect("bytes");
         let mut expected = (1..).zip(&lines).filter(|(n, _)| n % 5 != 2);
         while let Some(chunk) = source.next().expect("good") {
             chunks += 1;
@@ -100,7 +100,7 @@ fn other_formats_are_recognised_after_empty_lines() {
         b"# a\n\0",
     ] {
         let progress = Progress::default();
-        let mut chunks = Chunks::new(bytes, &progress).expect("bytes");
+        let mut chunks = Chunks::new(bytes, CHUNK_SIZE, &progress).expect("bytes");
         let is_recognised = matches!(chunks.require_obj(), Err(Problem::Content(_)));
         assert!(is_recognised, "{}", bytes.escape_ascii());
     }

@@ -2,7 +2,7 @@
 
 use super::mtl::{self, Definition, MaterialLibrary};
 use super::referenced_files::ReferencedFiles;
-use super::{LimitedWarnings, reason};
+use super::{LimitedWarnings, MAX_LISTED, reason};
 use crate::obj::contents::Contents;
 use crate::obj::error::{Problem, Warning};
 use crate::obj::tally::shortened;
@@ -24,6 +24,8 @@ pub(super) struct Libraries<'a> {
     in_lower_case: HashMap<String, String>,
     /// The paths of the libraries opened so far, and whether each could be read.
     is_readable: HashMap<PathBuf, bool>,
+    /// The number of names looked up so far.
+    lookup_count: usize,
     /// Warnings about libraries that can't be read, and about the content of others.
     pub unreadable: LimitedWarnings,
     pub warnings: LimitedWarnings,
@@ -58,6 +60,7 @@ impl<'a> Libraries<'a> {
             known: HashMap::new(),
             in_lower_case: HashMap::new(),
             is_readable: HashMap::new(),
+            lookup_count: 0,
             unreadable: LimitedWarnings::default(),
             warnings: LimitedWarnings::default(),
         };
@@ -79,7 +82,8 @@ impl<'a> Libraries<'a> {
         for library in names_in(several).filter(|library| *library != whole) {
             match self.read_one(&library)? {
                 Ok(()) => is_any_readable = true,
-                Err(error) => missing.push((library, error)),
+                Err(error) if missing.len() < MAX_LISTED => missing.push((library, error)),
+                Err(_) => self.unreadable.count_only(),
             }
         }
         if !is_any_readable {
@@ -95,18 +99,19 @@ impl<'a> Libraries<'a> {
     /// Reads a library, unless it was read before. The inner error is the reason why it can't be read.
     fn read_one(&mut self, library: &str) -> Result<Result<(), String>, Problem> {
         /// More libraries than any real OBJ names, but few enough to look up.
-        const MOST: usize = 10_000;
+        const MAX_LOOKUPS: usize = 10_000;
         self.progress.check()?;
         if library.is_empty() {
             return Ok(Err("the name is missing".to_owned()));
         }
+        if self.lookup_count >= MAX_LOOKUPS {
+            return Ok(Err(format!("beyond the first {MAX_LOOKUPS}")));
+        }
+        self.lookup_count += 1;
         let path = self.files.find(library);
         match self.is_readable.get(&path) {
             Some(true) => return Ok(Ok(())),
             Some(false) => return Ok(Err("can't be read".to_owned())),
-            None if self.is_readable.len() >= MOST => {
-                return Ok(Err(format!("beyond the first {MOST}")));
-            }
             None => {}
         }
         let read = self.read_file(library, &path)?;

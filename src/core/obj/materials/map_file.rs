@@ -11,8 +11,8 @@ pub(super) struct MapFile {
     pub offset: Vec2,
 }
 
-/// Parses `-option value… name with spaces`. Also returns the skipped options, which shading doesn't use.
-pub(super) fn parse(rest: &str) -> Option<(MapFile, Vec<String>)> {
+/// Parses `-option value… name with spaces`. Also returns the options that shading doesn't use, each once.
+pub(super) fn parse(rest: &str) -> Option<(MapFile, Vec<&str>)> {
     let mut map = MapFile {
         name: String::new(),
         scale: Vec2::ONE,
@@ -45,7 +45,8 @@ pub(super) fn parse(rest: &str) -> Option<(MapFile, Vec<String>)> {
         match option {
             "-s" => map.scale = pair,
             "-o" => map.offset = Vec2::new(values[0], values.get(1).copied().unwrap_or(0.0)),
-            _ => skipped.push(option.to_owned()),
+            _ if skipped.contains(&option) => {}
+            _ => skipped.push(option),
         }
         rest = after;
     }

@@ -113,6 +113,9 @@ fn make_visible(
     Some(Warning::of_file(message.to_owned()))
 }
 
+/// The number of warnings about one subject that are listed: as many as fit in the panel.
+const MAX_LISTED: usize = 20;
+
 /// Warnings about one subject. Keeps the first few and counts the rest.
 #[derive(Default)]
 struct LimitedWarnings {
@@ -122,13 +125,16 @@ struct LimitedWarnings {
 
 impl LimitedWarnings {
     fn add(&mut self, warning: Warning) {
-        /// The number of warnings that fit in the panel.
-        const MAX_LISTED: usize = 20;
         if self.listed.len() < MAX_LISTED {
             self.listed.push(warning);
         } else {
             self.unlisted_count += 1;
         }
+    }
+
+    /// Counts a warning that is too late to be listed.
+    fn count_only(&mut self) {
+        self.unlisted_count += 1;
     }
 
     fn into_warnings(self, subject: &str) -> Vec<Warning> {

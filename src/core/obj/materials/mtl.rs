@@ -313,7 +313,7 @@ impl Definition {
             "map_kd" => {
                 let (map, skipped) = map_file::parse(rest)?;
                 self.diffuse_map = Some(map);
-                return Some(skipped);
+                return Some(skipped.into_iter().map(str::to_owned).collect());
             }
             _ => return None,
         }
