@@ -6,9 +6,11 @@
 
 use glam::{DVec3, Vec2, Vec3};
 use hitscope_core::TriangleMesh;
+use hitscope_core::counts::counted;
 use hitscope_core::mesh::Attributes;
 use hitscope_core::obj::LoadReport;
 use serde::Serialize;
+use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 
@@ -56,7 +58,10 @@ pub fn compare(bytes: &[u8], mesh: &TriangleMesh, report: &LoadReport) -> Second
         let end = end.unwrap_or(triangles.len());
         let place = format!("face {}, line {}", face + 1, report.face_lines.line(face));
         match faces.get(face) {
-            None => opinion.add(format!("{place}: tobj reads only {} faces", faces.len())),
+            None => opinion.add(format!(
+                "{place}: tobj reads only {}",
+                counted(faces.len(), "face")
+            )),
             Some(theirs) => {
                 if let Some(difference) = difference(&triangles[start..end], theirs, mesh.origin())
                 {
@@ -68,7 +73,8 @@ pub fn compare(bytes: &[u8], mesh: &TriangleMesh, report: &LoadReport) -> Second
     }
     let (ours, theirs) = (report.face_lines.count(), faces.len());
     if ours != theirs {
-        opinion.add(format!("tobj reads {theirs} faces, hitscope {ours}"));
+        let theirs = counted(theirs, "face");
+        opinion.add(format!("tobj reads {theirs}, hitscope {ours}"));
     }
     opinion
 }
@@ -82,7 +88,15 @@ fn difference(ours: &[[Corner; 3]], theirs: &[Corner], origin: DVec3) -> Option<
     };
     for own in ours.iter().flat_map(|triangle| triangle.iter().enumerate()) {
         if !is_there(own.0, own.1) {
-            return Some(format!("tobj has {theirs:?}, not {:?}", own.1));
+            return Some(match theirs {
+                [_, _, _] => format!(
+                    "tobj reads corner {} as {}, hitscope as {}",
+                    own.0 + 1,
+                    theirs[own.0],
+                    own.1
+                ),
+                _ => format!("tobj has no corner {}", own.1),
+            });
         }
     }
     // With fewer triangles than a fan, some were dropped.
@@ -94,7 +108,7 @@ fn difference(ours: &[[Corner; 3]], theirs: &[Corner], origin: DVec3) -> Option<
     let missed = theirs.iter().find(|corner| !is_reached(corner));
     missed
         .filter(|_| is_whole)
-        .map(|corner| format!("no triangle reaches tobj's {corner:?}"))
+        .map(|corner| format!("no triangle reaches corner {corner}, which tobj reads"))
 }
 
 impl SecondOpinion {
@@ -115,6 +129,23 @@ struct Corner {
     colour: Option<Vec3>,
     normal: Option<Vec3>,
     texture: Option<Vec2>,
+}
+
+impl fmt::Display for Corner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let DVec3 { x, y, z } = self.position;
+        write!(f, "({x}, {y}, {z})")?;
+        if let Some(colour) = self.colour {
+            write!(f, " of colour {colour}")?;
+        }
+        if let Some(normal) = self.normal {
+            write!(f, " with normal {normal}")?;
+        }
+        if let Some(texture) = self.texture {
+            write!(f, " with texture coordinates {texture}")?;
+        }
+        Ok(())
+    }
 }
 
 impl Corner {

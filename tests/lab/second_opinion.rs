@@ -150,7 +150,7 @@ fn random_file(random: &mut Random) -> String {
     let (has_normals, has_textures) = (random.index(2) == 0, random.index(2) == 0);
     let ending = ["\n", "\r\n"][random.index(2)];
     let (mut vertices, mut normals, mut textures) = (0, 0, 0);
-    for _ in 0..1 + random.index(40) {
+    for _ in 0..4 + random.index(56) {
         let mut number = || match random.index(3) {
             0 => NUMBERS[random.index(NUMBERS.len())].to_owned(),
             1 => format!("{}", random.unit()),

@@ -32,11 +32,8 @@ pub(super) fn assemble(
     progress.enter(Phase::Checking);
     let vertex_count = contents.positions.len();
     let mut warnings = contents.warnings();
-    let (mut colours, are_bytes) = contents.colours.take(vertex_count);
-    if are_bytes {
-        let message = "vertex colours above 1: interpreted as bytes".to_owned();
-        warnings.push(Warning::of_file(message));
-    }
+    let (mut colours, warning) = contents.colours.take(vertex_count);
+    warnings.extend(warning);
     let surface = sample_surface(&contents.elements, &contents.positions);
     let used = keep_used(&mut contents, &mut colours);
     let (unusable_normals, warning) = unusable(&contents.normals);

@@ -1,7 +1,7 @@
 //! Vertex colours.
 
 use super::error::Warning;
-use crate::counts::counted_as;
+use crate::counts::{counted, counted_as};
 use glam::Vec3;
 
 /// The colours of a file's vertices.
@@ -26,20 +26,35 @@ impl Colours {
         self.values.len()
     }
 
-    /// The sRGB colours of `count` vertices, from 0 to 1, and whether the file's values range from 0 to 255, as some
-    /// programs write them. The list is empty if no vertex has a colour.
-    pub(super) fn take(&mut self, count: usize) -> (Vec<Vec3>, bool) {
+    /// The sRGB colours of `count` vertices, from 0 to 1, and a warning if the file's values don't lie there. Whole values up
+    /// to 255 are bytes, as some programs write them, unless all are so small that the mesh would be black. The list is empty
+    /// if no vertex has a colour.
+    pub(super) fn take(&mut self, count: usize) -> (Vec<Vec3>, Option<Warning>) {
+        /// A mesh whose largest byte is this is black to the eye.
+        const BLACK: f32 = 15.0;
         let mut values = std::mem::take(&mut self.values);
         if !values.is_empty() {
             values.resize(count, [f32::INFINITY; 3]);
         }
-        let channels = values.as_flattened().iter().copied();
-        let mut given = channels.filter(|x| x.is_finite());
-        let largest = given.clone().fold(0.0, f32::max);
-        let are_whole = given.all(|x| x.fract() == 0.0);
-        let are_bytes = are_whole && largest > 1.0 && largest <= 255.0;
+        let given = values
+            .iter()
+            .filter(|colour| **colour != [f32::INFINITY; 3]);
+        let mut channels = given.clone().flatten();
+        let largest = channels.clone().copied().fold(0.0, f32::max);
+        let are_whole = channels.all(|x| x.fract() == 0.0);
+        let are_bytes = are_whole && largest > BLACK && largest <= 255.0;
         let white = if are_bytes { 255.0 } else { 1.0 };
-        // NaN becomes black.
+        let is_outside = |colour: &&[f32; 3]| colour.iter().any(|x| !(0.0..=white).contains(x));
+        let outside = given.filter(is_outside).count();
+        let warning = if outside > 0 {
+            let colours = counted(outside, "vertex colour");
+            Some(format!(
+                "{colours} with a value outside 0 to {white}: clamped; NaN becomes 0"
+            ))
+        } else {
+            let message = "vertex colours above 1: interpreted as bytes";
+            are_bytes.then(|| message.to_owned())
+        };
         let channel = |x: f32| {
             if x.is_nan() {
                 0.0
@@ -48,7 +63,8 @@ impl Colours {
             }
         };
         let colour = |channels: [f32; 3]| Vec3::from_array(channels.map(channel));
-        (values.into_iter().map(colour).collect(), are_bytes)
+        let colours = values.into_iter().map(colour).collect();
+        (colours, warning.map(Warning::of_file))
     }
 
     /// A warning if some, but not all, of `count` vertices have no colour.
@@ -62,5 +78,41 @@ impl Colours {
             );
             Warning::of_file(format!("{vertices} white"))
         })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn taken(given: &[[f32; 3]]) -> (Vec<Vec3>, Option<String>) {
+        let mut colours = Colours::default();
+        for (vertex, colour) in given.iter().enumerate() {
+            colours.add(vertex, *colour);
+        }
+        let (values, warning) = colours.take(given.len());
+        (values, warning.map(|warning| warning.message))
+    }
+
+    #[test]
+    fn values_above_1_are_bytes_or_clamped() {
+        let (values, warning) = taken(&[[255.0, 51.0, 0.0]]);
+        assert_eq!(values, [Vec3::new(1.0, 0.2, 0.0)]);
+        assert!(warning.is_some_and(|text| text.ends_with("interpreted as bytes")));
+        assert_eq!(
+            taken(&[[1.0, 0.5, 0.0]]),
+            (vec![Vec3::new(1.0, 0.5, 0.0)], None)
+        );
+        for (given, clamped) in [
+            ([2.0, 0.0, 0.0], Vec3::X),
+            ([1.5, 0.0, 1.0], Vec3::new(1.0, 0.0, 1.0)),
+            ([f32::NAN, 1.0, -1.0], Vec3::Y),
+            ([300.0, 0.0, 0.0], Vec3::X),
+        ] {
+            let (values, warning) = taken(&[given]);
+            assert_eq!(values, [clamped], "{given:?}");
+            let expected = "1 vertex colour with a value outside 0 to 1: clamped; NaN becomes 0";
+            assert_eq!(warning.as_deref(), Some(expected), "{given:?}");
+        }
     }
 }

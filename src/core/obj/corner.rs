@@ -24,7 +24,10 @@ impl List {
             0 => format!("{what} index 0; indices start at 1"),
             // Reported before the file's entries have been counted.
             _ if written > i64::from(u32::MAX) => format!("{what} index {written} is out of range"),
-            _ => format!("{what} index {written} is out of range: there are {count}"),
+            _ => {
+                let are = if count == 1 { "is" } else { "are" };
+                format!("{what} index {written} is out of range: there {are} {count}")
+            }
         }
     }
 }
@@ -128,7 +131,13 @@ impl Corners<'_> {
         } else {
             format!(" in “{}”", shortened(&word))
         };
-        let message = format!("“{}”{within} is not an index", shortened(part));
+        let is_number = part.bytes().all(|b| b.is_ascii_digit());
+        let message = match part {
+            "" if within.is_empty() => "an index is missing".to_owned(),
+            "" => format!("an index is missing{within}"),
+            _ if is_number => format!("index “{}”{within} is too large", shortened(part)),
+            _ => format!("“{}”{within} is not an index", shortened(part)),
+        };
         Malformed { offset, message }
     }
 }
@@ -171,11 +180,11 @@ mod tests {
             ),
             ("1.0", "“1.0” is not an index"),
             ("1/x/2", "“x” in “1/x/2” is not an index"),
-            ("/1", "“” in “/1” is not an index"),
+            ("/1", "an index is missing in “/1”"),
             ("-", "“-” is not an index"),
             (
                 "99999999999999999999",
-                "“99999999999999999999” is not an index",
+                "index “99999999999999999999” is too large",
             ),
             ("é", "“é” is not an index"),
         ] {

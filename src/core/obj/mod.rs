@@ -65,8 +65,9 @@ use chunks::CHUNK_SIZE;
 use error::Problem;
 use fence::fenced;
 use materials::{Folder, NamedFiles, ReferencedFiles};
+use source::Source;
 use std::fs::{File, Metadata};
-use std::io::Read;
+use std::io::{self, Read};
 use std::path::Path;
 use std::time::Instant;
 
@@ -157,6 +158,30 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
     let mut loaded = parsed?;
     loaded.report.files = folder.into_looked_for();
     Ok(loaded)
+}
+
+/// The bytes of an OBJ file as text: decompressed, in UTF-8 or another encoding of single bytes, and without byte order mark.
+///
+/// # Errors
+/// The file can't be read, or its compressed data is damaged.
+pub fn decoded(bytes: impl Read) -> io::Result<Vec<u8>> {
+    let progress = Progress::default();
+    let unread = |problem: Problem| match problem {
+        Problem::Read(error) => error,
+        _ => io::Error::other("cancelled"),
+    };
+    let mut source = Source::new(bytes, &progress).map_err(unread)?;
+    let mut text = vec![0; CHUNK_SIZE];
+    let mut length = 0;
+    loop {
+        let count = source.read(&mut text[length..]).map_err(unread)?;
+        if count == 0 {
+            text.truncate(length);
+            return Ok(text);
+        }
+        length += count;
+        text.resize(length + CHUNK_SIZE, 0);
+    }
 }
 
 /// Whether a file is neither regular nor a pipe, such as a disk, a terminal, or an endless source of bytes.

@@ -45,11 +45,11 @@ fn errors_name_the_line_and_the_word() {
         ("f 0 1 2", "x.obj:4:3: vertex index 0; indices start at 1"),
         (
             "vn 0 0 1\nf 1//-5 2 3",
-            "x.obj:5:3: normal index -5 is out of range: there are 1",
+            "x.obj:5:3: normal index -5 is out of range: there is 1",
         ),
         (
             "f 1//1 2//2 3//1\nvn 0 0 1",
-            "x.obj:4: normal index 2 is out of range: there are 1",
+            "x.obj:4: normal index 2 is out of range: there is 1",
         ),
         (
             "f 1/1/1/1 2 3",

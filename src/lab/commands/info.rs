@@ -11,10 +11,11 @@ use clap::Args;
 use hitscope_core::counts::counted;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::{FLAWS, Health, bytes_as};
-use hitscope_core::obj::Recentre;
+use hitscope_core::obj::{self, Recentre};
 use hitscope_core::scene::LoadedScene;
 use serde::Serialize;
 use std::collections::BTreeMap;
+use std::fs::File;
 use std::io::Write;
 use std::path::PathBuf;
 
@@ -105,7 +106,7 @@ impl InfoArgs {
         )?;
         let mut info = Info::of(&loaded, intersector.bytes());
         if self.check {
-            let bytes = std::fs::read(&self.file);
+            let bytes = File::open(&self.file).and_then(obj::decoded);
             let bytes = bytes.map_err(|source| file_error(&self.file, source))?;
             info.check = Some(compare(&bytes, scene.mesh(), &loaded.report));
         }

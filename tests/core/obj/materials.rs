@@ -181,5 +181,6 @@ fn colours_slightly_above_one_are_not_taken_as_bytes() {
     let loaded = super::parse(text.as_bytes(), STRICT).expect("good");
     let expected = [Vec3::ONE, Vec3::new(0.5, 0.0, 0.0), Vec3::ZERO];
     assert_eq!(loaded.mesh.attributes().colours, expected);
-    assert_eq!(warnings(&loaded), [""; 0]);
+    let expected = "2 vertex colours with a value outside 0 to 1: clamped; NaN becomes 0";
+    assert_eq!(warnings(&loaded), [expected]);
 }

@@ -179,7 +179,7 @@ fn a_prism_with_corners_above_each_other_is_closed() {
     let star: Vec<[f64; 3]> = (0..131)
         .map(|k: u32| {
             let angle = f64::from(k - k / 100) * std::f64::consts::TAU / 130.0;
-            let radius = if k % 2 == 0 { 4.0 } else { 3.0 };
+            let radius = if k.is_multiple_of(2) { 4.0 } else { 3.0 };
             let z = if k == 100 { 0.01 } else { 0.0 };
             let radius = if k == 100 { 3.0 } else { radius };
             [radius * angle.cos(), radius * angle.sin(), z]

@@ -37,7 +37,7 @@ fn an_invalid_index_is_an_error_or_drops_its_face() {
         ),
         (
             "no_normal.obj",
-            "no_normal.obj:6: normal index 7 is out of range: there are 1",
+            "no_normal.obj:6: normal index 7 is out of range: there is 1",
             0,
         ),
     ] {
