@@ -9,7 +9,7 @@ fn exit_statuses_distinguish_success_bad_input_and_bad_usage() {
         (
             "info bad.obj",
             1,
-            "hitscope: bad.obj:2: vertex index 7 is out of range: there are 1\n",
+            "hitscope: bad.obj:2: vertex index 7 is out of range: there is 1\n",
         ),
         ("info none.obj", 1, "hitscope: none.obj: "),
         ("trace good.obj --rays none.txt", 1, "hitscope: none.txt: "),

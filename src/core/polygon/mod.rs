@@ -96,8 +96,15 @@ impl Triangulator {
 
     /// Replaces the triangles by a Delaunay triangulation, if one reaches all corners with triangles that have an area.
     fn retriangulate(&mut self, placed: &[Vec3], progress: &Progress) -> Result<Cut, Cancelled> {
-        /// Directions of projection, the first one along an axis: corners that it makes one are apart in the others.
-        const SHEARS: [[f64; 2]; 3] = [[0.0, 0.0], [0.25, 0.125], [-0.125, 0.25]];
+        /// Directions of projection, the first one along an axis: corners that it makes one are apart in the others. An
+        /// edge between two such corners may fold the outline in some of the others, but hardly in all four quadrants.
+        const SHEARS: [[f64; 2]; 5] = [
+            [0.0, 0.0],
+            [0.25, 0.125],
+            [-0.125, 0.25],
+            [-0.25, -0.125],
+            [0.125, -0.25],
+        ];
         /// Larger polygons take too long to be triangulated several times.
         const MOST_SHEARED: usize = 10_000;
         let corners: Vec<DVec3> = placed.iter().map(|p| p.as_dvec3()).collect();

@@ -175,17 +175,21 @@ fn a_prism_with_corners_above_each_other_is_closed() {
     .enumerate()
     .map(|(k, [x, y])| [*x, *y, if k == 4 { 0.01 } else { 0.0 }])
     .collect();
-    // A star of so many corners that it gets a Delaunay triangulation, with a step in it.
-    let star: Vec<[f64; 3]> = (0..131)
-        .map(|k: u32| {
-            let angle = f64::from(k - k / 100) * std::f64::consts::TAU / 130.0;
-            let radius = if k.is_multiple_of(2) { 4.0 } else { 3.0 };
-            let z = if k == 100 { 0.01 } else { 0.0 };
-            let radius = if k == 100 { 3.0 } else { radius };
+    // A star of so many corners that it gets a Delaunay triangulation, with a step after one of them.
+    let star = |after: u32| -> Vec<[f64; 3]> {
+        let corner = |k: u32| {
+            let corner = k - u32::from(k > after);
+            let angle = f64::from(corner) * std::f64::consts::TAU / 130.0;
+            let radius = if corner.is_multiple_of(2) { 4.0 } else { 3.0 };
+            let z = if k > after { 0.01 } else { 0.0 };
+            // The outline returns to the height of its start.
+            let z = z * f64::from(130 - corner) / f64::from(130 - after);
             [radius * angle.cos(), radius * angle.sin(), z]
-        })
-        .collect();
-    for outline in [step, star] {
+        };
+        (0..131).map(corner).collect()
+    };
+    let stars = [0, 1, 20, 33, 64, 65, 99, 100].map(star);
+    for outline in stars.into_iter().chain([step]) {
         for up in [[1.0, 0.0, 5.0], [0.5, 0.25, 5.0]] {
             let text = prism_of(&outline, up);
             let mesh = parse(text.as_bytes(), STRICT).expect("a mesh").mesh;
