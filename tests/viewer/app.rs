@@ -56,7 +56,7 @@ fn a_file_opens_and_stays_if_the_next_one_is_bad() {
         ),
         (
             write(&folder, "dots.obj", "v 0 0 0\n"),
-            "dots.obj: there are vertices (1), but no faces",
+            "dots.obj: no faces, only 1 vertex",
         ),
     ] {
         drop_file(&mut window, path);
