@@ -83,9 +83,12 @@ pub(super) fn is_long_number(word: &[u8]) -> bool {
     digits.skip_while(|&&b| b == b'0').count() > EXACT_DIGITS as usize
 }
 
-/// A line up to its comment. A # after a point starts no comment: Microsoft writes NaN as `-1.#IND`.
+/// A line up to its comment. A # between a point and a letter starts no comment: Microsoft writes NaN as `-1.#IND`.
 pub(super) fn without_comment(bytes: &[u8]) -> &[u8] {
-    let is_comment = |&at: &usize| at == 0 || bytes[at - 1] != b'.';
+    let is_comment = |&at: &usize| {
+        let is_after_point = at > 0 && bytes[at - 1] == b'.';
+        !is_after_point || !bytes.get(at + 1).is_some_and(u8::is_ascii_alphabetic)
+    };
     let comment = memchr_iter(b'#', bytes).find(is_comment);
     comment.map_or(bytes, |at| &bytes[..at])
 }
@@ -190,6 +193,7 @@ mod tests {
         assert_eq!(name("café".as_bytes()), "café");
         assert_eq!(without_comment(b"1 2 # 3"), b"1 2 ");
         assert_eq!(without_comment(b"-1.#IND 2# 3"), b"-1.#IND 2");
+        assert_eq!(without_comment(b"1.# a"), b"1.");
         assert_eq!(before_comment("wood # red"), Some("wood"));
         assert_eq!(before_comment("wood#2"), None);
     }
