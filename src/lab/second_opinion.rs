@@ -101,9 +101,18 @@ fn difference(ours: &[[Corner; 3]], theirs: &[Corner], origin: DVec3) -> Option<
     }
     // With fewer triangles than a fan, some were dropped.
     let is_whole = ours.len() + 2 >= theirs.len();
+    // Of corners at one position, a triangulation may use one.
+    let is_repeated = |corner: &Corner| {
+        let here = theirs
+            .iter()
+            .filter(|other| other.position == corner.position);
+        here.count() > 1
+    };
     let is_reached = |corner: &&Corner| {
         let own = ours.as_flattened();
-        own.iter().any(|own| own.is_same(corner, origin))
+        let is_repeated = is_repeated(corner);
+        own.iter()
+            .any(|own| own.is_same(corner, origin) || is_repeated && own.is_at(corner, origin))
     };
     let missed = theirs.iter().find(|corner| !is_reached(corner));
     missed
@@ -149,6 +158,13 @@ impl fmt::Display for Corner {
 }
 
 impl Corner {
+    /// Whether a corner of a mesh with this origin has the bits of one in the file as its position.
+    fn is_at(&self, in_file: &Self, origin: DVec3) -> bool {
+        let rounded = (in_file.position - origin).as_vec3();
+        let bits = |p: Vec3| p.to_array().map(f32::to_bits);
+        bits(self.position.as_vec3()) == bits(rounded)
+    }
+
     /// Whether a corner of a mesh with this origin has the bits of one in the file.
     fn is_same(&self, in_file: &Self, origin: DVec3) -> bool {
         fn agree<const N: usize>(ours: Option<[f32; N]>, theirs: Option<[f32; N]>) -> bool {
@@ -157,9 +173,7 @@ impl Corner {
         }
         let of_three = |values: Option<Vec3>| values.map(|v| v.to_array());
         let of_two = |values: Option<Vec2>| values.map(|v| v.to_array());
-        let own = self.position.as_vec3().to_array();
-        let rounded = (in_file.position - origin).as_vec3().to_array();
-        agree(Some(own), Some(rounded))
+        self.is_at(in_file, origin)
             && agree(of_three(self.colour), of_three(in_file.colour))
             && agree(of_three(self.normal), of_three(in_file.normal))
             && agree(of_two(self.texture), of_two(in_file.texture))
