@@ -132,7 +132,7 @@ impl TriangleMesh {
             "an attribute of a missing triangle"
         );
         Self {
-            face_count: attributes.faces.count(self.triangles.len()),
+            face_count: attributes.faces.count(triangles),
             attributes,
             ..self
         }

@@ -10,7 +10,7 @@ use super::error::{Problem, Warning};
 use super::materials::{self, ReferencedFiles, ResolvedMaterials};
 use super::oddities::{Oddities, no_triangles};
 use super::origin::{choose_origin, far_vertices, sample_surface};
-use super::report::{Dropped, LoadReport};
+use super::report::LoadReport;
 use super::rounding::max_rounding;
 use super::triangulate::{Assembly, ChunkTriangles};
 use super::used::Used;
@@ -61,12 +61,9 @@ pub(super) fn assemble(
     let (mut triangles, parts) = triangulate(&assembly, elements)?;
     progress.check()?;
 
-    let Gathered {
-        attributes,
-        dropped,
-        oddities,
-    } = gather(&mut triangles, parts, &mut contents, found, colours);
-    warnings.extend(oddities.warnings(dropped));
+    let (attributes, oddities) = gather(&mut triangles, parts, &mut contents, found, colours);
+    let dropped = oddities.dropped(&contents.skipped);
+    warnings.extend(oddities.warnings());
     progress.check()?;
     if triangles.is_empty() {
         return Err(no_triangles(&contents, dropped, vertex_count));
@@ -144,21 +141,14 @@ fn triangulate(
     Ok((triangles, parts))
 }
 
-/// What a mesh has besides its triangles, and what was dropped.
-struct Gathered {
-    attributes: Attributes,
-    dropped: Dropped,
-    oddities: Oddities,
-}
-
-/// Moves the chunks' triangles together, and gathers their attributes and counts.
+/// Moves the chunks' triangles together, and gathers their attributes and oddities.
 fn gather(
     triangles: &mut Vec<[u32; 3]>,
     parts: Vec<ChunkTriangles>,
     contents: &mut Contents,
     found: ResolvedMaterials,
     colours: Vec<Vec3>,
-) -> Gathered {
+) -> (Attributes, Oddities) {
     close_gaps(triangles, &parts);
     let normals = std::mem::take(&mut contents.normals);
     let coordinates = std::mem::take(&mut contents.textures);
@@ -175,7 +165,7 @@ fn gather(
         textures: found.textures,
         ..Attributes::default()
     };
-    let (mut dropped, mut oddities) = (Dropped::default(), Oddities::default());
+    let mut oddities = Oddities::default();
     let mut all_runs: [Runs; 3] = Default::default();
     let mut count = 0;
     for part in parts {
@@ -187,7 +177,6 @@ fn gather(
         }
         let first_face = part.first_face as u32;
         attributes.append(first, part.count as u32, part.attributes, first_face);
-        dropped.append(part.dropped);
         oddities.append(part.oddities);
         count += part.count;
     }
@@ -196,13 +185,7 @@ fn gather(
     attributes.materials = Assigned::new(found.materials, materials);
     attributes.groups = Assigned::new(contents.groups.names.clone(), groups);
     attributes.smoothing = (!contents.smoothing.is_empty()).then_some(smoothing);
-    dropped.bad_index = contents.skipped.faces.count;
-    dropped.elements += contents.skipped.others.count;
-    Gathered {
-        attributes,
-        dropped,
-        oddities,
-    }
+    (attributes, oddities)
 }
 
 /// Moves the chunks' triangles together.

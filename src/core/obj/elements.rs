@@ -87,15 +87,35 @@ impl Elements {
         self.count += 1;
     }
 
-    /// Adds a corner's index in a list. Call it for the vertex first.
+    /// Adds a corner's index in a list, or [`NO_INDEX`]. Call it for the vertex first.
     #[inline]
     pub(super) fn push(&mut self, list: List, index: u32) {
+        if index != NO_INDEX {
+            self.start_corner(list).push(index);
+            let highest = &mut self.highest[list as usize];
+            *highest = (*highest).max(index as usize + 1);
+        } else if !self.corners[list as usize].is_empty() {
+            self.start_corner(list).push(NO_INDEX);
+        }
+    }
+
+    /// Adds a corner's index in a list, relative to the number of entries before the chunk.
+    pub(super) fn push_relative(&mut self, list: List, index: i32) {
+        let indices = self.start_corner(list);
+        let corner = indices.len() as u32;
+        indices.push(index.cast_unsigned());
+        self.relative[list as usize].push(corner);
+        let lowest = &mut self.lowest[list as usize];
+        *lowest = index.min(*lowest);
+    }
+
+    /// The indices in a list, of all corners before the one that is being added.
+    #[inline]
+    fn start_corner(&mut self, list: List) -> &mut Vec<u32> {
         let corner = self.corners[0].len() - usize::from(list != List::Vertex);
         let indices = &mut self.corners[list as usize];
-        if index != NO_INDEX || !indices.is_empty() {
-            indices.resize(corner, NO_INDEX);
-            indices.push(index);
-        }
+        indices.resize(corner, NO_INDEX);
+        indices
     }
 
     /// Removes the corners from `first` on.

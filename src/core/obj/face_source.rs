@@ -2,7 +2,9 @@
 
 use super::chunks::each_statement;
 use super::corner::{Corner, Corners, List};
+use super::elements::ElementKind;
 use super::error::{LoadError, Problem};
+use super::keyword::Keyword;
 use super::statement::Statement;
 use super::tally::shortened_to;
 use super::words::{Words, number, text, without_comment};
@@ -71,8 +73,9 @@ fn statement_on(
     const LONGEST_TEXT: usize = 160;
     let (mut counts, mut found) = ([0; 3], None);
     each_statement(bytes, progress, |statement| {
-        let (keyword, after) = statement.keyword().unwrap_or_default();
-        if statement.line == line && keyword.eq_ignore_ascii_case(b"f") {
+        let (word, after) = statement.keyword().unwrap_or_default();
+        let keyword = Keyword::of(word);
+        if statement.line == line && keyword == Some(Keyword::Element(ElementKind::Face)) {
             let plain = without_comment(statement.bytes);
             let corners = Corners::of(plain, after);
             let corners = corners.map(|corner| from_one(corner.ok()?, counts));
@@ -84,7 +87,7 @@ fn statement_on(
         if statement.line >= line {
             return Ok(ControlFlow::Break(()));
         }
-        if let Some(list) = list_of(keyword) {
+        if let Some(Keyword::Numbers(list)) = keyword {
             counts[list as usize] += 1;
         }
         Ok(ControlFlow::Continue(()))
@@ -124,10 +127,8 @@ fn read_coordinates(
     let mut missing = vertices.len() + uvs.len();
     let mut counts = [0; 3];
     each_statement(bytes, progress, |statement| {
-        let Some(list) = statement
-            .keyword()
-            .and_then(|(keyword, _)| list_of(keyword))
-        else {
+        let keyword = statement.keyword().and_then(|(word, _)| Keyword::of(word));
+        let Some(Keyword::Numbers(list)) = keyword else {
             return Ok(ControlFlow::Continue(()));
         };
         counts[list as usize] += 1;
@@ -172,16 +173,6 @@ fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Proble
         *slot = number(&plain, word)?;
     }
     Ok(numbers)
-}
-
-/// The list that a statement with this keyword adds to.
-fn list_of(keyword: &[u8]) -> Option<List> {
-    match keyword {
-        [b'v' | b'V'] => Some(List::Vertex),
-        [b'v' | b'V', b't' | b'T'] => Some(List::Texture),
-        [b'v' | b'V', b'n' | b'N'] => Some(List::Normal),
-        _ => None,
-    }
 }
 
 #[cfg(test)]

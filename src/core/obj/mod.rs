@@ -4,7 +4,7 @@
 //! |---|---|
 //! | bytes are decompressed and decoded | `source`, `gzip` |
 //! | the file is cut into chunks of whole statements | `chunks`; `kind` recognises other formats |
-//! | **chunks are parsed in parallel** | `parallel`; `plain`, or `reader` with `statement`, `words`, `corner` |
+//! | **chunks are parsed in parallel** | `parallel`; `plain`, or `reader` with `keyword`, `statement`, `words`, `corner` |
 //! | the contents of a chunk | `chunk_contents`, `elements`, `skipped`, `tally` |
 //! | they are appended in file order, and checked | `contents`, `names`, `colours`, `memory` |
 //! | material names are resolved to materials and textures | `materials` |
@@ -34,6 +34,7 @@ mod error;
 mod face_source;
 mod fence;
 mod gzip;
+mod keyword;
 mod kind;
 mod materials;
 mod memory;
@@ -166,22 +167,12 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
 /// The file can't be read, or its compressed data is damaged.
 pub fn decoded(bytes: impl Read) -> io::Result<Vec<u8>> {
     let progress = Progress::default();
-    let unread = |problem: Problem| match problem {
+    let source = Source::new(bytes, &progress);
+    let text = source.and_then(Source::read_to_end);
+    text.map_err(|problem| match problem {
         Problem::Read(error) => error,
         _ => io::Error::other("cancelled"),
-    };
-    let mut source = Source::new(bytes, &progress).map_err(unread)?;
-    let mut text = vec![0; CHUNK_SIZE];
-    let mut length = 0;
-    loop {
-        let count = source.read(&mut text[length..]).map_err(unread)?;
-        if count == 0 {
-            text.truncate(length);
-            return Ok(text);
-        }
-        length += count;
-        text.resize(length + CHUNK_SIZE, 0);
-    }
+    })
 }
 
 /// Whether a file is neither regular nor a pipe, such as a disk, a terminal, or an endless source of bytes.

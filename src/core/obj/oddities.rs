@@ -3,16 +3,20 @@
 use super::contents::Contents;
 use super::error::{Problem, Warning};
 use super::report::Dropped;
+use super::skipped::Skipped;
 use super::tally::{Tally, lines_or_points};
 use crate::counts::{counted, counted_as, grouped};
 
 /// Count and first line of each oddity.
 #[derive(Default)]
 pub(super) struct Oddities {
+    /// Triangles that are dropped.
     pub non_finite: Tally,
     pub zero_area: Tally,
+    /// Polygons.
     pub fan: Tally,
     pub incomplete: Tally,
+    /// Lines and points that are dropped.
     pub not_finite_elements: usize,
 }
 
@@ -25,8 +29,17 @@ impl Oddities {
         self.not_finite_elements += later.not_finite_elements;
     }
 
-    pub(super) fn warnings(self, dropped: Dropped) -> impl Iterator<Item = Warning> {
-        let (non_finite, zero_area) = (dropped.non_finite, dropped.zero_area);
+    /// The counts of what was dropped, with that of skipped elements.
+    pub(super) fn dropped(&self, skipped: &Skipped) -> Dropped {
+        Dropped {
+            zero_area: self.zero_area.count,
+            non_finite: self.non_finite.count,
+            bad_index: skipped.faces.count,
+            elements: self.not_finite_elements + skipped.others.count,
+        }
+    }
+
+    pub(super) fn warnings(self) -> impl Iterator<Item = Warning> {
         let elements = self.not_finite_elements;
         let of_elements = (elements > 0).then(|| {
             let elements = lines_or_points(elements);
@@ -35,12 +48,12 @@ impl Oddities {
             ))
         });
         [
-            self.non_finite.warning(|_| {
-                let triangles = counted(non_finite, "triangle");
+            self.non_finite.warning(|triangles| {
+                let triangles = counted(triangles, "triangle");
                 format!("{triangles} dropped: a corner is not finite or too large")
             }),
-            self.zero_area.warning(|_| {
-                let triangles = counted(zero_area, "triangle");
+            self.zero_area.warning(|triangles| {
+                let triangles = counted(triangles, "triangle");
                 format!("{triangles} dropped: zero area")
             }),
             self.fan.warning(|fans| {

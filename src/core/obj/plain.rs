@@ -106,11 +106,7 @@ fn corners<'t>(elements: &mut Elements, text: &'t [u8]) -> Option<&'t [u8]> {
             }
         }
         for list in List::ALL {
-            let index = corner[list as usize];
-            elements.push(list, index);
-            let highest = &mut elements.highest[list as usize];
-            // NO_INDEX + 1 wraps to 0 and leaves the maximum unchanged.
-            *highest = (*highest).max(index.wrapping_add(1) as usize);
+            elements.push(list, corner[list as usize]);
         }
     }
     cursor.end_line()

@@ -13,6 +13,7 @@ use super::chunks::Chunk;
 use super::corner::{Corner, Corners, List};
 use super::elements::ElementKind;
 use super::error::Problem;
+use super::keyword::Keyword;
 use super::plain;
 use super::statement::{Statement, Statements};
 use super::tally::{count_by_keyword, shortened};
@@ -24,43 +25,6 @@ use glam::{DVec3, Vec2};
 
 /// Numbers or corners between two checks for cancellation: about a millisecond.
 pub(super) const WORDS_PER_CHECK: usize = 1 << 16;
-
-/// The first word of a statement that is read.
-#[derive(Clone, Copy)]
-enum Keyword {
-    Numbers(List),
-    Element(ElementKind),
-    Material,
-    Group,
-    Smoothing,
-    Library,
-}
-
-impl Keyword {
-    fn of(word: &[u8]) -> Option<Self> {
-        Some(match word {
-            b"v" => Self::Numbers(List::Vertex),
-            b"vt" => Self::Numbers(List::Texture),
-            b"vn" => Self::Numbers(List::Normal),
-            b"f" => Self::Element(ElementKind::Face),
-            b"l" => Self::Element(ElementKind::Line),
-            b"p" => Self::Element(ElementKind::Points),
-            b"usemtl" => Self::Material,
-            b"o" | b"g" => Self::Group,
-            b"s" => Self::Smoothing,
-            b"mtllib" => Self::Library,
-            _ => return None,
-        })
-    }
-
-    /// The keyword in upper or lower case: some programs write `V` and `F`.
-    fn in_another_case(word: &[u8]) -> Option<Self> {
-        /// Length of the longest keywords, `usemtl` and `mtllib`.
-        const LONGEST: usize = "usemtl".len();
-        let word = (word.len() <= LONGEST).then_some(word)?;
-        Self::of(&word.to_ascii_lowercase())
-    }
-}
 
 /// An index resolved within a chunk.
 enum Index {
@@ -119,7 +83,7 @@ impl ChunkReader<'_> {
             return Ok(());
         };
         let rest = &statement.bytes[after..];
-        match Keyword::of(word).or_else(|| Keyword::in_another_case(word)) {
+        match Keyword::of(word) {
             Some(Keyword::Numbers(list)) => self.numbers(list, statement, after)?,
             Some(Keyword::Element(kind)) => self.element(kind, statement, after)?,
             Some(Keyword::Material) => self.change_state(StateChange::Material(name(rest))),
@@ -258,20 +222,8 @@ impl ChunkReader<'_> {
                 continue;
             };
             match self.index(list, written) {
-                Index::At(index) => {
-                    let elements = &mut self.part.elements;
-                    elements.push(list, index);
-                    elements.highest[at] = elements.highest[at].max(index as usize + 1);
-                }
-                Index::Relative(index) => {
-                    let elements = &mut self.part.elements;
-                    // Any value but NO_INDEX, so that the list is started.
-                    elements.push(list, 0);
-                    let place = elements.corners[at].len() - 1;
-                    elements.corners[at][place] = index.cast_unsigned();
-                    elements.relative[at].push(place as u32);
-                    elements.lowest[at] = elements.lowest[at].min(index);
-                }
+                Index::At(index) => self.part.elements.push(list, index),
+                Index::Relative(index) => self.part.elements.push_relative(list, index),
                 Index::OutOfRange => {
                     let Some(before) = self.options.counts else {
                         self.part.needs_counts = true;

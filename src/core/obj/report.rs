@@ -37,12 +37,3 @@ pub struct Dropped {
     /// Lines and points, dropped for any of these reasons.
     pub elements: usize,
 }
-
-impl Dropped {
-    pub(super) fn append(&mut self, other: Self) {
-        self.zero_area += other.zero_area;
-        self.non_finite += other.non_finite;
-        self.bad_index += other.bad_index;
-        self.elements += other.elements;
-    }
-}

@@ -68,6 +68,18 @@ impl<'p> Source<'p> {
         }
     }
 
+    /// Reads all bytes.
+    ///
+    /// # Errors
+    /// The file can't be read, or the load was cancelled.
+    pub(super) fn read_to_end(mut self) -> Result<Vec<u8>, Problem> {
+        let mut all = Vec::new();
+        let read = self.bytes.read_to_end(&mut all);
+        self.progress.check()?;
+        read.map_err(Problem::Read)?;
+        Ok(all)
+    }
+
     /// Whether non-zero bytes follow the gzip data.
     pub(super) fn has_garbage(&self) -> bool {
         self.has_garbage.get()

@@ -4,6 +4,7 @@
 
 use super::chunks::Chunk;
 use super::error::Problem;
+use super::keyword::Keyword;
 use super::words::{Words, without_comment};
 use memchr::{memchr_iter, memchr2};
 
@@ -128,11 +129,9 @@ impl<'c> Statements<'c> {
 /// The line without its final backslash, if it continues on the next line. Comments don't continue.
 pub(super) fn before_backslash(line: &[u8]) -> Option<&[u8]> {
     let continued = line.trim_ascii_end().strip_suffix(b"\\")?;
-    let (_, keyword) = Words::of(line, 0).next()?;
-    let has_numbers = matches!(
-        &keyword.to_ascii_lowercase()[..],
-        b"v" | b"vt" | b"vn" | b"f" | b"l" | b"p"
-    );
+    let (_, word) = Words::of(line, 0).next()?;
+    let keyword = Keyword::of(word);
+    let has_numbers = matches!(keyword, Some(Keyword::Numbers(_) | Keyword::Element(_)));
     // A name may contain a #.
     let begins_word = |at: usize| at == 0 || line[at - 1].is_ascii_whitespace();
     let has_comment = if has_numbers {

@@ -5,7 +5,7 @@ use super::corner::List;
 use super::elements::{Element, ElementKind, Elements};
 use super::error::Problem;
 use super::oddities::Oddities;
-use super::report::Dropped;
+use super::tally::Tally;
 use super::used::Used;
 use crate::mesh::{Attributes, Faces, NO_INDEX, has_zero_area};
 use crate::polygon::{Cut, Outline, Triangulator};
@@ -43,7 +43,6 @@ pub(super) struct ChunkTriangles {
     pub first_face: usize,
     /// The first triangles of runs of materials, groups and smoothing groups, and their numbers.
     pub runs: [Vec<(u32, u32)>; 3],
-    pub dropped: Dropped,
     pub oddities: Oddities,
 }
 
@@ -76,7 +75,6 @@ impl Assembly<'_> {
                 attributes: Attributes::default(),
                 first_face,
                 runs: Default::default(),
-                dropped: Dropped::default(),
                 oddities: Oddities::default(),
             },
             triangles,
@@ -120,13 +118,11 @@ impl TriangleBuilder<'_, '_> {
     fn add_lines_or_points(&mut self, kind: ElementKind, vertices: &[u32]) {
         let ChunkTriangles {
             attributes,
-            dropped,
             oddities,
             ..
         } = &mut self.result;
         let is_finite = |v: &u32| self.assembly.positions[*v as usize].is_finite();
         if !vertices.iter().all(is_finite) {
-            dropped.elements += 1;
             oddities.not_finite_elements += 1;
         } else if kind == ElementKind::Points {
             attributes.points.extend(vertices);
@@ -142,7 +138,6 @@ impl TriangleBuilder<'_, '_> {
             count,
             first_face,
             runs,
-            dropped,
             oddities,
             ..
         } = &mut self.result;
@@ -153,8 +148,10 @@ impl TriangleBuilder<'_, '_> {
         let vertices = &elements.corners[0][face.corners.clone()];
         let is_finite = |v: &u32| positions[*v as usize].is_finite();
         if !vertices.iter().all(is_finite) {
-            dropped.non_finite += vertices.len() - 2;
-            oddities.non_finite.add(elements.line(face));
+            oddities.non_finite.append(Tally {
+                count: vertices.len() - 2,
+                first_line: elements.line(face),
+            });
         } else if vertices.len() == 3 {
             self.add_triangle(elements, face, [0, 1, 2], Faces::ALL_EDGES);
         } else {
@@ -207,7 +204,6 @@ impl TriangleBuilder<'_, '_> {
             count,
             overflow,
             attributes,
-            dropped,
             oddities,
             ..
         } = &mut self.result;
@@ -215,7 +211,6 @@ impl TriangleBuilder<'_, '_> {
         let [vertices, textures, normals] = &elements.corners;
         let triangle = corners.map(|corner| vertices[corner]);
         if has_zero_area(triangle.map(|v| self.assembly.positions[v as usize])) {
-            dropped.zero_area += 1;
             oddities.zero_area.add(elements.line(face));
             return;
         }

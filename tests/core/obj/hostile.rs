@@ -1,6 +1,6 @@
 //! Malicious files give a clear error or the mesh, within the memory limit.
 
-use super::{LENIENT, STRICT, parse};
+use super::{LENIENT, STRICT, parse, warnings};
 use hitscope_core::obj::{self, LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use std::fmt::Write as _;
@@ -189,12 +189,7 @@ fn of_thousands_of_warnings_some_are_listed_and_the_rest_counted() {
     };
     let (path, bytes) = (Path::new("x.obj"), text.as_bytes());
     let loaded = obj::parse(bytes, path, STRICT, &files, &Progress::default()).expect("good");
-    let warnings: Vec<String> = loaded
-        .report
-        .warnings
-        .iter()
-        .map(ToString::to_string)
-        .collect();
+    let warnings = warnings(&loaded);
     assert!(warnings.len() < 150, "{}", warnings.len());
     for expected in [
         "2\u{202f}980 more warnings about unreadable material libraries",

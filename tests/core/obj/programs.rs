@@ -2,6 +2,7 @@
 
 use super::STRICT;
 use glam::Vec3;
+use hitscope_core::mesh::Material;
 use hitscope_core::obj::{self, Loaded};
 use hitscope_core::progress::Progress;
 use std::io;
@@ -29,17 +30,16 @@ fn load(text: &str, library: &str) -> Loaded {
     loaded.unwrap_or_else(|error| panic!("{error}"))
 }
 
+/// The material of the first triangle.
+fn first_material(loaded: &Loaded) -> &Material {
+    let material = loaded.mesh.attributes().materials.of(0);
+    material.expect("a material")
+}
+
 /// The opacity of material `m` of a textured triangle, and the warnings.
 fn opacity(library: &str) -> (f32, Vec<String>) {
     let loaded = load(TEXTURED, library);
-    let opacity = loaded
-        .mesh
-        .attributes()
-        .materials
-        .of(0)
-        .expect("a material")
-        .opacity;
-    (opacity, super::warnings(&loaded))
+    (first_material(&loaded).opacity, super::warnings(&loaded))
 }
 
 #[test]
@@ -71,10 +71,7 @@ fn a_transparency_of_1_in_every_material_means_opaque() {
         &format!("{TEXTURED}usemtl n\nf 1 2 3\n"),
         "newmtl m\nTr 1\nnewmtl n\n",
     );
-    assert_eq!(
-        half.mesh.attributes().materials.of(0).map(|m| m.opacity),
-        Some(0.0)
-    );
+    assert_eq!(first_material(&half).opacity, 0.0);
     assert_eq!(half.report.warnings, []);
 }
 
@@ -82,12 +79,7 @@ fn a_transparency_of_1_in_every_material_means_opaque() {
 fn values_above_1_are_clamped() {
     let library = "newmtl m\nKd 1.000001 0.5 0\nKs 1.5\nKe 7\nd 1.000001\n";
     let loaded = load(TEXTURED, library);
-    let material = loaded
-        .mesh
-        .attributes()
-        .materials
-        .of(0)
-        .expect("a material");
+    let material = first_material(&loaded);
     assert_eq!(material.diffuse, Some(Vec3::new(1.0, 0.5, 0.0)));
     assert_eq!(material.specular, Vec3::ONE);
     assert_eq!(material.emission, Vec3::splat(7.0));
@@ -104,27 +96,14 @@ fn values_above_1_are_clamped() {
 #[test]
 fn black_reflectance_does_not_hide_a_texture() {
     let loaded = load(TEXTURED, "newmtl m\nKd 0 0 0\nmap_Kd wood.png\n");
-    let material = loaded
-        .mesh
-        .attributes()
-        .materials
-        .of(0)
-        .expect("a material");
+    let material = first_material(&loaded);
     assert_eq!(material.diffuse, Some(Vec3::ONE));
     assert_eq!(
         super::warnings(&loaded),
         ["material library “m.mtl”: material “m”: “Kd 0” would hide the texture; treated as 1"]
     );
     let black = load(TEXTURED, "newmtl m\nKd 0\n");
-    assert_eq!(
-        black
-            .mesh
-            .attributes()
-            .materials
-            .of(0)
-            .and_then(|m| m.diffuse),
-        Some(Vec3::ZERO)
-    );
+    assert_eq!(first_material(&black).diffuse, Some(Vec3::ZERO));
     assert_eq!(black.report.warnings, []);
 }
 
@@ -150,25 +129,13 @@ fn a_number_sign_in_a_texture_name_begins_a_comment_only_if_no_such_file_exists(
 fn keywords_and_materials_are_found_in_another_case() {
     let library = "NEWMTL M\nKD 1 0 0\nmap_KD wood.png\n";
     let loaded = load(&TEXTURED.replace('v', "V").replace('f', "F"), library);
-    let material = loaded
-        .mesh
-        .attributes()
-        .materials
-        .of(0)
-        .expect("a material");
+    let material = first_material(&loaded);
     assert_eq!(material.diffuse, Some(Vec3::X));
     assert!(material.diffuse_map.is_some());
     assert_eq!(loaded.report.warnings, []);
     // The exact name counts first.
     let both = load(TEXTURED, "newmtl M\nKd 1 0 0\nnewmtl m\nKd 0 1 0\n");
-    assert_eq!(
-        both.mesh
-            .attributes()
-            .materials
-            .of(0)
-            .and_then(|m| m.diffuse),
-        Some(Vec3::Y)
-    );
+    assert_eq!(first_material(&both).diffuse, Some(Vec3::Y));
 }
 
 #[test]
