@@ -3,7 +3,7 @@
 //! Sums are integers, so the picture doesn't depend on the order in which tiles arrive. Pixels without a
 //! sample show the colour of their block from a coarser pass.
 
-use crate::render::plan::{Pass, Plan, WorkUnit};
+use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
 use crate::srgb::to_display;
 use glam::{UVec2, Vec3};
 use std::collections::TryReserveError;
@@ -32,26 +32,6 @@ pub struct TileSamples {
     pub unit: WorkUnit,
     /// Sums over the pass's samples.
     pub sums: Vec<FixedRgb>,
-}
-
-/// A rectangle of pixels; `max` is exclusive.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct PixelRect {
-    /// Left and top edge.
-    pub min: UVec2,
-    /// Right and bottom edge, exclusive.
-    pub max: UVec2,
-}
-
-impl PixelRect {
-    /// The smallest rectangle around both.
-    #[must_use]
-    pub fn union(self, other: Self) -> Self {
-        Self {
-            min: self.min.min(other.min),
-            max: self.max.max(other.max),
-        }
-    }
 }
 
 /// A picture that is being rendered.

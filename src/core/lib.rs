@@ -5,16 +5,18 @@
 //! | module | contents |
 //! |---|---|
 //! | [`obj`] | OBJ and MTL reader |
+//! | [`shape`] | shapes of primitives, one file per shape |
 //! | [`mesh`] | triangle mesh, its origin, and checks of its quality |
 //! | `polygon` | triangulation of polygons |
 //! | [`scene`] | the scene: mesh, bounds and acceleration structure |
 //! | [`camera`] | camera rays and navigation |
 //! | [`bvh`] | bounding volume hierarchy: building and traversal |
-//! | [`kernel`] | **ray–triangle intersection**, one file per algorithm |
+//! | [`kernel`] | **ray–primitive intersection**, one folder per shape, one file per algorithm |
 //! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
 //! | [`integrator`] | the views: from a hit to a colour |
 //! | [`spawn`] | origins of rays that leave a surface |
+//! | [`plan`] | the order in which pixels and samples are traced |
 //! | [`film`] | accumulation of samples |
 //! | [`render`] | progressive rendering on several threads |
 //! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`] | shared types |
@@ -34,6 +36,7 @@ pub mod kernel;
 mod lane;
 pub mod mesh;
 pub mod obj;
+pub mod plan;
 mod polygon;
 pub mod progress;
 pub mod random;
@@ -41,6 +44,7 @@ pub mod ray;
 pub mod render;
 pub mod sampler;
 pub mod scene;
+pub mod shape;
 pub mod simd;
 pub mod spawn;
 pub mod srgb;

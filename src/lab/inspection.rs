@@ -131,7 +131,7 @@ impl From<Cost> for CostReport {
     fn from(cost: Cost) -> Self {
         Self {
             boxes: cost.boxes,
-            triangles: cost.triangles,
+            triangles: cost.primitives,
             in_f64: cost.in_f64,
             in_integers: cost.in_integers,
         }

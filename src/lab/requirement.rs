@@ -150,7 +150,8 @@ mod tests {
     use glam::{DVec3, Vec3};
     use hitscope_core::TriangleMesh;
     use hitscope_core::mesh::corridors::{Corridor, Footprint};
-    use hitscope_core::mesh::shapes::{Placement, scene, soup, sphere};
+    use hitscope_core::mesh::shapes::{Placement, soup, sphere};
+    use hitscope_core::scene::scene;
 
     fn required(mesh: TriangleMesh) -> Requirement {
         let health = Health::of(&mesh);

@@ -5,9 +5,9 @@
 
 use crate::times::Times;
 use glam::{UVec2, Vec3};
-use hitscope_core::film::PixelRect;
 use hitscope_core::integrator::{Context, Integrator};
-use hitscope_core::render::plan::{Plan, STEPS};
+use hitscope_core::plan::PixelRect;
+use hitscope_core::plan::{Plan, STEPS};
 use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
 use hitscope_core::{Camera, Film, Scene};
 use std::ops::{Range, RangeInclusive};

@@ -7,14 +7,15 @@ use divan::counter::ItemsCount;
 use divan::{Bencher, black_box};
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::intersector::{Intersector, Packing};
-use hitscope_core::kernel::{TriangleKernel, bounds_in, triangle_kernel};
+use hitscope_core::intersector::Intersector;
+use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{Placement, scene, soup, torus};
+use hitscope_core::mesh::shapes::{Placement, soup, torus};
 use hitscope_core::random::Random;
-use hitscope_core::simd::SimdLevel;
+use hitscope_core::scene::scene;
+use hitscope_core::shape::bounds_in;
 use hitscope_core::{Hit, Ray, Scene};
-use std::sync::{Arc, LazyLock};
+use std::sync::LazyLock;
 
 /// The tiers, and the lecture's methods with Baldwin–Weber.
 const KERNELS: [&str; 8] = [
@@ -159,11 +160,7 @@ fn build_with<E>(bencher: Bencher<'_, '_>, build: impl Fn(&TriangleMesh) -> Resu
 /// Packing a mesh's triangles into a kernel's blocks.
 #[divan::bench(args = KERNELS)]
 fn pack(bencher: Bencher<'_, '_>, name: &str) {
-    let (mesh, bvh) = (TORUS.mesh(), TORUS.bvh());
     bencher
-        .counter(ItemsCount::new(mesh.triangles().len()))
-        .bench_local(|| {
-            let (bvh, level) = (Arc::clone(&bvh), SimdLevel::current());
-            kernel(name).intersector(mesh, bvh, level, Packing::Full)
-        });
+        .counter(ItemsCount::new(TORUS.mesh().triangles().len()))
+        .bench_local(|| TORUS.intersector(kernel(name)));
 }

@@ -4,11 +4,12 @@
 
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel, exact_triangle_kernel};
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::obj::{self, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::ray::RayError;
+use hitscope_core::scene::scene;
 use hitscope_core::{Hit, Ray};
 use std::path::Path;
 
@@ -40,7 +41,7 @@ fn in_every_pose(check: impl Fn(&TriangleKernel, [Vec3; 3], [f64; 3])) {
         [0.625, 0.125, 0.25],
         [0.0625, 0.1875, 0.75],
     ];
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         for pose in 0..48 {
             let corners = CORNERS.map(|p| posed(p, pose));
             for weights in WEIGHTS {
@@ -193,7 +194,7 @@ fn a_ray_parallel_to_the_plane_is_a_miss() {
         Vec3::new(2.0, 0.0, 0.0),
         Vec3::new(0.0, 2.0, 0.0),
     ];
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         for pose in 0..48 {
             let corners = flat.map(|p| posed(p, pose));
             for height in [0.0, 0.5] {
@@ -290,7 +291,7 @@ fn degenerate_and_non_finite_triangles_are_dropped_at_load() {
         ),
         (2, 1)
     );
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let intersector = scene(mesh.clone()).intersector(kernel);
         let hit = intersector.closest_hit(&ray(Vec3::new(0.25, 0.25, 1.0), Vec3::NEG_Z));
         assert_eq!(
@@ -379,7 +380,7 @@ fn accurate_and_exact_kernels_miss_a_triangle_of_zero_area() {
         Vec3::new(-1081.4792, 99.999954, 87.77011),
         Vec3::new(-32.1073, -183.35587, -144.60764),
     );
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let promises = kernel.info.promises;
         if promises.is_accurate || promises.is_exact {
             assert_eq!(

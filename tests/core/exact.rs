@@ -12,8 +12,9 @@
 
 use glam::Vec3;
 use hitscope_core::kernel::{exact_answer, exact_triangle_kernel};
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::{Hit, Ray};
 
 const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];

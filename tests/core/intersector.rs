@@ -6,8 +6,9 @@
 use glam::Vec3;
 use hitscope_core::intersector::Crossing;
 use hitscope_core::kernel::{Precision, TRIANGLE_KERNELS, TriangleKernel};
-use hitscope_core::mesh::shapes::{Placement, flat_grid, in_torus, scene, soup, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, flat_grid, in_torus, soup, sphere, torus};
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::{Hit, Intersector, Ray, Scene};
 
 /// A hit's bits, which distinguish −0 from 0 and compare NaN equal to itself.
@@ -130,7 +131,7 @@ fn assert_closest_is_the_first(intersector: &dyn Intersector, ray: &Ray) {
 fn simd_lanes_give_the_scalar_kernels_bits() {
     // One triangle per scene: the tree is a single box, and the block has one lane in use.
     let mut random = Random::new(2);
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let mut hits = 0;
         for _ in 0..10_000 {
             let corners = [(); 3].map(|()| random.in_cube_f32());
@@ -260,7 +261,7 @@ fn at_equal_t_the_lowest_triangle_is_hit() {
         let origin = 3.0 * random.in_cube_f32();
         Ray::new(origin, target - origin).ok()
     });
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let ray = Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
         assert_closest_is_the_first(&*copies.intersector(kernel), &ray);
     }
@@ -290,7 +291,7 @@ fn at_equal_negative_t_the_lowest_triangle_is_hit() {
         Vec3::new(0.0, 1.0, 0.0),
     ];
     let copies = scene(soup(&[corners; 40]));
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let (origin, dir) = (Vec3::new(0.0, 0.0, 3.0), Vec3::Z);
         let ray = Ray::with_interval(origin, dir, -10.0, 10.0).expect("a ray");
         let intersector = copies.intersector(kernel);
@@ -320,7 +321,7 @@ fn candidates_include_every_triangle_that_is_hit() {
     let mut random = Random::new(9);
     let scene = scene(torus(24, 12, Placement::UNIT));
     let corners = scene.mesh().corner_list();
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let intersector = scene.intersector(kernel);
         let (mut hits, mut candidates) = (0, 0);
         for _ in 0..3000 {
@@ -349,7 +350,7 @@ fn candidates_include_every_triangle_that_is_hit() {
 fn counting_the_cost_does_not_change_hits() {
     let mut random = Random::new(10);
     let scene = scene(sphere(8, Placement::UNIT));
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let intersector = scene.intersector(kernel);
         for _ in 0..3000 {
             let origin = 2.0 * random.in_cube_f32();
@@ -357,7 +358,7 @@ fn counting_the_cost_does_not_change_hits() {
             let (hit, cost) = intersector.closest_hit_with_cost(&ray);
             assert_eq!(bits(hit), bits(intersector.closest_hit(&ray)));
             assert!(
-                cost.boxes > 0 && (hit.is_none() || cost.triangles > 0),
+                cost.boxes > 0 && (hit.is_none() || cost.primitives > 0),
                 "{cost:?}"
             );
         }

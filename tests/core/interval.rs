@@ -3,7 +3,8 @@
 use glam::Vec3;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
+use hitscope_core::scene::scene;
 use hitscope_core::{Hit, Ray};
 
 /// Each kernel's hit, after checking that the kernel alone and every query through a tree agree.

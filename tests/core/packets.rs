@@ -4,8 +4,9 @@ use crate::simd::bits;
 use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::mesh::shapes::{Placement, cube, scene};
+use hitscope_core::mesh::shapes::{Placement, cube};
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 
 /// Rays per packet.
 const TOGETHER: usize = 16;
@@ -42,7 +43,7 @@ fn packets_along_box_planes_give_the_same_hits_as_single_rays() {
         offset: DVec3::ZERO,
     };
     let scene = scene(cube(CELLS as u32, place));
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let intersector = scene.intersector(kernel);
         if intersector.rays_together() != TOGETHER {
             continue;

@@ -98,7 +98,7 @@ proptest! {
     ) {
         // Every product and sum scales exactly, as long as nothing under- or overflows.
         let scale = 2f32.powi(exponent);
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             let hit = kernel.intersect(&ray, corners);
             let moved = Ray::new(ray.origin * scale, ray.dir).expect("a ray");
             let scaled = kernel.intersect(&moved, corners.map(|p| p * scale));
@@ -113,7 +113,7 @@ proptest! {
         exponent in -16i32..16,
     ) {
         let scale = 2f32.powi(exponent);
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             let hit = kernel.intersect(&ray, corners);
             let longer = Ray::new(ray.origin, ray.dir * scale).expect("a ray");
             let expected = hit.map(|hit| hitscope_core::Hit { t: hit.t / scale, ..hit });
@@ -148,7 +148,7 @@ proptest! {
     #[test]
     fn reversing_the_ray_turns_a_hit_in_front_into_a_miss((corners, ray) in aimed()) {
         let back = Ray::new(ray.origin, -ray.dir).expect("a ray");
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             prop_assert_eq!(kernel.intersect(&back, corners), None, "{}", kernel.info.name);
         }
     }

@@ -2,9 +2,10 @@
 
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, exact_triangle_kernel};
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::mesh::unit_normal;
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::spawn::{Departure, default_spawn_policy};
 use hitscope_core::{Hit, Ray};
 

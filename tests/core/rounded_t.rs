@@ -3,8 +3,9 @@
 use glam::Vec3;
 use hitscope_core::Ray;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, exact_answer};
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 
 /// Half an ulp of 1 in f32.
 const U: f64 = 1.0 / (1 << 24) as f64;
@@ -32,7 +33,7 @@ fn a_hit_rounded_past_its_box_is_found_if_the_interval_starts_in_between() {
             continue;
         };
         let scene = scene(soup(&[corners]));
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             let Some(hit) = kernel.intersect(&ray, corners) else {
                 continue;
             };

@@ -4,8 +4,9 @@ use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::camera::Projection;
 use hitscope_core::intersector::Intersector;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::mesh::shapes::{Placement, scene, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, sphere, torus};
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Camera, Hit, Ray, Scene};
 
@@ -69,7 +70,7 @@ fn every_level_gives_the_scalar_levels_bits_for_single_rays_and_packets() {
         scene(sphere(12, Placement::UNIT)),
     ] {
         let workloads = workloads(&scene);
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             let levels = SimdLevel::available();
             let at = |level: &SimdLevel| scene.intersector_at(kernel, *level);
             let intersectors: Vec<Box<dyn Intersector>> = levels.iter().map(at).collect();

@@ -7,11 +7,12 @@
 use crate::simd::bits;
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::intersector::{Intersector, Packing};
-use hitscope_core::kernel::{TRIANGLE_KERNELS, bounds_in, triangle_bounds};
+use hitscope_core::intersector::{Intersector, Packing, intersector};
+use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Placement, soup, torus};
 use hitscope_core::random::Random;
+use hitscope_core::shape::{Shape as _, Triangle, bounds_in};
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Aabb, Ray};
 use std::sync::Arc;
@@ -101,9 +102,15 @@ fn every_tree_and_packing_gives_bit_identical_hits_for_every_kernel() {
             Bvh::build_quickly(count, bounds_in(mesh), &|| Ok(())),
         ];
         let trees = built.map(|tree| Arc::new(tree.expect("not cancelled")));
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             let of_tree = |tree: &Arc<Bvh>, packing| {
-                kernel.intersector(mesh, Arc::clone(tree), SimdLevel::current(), packing)
+                intersector(
+                    kernel,
+                    mesh,
+                    Arc::clone(tree),
+                    SimdLevel::current(),
+                    packing,
+                )
             };
             let expected = answers(&*of_tree(&trees[0], Packing::Full), &rays);
             assert!(expected.iter().filter(|(hit, _)| hit.is_some()).count() > 100);
@@ -127,7 +134,7 @@ fn a_corner_recomputed_from_an_edge_lies_in_the_triangles_box() {
     let mut beside = 0;
     for _ in 0..10_000 {
         let [a, b, c] = [1.0, 1e3, 1e-3].map(|scale| scale * random.in_cube_f32());
-        let bounds = triangle_bounds([a, b, c]);
+        let bounds = Triangle([a, b, c]).bounds();
         for p in [a, b, c, a + (b - a), a + (c - a)] {
             assert!(bounds.min.cmple(p).all() && p.cmple(bounds.max).all());
         }

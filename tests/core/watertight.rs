@@ -6,9 +6,10 @@
 use glam::{DVec3, Vec3, Vec3Swizzles};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::corridors::{Corridor, FOOTPRINTS, Footprint};
-use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, in_torus, scene, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, in_torus, sphere, torus};
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::{Intersector, Ray, TriangleMesh};
 use std::thread;
 

@@ -2,8 +2,9 @@
 
 use glam::Vec3;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_kernel};
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::{Aabb, Hit, Ray, TriangleMesh};
 use hitscope_lab::measure::cases::triangle_cases;
 use hitscope_lab::measure::contestants::contestants;
@@ -34,7 +35,7 @@ fn the_programs_beta_belongs_to_c_and_ours_to_b() {
     let ray = over_the_middle();
     let printed = lecture::plane_projection(&ray, CORNERS).expect("a hit nevertheless");
     assert_eq!((printed.u, printed.v), (0.25, 0.5));
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let hit = kernel.intersect(&ray, CORNERS).expect("a hit");
         assert_eq!((hit.u, hit.v), (0.5, 0.25), "{}", kernel.info.name);
     }
@@ -54,7 +55,7 @@ fn the_slides_tolerance_accepts_hits_behind_the_origin_and_the_programs_rejects_
         ..over_the_middle()
     };
     assert_eq!(lecture::plane_projection(&long, CORNERS), None);
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let behind = Ray::new(origin, Vec3::Z).expect("a ray");
         assert_eq!(
             kernel.intersect(&behind, CORNERS),
@@ -79,7 +80,7 @@ fn the_lectures_edge_planes_cull_one_side_and_yield_nan_on_an_edges_line_and_our
     let on_line = Ray::new(Vec3::new(9.0, 1.0, 0.0), Vec3::new(0.5, 1.0, 0.0)).expect("a ray");
     let printed = lecture::edge_planes(&on_line, CORNERS).expect("a false hit");
     assert!(printed.t.is_nan() && printed.u.is_nan());
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         for ray in [&up, &down] {
             assert!(
                 kernel.intersect(ray, CORNERS).is_some(),
@@ -157,7 +158,7 @@ fn interpolation_with_any_kernels_coordinates_returns_the_hit_point() {
         if normal.length() < 0.25 || cosine < 0.1 {
             continue;
         }
-        for kernel in TRIANGLE_KERNELS {
+        for kernel in TRIANGLE_KERNELS.iter() {
             let hit: Hit = kernel.intersect(&ray, corners).expect("a hit");
             let [l1, l2, l3] = hit.barycentric();
             let off = (l1 * a + l2 * b + l3 * c - target).length();

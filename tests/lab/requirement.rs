@@ -4,7 +4,8 @@ use glam::{UVec2, Vec3};
 use hitscope_core::Scene;
 use hitscope_core::camera::Turntable;
 use hitscope_core::mesh::Health;
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
+use hitscope_core::scene::scene;
 use hitscope_lab::requirement::required_tier;
 
 /// A scene of two triangles of a given size, 1 apart, and the distance of its starting view, in lengths of their

@@ -136,7 +136,7 @@ fn no_weight_is_below_zero_and_no_zero_has_a_sign() {
             line(origin.into_iter().chain(dir))
         })
         .collect();
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let options = format!("--kernel {}", kernel.info.name);
         let printed = text(&(mesh.clone() + "f 1 2 3\n"), &options, &rays);
         let hits = printed.lines().filter(|line| line.contains("true")).count();

@@ -134,7 +134,7 @@ mod tests {
             materials: Assigned::new(materials.to_vec(), indices),
             ..others
         });
-        let scene = Arc::new(shapes::scene(mesh));
+        let scene = Arc::new(crate::scene::scene(mesh));
         let intersector: Arc<dyn crate::Intersector> =
             Arc::from(scene.intersector(default_triangle_kernel()));
         let projection = Projection::Perspective { fov_y_radians: 1.0 };

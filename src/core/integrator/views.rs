@@ -45,5 +45,5 @@ pub(super) fn triangle(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
 /// Rays that hit nothing have a cost, too; this view has no background.
 pub(super) fn cost(context: &Context, ray: &Ray, _: Option<Hit>) -> Vec3 {
     let (_, cost) = context.intersector.closest_hit_with_cost(ray);
-    cost_colour(cost.boxes + cost.triangles)
+    cost_colour(cost.boxes + cost.primitives)
 }

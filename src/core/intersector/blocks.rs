@@ -1,33 +1,40 @@
-//! The triangles of the tree's blocks in a kernel's packed layout, one triangle per lane.
+//! The primitives of the tree's blocks in a kernel's packed layout, one primitive per lane.
 
-use super::compact::{BLOCKS_AT_ONCE, EmptyLanes, Packing, SharedCorners};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
-use crate::kernel::exact::VALUES as CORNERS;
 use crate::kernel::{Kernel, MAX_VALUES, Values};
 use crate::lane::{Number, Stored};
-use crate::mesh::TriangleMesh;
 use crate::ray::Ray;
+use crate::shape::{BLOCKS_AT_ONCE, CompactBlocks, EmptyLanes, Primitives, Shape};
 use crate::simd::{baseline, prefetch};
 use fearless_simd::{Simd, SimdBase, f32x8, f32x16};
-use glam::Vec3;
 use rayon::prelude::*;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 use std::sync::Arc;
 
-/// One value of each triangle in a block. Aligned so that no row of f32 spans two cache lines.
+/// Storage of primitives for tracing. The results are the same, bit for bit.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Packing {
+    /// In the kernel's layout: the fastest.
+    #[default]
+    Full,
+    /// In the least memory.
+    Compact,
+}
+
+/// One value of each primitive in a block. Aligned so that no row of f32 spans two cache lines.
 #[derive(Clone, Copy)]
 #[repr(C, align(32))]
 pub(super) struct Row<T>([T; BLOCK_SIZE]);
 
-/// The tree and the kernel's packed values of its triangles.
-pub(super) struct Blocks<T> {
+/// The tree and the kernel's packed values of its primitives.
+pub(super) struct Blocks<S: Shape, T> {
     pub bvh: Arc<Bvh>,
-    /// A fixed number of rows per block; empty if corners are stored instead.
+    /// A fixed number of rows per block; empty if primitives are stored instead.
     rows: Vec<Row<T>>,
-    /// Corners from which rows are packed on demand.
-    shared: Option<SharedCorners>,
+    /// Primitives from which rows are packed on demand.
+    compact: Option<S::Compact>,
 }
 
 /// Buffer for rows packed on demand. Reused for many rays: zeroing it takes as long as a test.
@@ -39,16 +46,16 @@ impl<T: Copy + Default> Scratch<T> {
         Self([Row([T::default(); BLOCK_SIZE]); MAX_VALUES])
     }
 
-    fn fill(
+    fn fill<S: Shape>(
         &mut self,
-        shared: &SharedCorners,
+        compact: &S::Compact,
         block: usize,
         count: usize,
-        pack: impl Fn([Vec3; 3], &mut [T]),
+        pack: impl Fn(&S, &mut [T]),
     ) {
         let mut one = [T::default(); MAX_VALUES];
         for lane in 0..BLOCK_SIZE {
-            pack(shared.corners(block, lane), &mut one[..count]);
+            pack(&compact.primitive(block, lane), &mut one[..count]);
             for (row, value) in self.0[..count].iter_mut().zip(one) {
                 row.0[lane] = value;
             }
@@ -104,27 +111,51 @@ impl<T: Stored<f32>, S: Simd> Values<f32x16<S>> for LaneValues<'_, T, S> {
     }
 }
 
-impl<T: Copy + Default + Send + Sync> Blocks<T> {
-    /// Packs the triangles of all blocks. `pack` writes `rows_per_block` values per triangle; those of NaN
-    /// corners must be a miss for the kernel.
+/// The values of one lane of a block.
+pub(super) struct LaneOf<'a, T> {
+    pub rows: &'a [Row<T>],
+    pub lane: usize,
+}
+
+impl<T: Stored<f32>> Values<f32> for LaneOf<'_, T> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> f32 {
+        self.rows[index].0[self.lane % BLOCK_SIZE].number()
+    }
+}
+
+impl<S: Shape, T: Copy + Default + Send + Sync> Blocks<S, T> {
+    /// Packs the primitives of all blocks. `pack` writes `rows_per_block` values per primitive; those of
+    /// [`Shape::nowhere`] must be a miss for the kernel.
     pub fn new(
-        mesh: &TriangleMesh,
+        primitives: &impl Primitives<S>,
         bvh: Arc<Bvh>,
         packing: Packing,
         rows_per_block: usize,
         empty: EmptyLanes,
-        pack: impl Fn([Vec3; 3], &mut [T]) + Sync,
+        pack: impl Fn(&S, &mut [T]) + Sync,
     ) -> Self {
-        let (rows, shared) = match packing {
-            Packing::Full => (rows_of(mesh, &bvh, rows_per_block, empty, pack), None),
-            Packing::Compact => (Vec::new(), Some(SharedCorners::of(mesh, &bvh, empty))),
+        let (rows, compact) = match packing {
+            Packing::Full => (rows_of(primitives, &bvh, rows_per_block, empty, pack), None),
+            Packing::Compact => (Vec::new(), Some(S::Compact::of(primitives, &bvh, empty))),
         };
-        Self { bvh, rows, shared }
+        Self { bvh, rows, compact }
     }
 
     /// Whether rows are packed on demand.
     pub fn are_compact(&self) -> bool {
-        self.shared.is_some()
+        self.compact.is_some()
+    }
+
+    /// The primitives, if rows are packed on demand.
+    pub fn compact(&self) -> Option<&S::Compact> {
+        self.compact.as_ref()
+    }
+
+    /// The packed rows of a block, if rows aren't packed on demand.
+    #[inline(always)]
+    pub fn packed(&self, block: usize, count: usize) -> &[Row<T>] {
+        &self.rows[block * count..][..count]
     }
 
     /// The rows of a block; `count` is their number, known at compile time. If `MAYBE_COMPACT` is
@@ -135,28 +166,28 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
         block: usize,
         count: usize,
         scratch: &'a mut Scratch<T>,
-        pack: impl Fn([Vec3; 3], &mut [T]),
+        pack: impl Fn(&S, &mut [T]),
     ) -> &'a [Row<T>] {
-        match &self.shared {
-            Some(shared) if MAYBE_COMPACT => {
-                scratch.fill(shared, block, count, pack);
+        match &self.compact {
+            Some(compact) if MAYBE_COMPACT => {
+                scratch.fill(compact, block, count, pack);
                 &scratch.0[..count]
             }
-            _ => &self.rows[block * count..][..count],
+            _ => self.packed(block, count),
         }
     }
 
     /// Prefetches a block and its primitives.
     #[inline(always)]
-    pub fn announce<const MAYBE_COMPACT: bool, S: Simd>(
+    pub fn announce<const MAYBE_COMPACT: bool, I: Simd>(
         &self,
-        token: S,
+        token: I,
         block: usize,
         count: usize,
     ) {
         self.bvh.announce_lanes(token, block);
-        match &self.shared {
-            Some(shared) if MAYBE_COMPACT => shared.announce(token, block),
+        match &self.compact {
+            Some(compact) if MAYBE_COMPACT => compact.announce(token, block),
             _ => {
                 let bytes = count * size_of::<Row<T>>();
                 prefetch(token, &self.rows, block * count, bytes);
@@ -165,30 +196,11 @@ impl<T: Copy + Default + Send + Sync> Blocks<T> {
     }
 
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.rows[..]) + self.shared.as_ref().map_or(0, SharedCorners::bytes)
+        size_of_val(&self.rows[..]) + self.compact.as_ref().map_or(0, CompactBlocks::bytes)
     }
 }
 
-impl Blocks<f32> {
-    /// The corners in a lane of a block, for kernels that pack corners.
-    #[inline(always)]
-    pub fn corners(&self, block: usize, lane: usize) -> [Vec3; 3] {
-        match &self.shared {
-            Some(shared) => shared.corners(block, lane % BLOCK_SIZE),
-            None => corners(&self.rows[block * CORNERS..][..CORNERS], lane),
-        }
-    }
-}
-
-/// The corners of the triangle in a lane, for kernels that pack them unchanged.
-#[inline(always)]
-pub(super) fn corners<T: Stored<f32>>(rows: &[Row<T>], lane: usize) -> [Vec3; 3] {
-    let value = |k: usize| -> f32 { rows[k].0[lane % BLOCK_SIZE].number() };
-    let corner = |k: usize| Vec3::new(value(k), value(k + 1), value(k + 2));
-    [corner(0), corner(3), corner(6)]
-}
-
-/// The box around each of a block's triangles, with the corners as the kernel `K` computes them.
+/// The box around each of a block's primitives, as the kernel `K` computes them.
 #[inline(always)]
 pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
     token: S,
@@ -207,26 +219,26 @@ pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
 }
 
 /// Packs the rows of all blocks.
-fn rows_of<T: Copy + Default + Send + Sync>(
-    mesh: &TriangleMesh,
+fn rows_of<S: Shape, T: Copy + Default + Send + Sync>(
+    primitives: &impl Primitives<S>,
     bvh: &Bvh,
     rows_per_block: usize,
     empty: EmptyLanes,
-    pack: impl Fn([Vec3; 3], &mut [T]) + Sync,
+    pack: impl Fn(&S, &mut [T]) + Sync,
 ) -> Vec<Row<T>> {
     let mut rows = vec![Row([T::default(); BLOCK_SIZE]); bvh.block_count() * rows_per_block];
     let chunks = rows.par_chunks_mut(rows_per_block * BLOCKS_AT_ONCE);
     chunks.enumerate().for_each(|(chunk, rows)| {
         let mut one = vec![T::default(); rows_per_block];
         for (index, rows) in rows.chunks_exact_mut(rows_per_block).enumerate() {
-            let triangles = bvh.block(chunk * BLOCKS_AT_ONCE + index);
+            let indices = bvh.block(chunk * BLOCKS_AT_ONCE + index);
             for lane in 0..BLOCK_SIZE {
-                let corners = match (triangles.get(lane), empty) {
-                    (Some(&triangle), _) => mesh.corners(triangle),
-                    (None, EmptyLanes::First) => mesh.corners(triangles[0]),
-                    (None, EmptyLanes::Nothing) => [Vec3::NAN; 3],
+                let primitive = match (indices.get(lane), empty) {
+                    (Some(&index), _) => primitives.primitive(index),
+                    (None, EmptyLanes::First) => primitives.primitive(indices[0]),
+                    (None, EmptyLanes::Nowhere) => S::nowhere(),
                 };
-                pack(corners, &mut one);
+                pack(&primitive, &mut one);
                 for (value, row) in one.iter().zip(&mut *rows) {
                     row.0[lane] = *value;
                 }
@@ -261,7 +273,7 @@ pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
     gathered.found
 }
 
-/// Whether a lane holds a triangle that the ray doesn't exclude.
+/// Whether a lane holds a primitive that the ray doesn't exclude.
 #[inline(always)]
 pub(super) fn can_be_hit(primitive: u32, exclude: Option<u32>) -> bool {
     primitive != NO_PRIMITIVE && Some(primitive) != exclude

@@ -1,31 +1,43 @@
 //! Intersectors: a tree and a kernel that together find a scene's hits.
 //!
 //! Kernel and CPU level are chosen when an intersector is made. A batch of rays then costs one virtual call,
-//! or two while a better tree is being built. `mesh` serves kernels that decide about each triangle
-//! separately, and `packet` traces several rays at once for them; `exact` serves the kernel that compares
-//! hits with each other; `improving` forwards to an intersector that can be replaced when a better tree is
-//! ready.
+//! or two while a better tree is being built. `tree` is the intersector of primitives of one shape. It is
+//! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
+//! the kernel that compares hits with each other. `packet` traces several rays at once. `improving` forwards to an
+//! intersector that can be replaced when a better tree is ready.
 
 mod blocks;
-mod compact;
-pub(crate) mod exact;
+mod exact;
 pub(crate) mod improving;
-pub(crate) mod mesh;
+mod method;
+mod order;
 mod packet;
+mod ranked;
+mod tree;
+mod visitors;
 
-pub use compact::Packing;
+pub use blocks::Packing;
 
-use crate::kernel::KernelInfo;
+use crate::bvh::Bvh;
+use crate::kernel::{self, Kernel, KernelInfo, KernelList, KernelRow, KernelVisitor};
+use crate::lane::Number;
 use crate::ray::{Hit, Ray};
+use crate::shape::{Primitives, Shape, Triangle};
+use crate::simd::SimdLevel;
+use exact::Exact;
+use method::Method;
+use ranked::Ranked;
 use std::slice::from_ref;
+use std::sync::Arc;
+use tree::{Packets, TreeIntersector};
 
 /// The cost of tracing a ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Cost {
     /// Boxes tested.
     pub boxes: u32,
-    /// Triangles tested.
-    pub triangles: u32,
+    /// Primitives tested.
+    pub primitives: u32,
     /// Triangles whose bounds the exact kernel narrowed in f64; 0 for the other kernels.
     pub in_f64: u32,
     /// Decisions that the exact kernel took in integers.
@@ -41,6 +53,72 @@ pub struct Crossing {
     pub also: Vec<u32>,
 }
 
+/// Packs primitives for a kernel and returns the intersector.
+pub fn intersector<S: KernelList>(
+    kernel: &'static KernelRow<S>,
+    primitives: &impl Primitives<S>,
+    bvh: Arc<Bvh>,
+    level: SimdLevel,
+    packing: Packing,
+) -> Box<dyn Intersector> {
+    let mut packer = Packer {
+        kernel: kernel.info,
+        primitives,
+        bvh,
+        level,
+        packing,
+        packed: None,
+    };
+    S::visit_kernels(&mut packer);
+    packer.packed.expect("a row's kernel is in its table")
+}
+
+/// Packs primitives for the kernel of the table that has the description `kernel`.
+struct Packer<'a, P> {
+    kernel: &'static KernelInfo,
+    primitives: &'a P,
+    bvh: Arc<Bvh>,
+    level: SimdLevel,
+    packing: Packing,
+    packed: Option<Box<dyn Intersector>>,
+}
+
+impl<P> Packer<'_, P> {
+    fn pack<M: Method>(&mut self, kernel: &KernelInfo, packets: Option<Packets<M>>)
+    where
+        P: Primitives<M::Shape>,
+    {
+        if kernel.name == self.kernel.name {
+            self.packed = Some(Box::new(TreeIntersector::new(
+                self.kernel,
+                self.primitives,
+                Arc::clone(&self.bvh),
+                self.level,
+                self.packing,
+                packets,
+            )));
+        }
+    }
+}
+
+impl<S: Shape, P: Primitives<S>> KernelVisitor<S> for Packer<'_, P> {
+    fn visit<K: Kernel<Shape = S>, N: Number>(&mut self) {
+        self.pack::<Ranked<K, N>>(K::info::<N>(), None);
+    }
+
+    fn visit_with_packets<K: Kernel<Shape = S>>(&mut self) {
+        let trace = TreeIntersector::<Ranked<K, f32>>::trace_packets;
+        self.pack::<Ranked<K, f32>>(K::info::<f32>(), Some(trace));
+    }
+
+    fn visit_exact_triangle(&mut self)
+    where
+        S: From<Triangle> + Into<Triangle>,
+    {
+        self.pack::<Exact<S>>(&kernel::exact::INFO, None);
+    }
+}
+
 /// Finds the hits of rays in one scene with one kernel.
 ///
 /// Rays come from [`Ray::new`] or a [`Camera`](crate::Camera), so they hold no NaN. A ray's interval and hits
@@ -48,7 +126,7 @@ pub struct Crossing {
 /// the exact kernel promises the lowest primitive of several at exactly equal t: other kernels round each t on
 /// its own. A hit whose t exceeds the largest finite f32 is a miss.
 ///
-/// A hit counts only if the ray meets the box around the triangle, and it ranks no nearer than that box. So
+/// A hit counts only if the ray meets the box around the primitive, and it ranks no nearer than that box. So
 /// answers don't depend on the tree. The first of [`all_hits`](Self::all_hits), which are ordered by t alone,
 /// may differ from the closest hit if t errs by more than the size of the box.
 pub trait Intersector: Send + Sync {
@@ -92,15 +170,15 @@ pub trait Intersector: Send + Sync {
     /// All hits with `t_min < t < t_max`, ordered by t; hits at equal t form one crossing.
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing>;
 
-    /// The triangles in the leaves whose boxes the ray meets, in no particular order: all that it could hit,
+    /// The primitives in the leaves whose boxes the ray meets, in no particular order: all that it could hit,
     /// with any kernel.
     fn candidates(&self, ray: &Ray) -> Vec<u32>;
 
-    /// Counts the hits among all triangles, without tree and boxes, for measurements. The ray's `exclude` is
+    /// Counts the hits among all primitives, without tree and boxes, for measurements. The ray's `exclude` is
     /// ignored, and hits at an end of its interval may count.
     fn count_hits(&self, ray: &Ray) -> usize;
 
-    /// Size of the packed triangles in bytes, without the tree.
+    /// Size of the packed primitives in bytes, without the tree.
     fn bytes(&self) -> usize;
 }
 

@@ -1,9 +1,11 @@
-//! Traces packets of sixteen rays against a mesh, one ray per lane. For rays with a common origin and similar
+//! Traces packets of sixteen rays, one ray per lane. For rays with a common origin and similar
 //! directions, such as a camera's.
 
 use super::Intersector;
-use super::blocks::{Blocks, LaneValues, Scratch, boxes, corners};
-use super::mesh::MeshIntersector;
+use super::blocks::{Blocks, LaneOf, LaneValues, Row, Scratch, boxes};
+use super::order::{Comparison, precedes};
+use super::ranked::Ranked;
+use super::tree::TreeIntersector;
 use crate::bvh::{
     BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank, rank_floor, with_stack,
 };
@@ -11,14 +13,13 @@ use crate::kernel::{Kernel, RayLanes};
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
 use crate::simd::prefetch;
-use fearless_simd::{Simd, dispatch, f32x16, prelude::*, u32x8, u32x16};
-use glam::Vec3;
+use fearless_simd::{Simd, dispatch, f32x16, mask32x16, prelude::*, u32x8, u32x16};
 
-/// Finds the nearest hit of each ray. Orders hits as for single rays; see `Found::is_before` in `mesh`.
+/// Finds the nearest hit of each ray.
 struct Nearest<'a, K: Kernel, S: Simd> {
     token: S,
     all: &'a [Ray; PACKET],
-    blocks: &'a Blocks<K::Stored<f32>>,
+    blocks: &'a Blocks<K::Shape, K::Stored<f32>>,
     scratch: &'a mut Scratch<K::Stored<f32>>,
     rays: K::Prepared<f32x16<S>>,
     t_min: f32x16<S>,
@@ -56,17 +57,18 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
                 };
                 if doubtful != 0 {
                     let mut values = [t.to_array(), u.to_array(), v.to_array()];
-                    let corners = corners(rows, lane);
-                    let hits = decide::<K>(self.all, corners, doubtful, &mut values);
+                    let hits = decide::<K>(self.all, rows, lane, doubtful, &mut values);
                     is_hit |= SimdMask::from_bitmask(self.token, u64::from(hits));
                     [t, u, v] = values.map(|x| f32x16::load_array(self.token, x));
                 }
                 let rank = rank(t, floor);
                 let counts = is_hit & rank.simd_lt(self.end) & t.simd_lt(infinity);
-                let is_lower =
-                    t.simd_lt(self.t) | (t.simd_eq(self.t) & primitive.simd_lt(self.primitive));
-                let is_before = rank.simd_lt(self.rank) | (rank.simd_eq(self.rank) & is_lower);
-                let is_best = counts & is_before;
+                let is_best = counts
+                    & precedes(
+                        compared(rank, self.rank),
+                        compared(t, self.t),
+                        primitive.simd_lt(self.primitive),
+                    );
                 self.rank = is_best.select(rank, self.rank);
                 self.t = is_best.select(t, self.t);
                 self.u = is_best.select(u, self.u);
@@ -83,12 +85,21 @@ impl<K: Kernel, S: Simd> PacketVisitor<S> for Nearest<'_, K, S> {
     }
 }
 
+#[inline(always)]
+fn compared<S: Simd>(a: f32x16<S>, b: f32x16<S>) -> Comparison<mask32x16<S>> {
+    Comparison {
+        is_less: a.simd_lt(b),
+        is_equal: a.simd_eq(b),
+    }
+}
+
 /// Decides about the rays whose bits are set, and returns the bits of those that hit.
 // Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
 fn decide<K: Kernel>(
     rays: &[Ray; PACKET],
-    corners: [Vec3; 3],
+    rows: &[Row<K::Stored<f32>>],
+    lane: usize,
     mut doubtful: u32,
     [t, u, v]: &mut [[f32; PACKET]; 3],
 ) -> u32 {
@@ -96,7 +107,7 @@ fn decide<K: Kernel>(
     while doubtful != 0 {
         let i = doubtful.trailing_zeros() as usize % PACKET;
         doubtful &= doubtful - 1;
-        if let Some(hit) = K::decide::<f32>(&rays[i], corners) {
+        if let Some(hit) = K::decide::<f32>(&rays[i], &LaneOf { rows, lane }) {
             [t[i], u[i], v[i]] = hit;
             hits |= 1 << i;
         }
@@ -104,16 +115,9 @@ fn decide<K: Kernel>(
     hits
 }
 
-impl<K: Kernel> MeshIntersector<K, f32> {
-    /// Enables tracing of coherent rays as packets.
-    pub fn with_packets(self) -> Self {
-        Self {
-            packets: Some(Self::trace_packets),
-            ..self
-        }
-    }
-
-    fn trace_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+impl<K: Kernel> TreeIntersector<Ranked<K, f32>> {
+    /// Traces coherent rays as packets.
+    pub fn trace_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         /// One bit per packet marks those that aren't coherent.
         const AT_ONCE: usize = u64::BITS as usize * PACKET;
         for (rays, hits) in rays.chunks(AT_ONCE).zip(hits.chunks_mut(AT_ONCE)) {

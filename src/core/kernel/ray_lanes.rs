@@ -6,7 +6,7 @@ use crate::ray::Ray;
 /// One ray in every lane, or a different ray in each lane, all with the same dominant axis and direction
 /// along it.
 #[derive(Clone, Copy)]
-pub(crate) struct RayLanes<L> {
+pub struct RayLanes<L> {
     /// Origins.
     pub origin: [L; 3],
     /// Directions.

@@ -31,6 +31,7 @@ pub use strips::bytes_as;
 pub use texture::Texture;
 
 use crate::aabb::Aabb;
+use crate::shape::{Primitives, Triangle};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use weld::Welded;
@@ -63,6 +64,17 @@ pub struct TriangleMesh {
     triangles: Vec<[u32; 3]>,
     face_count: usize,
     attributes: Attributes,
+}
+
+impl Primitives<Triangle> for TriangleMesh {
+    fn count(&self) -> usize {
+        self.triangles.len()
+    }
+
+    #[inline]
+    fn primitive(&self, index: u32) -> Triangle {
+        Triangle(self.corners(index))
+    }
 }
 
 impl TriangleMesh {

@@ -2,8 +2,6 @@
 //! quotients and square roots are used.
 
 use super::TriangleMesh;
-use crate::progress::Progress;
-use crate::scene::Scene;
 use glam::{DVec2, DVec3, Vec3};
 
 /// Scale and offset of a shape.
@@ -134,11 +132,6 @@ pub fn soup(corners: &[[Vec3; 3]]) -> TriangleMesh {
     let triangle = |k: u32| [3 * k, 3 * k + 1, 3 * k + 2];
     let triangles = (0..corners.len() as u32).map(triangle).collect();
     TriangleMesh::new(corners.as_flattened().to_vec(), triangles)
-}
-
-/// A scene of the mesh, with its tree built.
-pub fn scene(mesh: TriangleMesh) -> Scene {
-    Scene::new(mesh, &Progress::default()).expect("never cancelled")
 }
 
 #[cfg(test)]

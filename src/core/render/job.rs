@@ -1,11 +1,11 @@
 //! Rendering jobs, and the tracing of one tile.
 
-use super::plan::{Plan, WorkUnit};
 use super::worker::{Message, Renderer};
 use crate::camera::Projection;
 use crate::film::{Film, FixedRgb, TileSamples, fixed};
 use crate::integrator::{Context, Integrator};
 use crate::lane::PACKET;
+use crate::plan::{Plan, WorkUnit};
 use crate::ray::Ray;
 use glam::{DVec3, UVec2};
 use std::any::Any;

@@ -5,7 +5,6 @@
 //! batches of rays, and results of the stale job are dropped.
 
 mod job;
-pub mod plan;
 mod worker;
 
 pub use job::{Job, RenderError, RenderPanic, TileResult, render};

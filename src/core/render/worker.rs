@@ -1,7 +1,7 @@
 //! The rendering threads.
 
 use super::job::{Job, RenderPanic, TileResult};
-use super::plan::WorkUnit;
+use crate::plan::WorkUnit;
 use std::io;
 use std::sync::atomic::{AtomicU64, AtomicUsize, Ordering::Relaxed};
 use std::sync::mpsc::{Receiver, SyncSender, TrySendError, sync_channel};

@@ -175,6 +175,11 @@ impl Scene {
     }
 }
 
+/// A scene of the mesh, with its tree built.
+pub fn scene(mesh: TriangleMesh) -> Scene {
+    Scene::new(mesh, &Progress::default()).expect("nobody cancels")
+}
+
 /// A scene and facts about the file that it was loaded from.
 #[derive(Clone, Debug)]
 pub struct LoadedScene {

@@ -2,10 +2,11 @@
 
 use crate::bvh::Bvh;
 use crate::intersector::improving::{Current, Improving, WeakCurrent};
-use crate::intersector::{Intersector, Packing};
-use crate::kernel::{TriangleKernel, bounds_in};
+use crate::intersector::{Intersector, Packing, intersector};
+use crate::kernel::TriangleKernel;
 use crate::mesh::TriangleMesh;
 use crate::progress::{Cancelled, Progress};
+use crate::shape::bounds_in;
 use crate::simd::SimdLevel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 use std::time::{Duration, Instant};
@@ -111,7 +112,7 @@ impl Tree {
         level: SimdLevel,
     ) -> Box<dyn Intersector> {
         let Built { bvh, is_best, .. } = self.current();
-        let packed = kernel.intersector(mesh, bvh, level, self.packing);
+        let packed = intersector(kernel, mesh, bvh, level, self.packing);
         if is_best {
             return packed;
         }
@@ -151,7 +152,7 @@ impl Tree {
             else {
                 return Ok(());
             };
-            current.replace(|| kernel.intersector(mesh, self.bvh(), level, self.packing));
+            current.replace(|| intersector(kernel, mesh, self.bvh(), level, self.packing));
         }
     }
 }

@@ -250,7 +250,7 @@ impl ViewArg {
 
 pub(super) fn kernel_names() -> impl clap::builder::TypedValueParser<Value = String> {
     let mut names: Vec<&'static str> = Vec::new();
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let tier = kernel.info.tier.map(|tier| tier.name());
         for name in tier.into_iter().chain([kernel.info.name]) {
             if !names.contains(&name) {

@@ -273,7 +273,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         "t p99",
         "t max"
     )?;
-    for (row, kernel) in rows.iter().zip(TRIANGLE_KERNELS) {
+    for (row, kernel) in rows.iter().zip(TRIANGLE_KERNELS.iter()) {
         let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
         let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
         writeln!(

@@ -7,7 +7,7 @@ use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::integrator::{Comparison, Context};
 use hitscope_core::kernel::triangle_kernel;
-use hitscope_core::render::plan::Plan;
+use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::{LoadedScene, Shading};
 use hitscope_core::srgb::from_display;

@@ -6,8 +6,9 @@ use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::TriangleMesh;
-use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, scene, soup};
+use hitscope_core::mesh::shapes::{Placement, cube, flat_grid, soup};
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use serde::Serialize;
 
 /// A kind of boxes, and rays that touch them.

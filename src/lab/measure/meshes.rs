@@ -5,9 +5,10 @@ use glam::DVec3;
 use hitscope_core::kernel::TriangleKernel;
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::corridors::{Corridor, FOOTPRINTS, Footprint};
-use hitscope_core::mesh::shapes::{Placement, in_torus, scene, sphere, torus};
+use hitscope_core::mesh::shapes::{Placement, in_torus, sphere, torus};
 use hitscope_core::random::Random;
 use hitscope_core::ray::ulp_at;
+use hitscope_core::scene::scene;
 use hitscope_core::{Intersector, Ray};
 use serde::Serialize;
 

@@ -337,7 +337,7 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
 fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {
     let mesh = shapes::sphere(sizes.speed_cells, shapes::Placement::UNIT);
     let name = format!("sphere, {} triangles", mesh.triangles().len());
-    let scene = shapes::scene(mesh);
+    let scene = hitscope_core::scene::scene(mesh);
     let camera = speed::default_camera(&scene);
     let workloads = workloads::workloads(&scene, &camera, sizes.speed_rays, seed);
     let bench = speed::Bench::new(&scene, name, &workloads, sizes.speed_rounds);

@@ -5,8 +5,9 @@ use super::statistics::{bound_per_million, per_million};
 use crate::oracle::{self, Crossing};
 use glam::Vec3;
 use hitscope_core::kernel::TriangleKernel;
-use hitscope_core::mesh::shapes::{scene, soup};
+use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::{Intersector, Ray};
 use serde::Serialize;
 

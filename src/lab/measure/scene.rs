@@ -78,7 +78,7 @@ pub fn measure(
     let answers = answers(scene, &checked, progress)?;
     let name = format!("{} triangles", scene.mesh().triangles().len());
     let bench = Bench::new(scene, name, &workloads, sizes.rounds);
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         progress.check()?;
         let intersector = scene.intersector(kernel);
         let speed = bench.measure(kernel, &*intersector, progress)?;

@@ -11,9 +11,10 @@
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::TriangleKernel;
-use hitscope_core::mesh::shapes::{Placement, scene, soup};
+use hitscope_core::mesh::shapes::{Placement, soup};
 use hitscope_core::mesh::{TriangleMesh, unit_normal};
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use hitscope_core::spawn::{Departure, SPAWN_POLICIES};
 use hitscope_core::{Hit, Intersector, Ray};
 use serde::Serialize;

@@ -181,7 +181,7 @@ impl TestBench {
             .collect();
         let ray = |_| Ray::new(3.0 * places.in_cube_f32(), places.in_cube_f32()).ok();
         Self {
-            scene: shapes::scene(shapes::soup(&triangles)),
+            scene: hitscope_core::scene::scene(shapes::soup(&triangles)),
             rays: (0..RAYS).filter_map(ray).collect(),
         }
     }

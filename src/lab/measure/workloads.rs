@@ -103,7 +103,8 @@ fn random_rays(scene: &Scene, count: usize, random: &mut Random) -> Vec<Ray> {
 mod tests {
     use super::*;
     use hitscope_core::camera::Projection;
-    use hitscope_core::mesh::shapes::{Placement, scene, sphere};
+    use hitscope_core::mesh::shapes::{Placement, sphere};
+    use hitscope_core::scene::scene;
 
     #[test]
     fn the_workloads_match_their_names() {

@@ -176,7 +176,7 @@ fn print_meshes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
             rate(cell.in_integers_per_million),
         ]);
     }
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let cells = all
             .meshes
             .iter()

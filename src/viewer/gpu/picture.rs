@@ -9,7 +9,7 @@ use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState}
 use egui::{PaintCallbackInfo, Rect, Shape};
 use glam::UVec2;
 use hitscope_core::Film;
-use hitscope_core::film::PixelRect;
+use hitscope_core::plan::PixelRect;
 
 /// A complete shader, without [`view::SHADER`](super::view::SHADER).
 pub const SHADER: &str = include_str!("../../../shaders/picture.wgsl");

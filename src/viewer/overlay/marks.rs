@@ -66,7 +66,7 @@ mod tests {
     use super::*;
     use hitscope_core::TriangleMesh;
     use hitscope_core::mesh::Attributes;
-    use hitscope_core::mesh::shapes::scene;
+    use hitscope_core::scene::scene;
 
     #[test]
     fn lines_and_points_of_the_file_and_open_edges_are_marked() {

@@ -137,7 +137,7 @@ fn kernel_combo_ui(
         .width(220.0)
         .height(320.0)
         .show_ui(ui, |ui| {
-            for kernel in TRIANGLE_KERNELS {
+            for kernel in TRIANGLE_KERNELS.iter() {
                 let is_current = kernel.info.name == current.name;
                 if ui
                     .selectable_label(is_current, title(kernel.info))

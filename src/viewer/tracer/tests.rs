@@ -5,8 +5,9 @@ use glam::DVec3;
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::INTEGRATORS;
 use hitscope_core::kernel::triangle_kernel;
-use hitscope_core::mesh::shapes::{Placement, scene, sphere};
+use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::scene::Shading;
+use hitscope_core::scene::scene;
 
 const SIZE: UVec2 = UVec2::new(96, 64);
 /// A test that waits longer has failed.

@@ -4,10 +4,10 @@ use super::{STRICT, parse};
 use glam::{DMat3, DQuat, DVec3};
 use hitscope_core::Ray;
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::mesh::shapes::scene;
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::obj::Loaded;
 use hitscope_core::random::Random;
+use hitscope_core::scene::scene;
 use std::fmt::Write as _;
 
 /// A prism over a random star-shaped outline, with further corners at random places on the outline's edges and on

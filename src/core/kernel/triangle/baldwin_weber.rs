@@ -14,7 +14,7 @@ use super::dominant_axis::{self, Rows};
 use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
 use crate::lane::{Lane, LaneMask, Number, dot, plus, times};
-use glam::Vec3;
+use crate::shape::Triangle;
 
 /// Index of the box in the packed values.
 const BOX: usize = 12;
@@ -23,6 +23,7 @@ const BOX: usize = 12;
 pub(super) struct BaldwinWeber;
 
 impl Kernel for BaldwinWeber {
+    type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
         name: "baldwin-weber",
         title: "Baldwin–Weber",
@@ -46,13 +47,13 @@ impl Kernel for BaldwinWeber {
     type Stored<N: Number> = N;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
-        let Rows { u, v, normal, a } = dominant_axis::rows(corners);
+    fn pack<N: Number>(triangle: &Triangle, values: &mut [N]) {
+        let Rows { u, v, normal, a } = dominant_axis::rows(triangle.0);
         for (row, kept) in [normal, u, v].iter().zip(values[..BOX].chunks_exact_mut(4)) {
             kept[..3].copy_from_slice(row);
             kept[3] = -dot(row, &a);
         }
-        bounds::pack(corners, &mut values[BOX..]);
+        bounds::pack(triangle.0, &mut values[BOX..]);
     }
 
     #[inline(always)]

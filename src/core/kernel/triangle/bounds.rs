@@ -1,24 +1,13 @@
 //! Boxes that a ray must meet for its hit of a triangle to count.
 //!
-//! A box encloses the triangle's corners as the kernel computes them. It lies within [`triangle_bounds`],
-//! from which the tree is built, so a ray that meets it also meets every box of the tree around the triangle.
+//! A box encloses the triangle's corners as the kernel computes them. It lies within
+//! [`Shape::bounds`](crate::shape::Shape::bounds), from which the tree is built, so a ray that meets it also meets
+//! every box of the tree around the triangle.
 
-use crate::aabb::{Aabb, Planes};
+use crate::aabb::Planes;
 use crate::kernel::Values;
 use crate::lane::{Lane, Number, plus};
-use crate::mesh::TriangleMesh;
 use glam::Vec3;
-
-/// The triangle's box in the tree: it encloses the corners, and the corners as a kernel recomputes them from
-/// the first corner and the edges.
-pub fn triangle_bounds([a, b, c]: [Vec3; 3]) -> Aabb {
-    Aabb::around([a, b, c, a + (b - a), a + (c - a)])
-}
-
-/// A function that returns [`triangle_bounds`] of a mesh's triangles; trees over the mesh are built from it.
-pub fn bounds_in(mesh: &TriangleMesh) -> impl Fn(u32) -> Aabb + Sync {
-    |triangle| triangle_bounds(mesh.corners(triangle))
-}
 
 /// The box around A, B and C, which are packed from value 0.
 #[inline(always)]

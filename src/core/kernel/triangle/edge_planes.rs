@@ -22,12 +22,13 @@ use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
 };
 use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
-use glam::Vec3;
+use crate::shape::Triangle;
 
 /// See the [module](self).
 pub(super) struct EdgePlanes;
 
 impl Kernel for EdgePlanes {
+    type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
         name: "edge-planes",
         title: "Edge planes",
@@ -48,8 +49,8 @@ impl Kernel for EdgePlanes {
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
-        pack_corners(corners, values);
+    fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
+        pack_corners(triangle.0, values);
     }
 
     #[inline(always)]

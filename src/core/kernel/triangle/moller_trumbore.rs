@@ -13,12 +13,13 @@ use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
 };
 use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
-use glam::Vec3;
+use crate::shape::Triangle;
 
 /// See the [module](self).
 pub(super) struct MollerTrumbore;
 
 impl Kernel for MollerTrumbore {
+    type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
         name: "moller-trumbore",
         title: "Möller–Trumbore",
@@ -41,10 +42,10 @@ impl Kernel for MollerTrumbore {
     type Prepared<L: Lane> = RayLanes<L>;
 
     /// Packs A and two edges in f32; the corners in f64, as f32 can't hold the edges exactly.
-    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
-        let [a, b, c] = corners;
+    fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
+        let [a, b, c] = triangle.0;
         if N::HOLDS_PRODUCTS {
-            pack_corners(corners, values);
+            pack_corners(triangle.0, values);
         } else {
             pack_corners([a, b - a, c - a], values);
         }

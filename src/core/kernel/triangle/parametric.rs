@@ -12,12 +12,13 @@ use crate::kernel::{
     Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
 };
 use crate::lane::{Lane, LaneMask, Number, cross, dot, minus, times};
-use glam::Vec3;
+use crate::shape::Triangle;
 
 /// See the [module](self).
 pub(super) struct Parametric;
 
 impl Kernel for Parametric {
+    type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
         name: "parametric",
         title: "Parametric",
@@ -37,8 +38,8 @@ impl Kernel for Parametric {
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
-        pack_corners(corners, values);
+    fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
+        pack_corners(triangle.0, values);
     }
 
     #[inline(always)]

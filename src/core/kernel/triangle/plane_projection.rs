@@ -15,7 +15,7 @@ use super::dominant_axis::{self, Rows};
 use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
 use crate::lane::{Lane, LaneMask, Number, dot, minus, times};
-use glam::Vec3;
+use crate::shape::Triangle;
 
 /// Index of the box in the packed values.
 const BOX: usize = 12;
@@ -24,6 +24,7 @@ const BOX: usize = 12;
 pub(super) struct PlaneProjection;
 
 impl Kernel for PlaneProjection {
+    type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
         name: "plane-projection",
         title: "Plane and projection",
@@ -44,15 +45,15 @@ impl Kernel for PlaneProjection {
     type Stored<N: Number> = N;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [N]) {
-        let Rows { u, v, normal, a } = dominant_axis::rows(corners);
+    fn pack<N: Number>(triangle: &Triangle, values: &mut [N]) {
+        let Rows { u, v, normal, a } = dominant_axis::rows(triangle.0);
         for (row, kept) in [a, normal, u, v]
             .iter()
             .zip(values[..BOX].chunks_exact_mut(3))
         {
             kept.copy_from_slice(row);
         }
-        bounds::pack(corners, &mut values[BOX..]);
+        bounds::pack(triangle.0, &mut values[BOX..]);
     }
 
     #[inline(always)]

@@ -18,6 +18,7 @@
 //! ray misses its box, both triangles are missed.
 
 use super::bounds;
+use super::corners_of;
 use super::exact::{self, filter};
 use super::shear::ShearedRay;
 use crate::aabb::Planes;
@@ -26,7 +27,7 @@ use crate::kernel::{
 };
 use crate::lane::{Lane, LaneMask, Number};
 use crate::ray::Ray;
-use glam::Vec3;
+use crate::shape::Triangle;
 
 /// See the [module](self).
 pub(super) struct Watertight;
@@ -46,6 +47,7 @@ pub(super) struct PreparedRay<L> {
 }
 
 impl Kernel for Watertight {
+    type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
         name: "watertight",
         title: "Watertight (Woop et al.)",
@@ -75,8 +77,8 @@ impl Kernel for Watertight {
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = PreparedRay<L>;
 
-    fn pack<N: Number>(corners: [Vec3; 3], values: &mut [f32]) {
-        pack_corners(corners, values);
+    fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
+        pack_corners(triangle.0, values);
     }
 
     #[inline(always)]
@@ -132,8 +134,8 @@ impl Kernel for Watertight {
         })
     }
 
-    fn decide<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[N; 3]> {
-        let [t, u, v] = exact::answer_for::<N>(ray, corners)?.map(N::of_f64);
+    fn decide<N: Number>(ray: &Ray, triangle: &impl Values<f32>) -> Option<[N; 3]> {
+        let [t, u, v] = exact::answer_for::<N>(ray, corners_of(triangle))?.map(N::of_f64);
         // The hit lies inside the interval, but rounding may have moved it to an end.
         let [start, end] = ray.finite_interval().map(N::from);
         Some([t.greater(start.next_up()).lesser(end.next_down()), u, v])

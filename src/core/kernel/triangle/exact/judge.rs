@@ -3,7 +3,7 @@
 
 use super::super::shear::ShearedRay;
 use super::{Filtered, VALUES, filter, integer};
-use crate::kernel::{OneTriangle, pack_corners};
+use crate::kernel::{OneValue, pack_corners};
 use crate::lane::Number;
 use crate::ray::{Hit, Ray};
 use glam::Vec3;
@@ -80,18 +80,31 @@ impl Candidate {
     }
 }
 
-/// Decides about the hits of one ray. `corners` returns a slot's corners.
-pub(crate) struct Judge<'a, F> {
+/// The corners of triangles.
+pub(crate) trait Corners {
+    /// The corners in a slot.
+    fn corners(&self, slot: usize) -> [Vec3; 3];
+}
+
+/// One triangle, in every slot.
+impl Corners for [Vec3; 3] {
+    fn corners(&self, _: usize) -> [Vec3; 3] {
+        *self
+    }
+}
+
+/// Decides about the hits of one ray.
+pub(crate) struct Judge<'a, C> {
     ray: &'a Ray,
-    corners: F,
+    corners: C,
     dir_z: f64,
     /// The ends of [`Ray::finite_interval`] as depths; products of 24 by 24 bits are exact.
     interval: [f64; 2],
     pub work: JudgeCounters,
 }
 
-impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
-    pub fn new(ray: &'a Ray, corners: F) -> Self {
+impl<'a, C: Corners> Judge<'a, C> {
+    pub fn new(ray: &'a Ray, corners: C) -> Self {
         let dir_z = f64::from(ray.dir.abs().max_element());
         Self {
             ray,
@@ -144,19 +157,6 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         (is_after && self.compare_with(&mut candidate, end) == Ordering::Less).then_some(candidate)
     }
 
-    /// Whether `first` is nearer than `second`, or equally near with a lower index.
-    #[inline(always)]
-    pub fn is_before(&mut self, first: &mut Candidate, second: &mut Candidate) -> bool {
-        if first.far < second.near {
-            return true;
-        }
-        match self.compare(first, second) {
-            Ordering::Less => true,
-            Ordering::Equal => first.primitive < second.primitive,
-            Ordering::Greater => false,
-        }
-    }
-
     /// Compares two hits by t, exactly.
     #[inline(never)]
     pub fn compare(&mut self, first: &mut Candidate, second: &mut Candidate) -> Ordering {
@@ -172,7 +172,10 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         if let Some(order) = by_bounds(first, second) {
             return order;
         }
-        let (a, b) = ((self.corners)(first.slot), (self.corners)(second.slot));
+        let (a, b) = (
+            self.corners.corners(first.slot),
+            self.corners.corners(second.slot),
+        );
         if a == b {
             return Ordering::Equal;
         }
@@ -209,7 +212,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         self.narrow(candidate);
         by_bounds(candidate).unwrap_or_else(|| {
             self.work.in_integers += 1;
-            integer::compare_with(self.ray, (self.corners)(candidate.slot), t)
+            integer::compare_with(self.ray, self.corners.corners(candidate.slot), t)
         })
     }
 
@@ -220,7 +223,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
         }
         candidate.is_narrow = true;
         self.work.in_f64 += 1;
-        let corners = (self.corners)(candidate.slot);
+        let corners = self.corners.corners(candidate.slot);
         let Some(filtered) = in_f64(self.ray, corners) else {
             return false;
         };
@@ -257,7 +260,7 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
     /// t, u and v of a hit. t errs by at most [`Number::T_SLACK`] relatively, the weights by at most
     /// [`Number::WEIGHT_SLACK`].
     pub fn values_for<N: Number>(&self, candidate: Candidate) -> [f64; 3] {
-        let corners = (self.corners)(candidate.slot);
+        let corners = self.corners.corners(candidate.slot);
         let (t_slack, weight_slack) = (N::T_SLACK.into(), N::WEIGHT_SLACK.into());
         match in_f64(self.ray, corners) {
             Some(filtered) if filtered.is_within(t_slack, weight_slack) => {
@@ -276,5 +279,5 @@ impl<'a, F: Fn(usize) -> [Vec3; 3]> Judge<'a, F> {
 fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Option<Filtered<f64>> {
     let mut values = [0.0; VALUES];
     pack_corners(corners, &mut values);
-    filter(&ShearedRay::<f64>::of((), ray), &OneTriangle(&values))
+    filter(&ShearedRay::<f64>::of((), ray), &OneValue(&values))
 }

@@ -17,7 +17,7 @@ mod judge;
 mod rounding;
 
 pub(crate) use filter::{Filtered, filter};
-pub(crate) use judge::{Candidate, Judge};
+pub(crate) use judge::{Candidate, Corners, Judge};
 pub(crate) use rounding::HitLanes;
 
 use crate::kernel::{KernelInfo, Precision, Promises, Tier};
@@ -45,7 +45,7 @@ pub(crate) static INFO: KernelInfo = KernelInfo {
 pub(crate) const VALUES: usize = 9;
 
 /// Tests one triangle. The hit's `primitive` is 0.
-pub(super) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
+pub(in crate::kernel) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
     evaluate(ray, corners, |judge, candidate| judge.hit(candidate))
 }
 
@@ -67,13 +67,12 @@ pub(super) fn answer_for<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[f6
 fn evaluate<T>(
     ray: &Ray,
     corners: [Vec3; 3],
-    answer: impl Fn(&Judge<'_, &dyn Fn(usize) -> [Vec3; 3]>, Candidate) -> T,
+    answer: impl Fn(&Judge<'_, [Vec3; 3]>, Candidate) -> T,
 ) -> Option<T> {
     if !corners.iter().all(|p| p.is_finite()) {
         return None;
     }
-    let find: &dyn Fn(usize) -> [Vec3; 3] = &|_| corners;
-    let mut judge = Judge::new(ray, find);
+    let mut judge = Judge::new(ray, corners);
     let unknown = Candidate::new(0, 0, f32::NEG_INFINITY, f32::INFINITY);
     let candidate = judge.within(unknown, false)?;
     Some(answer(&judge, candidate))

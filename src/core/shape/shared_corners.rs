@@ -1,36 +1,13 @@
 //! Compact storage of triangles in half the memory: each block's corners once, and indices of its triangles
 //! into them.
-//!
-//! A block's values are packed again for every test.
 
+use super::compact::{BLOCKS_AT_ONCE, CompactBlocks, EmptyLanes};
+use super::{Primitives, Triangle};
 use crate::bvh::{BLOCK_SIZE, Bvh};
-use crate::mesh::TriangleMesh;
 use crate::simd::prefetch;
 use fearless_simd::Simd;
 use glam::Vec3;
 use rayon::prelude::*;
-
-/// Storage of triangles for tracing. The results are the same, bit for bit.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Packing {
-    /// In the kernel's layout: the fastest.
-    #[default]
-    Full,
-    /// In the least memory.
-    Compact,
-}
-
-/// Contents of lanes without a triangle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum EmptyLanes {
-    /// Values that no kernel hits.
-    Nothing,
-    /// A copy of the block's first triangle.
-    First,
-}
-
-/// Blocks per chunk that a thread packs.
-pub(super) const BLOCKS_AT_ONCE: usize = 1024;
 
 /// A block's triangles: per lane, the indices of A, B and C among the block's corners.
 struct CornerSlots {
@@ -39,13 +16,13 @@ struct CornerSlots {
 }
 
 /// See the [module](self).
-pub(super) struct SharedCorners {
+pub struct SharedCorners {
     corners: Vec<Vec3>,
     blocks: Vec<CornerSlots>,
 }
 
-impl SharedCorners {
-    pub fn of(mesh: &TriangleMesh, bvh: &Bvh, empty: EmptyLanes) -> Self {
+impl CompactBlocks<Triangle> for SharedCorners {
+    fn of(mesh: &impl Primitives<Triangle>, bvh: &Bvh, empty: EmptyLanes) -> Self {
         let count = bvh.block_count();
         let parts: Vec<Self> = (0..count.div_ceil(BLOCKS_AT_ONCE))
             .into_par_iter()
@@ -77,31 +54,54 @@ impl SharedCorners {
         all
     }
 
+    #[inline(always)]
+    fn primitive(&self, block: usize, lane: usize) -> Triangle {
+        let picks = &self.blocks[block];
+        let corner =
+            |k: usize| self.corners[picks.first as usize + usize::from(picks.corners[k][lane])];
+        Triangle([corner(0), corner(1), corner(2)])
+    }
+
+    #[inline(always)]
+    fn announce<S: Simd>(&self, token: S, block: usize) {
+        /// A block of a closed mesh has about as many corners as triangles.
+        const USUAL: usize = (BLOCK_SIZE + 2) * size_of::<Vec3>();
+        let first = self.blocks[block].first as usize;
+        prefetch(token, &self.corners, first, USUAL);
+    }
+
+    fn bytes(&self) -> usize {
+        size_of_val(&self.corners[..]) + size_of_val(&self.blocks[..])
+    }
+}
+
+impl SharedCorners {
     /// Appends a block of triangles.
-    fn push(&mut self, mesh: &TriangleMesh, triangles: &[u32], empty: EmptyLanes) {
+    fn push(&mut self, mesh: &impl Primitives<Triangle>, triangles: &[u32], empty: EmptyLanes) {
         let first = self.corners.len();
-        let mut vertices: Vec<u32> = Vec::with_capacity(3 * BLOCK_SIZE);
         let mut corners = [[0; BLOCK_SIZE]; 3];
         for (lane, &triangle) in triangles.iter().enumerate() {
-            for (k, vertex) in mesh.triangles()[triangle as usize].into_iter().enumerate() {
-                let known = vertices.iter().position(|&v| v == vertex);
+            for (k, corner) in mesh.primitive(triangle).0.into_iter().enumerate() {
+                // Bits, because −0 equals 0.
+                let bits = |p: &Vec3| p.to_array().map(f32::to_bits);
+                let mut known = self.corners[first..].iter();
+                let known = known.position(|p| bits(p) == bits(&corner));
                 corners[k][lane] = known.unwrap_or_else(|| {
-                    vertices.push(vertex);
-                    self.corners.push(mesh.positions()[vertex as usize]);
-                    vertices.len() - 1
+                    self.corners.push(corner);
+                    self.corners.len() - 1 - first
                 }) as u8;
             }
         }
         if triangles.len() < BLOCK_SIZE {
-            let nothing = vertices.len() as u8;
+            let nothing = (self.corners.len() - first) as u8;
             for picks in &mut corners {
                 let pick = match empty {
-                    EmptyLanes::Nothing => nothing,
+                    EmptyLanes::Nowhere => nothing,
                     EmptyLanes::First => picks[0],
                 };
                 picks[triangles.len()..].fill(pick);
             }
-            if empty == EmptyLanes::Nothing {
+            if empty == EmptyLanes::Nowhere {
                 self.corners.push(Vec3::NAN);
             }
         }
@@ -109,27 +109,5 @@ impl SharedCorners {
             first: first as u32,
             corners,
         });
-    }
-
-    /// The corners of the triangle in a lane of a block.
-    #[inline(always)]
-    pub fn corners(&self, block: usize, lane: usize) -> [Vec3; 3] {
-        let picks = &self.blocks[block];
-        let corner =
-            |k: usize| self.corners[picks.first as usize + usize::from(picks.corners[k][lane])];
-        [corner(0), corner(1), corner(2)]
-    }
-
-    /// Prefetches a block.
-    #[inline(always)]
-    pub fn announce<S: Simd>(&self, token: S, block: usize) {
-        /// A block of a closed mesh has about as many corners as triangles.
-        const USUAL: usize = (BLOCK_SIZE + 2) * size_of::<Vec3>();
-        let first = self.blocks[block].first as usize;
-        prefetch(token, &self.corners, first, USUAL);
-    }
-
-    pub fn bytes(&self) -> usize {
-        size_of_val(&self.corners[..]) + size_of_val(&self.blocks[..])
     }
 }

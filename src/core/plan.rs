@@ -13,7 +13,6 @@
 
 use glam::{UVec2, Vec2};
 
-use crate::film::PixelRect;
 use crate::sampler::sample_position;
 
 /// Width and height of a tile in pixels; a multiple of every block size.
@@ -22,6 +21,26 @@ pub const TILE_PX: u32 = 48;
 pub const STEPS: [u32; 8] = [1, 2, 3, 4, 6, 8, 12, 16];
 /// Maximum number of samples per pixel, which the film's sums can hold.
 pub const MAX_SAMPLES: u32 = 4096;
+
+/// A rectangle of pixels; `max` is exclusive.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelRect {
+    /// Left and top edge.
+    pub min: UVec2,
+    /// Right and bottom edge, exclusive.
+    pub max: UVec2,
+}
+
+impl PixelRect {
+    /// The smallest rectangle around both.
+    #[must_use]
+    pub fn union(self, other: Self) -> Self {
+        Self {
+            min: self.min.min(other.min),
+            max: self.max.max(other.max),
+        }
+    }
+}
 
 /// One pass over the picture.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -1,0 +1,238 @@
+//! Intersector of primitives of one shape: a tree and packed primitives, traced by any method.
+
+use super::blocks::{Blocks, Packing, Scratch, candidates};
+use super::method::{BlocksOf, Method, Tester};
+use super::order::crossings;
+use super::visitors::{Any, Each, Kept, Nearest};
+use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
+use crate::bvh::{Bvh, Stack, with_stack};
+use crate::kernel::{KernelInfo, MAX_VALUES};
+use crate::lane::PACKET;
+use crate::ray::{Hit, Ray};
+use crate::shape::Primitives;
+use crate::simd::{SimdLevel, baseline};
+use fearless_simd::{Simd, dispatch};
+use std::marker::PhantomData;
+use std::sync::Arc;
+
+/// Primitives packed for the method `M`.
+pub(super) struct TreeIntersector<M: Method> {
+    pub blocks: BlocksOf<M>,
+    pub level: SimdLevel,
+    kernel: &'static KernelInfo,
+    /// Traces packets of coherent rays.
+    packets: Option<Packets<M>>,
+}
+
+pub(super) type Packets<M> = fn(&TreeIntersector<M>, &[Ray], &mut [Option<Hit>]);
+
+impl<M: Method> TreeIntersector<M> {
+    pub fn new(
+        kernel: &'static KernelInfo,
+        primitives: &impl Primitives<M::Shape>,
+        bvh: Arc<Bvh>,
+        level: SimdLevel,
+        packing: Packing,
+        packets: Option<Packets<M>>,
+    ) -> Self {
+        const { assert!(M::VALUES <= MAX_VALUES) };
+        Self {
+            blocks: Blocks::new(primitives, bvh, packing, M::VALUES, M::EMPTY, M::pack),
+            level,
+            kernel,
+            packets,
+        }
+    }
+
+    /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
+    #[inline(always)]
+    fn find<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        rays: &[Ray],
+        hits: &mut [Option<Hit>],
+        batch: &mut M::Batch,
+        stack: &mut Stack,
+    ) {
+        let mut scratch = Scratch::new();
+        let mut i = 0;
+        while i < rays.len() {
+            if !is_behind(&rays[i]) {
+                let tester = M::tester(&self.blocks, token, &rays[i], &mut scratch);
+                let mut visitor = Nearest::<S, _, MAYBE_COMPACT> {
+                    nearest: tester.nothing(),
+                    tester,
+                };
+                self.blocks.bvh.walk(token, &rays[i], stack, &mut visitor);
+                hits[i] = None;
+                if let Some(found) = visitor.tester.found(&visitor.nearest) {
+                    M::keep::<S>(&visitor.tester, found, i, hits, batch);
+                }
+            }
+            i += 1;
+        }
+    }
+
+    /// Finds out whether these rays hit anything.
+    #[inline(always)]
+    fn find_any<const MAYBE_COMPACT: bool, S: Simd>(
+        &self,
+        token: S,
+        rays: &[Ray],
+        are_hits: &mut [bool],
+        stack: &mut Stack,
+    ) {
+        let mut scratch = Scratch::new();
+        for (ray, is_hit) in rays.iter().zip(are_hits) {
+            if !is_behind(ray) {
+                let mut visitor = Any::<_, MAYBE_COMPACT> {
+                    tester: M::tester(&self.blocks, token, ray, &mut scratch),
+                    t_max: ray.t_max,
+                    is_hit: false,
+                };
+                self.blocks.bvh.walk(token, ray, stack, &mut visitor);
+                *is_hit = visitor.is_hit;
+            }
+        }
+    }
+
+    /// Finds the nearest hit or all hits of one ray, and passes them to `finish`.
+    fn each<S: Simd, T>(
+        &self,
+        token: S,
+        ray: &Ray,
+        query: Query,
+        finish: impl FnOnce(&mut M::Tester<'_, S>, Vec<M::Found>) -> T,
+    ) -> (T, Cost) {
+        with_stack(|stack| {
+            let mut scratch = Scratch::new();
+            let tester = M::tester(&self.blocks, token, ray, &mut scratch);
+            let mut visitor = Each {
+                kept: match query {
+                    Query::Nearest => Kept::Nearest(tester.nothing()),
+                    Query::All => Kept::All(Vec::new()),
+                },
+                tester,
+                t_max: ray.t_max,
+                cost: Cost::default(),
+                count: &|block| self.blocks.bvh.block(block).len(),
+                token: PhantomData,
+            };
+            self.blocks.bvh.walk(token, ray, stack, &mut visitor);
+            let Each {
+                mut tester,
+                kept,
+                cost,
+                ..
+            } = visitor;
+            let [in_f64, in_integers] = tester.work();
+            let found = match kept {
+                Kept::Nearest(nearest) => tester.found(&nearest).into_iter().collect(),
+                Kept::All(found) => found,
+            };
+            let cost = Cost {
+                in_f64,
+                in_integers,
+                ..cost
+            };
+            (finish(&mut tester, found), cost)
+        })
+    }
+
+    #[inline(always)]
+    fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
+        let mut scratch = Scratch::new();
+        let mut tester = M::tester(&self.blocks, token, ray, &mut scratch);
+        let mut count = 0;
+        // A plain loop: functions called by an iterator may be compiled without the CPU's features.
+        for block in 0..self.blocks.bvh.block_count() {
+            count += tester.count(block);
+        }
+        count
+    }
+}
+
+/// The query of [`TreeIntersector::each`].
+enum Query {
+    Nearest,
+    All,
+}
+
+impl<M: Method> Intersector for TreeIntersector<M> {
+    fn kernel(&self) -> &'static KernelInfo {
+        self.kernel
+    }
+
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        with_stack(|stack| {
+            let (rays, hits) = (rays.chunks(M::BATCH_SIZE), hits.chunks_mut(M::BATCH_SIZE));
+            for (rays, hits) in rays.zip(hits) {
+                let mut batch = M::batch();
+                if self.blocks.are_compact() {
+                    self.find::<true, _>(baseline(), rays, hits, &mut batch, stack);
+                } else {
+                    let level = self.level.level();
+                    dispatch!(level, token => self.find::<false, _>(token, rays, hits, &mut batch, stack));
+                }
+                // Separate from the search, which otherwise becomes a tenth slower (exact kernel, bunny, primary
+                // rays, 2026-11).
+                M::round(&self.blocks, self.level, rays, &batch, hits);
+            }
+        });
+        answer_behind(rays, hits, |ray| self.closest_hit_with_cost(ray).0);
+    }
+
+    fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        match self.packets {
+            Some(trace) if !self.blocks.are_compact() => trace(self, rays, hits),
+            _ => self.closest_hits(rays, hits),
+        }
+    }
+
+    fn rays_together(&self) -> usize {
+        if self.packets.is_some() && !self.blocks.are_compact() {
+            PACKET
+        } else {
+            1
+        }
+    }
+
+    fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
+        self.each(baseline(), ray, Query::Nearest, |tester, found| {
+            found.first().map(|found| tester.hit(found))
+        })
+    }
+
+    fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        with_stack(|stack| {
+            if self.blocks.are_compact() {
+                self.find_any::<true, _>(baseline(), rays, are_hits, stack);
+            } else {
+                let level = self.level.level();
+                dispatch!(level, token => self.find_any::<false, _>(token, rays, are_hits, stack));
+            }
+        });
+        answer_behind(rays, are_hits, |ray| {
+            self.closest_hit_with_cost(ray).0.is_some()
+        });
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
+        self.each(baseline(), ray, Query::All, |tester, found| {
+            crossings(tester, found)
+        })
+        .0
+    }
+
+    fn candidates(&self, ray: &Ray) -> Vec<u32> {
+        candidates(&self.blocks.bvh, ray)
+    }
+
+    fn count_hits(&self, ray: &Ray) -> usize {
+        dispatch!(self.level.level(), token => self.count(token, ray))
+    }
+
+    fn bytes(&self) -> usize {
+        self.blocks.bytes()
+    }
+}

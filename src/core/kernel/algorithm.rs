@@ -1,0 +1,124 @@
+//! The interface of an intersection algorithm.
+
+use super::{KernelInfo, RayLanes};
+use crate::aabb::Planes;
+use crate::lane::{Lane, LaneMask, Number, Stored};
+use crate::ray::Ray;
+use crate::shape::Shape;
+
+/// The result of a test: the lanes that hit, with t, u and v. Other lanes are undefined.
+#[derive(Clone, Copy)]
+pub struct LaneHit<L: Lane> {
+    /// The lanes that hit.
+    pub mask: L::Mask,
+    /// The lanes that [`Kernel::decide`] must decide.
+    pub doubtful: L::Mask,
+    /// Distance in units of the direction's length.
+    pub t: L,
+    /// The first surface coordinate; for a triangle, the weight of its second corner.
+    pub u: L,
+    /// The second surface coordinate; for a triangle, the weight of its third corner.
+    pub v: L,
+}
+
+impl<L: Lane> LaneHit<L> {
+    /// A result without doubtful lanes; `None` if no lane hit.
+    #[inline(always)]
+    pub fn certain(mask: L::Mask, t: L, u: L, v: L) -> Option<Self> {
+        mask.any().then_some(Self {
+            mask,
+            doubtful: mask & !mask,
+            t,
+            u,
+            v,
+        })
+    }
+}
+
+/// The packed values of several primitives, one per lane.
+///
+/// A kernel loads only the values that it needs, so permuting the axes changes an address and needs no
+/// shuffle of loaded vectors.
+pub trait Values<L: Lane> {
+    /// The value at an index of the kernel's packed layout.
+    fn value(&self, index: usize) -> L;
+
+    /// Three consecutive values.
+    #[inline(always)]
+    fn three(&self, first: usize) -> [L; 3] {
+        [
+            self.value(first),
+            self.value(first + 1),
+            self.value(first + 2),
+        ]
+    }
+}
+
+/// The values of one primitive.
+pub struct OneValue<'a, T>(pub &'a [T]);
+
+impl<N: Number, T: Stored<N>> Values<N> for OneValue<'_, T> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> N {
+        self.0[index].number()
+    }
+}
+
+/// An intersection algorithm for one shape, in f32 and f64.
+pub trait Kernel: Send + Sync + 'static {
+    /// The shape that it tests.
+    type Shape: Shape;
+    /// Its description in f32.
+    const IN_F32: KernelInfo;
+    /// Its description in f64.
+    const IN_F64: KernelInfo;
+    /// The number of values stored per primitive.
+    const VALUES: usize;
+    /// The type of the stored values when computing in `N`.
+    type Stored<N: Number>: Stored<N> + Stored<f32>;
+    /// Rays prepared for many tests.
+    type Prepared<L: Lane>: Copy;
+
+    /// Whether lanes can be doubtful. If so, lanes without a primitive hold a copy of another one: NaN values
+    /// would always be doubtful.
+    const IS_ADAPTIVE: bool = false;
+
+    /// Its description in `N`.
+    fn info<N: Number>() -> &'static KernelInfo {
+        if N::HOLDS_PRODUCTS {
+            &Self::IN_F64
+        } else {
+            &Self::IN_F32
+        }
+    }
+
+    /// Packs a primitive into [`VALUES`](Self::VALUES) numbers, once.
+    fn pack<N: Number>(shape: &Self::Shape, values: &mut [Self::Stored<N>]);
+
+    /// The exact box around each primitive as packed by `pack::<N>`; it lies within [`Shape::bounds`].
+    fn bounds<N: Number, L: Lane>(primitives: &impl Values<L>) -> Planes<L>;
+
+    /// Prepares rays, once per ray.
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> Self::Prepared<L>;
+
+    /// Tests a ray against a primitive in each lane: one ray against many primitives, or many rays against one.
+    ///
+    /// A hit has `t_min < t ≤ t_max`. A primitive with a NaN is a miss, and so is a triangle of zero area if
+    /// the kernel detects it. Returns `None` if no lane hit.
+    fn intersect<L: Lane>(
+        ray: &Self::Prepared<L>,
+        primitives: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>>;
+
+    /// t, u and v of the hit in the ray's interval, for a lane that `intersect` left doubtful. `primitive` holds
+    /// the lane's values.
+    #[cold]
+    fn decide<N: Number>(_: &Ray, _: &impl Values<f32>) -> Option<[N; 3]> {
+        None
+    }
+}
+
+/// The largest number of values that any kernel stores per primitive.
+pub const MAX_VALUES: usize = 18;
