@@ -30,6 +30,14 @@ impl Aabb {
         })
     }
 
+    /// The box between planes; see [`Planes`].
+    pub(crate) fn from_planes([a, b, c, d, e, f]: Planes<f32>) -> Self {
+        Self {
+            min: Vec3::new(a, c, e),
+            max: Vec3::new(b, d, f),
+        }
+    }
+
     /// The smallest box around both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {

@@ -1,6 +1,5 @@
 //! The surface at a hit: normals, material, texture coordinates and colour.
 
-use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use glam::{Vec2, Vec3};
@@ -8,7 +7,8 @@ use glam::{Vec2, Vec3};
 /// Normals and material at a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceInteraction {
-    /// Unit normal by the right-hand rule over A, B, C, independent of the side that the ray sees.
+    /// Unit normal, independent of the side that the ray sees: by the right-hand rule over A, B, C for a triangle,
+    /// outwards for a closed shape.
     pub geometric_normal: Vec3,
     /// Unit normal for shading; equals the geometric normal in flat shading and where the mesh has no other.
     pub shading_normal: Vec3,
@@ -18,7 +18,15 @@ pub struct SurfaceInteraction {
 
 impl SurfaceInteraction {
     /// Looks up a hit in the scene. The first smooth lookup computes the vertex normals of the whole mesh.
-    pub fn new(scene: &Scene, hit: Hit, shading: Shading) -> Self {
+    pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
+        if !scene.is_triangle(hit.primitive) {
+            let normal = scene.surface(ray, &hit).normal.as_vec3();
+            return Self {
+                geometric_normal: normal,
+                shading_normal: normal,
+                material: scene.material(hit.primitive),
+            };
+        }
         let mesh = scene.mesh();
         let weights = hit.barycentric();
         let geometric_normal = mesh.geometric_normal(hit.primitive);
@@ -48,17 +56,21 @@ impl SurfaceInteraction {
     }
 }
 
-/// Texture coordinates at a hit; `None` if a corner has none.
-pub fn texture_coordinates(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec2> {
-    let coordinates = &mesh.attributes().texture_coordinates;
+/// Texture coordinates at a hit of a triangle; `None` if a corner has none.
+pub fn texture_coordinates(scene: &Scene, hit: &Hit) -> Option<Vec2> {
+    if !scene.is_triangle(hit.primitive) {
+        return None;
+    }
+    let coordinates = &scene.mesh().attributes().texture_coordinates;
     let [a, b, c] = coordinates.of_triangle(hit.primitive);
     let [l1, l2, l3] = hit.barycentric();
     Some(l1 * a? + l2 * b? + l3 * c?)
 }
 
-/// Vertex colour interpolated at a hit, in sRGB; `None` if the mesh has no vertex colours.
-pub fn vertex_colour(mesh: &TriangleMesh, hit: &Hit) -> Option<Vec3> {
-    if mesh.attributes().colours.is_empty() {
+/// Vertex colour interpolated at a hit of a triangle, in sRGB; `None` if the mesh has no vertex colours.
+pub fn vertex_colour(scene: &Scene, hit: &Hit) -> Option<Vec3> {
+    let mesh = scene.mesh();
+    if !scene.is_triangle(hit.primitive) || mesh.attributes().colours.is_empty() {
         return None;
     }
     let corners = mesh.triangles()[hit.primitive as usize];
@@ -97,12 +109,13 @@ mod tests {
             v: 0.625,
             primitive: 0,
         };
-        let flat = SurfaceInteraction::new(&scene, hit, Shading::Flat);
+        let ray = Ray::new(Vec3::ZERO, Vec3::Z).expect("a ray");
+        let flat = SurfaceInteraction::new(&scene, &ray, hit, Shading::Flat);
         assert_eq!(
             (flat.geometric_normal, flat.shading_normal),
             (Vec3::Z, Vec3::Z)
         );
-        let smooth = SurfaceInteraction::new(&scene, hit, Shading::Smooth);
+        let smooth = SurfaceInteraction::new(&scene, &ray, hit, Shading::Smooth);
         let expected = Vec3::new(0.25, 0.125, 0.625).normalize();
         assert!((smooth.shading_normal - expected).length() < 1e-6);
         for (dir, side) in [(Vec3::NEG_Z, 1.0), (Vec3::Z, -1.0)] {

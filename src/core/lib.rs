@@ -5,11 +5,15 @@
 //! | module | contents |
 //! |---|---|
 //! | [`obj`] | OBJ and MTL reader |
+//! | [`scene_file`] | scene files: reader and writer |
 //! | [`shape`] | shapes of primitives, one file per shape |
 //! | [`mesh`] | triangle mesh, its origin, and checks of its quality |
 //! | `polygon` | triangulation of polygons |
-//! | [`scene`] | the scene: mesh, bounds and acceleration structure |
+//! | [`group`] | primitives of one shape with their tree |
+//! | [`scene`] | the scene: groups and their bounds |
+//! | [`loading`] | loading of scenes from files |
 //! | [`camera`] | camera rays and navigation |
+//! | `algebra` | exact roots of polynomials, for shapes other than triangles |
 //! | [`bvh`] | bounding volume hierarchy: building and traversal |
 //! | [`kernel`] | **ray–primitive intersection**, one folder per shape, one file per algorithm |
 //! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
@@ -25,15 +29,18 @@
 //! depends on a scene's size, position or units.
 
 pub mod aabb;
+mod algebra;
 pub mod bvh;
 pub mod camera;
 pub mod counts;
 pub mod film;
+pub mod group;
 pub mod integrator;
 pub mod interaction;
 pub mod intersector;
 pub mod kernel;
 mod lane;
+pub mod loading;
 pub mod mesh;
 pub mod obj;
 pub mod plan;
@@ -44,6 +51,7 @@ pub mod ray;
 pub mod render;
 pub mod sampler;
 pub mod scene;
+pub mod scene_file;
 pub mod shape;
 pub mod simd;
 pub mod spawn;

@@ -1,6 +1,6 @@
 //! Rays and hits.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 
 /// A ray `origin + t·dir` with the open interval `t_min < t < t_max`.
 ///
@@ -121,6 +121,11 @@ impl Ray {
     #[inline(always)]
     pub(crate) fn finite_interval(&self) -> [f32; 2] {
         [self.t_min.max(-f32::MAX), self.t_max.min(f32::MAX)]
+    }
+
+    /// The point `origin + t·dir`, in f64.
+    pub fn at(&self, t: f32) -> DVec3 {
+        self.origin.as_dvec3() + f64::from(t) * self.dir.as_dvec3()
     }
 
     /// Converts a distance to units of the length of the direction that the ray was created with.

@@ -5,19 +5,21 @@
 //! triangle again. [`SPAWN_POLICIES`] is the table of policies. `hitscope lab` measures how often each policy
 //! fails, and the height at which its rays start.
 
-use crate::mesh::unit_normal;
 use crate::ray::{Hit, Ray, RayError};
+use crate::shape::{Shape as _, SurfacePoint, Triangle};
 use glam::Vec3;
 
-/// A hit on a triangle, and the direction in which a new ray leaves it.
+/// A hit on a primitive, and the direction in which a new ray leaves it.
 #[derive(Clone, Copy, Debug)]
 pub struct Departure<'a> {
     /// The ray that arrived.
     pub arrived_by: &'a Ray,
     /// Its hit.
     pub hit: &'a Hit,
-    /// The corners of the triangle.
-    pub corners: [Vec3; 3],
+    /// The surface there.
+    pub surface: SurfacePoint,
+    /// The corners of the triangle, if it is one.
+    pub corners: Option<[Vec3; 3]>,
     /// The direction of the new ray.
     pub dir: Vec3,
 }
@@ -77,9 +79,9 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         source: "Jakob et al., Mitsuba 3, 2022",
         summary: "Lifted by 1500 half ulps of the largest coordinate; far too high at large coordinates.",
         begin: |departure| {
-            let p = departure.point_by_weights();
+            let p = departure.surface.position;
             let height = (1.0 + p.abs().max_element()) * MITSUBA_EPSILON;
-            RayStart::at(p + height * departure.facing_normal())
+            RayStart::at(p + height * departure.surface.facing_normal(departure.dir))
         },
     },
     SpawnPolicy {
@@ -89,8 +91,8 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         summary: "Lifted by up to 256 ulps of each coordinate; simple, but too high at large coordinates.",
         begin: |departure| {
             RayStart::at(wachter_binder(
-                departure.point_by_weights(),
-                departure.facing_normal(),
+                departure.surface.position,
+                departure.surface.facing_normal(departure.dir),
             ))
         },
     },
@@ -114,8 +116,8 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         source: "Folklore",
         summary: "Not lifted; ignores the triangle that the ray leaves, but not its neighbours.",
         begin: |departure| RayStart {
-            exclude: Some(departure.hit.primitive),
-            ..RayStart::at(departure.point_by_weights())
+            exclude: departure.excluded(),
+            ..RayStart::at(departure.surface.position)
         },
     },
     SpawnPolicy {
@@ -124,7 +126,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         source: "Pharr et al., 2023, with exclusion",
         summary: "The bound avoids hits on neighbours, the exclusion hits on the triangle itself.",
         begin: |departure| RayStart {
-            exclude: Some(departure.hit.primitive),
+            exclude: departure.excluded(),
             ..RayStart::at(error_bounded(departure))
         },
     },
@@ -152,28 +154,26 @@ impl RayStart {
     }
 }
 
-impl Departure<'_> {
+impl<'a> Departure<'a> {
+    /// A departure from a triangle.
+    pub fn of_triangle(arrived_by: &'a Ray, hit: &'a Hit, corners: [Vec3; 3], dir: Vec3) -> Self {
+        Self {
+            arrived_by,
+            hit,
+            surface: Triangle(corners).surface(arrived_by, hit),
+            corners: Some(corners),
+            dir,
+        }
+    }
+
     /// o + t·d. Its error is a few ulps of t·d and of the point.
     fn point_along_ray(&self) -> Vec3 {
         self.arrived_by.origin + self.hit.t * self.arrived_by.dir
     }
 
-    /// l1·A + l2·B + l3·C. Its error is a few ulps of the corners.
-    fn point_by_weights(&self) -> Vec3 {
-        self.weighted_corners().into_iter().sum()
-    }
-
-    fn weighted_corners(&self) -> [Vec3; 3] {
-        let [a, b, c] = self.corners;
-        let [l1, l2, l3] = self.hit.barycentric();
-        [l1 * a, l2 * b, l3 * c]
-    }
-
-    /// The triangle's unit normal on the side of the new ray.
-    fn facing_normal(&self) -> Vec3 {
-        let normal = unit_normal(self.corners);
-        let side = normal.dot(self.dir.as_dvec3());
-        (if side < 0.0 { -normal } else { normal }).as_vec3()
+    /// The primitive, if the ray can't hit it again.
+    fn excluded(&self) -> Option<u32> {
+        self.surface.is_flat.then_some(self.hit.primitive)
     }
 }
 
@@ -197,50 +197,34 @@ fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
 }
 
 /// The source's terms in object space: u for the corner and 3u for the edges. Its terms for the transforms
-/// between object and world are omitted, as there is no transform.
+/// between object and world are omitted, as there is no transform. Other shapes than triangles use their own bound.
 fn nvidia(departure: &Departure<'_>) -> Vec3 {
-    let [a, b, c] = departure.corners;
+    let surface = &departure.surface;
+    let normal = surface.facing_normal(departure.dir);
+    let Some([a, b, c]) = departure.corners else {
+        return surface.position + normal * surface.error.dot(normal.abs());
+    };
     let (e1, e2) = (b - a, c - a);
     let (u, v) = (departure.hit.u, departure.hit.v);
     let p = a + (u * e1 + v * e2);
     let extent = (e1.abs() + e2.abs() + (e1 - e2).abs()).max_element();
     let error = U * a.abs() + Vec3::splat(3.0 * U * extent);
-    let normal = departure.facing_normal();
     p + normal * error.dot(normal.abs())
 }
 
-/// The point lifted along the normal n by γ(7)·Σ|nᵢ|·(sᵢ + e), where s bounds the error of the point and e
-/// the error with which the next test sees the plane.
+/// The point lifted along the normal n by Σ|nᵢ|·eᵢ, where e is the surface's error.
 ///
-/// s is the sum of the magnitudes of the weighted corners. 1 − u − v is off by 1.5u, which moves the point
-/// along the normal by 1.5u·|n·P|, where |n·P| is at most Σ|lᵢPᵢ|·|n|; a product and two sums add 3u. The
-/// rest of 7u comes from the source, whose weights err more.
-///
-/// e is the largest coordinate of a corner relative to the point. A test in f32 moves the corners to the new
-/// origin and shears them along the new ray, which moves each coordinate by up to 7u·e (see
-/// `kernel::triangle::exact::filter`). It sees a neighbour in the same plane, as large as this triangle, that
-/// much higher or lower. The source omits e, so it doesn't lift a point at all if the weighted corners'
-/// coordinates are 0: on an edge that lies in an axis, or in a plane through two axes.
-///
-/// Neighbours that are many times as large or as narrow are avoided only by kernels that decide exactly
+/// Neighbours that are many times as large or as narrow as a triangle are avoided only by kernels that decide exactly
 /// whether t is positive.
 fn error_bounded(departure: &Departure<'_>) -> Vec3 {
-    const GAMMA_7: f32 = 7.0 * U / (1.0 - 7.0 * U);
-    let weighted = departure.weighted_corners();
-    let size: Vec3 = weighted.iter().map(|p| p.abs()).sum();
-    let p: Vec3 = weighted.into_iter().sum();
-    // Computed from halves, as an extent may overflow f32.
-    let half_distances = departure
-        .corners
-        .map(|corner| (0.5 * corner - 0.5 * p).abs());
-    let half_extent = half_distances.map(Vec3::max_element);
-    let half_extent = half_extent.into_iter().fold(0.0, f32::max);
-    let error = GAMMA_7 * size + Vec3::splat(2.0 * GAMMA_7 * half_extent);
-    let normal = departure.facing_normal();
+    let SurfacePoint {
+        position, error, ..
+    } = departure.surface;
+    let normal = departure.surface.facing_normal(departure.dir);
     let offset = normal * error.dot(normal.abs());
     // Round the sum away from the surface.
     let coordinate = |axis: usize| {
-        let (x, offset) = (p[axis] + offset[axis], offset[axis]);
+        let (x, offset) = (position[axis] + offset[axis], offset[axis]);
         if offset > 0.0 {
             x.next_up()
         } else if offset < 0.0 {

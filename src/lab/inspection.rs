@@ -6,7 +6,7 @@ use crate::oracle::{self, ExactHit, Fraction};
 use glam::{UVec2, Vec3};
 use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Cost;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use hitscope_core::kernel::{KernelChoice, exact_triangle_kernel};
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::obj::LineRuns;
 use hitscope_core::ray::ulp_at;
@@ -50,40 +50,69 @@ pub struct RayReport {
 pub struct HitReport {
     /// Distance in units of the direction's length.
     pub t: f32,
-    /// Barycentric coordinates for the three corners.
-    pub barycentric: [f32; 3],
-    /// Index of the triangle, counted from 0.
-    pub triangle: u32,
-    /// Index of the face in the file, counted from 0.
-    pub face: u32,
-    /// The face's line in the file, counted from 1, once [`Inspection::find_line`] has found it.
-    pub line: Option<usize>,
-    /// The side of the triangle that the ray hits: `front` if the corners run counterclockwise as seen from the ray's
-    /// origin, else `back`.
+    /// The shape that was hit.
+    pub shape: &'static str,
+    /// Index of the primitive in the scene, counted from 0; triangles come first.
+    pub primitive: u32,
+    /// The triangle, if it is one.
+    #[serde(flatten)]
+    pub triangle: Option<TriangleReport>,
+    /// The primitive's parameters relative to the scene's origin, if it isn't a triangle.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    pub parameters: Vec<f32>,
+    /// The surface coordinates, if it isn't a triangle.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub surface_uv: Option<[f64; 2]>,
+    /// The side that the ray hits: `front` if the geometric normal faces the ray's origin, as it does if a triangle's
+    /// corners run counterclockwise as seen from there, else `back`.
     pub side: &'static str,
-    /// The position l1·A + l2·B + l3·C.
+    /// The position; for a triangle, l1·A + l2·B + l3·C.
     pub position: [f64; 3],
     /// Unit length, by the right-hand rule.
     pub geometric_normal: [f32; 3],
     /// Unit length; the geometric one in flat shading.
     pub shading_normal: [f32; 3],
-    /// The triangle's corners.
-    pub vertices: [[f64; 3]; 3],
     /// Name of the material; empty if the face names none.
     pub material: String,
     /// Name of the group or object; empty if the face lies in none.
     pub group: String,
 }
 
-/// The exact answer, correctly rounded to f64 and as fractions.
+/// The triangle that was hit.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct TriangleReport {
+    /// Barycentric coordinates for the three corners.
+    pub barycentric: [f32; 3],
+    /// Index of the triangle, counted from 0.
+    #[serde(rename = "triangle")]
+    pub index: u32,
+    /// Index of the face in the file, counted from 0.
+    pub face: u32,
+    /// The face's line in the file, counted from 1, once [`Inspection::find_line`] has found it.
+    pub line: Option<usize>,
+    /// The triangle's corners.
+    pub vertices: [[f64; 3]; 3],
+}
+
+/// The exact answer, correctly rounded to f64.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct ExactReport {
-    /// The nearest triangle; the lowest index of several at the same t.
-    pub triangle: u32,
-    /// Other triangles at exactly the same t.
+    /// The nearest primitive; the lowest index of several at the same t. For a scene of triangles alone, also called
+    /// `triangle`.
+    #[serde(rename = "triangle")]
+    pub primitive: u32,
+    /// Other primitives at exactly the same t.
     pub also: Vec<u32>,
     /// Distance in units of the direction's length.
     pub t: f64,
+    /// The answer of the oracle about a triangle.
+    #[serde(flatten)]
+    pub fractions: Option<ExactTriangle>,
+}
+
+/// The exact answer about a triangle, also as fractions.
+#[derive(Clone, Debug, PartialEq, Serialize)]
+pub struct ExactTriangle {
     /// Barycentric coordinates for the three corners.
     pub barycentric: [f64; 3],
     /// t as numerator/denominator.
@@ -154,7 +183,8 @@ impl Inspection {
         // Sorted, so that the first of several at the same t is the lowest.
         let mut candidates = intersector.candidates(&ray);
         candidates.sort_unstable();
-        let subset = Scene::of_triangles(mesh, &candidates);
+        let subset = scene.subset(&candidates);
+        let exact = ExactReport::nearest(scene, &subset, &ray, &candidates);
         Self {
             pixel: pixel.to_array(),
             ray: RayReport {
@@ -164,11 +194,11 @@ impl Inspection {
             },
             kernel: intersector.kernel().name,
             hit: hit.map(|hit| HitReport::new(scene, &ray, hit, shading)),
-            exact: ExactReport::nearest(mesh, &ray, &candidates),
-            kernels: TRIANGLE_KERNELS
-                .iter()
+            kernels: kernels_of(scene, exact.as_ref().map(|exact| exact.primitive), hit)
+                .into_iter()
                 .map(|kernel| KernelRow::new(kernel, &subset, &ray, &candidates))
                 .collect(),
+            exact,
             cost: cost.into(),
         }
     }
@@ -177,9 +207,10 @@ impl Inspection {
 impl Inspection {
     /// Finds the line of the face that was hit.
     pub fn find_line(&mut self, face_lines: &LineRuns) {
-        if let Some(hit) = &mut self.hit {
-            let line = face_lines.line(hit.face as usize);
-            hit.line = (line > 0).then_some(line);
+        let hit = self.hit.as_mut();
+        if let Some(triangle) = hit.and_then(|hit| hit.triangle.as_mut()) {
+            let line = face_lines.line(triangle.face as usize);
+            triangle.line = (line > 0).then_some(line);
         }
     }
 
@@ -193,60 +224,126 @@ impl HitReport {
     /// The mesh at a ray's hit.
     pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
-        let surface = SurfaceInteraction::new(scene, hit, shading);
-        let material = mesh.attributes().materials.of(hit.primitive);
+        let surface = SurfaceInteraction::new(scene, ray, hit, shading);
+        let (group, index) = scene.group_of(hit.primitive);
+        let is_triangle = scene.is_triangle(hit.primitive);
+        let materials = &mesh.attributes().materials;
+        let material = materials.get(scene.material(hit.primitive));
         let is_back = ray.dir.as_dvec3().dot(surface.geometric_normal.as_dvec3()) > 0.0;
-        let group = mesh.attributes().groups.of(hit.primitive);
+        let name = is_triangle.then(|| mesh.attributes().groups.of(hit.primitive));
         Self {
             t: hit.t,
-            barycentric: weights(&hit),
-            triangle: hit.primitive,
-            face: mesh.face_of(hit.primitive),
-            line: None,
+            shape: group.shape().name,
+            primitive: hit.primitive,
+            triangle: is_triangle.then(|| TriangleReport {
+                barycentric: weights(&hit),
+                index: hit.primitive,
+                face: mesh.face_of(hit.primitive),
+                line: None,
+                vertices: mesh
+                    .corners(hit.primitive)
+                    .map(|p| mesh.vertex_in_file(p).to_array()),
+            }),
+            parameters: if is_triangle {
+                Vec::new()
+            } else {
+                group.numbers(index)
+            },
+            surface_uv: (!is_triangle).then(|| scene.surface(ray, &hit).uv.to_array()),
             side: if is_back { "back" } else { "front" },
-            position: position_in_file(mesh, &hit),
+            position: position_in_file(scene, ray, &hit),
             geometric_normal: surface.geometric_normal.to_array(),
             shading_normal: surface.shading_normal.to_array(),
-            vertices: mesh
-                .corners(hit.primitive)
-                .map(|p| mesh.vertex_in_file(p).to_array()),
             material: material.map_or_else(String::new, |material| material.name.clone()),
-            group: group.cloned().unwrap_or_default(),
+            group: name.flatten().cloned().unwrap_or_default(),
         }
     }
 }
 
 impl ExactReport {
-    fn nearest(mesh: &TriangleMesh, ray: &Ray, candidates: &[u32]) -> Option<Self> {
-        let (hit, triangles) = oracle::crossings(mesh, ray, candidates)
-            .into_iter()
-            .next()?;
+    /// The nearest hit: by the oracle if all candidates are triangles, else by the exact kernels.
+    fn nearest(scene: &Scene, subset: &Scene, ray: &Ray, candidates: &[u32]) -> Option<Self> {
+        let mesh = scene.mesh();
+        if candidates
+            .iter()
+            .all(|&primitive| scene.is_triangle(primitive))
+        {
+            let (hit, triangles) = oracle::crossings(mesh, ray, candidates)
+                .into_iter()
+                .next()?;
+            return Some(Self::of_triangle(&hit, triangles));
+        }
+        let crossings = subset.intersector(exact_triangle_kernel()).all_hits(ray);
+        let first = crossings.into_iter().next()?;
+        let number = |index: u32| candidates[index as usize];
+        let primitive = number(first.hit.primitive);
+        let also = first.also.into_iter().map(number);
+        if scene.is_triangle(primitive) {
+            let hit = oracle::intersect(ray, mesh.corners(primitive))?;
+            let all = std::iter::once(primitive).chain(also).collect();
+            return Some(Self::of_triangle(&hit, all));
+        }
         Some(Self {
-            triangle: triangles[0],
-            also: triangles[1..].to_vec(),
-            t: hit.t.to_f64(),
-            barycentric: hit.barycentric.each_ref().map(Fraction::to_f64),
-            t_fraction: hit.t.to_string(),
-            barycentric_fractions: hit.barycentric.each_ref().map(ToString::to_string),
-            is_on_boundary: hit.is_on_boundary,
+            primitive,
+            also: also.collect(),
+            t: scene.exact_answer(ray, primitive)?[0],
+            fractions: None,
         })
+    }
+
+    fn of_triangle(hit: &ExactHit, primitives: Vec<u32>) -> Self {
+        Self {
+            primitive: primitives[0],
+            also: primitives[1..].to_vec(),
+            t: hit.t.to_f64(),
+            fractions: Some(ExactTriangle {
+                barycentric: hit.barycentric.each_ref().map(Fraction::to_f64),
+                t_fraction: hit.t.to_string(),
+                barycentric_fractions: hit.barycentric.each_ref().map(ToString::to_string),
+                is_on_boundary: hit.is_on_boundary,
+            }),
+        }
     }
 }
 
+/// The kernels of the shape that is hit exactly, or else by the chosen kernel; those of triangles if nothing is hit.
+fn kernels_of(scene: &Scene, exact: Option<u32>, hit: Option<Hit>) -> Vec<KernelChoice> {
+    let primitive = exact.or(hit.map(|hit| hit.primitive));
+    let infos = match primitive {
+        Some(primitive) => scene.group_of(primitive).0.kernels(),
+        None => scene.groups()[0].kernels(),
+    };
+    infos
+        .into_iter()
+        .map(|info| KernelChoice { info })
+        .collect()
+}
+
 impl KernelRow {
-    /// Traces the ray with a kernel through the candidates, which are the triangles of `subset`.
-    fn new(kernel: &'static TriangleKernel, subset: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
+    /// Traces the ray with a kernel through the candidates, which are the primitives of `subset`.
+    fn new(kernel: KernelChoice, subset: &Scene, ray: &Ray, candidates: &[u32]) -> Self {
         let nearest = subset.intersector(kernel).closest_hit(ray);
+        let of_triangle = nearest.filter(|hit| subset.is_triangle(hit.primitive));
         let corners = |hit: Hit| subset.mesh().corners(hit.primitive);
-        let exact = nearest.and_then(|hit| oracle::intersect(ray, corners(hit)));
-        let errors = nearest.zip(exact).map(|(hit, exact)| errors(&hit, &exact));
+        let exact = of_triangle.and_then(|hit| oracle::intersect(ray, corners(hit)));
+        let errors = of_triangle
+            .zip(exact)
+            .map(|(hit, exact)| errors(&hit, &exact));
+        let t_error = |hit: Hit| {
+            let [t, ..] = subset.exact_answer(ray, hit.primitive)?;
+            Some((f64::from(hit.t) - t).abs() / ulp_at(t))
+        };
+        let t_error_ulps = match (of_triangle, nearest) {
+            (Some(_), _) => errors.map(|(t, _)| t),
+            (None, hit) => hit.and_then(t_error),
+        };
         Self {
             name: kernel.info.name,
             hit: nearest.is_some(),
             triangle: nearest.map(|hit| candidates[hit.primitive as usize]),
             t: nearest.map(|hit| hit.t),
-            barycentric: nearest.map(|hit| weights(&hit)),
-            t_error_ulps: errors.map(|(t, _)| t),
+            barycentric: of_triangle.map(|hit| weights(&hit)),
+            t_error_ulps,
             barycentric_error: errors.map(|(_, barycentric)| barycentric),
         }
     }
@@ -272,8 +369,12 @@ fn in_file(mesh: &TriangleMesh, p: Vec3) -> [f64; 3] {
     mesh.in_file(p.as_dvec3()).to_array()
 }
 
-/// The position of a hit in the file's coordinates, computed in f64 from its barycentric coordinates.
-pub fn position_in_file(mesh: &TriangleMesh, hit: &Hit) -> [f64; 3] {
+/// The position of a hit in the file's coordinates. For a triangle, computed in f64 from its barycentric coordinates.
+pub fn position_in_file(scene: &Scene, ray: &Ray, hit: &Hit) -> [f64; 3] {
+    let mesh = scene.mesh();
+    if !scene.is_triangle(hit.primitive) {
+        return in_file(mesh, scene.surface(ray, hit).position);
+    }
     let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
     mesh.in_file(a + u * (b - a) + v * (c - a)).to_array()

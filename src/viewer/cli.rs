@@ -58,7 +58,7 @@ Limits: 1.4 billion triangles; lines of 128 MB; pictures of 16384 x 16384 pixels
 --max-memory allows."
 )]
 struct Cli {
-    /// OBJ file to open, plain or gzipped [default: the built-in scene]
+    /// OBJ file, plain or gzipped, or scene file (.xml) to open [default: the built-in scene]
     file: Option<PathBuf>,
     /// Further files, which are refused: the window shows one file.
     #[arg(hide = true)]

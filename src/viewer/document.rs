@@ -2,10 +2,11 @@
 
 use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions, LoadReport};
 use hitscope_core::progress::{Cancelled, Progress};
-use hitscope_core::scene::{LoadedScene, SceneOptions};
+use hitscope_core::scene::SceneOptions;
 use hitscope_core::{Intersector, Scene};
 use hitscope_lab::requirement::{Requirement, required_tier};
 use std::io;
@@ -99,6 +100,7 @@ impl Document {
         let loaded = LoadedScene {
             scene: Arc::new(scene),
             report: LoadReport::default(),
+            view: None,
         };
         let mut document = Self::new(None, loaded, kernel);
         document.is_blank = true;

@@ -58,7 +58,10 @@ impl OpenDialog {
         }
         let mut dialog = rfd::AsyncFileDialog::new()
             .set_title("Open a mesh")
-            .add_filter("Wavefront OBJ", &["obj", "OBJ", "obj.gz", "gz"])
+            .add_filter(
+                "Meshes and scenes",
+                &["obj", "OBJ", "obj.gz", "gz", "xml", "XML"],
+            )
             .add_filter("All files", &["*"])
             .set_parent(frame);
         if let Some(folder) = folder {

@@ -15,6 +15,7 @@ use hitscope_core::kernel::{exact_answer, exact_triangle_kernel};
 use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
+use hitscope_core::shape::Triangle;
 use hitscope_core::{Hit, Ray};
 
 const TRIANGLE: [Vec3; 3] = [Vec3::ZERO, Vec3::X, Vec3::Y];
@@ -153,7 +154,7 @@ fn t_u_and_v_are_more_accurate_than_f32_even_if_lengths_differ_by_a_factor_of_10
                 |x: f32, y: f32| Vec3::new(x * size, y * size, 1.0 + a * x * size + b * y * size);
             let corners = [corner(-3.0, -1.0), corner(2.0, -2.0), corner(1.0, 5.0)];
             let ray = Ray::new(Vec3::ZERO, Vec3::Z).expect("a ray");
-            let [t, u, v] = exact_answer(&ray, corners).expect("a hit");
+            let [t, u, v] = exact_answer(&ray, &Triangle(corners)).expect("a hit");
             // From the edge functions of (−3, −1), (2, −2), (1, 5).
             let det = 8.0 + 12.0 + 14.0;
             let expected = [1.0, 14.0 / det, 8.0 / det];

@@ -5,9 +5,10 @@
 //! `cancel` cancels loading at several times, the tree's construction included, and prints how long it took
 //! to stop.
 
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::{self, LoadOptions};
 use hitscope_core::progress::Progress;
-use hitscope_core::scene::{FirstTree, LoadedScene, SceneOptions};
+use hitscope_core::scene::{FirstTree, SceneOptions};
 use std::path::Path;
 use std::time::{Duration, Instant};
 

@@ -38,6 +38,15 @@ mod properties;
 // Every OBJ file gives a mesh or a clear error.
 mod obj;
 
+// Every scene file gives a description or a clear error.
+mod scene_file;
+
+// Scene files become scenes.
+mod loading;
+
+// Shapes other than triangles.
+mod shapes;
+
 // 64×64 pictures, compared exactly.
 mod golden;
 

@@ -4,9 +4,10 @@
 //! `cargo test -p hitscope-core --test memory`. It is a program of its own because it starts itself for each
 //! load.
 
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::LoadOptions;
 use hitscope_core::progress::Progress;
-use hitscope_core::scene::{LoadedScene, SceneOptions};
+use hitscope_core::scene::SceneOptions;
 use std::fmt::Write as _;
 use std::path::Path;
 use std::process::{Command, ExitCode};

@@ -22,12 +22,7 @@ fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
 fn leaving(corners: [Vec3; 3], origin: Vec3, target: Vec3, dir: Vec3) -> Option<(Ray, Hit)> {
     let arrived_by = Ray::new(origin, target - origin).ok()?;
     let hit = exact_triangle_kernel().intersect(&arrived_by, corners)?;
-    let departure = Departure {
-        arrived_by: &arrived_by,
-        hit: &hit,
-        corners,
-        dir,
-    };
+    let departure = Departure::of_triangle(&arrived_by, &hit, corners, dir);
     let ray = default_spawn_policy().spawn(&departure);
     Some((ray.expect("a finite place and direction"), hit))
 }
@@ -105,12 +100,8 @@ fn the_spawned_origin_lies_above_the_computed_point_by_the_policys_derived_bound
         } else {
             normal
         };
-        let departure = Departure {
-            arrived_by: &Ray::new(a + dir, -dir).expect("a ray"),
-            hit: &hit,
-            corners,
-            dir,
-        };
+        let arrived_by = Ray::new(a + dir, -dir).expect("a ray");
+        let departure = Departure::of_triangle(&arrived_by, &hit, corners, dir);
         let ray = default_spawn_policy().spawn(&departure).expect("a ray");
         let [l1, l2, l3] = hit.barycentric();
         let [a, b, c] = [l1 * a, l2 * b, l3 * c];

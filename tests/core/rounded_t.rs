@@ -6,6 +6,7 @@ use hitscope_core::kernel::{TRIANGLE_KERNELS, exact_answer};
 use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
+use hitscope_core::shape::Triangle;
 
 /// Half an ulp of 1 in f32.
 const U: f64 = 1.0 / (1 << 24) as f64;
@@ -29,7 +30,7 @@ fn a_hit_rounded_past_its_box_is_found_if_the_interval_starts_in_between() {
     let mut found = 0;
     for _ in 0..3000 {
         let (corners, ray) = flat_sliver(&mut random);
-        let Some([exact, ..]) = exact_answer(&ray, corners) else {
+        let Some([exact, ..]) = exact_answer(&ray, &Triangle(corners)) else {
             continue;
         };
         let scene = scene(soup(&[corners]));

@@ -16,16 +16,16 @@ fn leave(policy: &SpawnPolicy, z: f32, side: f32) -> Ray {
         v: 0.5,
         primitive: 7,
     };
-    let departure = Departure {
-        arrived_by: &arrived_by,
-        hit: &hit,
-        corners: [
+    let departure = Departure::of_triangle(
+        &arrived_by,
+        &hit,
+        [
             Vec3::new(1.0, 2.0, z),
             Vec3::new(9.0, 2.0, z),
             Vec3::new(7.0, 4.0, z),
         ],
-        dir: Vec3::new(0.5, -0.25, side),
-    };
+        Vec3::new(0.5, -0.25, side),
+    );
     policy.spawn(&departure).expect("a ray")
 }
 
@@ -86,19 +86,20 @@ fn every_policy_lifts_the_origin_by_its_sources_formula() {
 #[test]
 fn the_fixed_epsilon_starts_at_o_plus_t_d_and_the_others_at_the_barycentric_point() {
     for policy in SPAWN_POLICIES {
-        let arrived_by = Ray::new(Vec3::new(3.0, -5.0, 4.0), Vec3::new(0.25, 2.0, -1.0));
+        let arrived_by =
+            Ray::new(Vec3::new(3.0, -5.0, 4.0), Vec3::new(0.25, 2.0, -1.0)).expect("a ray");
         let hit = Hit {
             t: 4.0,
             u: 0.125,
             v: 0.25,
             primitive: 0,
         };
-        let departure = Departure {
-            arrived_by: &arrived_by.expect("a ray"),
-            hit: &hit,
-            corners: [Vec3::ZERO, Vec3::X * 16.0, Vec3::Y * 32.0],
-            dir: Vec3::Z,
-        };
+        let departure = Departure::of_triangle(
+            &arrived_by,
+            &hit,
+            [Vec3::ZERO, Vec3::X * 16.0, Vec3::Y * 32.0],
+            Vec3::Z,
+        );
         let origin = policy.spawn(&departure).expect("a ray").origin.truncate();
         let expected = match policy.name {
             "fixed-epsilon" => [4.0, 3.0],

@@ -7,7 +7,7 @@
 use crate::simd::bits;
 use glam::Vec3;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::intersector::{Intersector, Packing, intersector};
+use hitscope_core::intersector::{Intersector, Packing, mesh_intersector};
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::mesh::shapes::{Placement, soup, torus};
@@ -104,7 +104,7 @@ fn every_tree_and_packing_gives_bit_identical_hits_for_every_kernel() {
         let trees = built.map(|tree| Arc::new(tree.expect("not cancelled")));
         for kernel in TRIANGLE_KERNELS.iter() {
             let of_tree = |tree: &Arc<Bvh>, packing| {
-                intersector(
+                mesh_intersector(
                     kernel,
                     mesh,
                     Arc::clone(tree),

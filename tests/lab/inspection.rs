@@ -48,20 +48,23 @@ fn inspect(at: DVec3) -> Inspection {
 fn barycentric_coordinates_are_in_the_order_of_the_corners() {
     let found = inspect(DVec3::new(1.5, 0.5, 0.0));
     let hit = found.hit.expect("inside");
-    assert_eq!((hit.triangle, hit.t), (0, 4.0));
-    assert_eq!(hit.barycentric, [0.25, 0.5, 0.25]);
+    let triangle = hit.triangle.expect("a triangle");
+    assert_eq!((triangle.index, hit.primitive, hit.t), (0, 0, 4.0));
+    assert_eq!(triangle.barycentric, [0.25, 0.5, 0.25]);
     assert_eq!(hit.position, [1.5, 0.5, 0.0]);
     let exact = found.exact.expect("inside");
+    assert!(exact.also.is_empty());
+    let exact = exact.fractions.expect("a triangle");
     assert_eq!(exact.barycentric_fractions, ["1/4", "1/2", "1/4"]);
-    assert!(!exact.is_on_boundary && exact.also.is_empty());
+    assert!(!exact.is_on_boundary);
 }
 
 #[test]
 fn a_hit_on_a_shared_edge_reports_the_lower_triangle_and_lists_the_other() {
     let found = inspect(DVec3::new(1.0, 1.0, 0.0));
     let exact = found.exact.expect("on the diagonal");
-    assert_eq!((exact.triangle, exact.also), (0, vec![1]));
-    assert!(exact.is_on_boundary);
+    assert_eq!((exact.primitive, exact.also), (0, vec![1]));
+    assert!(exact.fractions.expect("a triangle").is_on_boundary);
     for kernel in found.kernels {
         assert_eq!(
             (kernel.triangle, kernel.t),

@@ -10,6 +10,9 @@ mod trace;
 mod loading;
 // Meshes compared with what tobj reads.
 mod second_opinion;
+
+// Shapes other than triangles.
+mod shapes;
 // Inspection of single rays against the exact answer.
 mod inspection;
 

@@ -139,7 +139,7 @@ fn the_crease_angle_changes_the_scene_and_keeps_its_tree() {
     let Some((mut window, _folder)) = opened(FLAWED) else {
         return;
     };
-    let tree = window.state().document().loaded.scene.bvh();
+    let tree = window.state().document().loaded.scene.groups()[0].bvh();
     window.get_by_label("Crease above").click();
     wait(&mut window, "another crease", |app| {
         let scene = &app.document().loaded.scene;
@@ -147,5 +147,5 @@ fn the_crease_angle_changes_the_scene_and_keeps_its_tree() {
     });
     wait(&mut window, "the picture", App::is_settled);
     let scene = &window.state().document().loaded.scene;
-    assert!(std::sync::Arc::ptr_eq(&tree, &scene.bvh()));
+    assert!(std::sync::Arc::ptr_eq(&tree, &scene.groups()[0].bvh()));
 }

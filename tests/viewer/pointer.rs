@@ -126,10 +126,10 @@ fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
         let hit = found.hit.expect("a place on the mesh");
         // The inspection agrees with the current kernel and with exact arithmetic.
         let exact = found.exact.expect("it is hit");
-        assert_eq!(hit.triangle, exact.triangle);
+        assert_eq!(hit.primitive, exact.primitive);
         let row = found.kernels.iter().find(|row| row.name == found.kernel);
         let row = row.expect("a row of the current kernel");
-        assert_eq!((row.t, row.triangle), (Some(hit.t), Some(hit.triangle)));
+        assert_eq!((row.t, row.triangle), (Some(hit.t), Some(hit.primitive)));
         // The bound of the watertight kernel for a mesh seen from a few times its size; see tests/core/conformance.rs.
         assert!(row.t_error_ulps.expect("the same triangle") < 32.0);
         window.get_by_label("Copy as JSON");

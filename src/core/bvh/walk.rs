@@ -218,7 +218,7 @@ pub(super) fn entry_of(key: u64) -> f32 {
 
 /// The distance up to which boxes are visited for hits before `t`.
 #[inline(always)]
-pub(super) fn end_slackened<L: Lane>(t: L) -> L {
+pub(crate) fn end_slackened<L: Lane>(t: L) -> L {
     t + t.abs() * L::of(t.token(), SLACK)
 }
 

@@ -3,7 +3,6 @@
 use super::Context;
 use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, error_ramp};
 use crate::interaction::SurfaceInteraction;
-use crate::kernel::exact_answer;
 use crate::ray::{Hit, Ray, ulp_at};
 use glam::Vec3;
 
@@ -41,8 +40,7 @@ fn error(
             context.background
         };
     };
-    let corners = context.scene.mesh().corners(hit.primitive);
-    match exact_answer(ray, corners) {
+    match context.scene.exact_answer(ray, hit.primitive) {
         Some(exact) => colour(hit, exact),
         None if context.second.any_hit(ray) => OTHER_TRIANGLE,
         None => FALSE_HIT,
@@ -57,7 +55,7 @@ pub(super) fn disagreement(context: &Context, ray: &Ray, hit: Option<Hit>) -> Ve
         (Some(_), None) => FALSE_HIT,
         (Some(a), Some(b)) if a.primitive != b.primitive => OTHER_TRIANGLE,
         (Some(hit), Some(_)) => {
-            let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+            let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
             let facing = surface.facing_normal(ray).dot(-ray.dir.normalize_or_zero());
             Vec3::splat(0.02 + 0.10 * facing.max(0.0))
         }

@@ -2,8 +2,9 @@
 
 use super::Context;
 use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
-use crate::mesh::{Illumination, Material, TriangleMesh};
+use crate::mesh::{Illumination, Material};
 use crate::ray::{Hit, Ray};
+use crate::scene::Scene;
 use crate::spawn::{Departure, default_spawn_policy};
 use crate::srgb::from_display;
 use glam::Vec3;
@@ -39,7 +40,8 @@ pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
         let departure = Departure {
             arrived_by: &ray,
             hit: &nearest,
-            corners: context.scene.mesh().corners(nearest.primitive),
+            surface: context.scene.surface(&ray, &nearest),
+            corners: None,
             dir: ray.dir,
         };
         let Ok(onward) = default_spawn_policy().spawn(&departure) else {
@@ -57,9 +59,9 @@ pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
 /// highlights.
 fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let mesh = context.scene.mesh();
-    let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+    let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
-    let diffuse = diffuse(mesh, material, &hit);
+    let diffuse = diffuse(&context.scene, material, &hit);
     let emission = material.map_or(Vec3::ZERO, |m| m.emission);
     let opacity = material.map_or(1.0, |m| m.opacity);
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
@@ -94,13 +96,14 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
 }
 
 /// The product of the colours of material, texture and vertices; clay if there are none.
-fn diffuse(mesh: &TriangleMesh, material: Option<&Material>, hit: &Hit) -> Vec3 {
+fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
+    let mesh = scene.mesh();
     let map = material.and_then(|material| material.diffuse_map.as_ref());
     // A face without texture coordinates shows no texture.
     let of_texture = map
-        .zip(texture_coordinates(mesh, hit))
+        .zip(texture_coordinates(scene, hit))
         .map(|(map, uv)| map.colour(&mesh.attributes().textures, uv));
-    let of_vertices = vertex_colour(mesh, hit).map(from_display);
+    let of_vertices = vertex_colour(scene, hit).map(from_display);
     let of_material = material.and_then(|material| material.diffuse);
     [of_material, of_texture, of_vertices]
         .into_iter()

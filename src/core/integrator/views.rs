@@ -8,9 +8,9 @@ use crate::ray::{Hit, Ray};
 use crate::srgb::from_display;
 use glam::Vec3;
 
-pub(super) fn normal(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
+pub(super) fn normal(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     hit.map_or(context.background, |hit| {
-        let surface = SurfaceInteraction::new(&context.scene, hit, context.shading);
+        let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
         from_display(0.5 * surface.shading_normal + 0.5)
     })
 }

@@ -2,8 +2,8 @@
 
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
-use crate::kernel::{Kernel, MAX_VALUES, Values};
-use crate::lane::{Number, Stored};
+use crate::kernel::{Kernel, MAX_VALUES};
+use crate::lane::{Number, Stored, Values};
 use crate::ray::Ray;
 use crate::shape::{BLOCKS_AT_ONCE, CompactBlocks, EmptyLanes, Primitives, Shape};
 use crate::simd::{baseline, prefetch};

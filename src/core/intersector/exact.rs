@@ -1,11 +1,15 @@
 //! Method for triangles whose hits are decided and ordered as in exact arithmetic.
 
 use super::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
+use super::levels::EveryLevel;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::precedes;
+use super::{ExactT, RankedHit};
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay};
-use crate::kernel::exact::{Candidate, Corners, HitLanes, Judge, VALUES, filter};
-use crate::kernel::{ShearedRay, corners_of, pack_corners};
+use crate::kernel::ShearedRay;
+use crate::kernel::exact::{
+    Candidate, Corners, HitLanes, Judge, VALUES, exact_t, filter, t_bounds,
+};
 use crate::lane::{LANES, Lane, LaneMask, Number};
 use crate::ray::{Hit, Ray};
 use crate::shape::{CompactBlocks, EmptyLanes, Shape, Triangle};
@@ -41,10 +45,13 @@ impl<T: Shape + Into<Triangle>> Corners for SlotCorners<'_, T> {
         let (block, lane) = (slot / BLOCK_SIZE, slot % BLOCK_SIZE);
         match self.0.compact() {
             Some(compact) => compact.primitive(block, lane).into().0,
-            None => corners_of(&LaneOf {
-                rows: self.0.packed(block, VALUES),
-                lane,
-            }),
+            None => {
+                Triangle::read(&LaneOf {
+                    rows: self.0.packed(block, VALUES),
+                    lane,
+                })
+                .0
+            }
         }
     }
 }
@@ -53,6 +60,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     type Shape = T;
     type Stored = f32;
     const VALUES: usize = VALUES;
+    type Levels = EveryLevel;
     const EMPTY: EmptyLanes = EmptyLanes::First;
     type Found = Candidate;
     type Tester<'a, S: Simd> = ExactTester<'a, T, S>;
@@ -61,7 +69,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     const BATCH_SIZE: usize = 64;
 
     fn pack(shape: &T, values: &mut [f32]) {
-        pack_corners(shape.clone().into().0, values);
+        shape.write(values);
     }
 
     #[inline(always)]
@@ -93,7 +101,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
 
     #[inline(always)]
     fn keep<S: Simd>(
-        tester: &ExactTester<'_, T, S>,
+        tester: &mut ExactTester<'_, T, S>,
         nearest: Candidate,
         index: usize,
         _: &mut [Option<Hit>],
@@ -356,8 +364,21 @@ impl<T: Shape + Into<Triangle>, S: Simd> Tester<S> for ExactTester<'_, T, S> {
         found.primitive
     }
 
-    fn hit(&self, found: &Candidate) -> Hit {
-        self.judge.hit(*found)
+    fn hit(&mut self, found: Candidate) -> Hit {
+        self.judge.hit(found)
+    }
+
+    fn ranked(&mut self, found: Candidate) -> RankedHit {
+        let values = self.judge.values(found);
+        let (ray, corners) = (
+            *self.judge.ray(),
+            SlotCorners(self.blocks).corners(found.slot),
+        );
+        RankedHit {
+            hit: found.hit(values),
+            t: t_bounds(values[0]),
+            exact: Some(ExactT::new(move || exact_t(&ray, corners))),
+        }
     }
 
     #[inline(always)]

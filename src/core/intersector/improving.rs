@@ -1,19 +1,19 @@
 //! Intersector whose tree can be replaced while rays are traced; every tree gives the same bits.
 
-use super::{Cost, Crossing, Intersector};
+use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit};
 use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
 
 /// Shared handle to the current intersector.
 #[derive(Clone)]
-pub(crate) struct Current(Arc<RwLock<Arc<dyn Intersector>>>);
+pub(crate) struct Current(Arc<RwLock<Arc<dyn GroupIntersector>>>);
 
 /// Weak handle for the thread that replaces the intersector.
-pub(crate) struct WeakCurrent(Weak<RwLock<Arc<dyn Intersector>>>);
+pub(crate) struct WeakCurrent(Weak<RwLock<Arc<dyn GroupIntersector>>>);
 
 impl Current {
-    pub fn new(first: Box<dyn Intersector>) -> Self {
+    pub fn new(first: Box<dyn GroupIntersector>) -> Self {
         Self(Arc::new(RwLock::new(Arc::from(first))))
     }
 
@@ -22,14 +22,14 @@ impl Current {
     }
 
     /// Clones the pointer, so that no lock is held while tracing.
-    fn get(&self) -> Arc<dyn Intersector> {
+    fn get(&self) -> Arc<dyn GroupIntersector> {
         Arc::clone(&self.0.read().unwrap_or_else(PoisonError::into_inner))
     }
 }
 
 impl WeakCurrent {
     /// Replaces the intersector; `next` is called only if the handle is still in use.
-    pub fn replace(&self, next: impl FnOnce() -> Box<dyn Intersector>) {
+    pub fn replace(&self, next: impl FnOnce() -> Box<dyn GroupIntersector>) {
         if let Some(current) = self.0.upgrade() {
             let next = Arc::from(next());
             let mut place = current.write().unwrap_or_else(PoisonError::into_inner);
@@ -86,5 +86,15 @@ impl Intersector for Improving {
 
     fn bytes(&self) -> usize {
         self.current.get().bytes()
+    }
+}
+
+impl GroupIntersector for Improving {
+    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
+        self.current.get().nearest(ray)
+    }
+
+    fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
+        self.current.get().every_hit(ray)
     }
 }

@@ -1,6 +1,8 @@
 //! The methods by which an intersector finds hits in blocks, orders them, and rounds them.
 
+use super::RankedHit;
 use super::blocks::{Blocks, Scratch};
+use super::levels::Levels;
 use crate::bvh::SlabRay;
 use crate::ray::{Hit, Ray};
 use crate::shape::{EmptyLanes, Shape};
@@ -20,10 +22,12 @@ pub(super) trait Method: Send + Sync + Sized + 'static {
     type Stored: Copy + Default + Send + Sync;
     /// The number of packed values per primitive.
     const VALUES: usize;
+    /// The SIMD levels for which there is code.
+    type Levels: Levels;
     /// The contents of lanes without a primitive.
     const EMPTY: EmptyLanes;
     /// A hit before it is rounded.
-    type Found: Copy;
+    type Found: Clone;
     /// Tests one ray.
     type Tester<'a, S: Simd>: Tester<S, Found = Self::Found>;
     /// Hits of several rays that are rounded together.
@@ -47,7 +51,7 @@ pub(super) trait Method: Send + Sync + Sized + 'static {
 
     /// Writes the nearest hit of ray `index` to `hits`, or keeps it in the batch.
     fn keep<S: Simd>(
-        tester: &Self::Tester<'_, S>,
+        tester: &mut Self::Tester<'_, S>,
         nearest: Self::Found,
         index: usize,
         hits: &mut [Option<Hit>],
@@ -70,9 +74,9 @@ pub(super) trait Method: Send + Sync + Sized + 'static {
 /// For `IS_BEHIND` see [`SlabRay::enter`], for `MAYBE_COMPACT` see [`Blocks::rows`].
 pub(super) trait Tester<S: Simd> {
     /// A hit before it is rounded.
-    type Found: Copy;
+    type Found: Clone;
     /// The nearest hit so far, or none.
-    type Nearest: Copy;
+    type Nearest;
 
     /// No hit so far.
     fn nothing(&self) -> Self::Nearest;
@@ -107,7 +111,10 @@ pub(super) trait Tester<S: Simd> {
     fn primitive(found: &Self::Found) -> u32;
 
     /// The hit, rounded.
-    fn hit(&self, found: &Self::Found) -> Hit;
+    fn hit(&mut self, found: Self::Found) -> Hit;
+
+    /// The hit, rounded, and its t as computed.
+    fn ranked(&mut self, found: Self::Found) -> RankedHit;
 
     /// Prefetches a block.
     fn announce<const MAYBE_COMPACT: bool>(&self, block: usize);

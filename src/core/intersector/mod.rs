@@ -3,28 +3,41 @@
 //! Kernel and CPU level are chosen when an intersector is made. A batch of rays then costs one virtual call,
 //! or two while a better tree is being built. `tree` is the intersector of primitives of one shape. It is
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
-//! the kernel that compares hits with each other. `packet` traces several rays at once. `improving` forwards to an
-//! intersector that can be replaced when a better tree is ready.
+//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once. `improving` forwards to an
+//! intersector that can be replaced when a better tree is ready. `several` orders the hits of several
+//! groups.
 
+mod algebraic;
 mod blocks;
 mod exact;
 pub(crate) mod improving;
+mod levels;
 mod method;
 mod order;
 mod packet;
 mod ranked;
+mod several;
 mod tree;
 mod visitors;
 
 pub use blocks::Packing;
+use several::ExactT;
+pub(crate) use several::several;
+pub use several::{GroupIntersector, RankedHit};
 
+use crate::algebra::Pieces;
 use crate::bvh::Bvh;
-use crate::kernel::{self, Kernel, KernelInfo, KernelList, KernelRow, KernelVisitor};
+use crate::kernel::{
+    self, Kernel, KernelInfo, KernelList, KernelRow, KernelVisitor, TriangleKernel,
+};
 use crate::lane::Number;
+use crate::mesh::TriangleMesh;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Primitives, Shape, Triangle};
 use crate::simd::SimdLevel;
+use algebraic::Algebraic;
 use exact::Exact;
+use levels::{BaselineLevel, EveryLevel};
 use method::Method;
 use ranked::Ranked;
 use std::slice::from_ref;
@@ -54,13 +67,13 @@ pub struct Crossing {
 }
 
 /// Packs primitives for a kernel and returns the intersector.
-pub fn intersector<S: KernelList>(
+pub(crate) fn intersector<S: KernelList>(
     kernel: &'static KernelRow<S>,
     primitives: &impl Primitives<S>,
     bvh: Arc<Bvh>,
     level: SimdLevel,
     packing: Packing,
-) -> Box<dyn Intersector> {
+) -> Box<dyn GroupIntersector> {
     let mut packer = Packer {
         kernel: kernel.info,
         primitives,
@@ -73,6 +86,17 @@ pub fn intersector<S: KernelList>(
     packer.packed.expect("a row's kernel is in its table")
 }
 
+/// Packs a mesh for a kernel and returns the intersector.
+pub fn mesh_intersector(
+    kernel: &'static TriangleKernel,
+    mesh: &TriangleMesh,
+    bvh: Arc<Bvh>,
+    level: SimdLevel,
+    packing: Packing,
+) -> Box<dyn Intersector> {
+    intersector(kernel, mesh, bvh, level, packing)
+}
+
 /// Packs primitives for the kernel of the table that has the description `kernel`.
 struct Packer<'a, P> {
     kernel: &'static KernelInfo,
@@ -80,7 +104,7 @@ struct Packer<'a, P> {
     bvh: Arc<Bvh>,
     level: SimdLevel,
     packing: Packing,
-    packed: Option<Box<dyn Intersector>>,
+    packed: Option<Box<dyn GroupIntersector>>,
 }
 
 impl<P> Packer<'_, P> {
@@ -103,12 +127,16 @@ impl<P> Packer<'_, P> {
 
 impl<S: Shape, P: Primitives<S>> KernelVisitor<S> for Packer<'_, P> {
     fn visit<K: Kernel<Shape = S>, N: Number>(&mut self) {
-        self.pack::<Ranked<K, N>>(K::info::<N>(), None);
+        self.pack::<Ranked<K, N, BaselineLevel>>(K::info::<N>(), None);
+    }
+
+    fn visit_with_levels<K: Kernel<Shape = S>, N: Number>(&mut self) {
+        self.pack::<Ranked<K, N, EveryLevel>>(K::info::<N>(), None);
     }
 
     fn visit_with_packets<K: Kernel<Shape = S>>(&mut self) {
-        let trace = TreeIntersector::<Ranked<K, f32>>::trace_packets;
-        self.pack::<Ranked<K, f32>>(K::info::<f32>(), Some(trace));
+        let trace = TreeIntersector::<Ranked<K, f32, EveryLevel>>::trace_packets;
+        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(trace));
     }
 
     fn visit_exact_triangle(&mut self)
@@ -116,6 +144,13 @@ impl<S: Shape, P: Primitives<S>> KernelVisitor<S> for Packer<'_, P> {
         S: From<Triangle> + Into<Triangle>,
     {
         self.pack::<Exact<S>>(&kernel::exact::INFO, None);
+    }
+
+    fn visit_algebraic(&mut self)
+    where
+        S: Pieces,
+    {
+        self.pack::<Algebraic<S>>(&kernel::algebraic::INFO, None);
     }
 }
 

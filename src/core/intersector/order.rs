@@ -41,7 +41,7 @@ pub(super) fn crossings<S: Simd, T: Tester<S>>(
     let mut sorted = Vec::new();
     sort_into_crossings(tester, hits, &mut sorted);
     let crossing = |equal: Vec<T::Found>| Crossing {
-        hit: tester.hit(&equal[0]),
+        hit: tester.hit(equal[0].clone()),
         also: equal[1..].iter().map(T::primitive).collect(),
     };
     sorted.into_iter().map(crossing).collect()
@@ -54,7 +54,7 @@ fn sort_into_crossings<S: Simd, T: Tester<S>>(
     hits: Vec<T::Found>,
     crossings: &mut Vec<Vec<T::Found>>,
 ) {
-    let Some(mut middle) = hits.get(hits.len() / 2).copied() else {
+    let Some(mut middle) = hits.get(hits.len() / 2).cloned() else {
         return;
     };
     let (mut nearer, mut equal, mut farther) = (Vec::new(), Vec::new(), Vec::new());

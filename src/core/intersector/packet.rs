@@ -3,6 +3,7 @@
 
 use super::Intersector;
 use super::blocks::{Blocks, LaneOf, LaneValues, Row, Scratch, boxes};
+use super::levels::EveryLevel;
 use super::order::{Comparison, precedes};
 use super::ranked::Ranked;
 use super::tree::TreeIntersector;
@@ -115,7 +116,7 @@ fn decide<K: Kernel>(
     hits
 }
 
-impl<K: Kernel> TreeIntersector<Ranked<K, f32>> {
+impl<K: Kernel> TreeIntersector<Ranked<K, f32, EveryLevel>> {
     /// Traces coherent rays as packets.
     pub fn trace_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         /// One bit per packet marks those that aren't coherent.

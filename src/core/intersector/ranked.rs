@@ -1,20 +1,22 @@
 //! Method for kernels that decide about each primitive separately. Hits are ranked by their computed t.
 
+use super::RankedHit;
 use super::blocks::{BlockValues, Blocks, LaneOf, Row, Scratch, boxes, can_be_hit};
+use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::{Comparison, precedes};
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay, rank, rank_floor};
 use crate::kernel::{Kernel, RayLanes};
 use crate::lane::{Lane, LaneMask, Number};
 use crate::ray::{Hit, Ray};
-use crate::shape::EmptyLanes;
+use crate::shape::{EmptyLanes, Shape as _};
 use fearless_simd::Simd;
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
 
-/// Ranks hits of the kernel `K`, which computes in `N`.
-pub(super) struct Ranked<K, N>(PhantomData<(K, N)>);
+/// Ranks hits of the kernel `K`, which computes in `N`, with code for the levels `V`.
+pub(super) struct Ranked<K, N, V>(PhantomData<(K, N, V)>);
 
 /// A hit as computed by the kernel, or the end of the ray.
 #[derive(Clone, Copy)]
@@ -64,10 +66,11 @@ impl<N: Number> Found<N> {
     }
 }
 
-impl<K: Kernel, N: Number> Method for Ranked<K, N> {
+impl<K: Kernel, N: Number, V: Levels> Method for Ranked<K, N, V> {
     type Shape = K::Shape;
     type Stored = K::Stored<N>;
     const VALUES: usize = K::VALUES;
+    type Levels = V;
     const EMPTY: EmptyLanes = if K::IS_ADAPTIVE {
         EmptyLanes::First
     } else {
@@ -103,7 +106,7 @@ impl<K: Kernel, N: Number> Method for Ranked<K, N> {
 
     #[inline(always)]
     fn keep<S: Simd>(
-        _: &Self::Tester<'_, S>,
+        _: &mut Self::Tester<'_, S>,
         nearest: Found<N>,
         index: usize,
         hits: &mut [Option<Hit>],
@@ -234,11 +237,23 @@ impl<K: Kernel, N: Number, S: Simd> Tester<S> for RankedTester<'_, K, N, S> {
     }
 
     fn all(&mut self, block: usize, slabs: &SlabRay<S>, found: &mut Vec<Found<N>>) {
-        let end = self.end;
-        _ = self.test::<true, true>(block, slabs, end, |hit| {
-            found.push(hit);
-            ControlFlow::Continue(())
-        });
+        let (end, t_min) = (self.end, self.t_min);
+        // Each round finds the next crossing of each primitive.
+        for round in 0..K::Shape::MOST_CROSSINGS {
+            let (first, mut starts) = (found.len(), [end; BLOCK_SIZE]);
+            let primitives = *self.blocks.bvh.lanes(block);
+            _ = self.test::<true, true>(block, slabs, end, |hit| {
+                let lane = primitives.iter().position(|&p| p == hit.primitive);
+                starts[lane.unwrap_or(0)] = hit.t;
+                found.push(hit);
+                ControlFlow::Continue(())
+            });
+            if found.len() == first || round + 1 == K::Shape::MOST_CROSSINGS {
+                break;
+            }
+            self.t_min = N::gather(self.token, starts);
+        }
+        self.t_min = t_min;
     }
 
     #[inline(always)]
@@ -271,8 +286,16 @@ impl<K: Kernel, N: Number, S: Simd> Tester<S> for RankedTester<'_, K, N, S> {
         found.primitive
     }
 
-    fn hit(&self, found: &Found<N>) -> Hit {
+    fn hit(&mut self, found: Found<N>) -> Hit {
         found.hit()
+    }
+
+    fn ranked(&mut self, found: Found<N>) -> RankedHit {
+        RankedHit {
+            hit: found.hit(),
+            t: [found.t.into(); 2],
+            exact: None,
+        }
     }
 
     #[inline(always)]

@@ -1,17 +1,18 @@
 //! Intersector of primitives of one shape: a tree and packed primitives, traced by any method.
 
 use super::blocks::{Blocks, Packing, Scratch, candidates};
+use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::crossings;
 use super::visitors::{Any, Each, Kept, Nearest};
-use super::{Cost, Crossing, Intersector, answer_behind, is_behind};
+use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
 use crate::bvh::{Bvh, Stack, with_stack};
 use crate::kernel::{KernelInfo, MAX_VALUES};
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
 use crate::shape::Primitives;
 use crate::simd::{SimdLevel, baseline};
-use fearless_simd::{Simd, dispatch};
+use fearless_simd::Simd;
 use std::marker::PhantomData;
 use std::sync::Arc;
 
@@ -46,7 +47,7 @@ impl<M: Method> TreeIntersector<M> {
 
     /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
     #[inline(always)]
-    fn find<const MAYBE_COMPACT: bool, S: Simd>(
+    pub(super) fn find<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
         token: S,
         rays: &[Ray],
@@ -66,7 +67,7 @@ impl<M: Method> TreeIntersector<M> {
                 self.blocks.bvh.walk(token, &rays[i], stack, &mut visitor);
                 hits[i] = None;
                 if let Some(found) = visitor.tester.found(&visitor.nearest) {
-                    M::keep::<S>(&visitor.tester, found, i, hits, batch);
+                    M::keep::<S>(&mut visitor.tester, found, i, hits, batch);
                 }
             }
             i += 1;
@@ -75,7 +76,7 @@ impl<M: Method> TreeIntersector<M> {
 
     /// Finds out whether these rays hit anything.
     #[inline(always)]
-    fn find_any<const MAYBE_COMPACT: bool, S: Simd>(
+    pub(super) fn find_any<const MAYBE_COMPACT: bool, S: Simd>(
         &self,
         token: S,
         rays: &[Ray],
@@ -140,7 +141,7 @@ impl<M: Method> TreeIntersector<M> {
     }
 
     #[inline(always)]
-    fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
+    pub(super) fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
         let mut scratch = Scratch::new();
         let mut tester = M::tester(&self.blocks, token, ray, &mut scratch);
         let mut count = 0;
@@ -168,12 +169,7 @@ impl<M: Method> Intersector for TreeIntersector<M> {
             let (rays, hits) = (rays.chunks(M::BATCH_SIZE), hits.chunks_mut(M::BATCH_SIZE));
             for (rays, hits) in rays.zip(hits) {
                 let mut batch = M::batch();
-                if self.blocks.are_compact() {
-                    self.find::<true, _>(baseline(), rays, hits, &mut batch, stack);
-                } else {
-                    let level = self.level.level();
-                    dispatch!(level, token => self.find::<false, _>(token, rays, hits, &mut batch, stack));
-                }
+                M::Levels::find(self, rays, hits, &mut batch, stack);
                 // Separate from the search, which otherwise becomes a tenth slower (exact kernel, bunny, primary
                 // rays, 2026-11).
                 M::round(&self.blocks, self.level, rays, &batch, hits);
@@ -199,18 +195,13 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
         self.each(baseline(), ray, Query::Nearest, |tester, found| {
-            found.first().map(|found| tester.hit(found))
+            found.into_iter().next().map(|found| tester.hit(found))
         })
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         with_stack(|stack| {
-            if self.blocks.are_compact() {
-                self.find_any::<true, _>(baseline(), rays, are_hits, stack);
-            } else {
-                let level = self.level.level();
-                dispatch!(level, token => self.find_any::<false, _>(token, rays, are_hits, stack));
-            }
+            M::Levels::find_any(self, rays, are_hits, stack);
         });
         answer_behind(rays, are_hits, |ray| {
             self.closest_hit_with_cost(ray).0.is_some()
@@ -229,10 +220,29 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn count_hits(&self, ray: &Ray) -> usize {
-        dispatch!(self.level.level(), token => self.count(token, ray))
+        M::Levels::count(self, ray)
     }
 
     fn bytes(&self) -> usize {
         self.blocks.bytes()
+    }
+}
+
+impl<M: Method> GroupIntersector for TreeIntersector<M> {
+    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
+        self.each(baseline(), ray, Query::Nearest, |tester, found| {
+            found.into_iter().next().map(|found| tester.ranked(found))
+        })
+        .0
+    }
+
+    fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
+        self.each(baseline(), ray, Query::All, |tester, found| {
+            found
+                .into_iter()
+                .map(|found| tester.ranked(found))
+                .collect()
+        })
+        .0
     }
 }

@@ -2,7 +2,7 @@
 
 use super::{KernelInfo, RayLanes};
 use crate::aabb::Planes;
-use crate::lane::{Lane, LaneMask, Number, Stored};
+use crate::lane::{Lane, LaneMask, Number, Stored, Values};
 use crate::ray::Ray;
 use crate::shape::Shape;
 
@@ -32,35 +32,6 @@ impl<L: Lane> LaneHit<L> {
             u,
             v,
         })
-    }
-}
-
-/// The packed values of several primitives, one per lane.
-///
-/// A kernel loads only the values that it needs, so permuting the axes changes an address and needs no
-/// shuffle of loaded vectors.
-pub trait Values<L: Lane> {
-    /// The value at an index of the kernel's packed layout.
-    fn value(&self, index: usize) -> L;
-
-    /// Three consecutive values.
-    #[inline(always)]
-    fn three(&self, first: usize) -> [L; 3] {
-        [
-            self.value(first),
-            self.value(first + 1),
-            self.value(first + 2),
-        ]
-    }
-}
-
-/// The values of one primitive.
-pub struct OneValue<'a, T>(pub &'a [T]);
-
-impl<N: Number, T: Stored<N>> Values<N> for OneValue<'_, T> {
-    #[inline(always)]
-    fn value(&self, index: usize) -> N {
-        self.0[index].number()
     }
 }
 

@@ -1,6 +1,7 @@
 //! Tables of kernels: one per shape.
 
-use super::{Kernel, KernelInfo, MAX_VALUES, OneValue, RayLanes, Tier};
+use super::{Kernel, KernelInfo, MAX_VALUES, RayLanes, Tier};
+use crate::algebra::Pieces;
 use crate::lane::Number;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, Triangle};
@@ -10,6 +11,8 @@ pub struct KernelRow<S> {
     /// The kernel's description.
     pub info: &'static KernelInfo,
     one: fn(&Ray, &S) -> Option<Hit>,
+    /// t, u and v before they are rounded to f32, if the kernel is exact.
+    answer: fn(&Ray, &S) -> Option<[f64; 3]>,
 }
 
 impl<S: Shape> KernelRow<S> {
@@ -27,7 +30,7 @@ impl<S: Shape> KernelRow<S> {
 }
 
 /// A shape with a table of kernels.
-pub trait KernelTable: Shape {
+pub trait KernelTable: KernelList {
     /// The rows, ordered by algorithm, the tiers last. Each tier has one row.
     fn kernels() -> &'static [KernelRow<Self>];
 
@@ -50,11 +53,16 @@ pub trait KernelList: Shape {
 
 /// Visitor of a shape's kernels, with their types.
 pub trait KernelVisitor<S: Shape> {
-    /// A kernel that computes in `N`.
+    /// A kernel that computes in `N`, with code for the baseline of the CPU's SIMD levels alone.
     fn visit<K: Kernel<Shape = S>, N: Number>(&mut self);
 
-    /// A kernel that computes in f32 and traces coherent rays as packets. Only for some kernels, as each needs its
-    /// own copy of the code.
+    /// As [`visit`](Self::visit), with code for every SIMD level of the CPU. Only for some kernels, as each level
+    /// compiles the tree's walk once more.
+    fn visit_with_levels<K: Kernel<Shape = S>, N: Number>(&mut self) {
+        self.visit::<K, N>();
+    }
+
+    /// As [`visit_with_levels`](Self::visit_with_levels) in f32, and traces coherent rays as packets.
     fn visit_with_packets<K: Kernel<Shape = S>>(&mut self) {
         self.visit::<K, f32>();
     }
@@ -63,6 +71,11 @@ pub trait KernelVisitor<S: Shape> {
     fn visit_exact_triangle(&mut self)
     where
         S: From<Triangle> + Into<Triangle>;
+
+    /// The exact kernel of shapes that state their crossings as polynomials.
+    fn visit_algebraic(&mut self)
+    where
+        S: Pieces;
 }
 
 /// The rows of a shape's table.
@@ -77,6 +90,7 @@ impl<S: Shape> KernelVisitor<S> for Vec<KernelRow<S>> {
         self.push(KernelRow {
             info: K::info::<N>(),
             one: intersect_one::<K, N>,
+            answer: |ray, shape| intersect_one::<K, N>(ray, shape).map(widened),
         });
     }
 
@@ -87,8 +101,34 @@ impl<S: Shape> KernelVisitor<S> for Vec<KernelRow<S>> {
         self.push(KernelRow {
             info: &super::exact::INFO,
             one: |ray, triangle| super::exact::intersect_one(ray, triangle.clone().into().0),
+            answer: |ray, triangle| super::exact::answer_for::<f64>(ray, triangle.clone().into().0),
         });
     }
+
+    fn visit_algebraic(&mut self)
+    where
+        S: Pieces,
+    {
+        self.push(KernelRow {
+            info: &super::algebraic::INFO,
+            one: super::algebraic::intersect_one,
+            answer: super::algebraic::answer,
+        });
+    }
+}
+
+/// t, u and v of a ray's first hit of a primitive, or `None` for a miss. For views and tables that show a kernel's
+/// errors.
+///
+/// t errs by at most 2⁻³² relatively, the weights of a triangle by at most 2⁻³¹. A NaN or an infinity in the primitive
+/// is a miss.
+pub fn exact_answer<S: KernelTable>(ray: &Ray, shape: &S) -> Option<[f64; 3]> {
+    (S::kernel_of(Tier::Exact).answer)(ray, shape)
+}
+
+/// t, u and v of a hit.
+fn widened(hit: Hit) -> [f64; 3] {
+    [hit.t, hit.u, hit.v].map(f64::from)
 }
 
 fn intersect_one<K: Kernel, N: Number>(ray: &Ray, shape: &K::Shape) -> Option<Hit> {
@@ -97,9 +137,9 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, shape: &K::Shape) -> Option<Hi
     K::pack::<N>(shape, values);
     let prepared = K::prepare::<N>(&RayLanes::of((), ray));
     let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);
-    let hit = K::intersect(&prepared, &OneValue(values), t_min, t_max)?;
+    let hit = K::intersect(&prepared, &&*values, t_min, t_max)?;
     let [t, u, v] = if hit.doubtful {
-        K::decide(ray, &OneValue(values))?
+        K::decide(ray, &&*values)?
     } else {
         [hit.t, hit.u, hit.v]
     };

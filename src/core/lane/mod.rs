@@ -50,6 +50,8 @@ pub trait Lane:
     fn token(self) -> Self::Token;
     /// `|x|`.
     fn abs(self) -> Self;
+    /// The square root; NaN for negative numbers.
+    fn sqrt(self) -> Self;
     /// Negated in the lanes where `sign` has its sign bit set.
     fn flip(self, sign: Self) -> Self;
     /// The smaller number; unspecified which one if either is NaN.
@@ -62,6 +64,12 @@ pub trait Lane:
     fn le(self, other: Self) -> Self::Mask;
     /// `a` where the mask holds, else `b`.
     fn select(mask: Self::Mask, a: Self, b: Self) -> Self;
+
+    /// Applies a function of several numbers in each lane.
+    fn map<const COUNT: usize>(
+        values: [Self; COUNT],
+        of: impl FnMut([Self::Number; COUNT]) -> Self::Number,
+    ) -> Self;
 
     /// The same f32 in all lanes.
     #[inline(always)]
@@ -104,6 +112,8 @@ pub trait Number:
     fn next_down(self) -> Self;
     /// Widens [`LANES`] f32.
     fn load<S: Simd>(token: S, from: &[f32; LANES]) -> Self::Lanes<S>;
+    /// A vector of the numbers.
+    fn gather<S: Simd>(token: S, from: [Self; LANES]) -> Self::Lanes<S>;
     /// The numbers of a vector.
     fn store<S: Simd>(lanes: Self::Lanes<S>) -> [Self; LANES];
 }
@@ -117,6 +127,41 @@ pub trait Stored<N>: Copy + Default + Send + Sync + 'static {
     fn lanes<S: Simd>(token: S, from: &[Self; LANES]) -> N::Lanes<S>
     where
         N: Number;
+}
+
+/// Numbers of several primitives, one primitive per lane: parameters, or a kernel's packed values.
+///
+/// A kernel loads only the values that it needs, so permuting the axes changes an address and needs no
+/// shuffle of loaded vectors.
+pub trait Values<L: Lane> {
+    /// The value at an index of the layout.
+    fn value(&self, index: usize) -> L;
+
+    /// Three consecutive values.
+    #[inline(always)]
+    fn three(&self, first: usize) -> [L; 3] {
+        [
+            self.value(first),
+            self.value(first + 1),
+            self.value(first + 2),
+        ]
+    }
+}
+
+/// The values of one primitive.
+impl<N: Number, T: Stored<N>> Values<N> for &[T] {
+    #[inline(always)]
+    fn value(&self, index: usize) -> N {
+        self[index].number()
+    }
+}
+
+/// The values of one primitive.
+impl<N: Number, T: Stored<N>, const COUNT: usize> Values<N> for [T; COUNT] {
+    #[inline(always)]
+    fn value(&self, index: usize) -> N {
+        self[index].number()
+    }
 }
 
 /// `a × b`.

@@ -35,6 +35,10 @@ macro_rules! scalar_lane {
                 <$number>::abs(self)
             }
             #[inline(always)]
+            fn sqrt(self) -> Self {
+                <$number>::sqrt(self)
+            }
+            #[inline(always)]
             fn flip(self, sign: Self) -> Self {
                 if sign.is_sign_negative() { -self } else { self }
             }
@@ -53,6 +57,13 @@ macro_rules! scalar_lane {
             #[inline(always)]
             fn le(self, other: Self) -> bool {
                 self <= other
+            }
+            #[inline(always)]
+            fn map<const COUNT: usize>(
+                values: [Self; COUNT],
+                mut of: impl FnMut([Self; COUNT]) -> Self,
+            ) -> Self {
+                of(values)
             }
             #[inline(always)]
             fn select(mask: bool, a: Self, b: Self) -> Self {
@@ -95,6 +106,10 @@ impl Number for f32 {
         f32x8::load_array_ref(token, from)
     }
     #[inline(always)]
+    fn gather<S: Simd>(token: S, from: [f32; LANES]) -> f32x8<S> {
+        f32x8::load_array(token, from)
+    }
+    #[inline(always)]
     fn store<S: Simd>(lanes: f32x8<S>) -> [f32; LANES] {
         lanes.to_array()
     }
@@ -128,6 +143,10 @@ impl Number for f64 {
     fn load<S: Simd>(token: S, from: &[f32; LANES]) -> f64x8<S> {
         let (low, high) = f32x8::load_array_ref(token, from).widen();
         low.combine(high)
+    }
+    #[inline(always)]
+    fn gather<S: Simd>(token: S, from: [f64; LANES]) -> f64x8<S> {
+        f64x8::load_array(token, from)
     }
     #[inline(always)]
     fn store<S: Simd>(lanes: f64x8<S>) -> [f64; LANES] {

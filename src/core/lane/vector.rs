@@ -37,6 +37,10 @@ macro_rules! vector_lane {
                 SimdBase::abs(self)
             }
             #[inline(always)]
+            fn sqrt(self) -> Self {
+                SimdFloat::sqrt(self)
+            }
+            #[inline(always)]
             fn flip(self, sign: Self) -> Self {
                 SimdFloat::from_bits(self.to_bits() ^ (sign.to_bits() & $sign_bit))
             }
@@ -55,6 +59,19 @@ macro_rules! vector_lane {
             #[inline(always)]
             fn le(self, other: Self) -> Self::Mask {
                 self.simd_le(other)
+            }
+            #[inline(always)]
+            fn map<const COUNT: usize>(
+                values: [Self; COUNT],
+                mut of: impl FnMut([$number; COUNT]) -> $number,
+            ) -> Self {
+                let token = ExtractToken::token(&values[0]);
+                let values = values.map(|lanes| lanes.to_array());
+                let mut result = values[0];
+                for (lane, result) in result.iter_mut().enumerate() {
+                    *result = of(values.map(|numbers| numbers[lane]));
+                }
+                Self::load_array(token, result)
             }
             #[inline(always)]
             fn select(mask: Self::Mask, a: Self, b: Self) -> Self {

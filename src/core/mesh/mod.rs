@@ -40,12 +40,9 @@ use weld::Welded;
 /// stay well inside the range of f32.
 pub const SAFE_SIZE: std::ops::RangeInclusive<f64> = 1e-15..=1e16;
 
-/// The unit normal by the right-hand rule over A, B, C. Zero if the area is zero in f64 or a corner isn't finite.
-///
-/// Computed in f64, where neither products nor lengths of f32 numbers under- or overflow.
+/// See [`Triangle::unit_normal`].
 pub fn unit_normal(corners: [Vec3; 3]) -> DVec3 {
-    let [a, b, c] = corners.map(Vec3::as_dvec3);
-    (b - a).cross(c - a).normalize_or_zero()
+    Triangle(corners).unit_normal()
 }
 
 /// Maximum number of triangles, so that a u32 can number their corners.

@@ -63,7 +63,7 @@ fn core(points: &[DVec3]) -> Option<[DVec3; 2]> {
 }
 
 /// A point near a box; `None` if (0, 0, 0) is near enough.
-fn origin_near([min, max]: [DVec3; 2]) -> Option<DVec3> {
+pub(crate) fn origin_near([min, max]: [DVec3; 2]) -> Option<DVec3> {
     /// Within this many sizes of zero, f32 loses at most two bits more than at zero.
     const NEAR: f64 = 4.0;
     let size = (max - min).max_element();

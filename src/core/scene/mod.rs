@@ -1,22 +1,19 @@
-//! The scene: mesh, bounds and acceleration structure; loading it from a file.
+//! The scene: groups of primitives, and their bounds.
 
-mod tree;
-
-pub use tree::{FirstTree, SceneOptions};
+pub use crate::group::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
-use crate::bvh::Bvh;
-use crate::intersector::Intersector;
-use crate::kernel::TriangleKernel;
-use crate::mesh::{Crease, SAFE_SIZE, TriangleMesh, VertexNormals};
-use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
-use crate::progress::{BackgroundError, Cancelled, Phase, Progress};
+use crate::group::{Group, Grouped, ShapeGroup};
+use crate::intersector::{Intersector, Packing, several};
+use crate::kernel::KernelChoice;
+use crate::mesh::{Crease, Runs, TriangleMesh, VertexNormals};
+use crate::progress::{Cancelled, Phase, Progress};
+use crate::ray::{Hit, Ray};
+use crate::shape::SurfacePoint;
 use crate::simd::SimdLevel;
 use glam::Vec3;
-use std::path::Path;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
-use tree::Tree;
 
 /// Flat or smooth shading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -28,14 +25,20 @@ pub enum Shading {
     Smooth,
 }
 
-/// A mesh with its acceleration structure. No answer to a ray ever changes; a changed file makes another scene.
+/// Groups of primitives, each of one shape with its tree. No answer to a ray ever changes; a changed file makes
+/// another scene.
+///
+/// Primitives are numbered through all groups; triangles come first.
 #[derive(Debug)]
 pub struct Scene {
+    /// All triangles; empty if the scene has none.
     mesh: Arc<TriangleMesh>,
+    /// The triangles, if there are any or nothing else, then the other groups.
+    groups: Vec<Arc<dyn Group>>,
     bounds: Aabb,
     /// The same with the lines and points of the file.
     bounds_with_elements: Aabb,
-    tree: Arc<Tree>,
+    packing: Packing,
     crease: Crease,
     /// Computed on first use.
     vertex_normals: OnceLock<VertexNormals>,
@@ -60,27 +63,39 @@ impl Scene {
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
-        let bounds = mesh.bounds();
-        Ok(Self {
-            bounds,
-            bounds_with_elements: framed(bounds, mesh.line_and_point_bounds()),
-            tree: Arc::new(Tree::build(&mesh, options, progress)?),
-            mesh: Arc::new(mesh),
-            crease: Crease::default(),
-            vertex_normals: OnceLock::new(),
-        })
+        let mesh = Arc::new(mesh);
+        let group = ShapeGroup::new(Arc::clone(&mesh), options, progress)?;
+        Ok(Self::of_groups(
+            mesh,
+            vec![Arc::new(group)],
+            options.packing,
+        ))
     }
 
-    /// The same mesh and tree with another crease angle for smooth shading.
+    fn of_groups(mesh: Arc<TriangleMesh>, groups: Vec<Arc<dyn Group>>, packing: Packing) -> Self {
+        let bounds = groups
+            .iter()
+            .fold(mesh.bounds(), |bounds, group| bounds.union(group.bounds()));
+        Self {
+            bounds,
+            bounds_with_elements: framed(bounds, mesh.line_and_point_bounds()),
+            mesh,
+            groups,
+            packing,
+            crease: Crease::default(),
+            vertex_normals: OnceLock::new(),
+        }
+    }
+
+    /// The same groups with another crease angle for smooth shading.
     #[must_use]
     pub fn with_crease(&self, crease: Crease) -> Self {
         Self {
             mesh: Arc::clone(&self.mesh),
-            bounds: self.bounds,
-            bounds_with_elements: self.bounds_with_elements,
-            tree: Arc::clone(&self.tree),
+            groups: self.groups.clone(),
             crease,
             vertex_normals: OnceLock::new(),
+            ..*self
         }
     }
 
@@ -89,69 +104,162 @@ impl Scene {
         self.crease
     }
 
-    /// A scene of the given triangles of a mesh, in this order, without normals, materials and faces.
-    pub fn of_triangles(mesh: &TriangleMesh, triangles: &[u32]) -> Self {
-        let corners = triangles
+    /// Adds a group of primitives of one shape, and their materials as indices into the mesh's.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn add_group<S: Grouped>(
+        &mut self,
+        primitives: Vec<S>,
+        materials: Runs,
+        options: SceneOptions,
+        progress: &Progress,
+    ) -> Result<(), Cancelled> {
+        let group = S::group(primitives, materials, options, progress)?;
+        if self.mesh.triangles().is_empty() {
+            self.groups.retain(|group| group.count() > 0);
+        }
+        self.groups.push(group);
+        let groups = std::mem::take(&mut self.groups);
+        *self = Self::of_groups(Arc::clone(&self.mesh), groups, self.packing);
+        Ok(())
+    }
+
+    /// A scene of the given primitives, in this order, without normals, materials and faces. The numbers must ascend.
+    pub fn subset(&self, primitives: &[u32]) -> Self {
+        let triangles = self.mesh.triangles().len() as u32;
+        let (of_mesh, mut rest) =
+            primitives.split_at(primitives.partition_point(|&p| p < triangles));
+        let corners = of_mesh
             .iter()
-            .flat_map(|&triangle| mesh.corners(triangle));
-        let indices = (0..triangles.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
+            .flat_map(|&triangle| self.mesh.corners(triangle));
+        let indices = (0..of_mesh.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
         let mesh = TriangleMesh::new_unchecked(corners.collect(), indices.collect());
-        Self::new(mesh, &Progress::default()).expect("nobody cancels")
+        let mut scene = Self::new(mesh, &Progress::default()).expect("nobody cancels");
+        let mut first = 0;
+        for group in &self.groups {
+            let end = first + group.count() as u32;
+            let (own, others) = rest.split_at(rest.partition_point(|&p| p < end));
+            if !own.is_empty() {
+                let local: Vec<u32> = own.iter().map(|p| p - first).collect();
+                scene.groups.push(group.subset(&local));
+            }
+            (rest, first) = (others, end);
+        }
+        if of_mesh.is_empty() && scene.groups.len() > 1 {
+            scene.groups.remove(0);
+        }
+        Self::of_groups(scene.mesh, scene.groups, scene.packing)
     }
 
     /// The same triangles with the origin at (0, 0, 0), without normals, materials and faces; `None` if that would
     /// round a position.
     pub fn in_file_frame(&self) -> Option<Self> {
-        if !self.mesh.are_f32_in_file() {
+        let is_mesh = self.groups.len() == 1 && !self.mesh.triangles().is_empty();
+        if !is_mesh || !self.mesh.are_f32_in_file() {
             return None;
         }
         let in_file = |p: &Vec3| self.mesh.in_file(p.as_dvec3()).as_vec3();
         let positions = self.mesh.positions().iter().map(in_file).collect();
         let mesh = TriangleMesh::new_unchecked(positions, self.mesh.triangles().to_vec());
         let options = SceneOptions {
-            packing: self.tree.packing(),
+            packing: self.packing,
             ..SceneOptions::default()
         };
         Some(Self::with_options(mesh, options, &Progress::default()).expect("nobody cancels"))
     }
 
-    /// The mesh.
+    /// All triangles.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
     }
 
-    /// The current tree; [`improve`](Self::improve) may replace it.
-    pub fn bvh(&self) -> Arc<Bvh> {
-        self.tree.bvh()
+    /// The groups, in the order of their primitives' numbers.
+    pub fn groups(&self) -> &[Arc<dyn Group>] {
+        &self.groups
     }
 
-    /// Whether the tree is the final one.
+    /// Whether a primitive is a triangle. Its number is then its index in the mesh.
+    pub fn is_triangle(&self, primitive: u32) -> bool {
+        (primitive as usize) < self.mesh.triangles().len()
+    }
+
+    /// The group of a primitive, and its index there.
+    ///
+    /// # Panics
+    /// If the scene has no such primitive.
+    pub fn group_of(&self, primitive: u32) -> (&dyn Group, u32) {
+        let mut index = primitive;
+        for group in &self.groups {
+            match index.checked_sub(group.count() as u32) {
+                Some(rest) => index = rest,
+                None => return (&**group, index),
+            }
+        }
+        panic!("no primitive {primitive}")
+    }
+
+    /// The surface where a ray hits.
+    pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let (group, primitive) = self.group_of(hit.primitive);
+        group.surface(ray, &Hit { primitive, ..*hit })
+    }
+
+    /// t, u and v of a ray's first hit of a primitive, or `None` for a miss; see
+    /// [`exact_answer`](crate::kernel::exact_answer).
+    pub fn exact_answer(&self, ray: &Ray, primitive: u32) -> Option<[f64; 3]> {
+        let (group, index) = self.group_of(primitive);
+        group.exact_answer(ray, index)
+    }
+
+    /// The material of a primitive, as an index into the mesh's materials.
+    pub fn material(&self, primitive: u32) -> u32 {
+        if self.is_triangle(primitive) {
+            return self.mesh.attributes().materials.index(primitive);
+        }
+        let (group, index) = self.group_of(primitive);
+        group.material(index)
+    }
+
+    /// The number of primitives of all groups.
+    pub fn primitive_count(&self) -> usize {
+        self.groups.iter().map(|group| group.count()).sum()
+    }
+
+    /// Size of the trees in bytes.
+    pub fn tree_bytes(&self) -> usize {
+        self.groups.iter().map(|group| group.bvh().bytes()).sum()
+    }
+
+    /// Whether all trees are final.
     pub fn has_best_tree(&self) -> bool {
-        self.tree.is_best()
+        self.groups.iter().all(|group| group.has_best_tree())
     }
 
-    /// Replaces a quick tree by the best one, also in intersectors that already use it. Hits keep all bits; only
-    /// their cost changes. Does nothing if the tree is the best one; waits if another thread is building it.
+    /// Replaces quick trees by the best ones, also in intersectors that already use them. Hits keep all bits; only
+    /// their cost changes. Does nothing if the trees are the best ones; waits if another thread is building them.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled; another call resumes.
     pub fn improve(&self, progress: &Progress) -> Result<(), Cancelled> {
-        self.tree.improve(&self.mesh, progress)
+        self.groups
+            .iter()
+            .try_for_each(|group| group.improve(progress))
     }
 
-    /// The bounds of the mesh, in its own coordinates (relative to its origin).
+    /// The box around all primitives, in the scene's coordinates (relative to the mesh's origin).
     pub fn bounds(&self) -> Aabb {
         self.bounds
     }
 
-    /// The box around the triangles and the file's lines and points, in the mesh's coordinates.
+    /// The box around all primitives and the file's lines and points, in the scene's coordinates.
     pub fn bounds_with_elements(&self) -> Aabb {
         self.bounds_with_elements
     }
 
-    /// Time it took to build the current tree.
+    /// Time it took to build the current trees.
     pub fn build_time(&self) -> Duration {
-        self.tree.build_time()
+        self.groups.iter().map(|group| group.build_time()).sum()
     }
 
     /// Vertex normals, computed by the first call.
@@ -161,81 +269,25 @@ impl Scene {
     }
 
     /// Packs the scene for a kernel.
-    pub fn intersector(&self, kernel: &'static TriangleKernel) -> Box<dyn Intersector> {
+    pub fn intersector(&self, kernel: impl Into<KernelChoice>) -> Box<dyn Intersector> {
         self.intersector_at(kernel, SimdLevel::current())
     }
 
     /// Packs the scene for a kernel at one of this machine's SIMD levels.
     pub fn intersector_at(
         &self,
-        kernel: &'static TriangleKernel,
+        kernel: impl Into<KernelChoice>,
         level: SimdLevel,
     ) -> Box<dyn Intersector> {
-        self.tree.intersector(&self.mesh, kernel, level)
+        let kernel = kernel.into();
+        let packed = |group: &Arc<dyn Group>| (group.count(), group.intersector(kernel, level));
+        several(kernel.info, self.groups.iter().map(packed).collect())
     }
 }
 
 /// A scene of the mesh, with its tree built.
 pub fn scene(mesh: TriangleMesh) -> Scene {
     Scene::new(mesh, &Progress::default()).expect("nobody cancels")
-}
-
-/// A scene and facts about the file that it was loaded from.
-#[derive(Clone, Debug)]
-pub struct LoadedScene {
-    /// The scene.
-    pub scene: Arc<Scene>,
-    /// The load report of the file.
-    pub report: LoadReport,
-}
-
-impl LoadedScene {
-    /// Loads an OBJ file and builds the tree over it.
-    ///
-    /// # Errors
-    /// See [`LoadError`].
-    pub fn load(
-        path: &Path,
-        load_options: LoadOptions,
-        options: SceneOptions,
-        progress: &Progress,
-    ) -> Result<Self, LoadError> {
-        let cancelled = |path: &Path| LoadError::Cancelled {
-            path: path.to_owned(),
-        };
-        let (file, shared) = (path.to_owned(), progress.clone());
-        let load = move || {
-            let loaded = obj::load(&file, load_options, &shared)?;
-            Self::of(loaded, options, &shared).map_err(|Cancelled| cancelled(&file))
-        };
-        progress
-            .run_in_background("load", load)
-            .unwrap_or_else(|why| {
-                Err(match why {
-                    BackgroundError::Cancelled => cancelled(path),
-                    BackgroundError::NoThread(source) => LoadError::Unreadable {
-                        path: path.to_owned(),
-                        source,
-                    },
-                })
-            })
-    }
-
-    /// Builds the tree over a mesh.
-    ///
-    /// # Errors
-    /// [`Cancelled`] if `progress` was cancelled.
-    pub fn of(
-        loaded: Loaded,
-        options: SceneOptions,
-        progress: &Progress,
-    ) -> Result<Self, Cancelled> {
-        let Loaded { mesh, mut report } = loaded;
-        let scene = Scene::with_options(mesh, options, progress)?;
-        report.warnings.extend(size_warning(scene.bounds()));
-        let scene = Arc::new(scene);
-        Ok(Self { scene, report })
-    }
 }
 
 /// The box to frame: that of the surface, lines and points, or of the surface alone if it would be a dot: surveys contain
@@ -251,18 +303,6 @@ fn framed(surface: Aabb, elements: Aabb) -> Aabb {
     }
 }
 
-/// The warning for a mesh whose size f32 kernels can't handle well.
-fn size_warning(bounds: Aabb) -> Option<Warning> {
-    let size = 2.0 * bounds.radius();
-    let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
-    (!SAFE_SIZE.contains(&size)).then(|| Warning {
-        line: None,
-        message: format!(
-            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits and the watertight kernel is slow: scale the mesh or use the precise kernel"
-        ),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -276,28 +316,5 @@ mod tests {
         }
         let line = Aabb::around([Vec3::ZERO, Vec3::X]);
         assert_eq!(framed(Aabb::EMPTY, line), line);
-    }
-
-    #[test]
-    fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {
-        let library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
-        let (path, progress) = (Path::new("x.obj"), Progress::default());
-        for (scale, is_warned) in [
-            ("1e-20", true),
-            ("1e-3", false),
-            ("1e9", false),
-            ("1e30", true),
-        ] {
-            let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
-            let bytes = text.as_bytes();
-            let loaded = obj::parse(bytes, path, LoadOptions::default(), &library, &progress);
-            let loaded = LoadedScene::of(loaded.expect("good"), SceneOptions::default(), &progress);
-            let warnings = loaded.expect("never cancelled").report.warnings;
-            assert_eq!(
-                warnings.len(),
-                usize::from(is_warned),
-                "{scale}: {warnings:?}"
-            );
-        }
     }
 }

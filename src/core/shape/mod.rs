@@ -1,27 +1,95 @@
 //! Shapes of primitives: one file per shape.
 
 mod compact;
+mod cone;
+mod cuboid;
+mod cylinder;
+mod disk;
+mod plane;
+mod quadric;
+mod rectangle;
 mod shared_corners;
+mod span;
+mod sphere;
+mod surface;
+mod torus;
 mod triangle;
 
 pub(crate) use compact::{BLOCKS_AT_ONCE, CompactBlocks, EmptyLanes};
+pub use cone::Cone;
+pub use cuboid::Cuboid;
+pub use cylinder::Cylinder;
+pub(crate) use cylinder::{BASE, SIDE, TOP};
+pub use disk::Disk;
+pub use plane::Plane;
+pub use quadric::Quadric;
+pub use rectangle::Rectangle;
+pub use span::Span;
+pub use sphere::Sphere;
+pub use surface::SurfacePoint;
+pub use torus::Torus;
 pub use triangle::Triangle;
 
-use crate::aabb::Aabb;
+use crate::aabb::{Aabb, Planes};
+use crate::lane::{Lane, Values};
+use crate::ray::{Hit, Ray};
 use std::fmt::Debug;
+
+/// A shape's names.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct ShapeInfo {
+    /// One primitive, as in “1 sphere”.
+    pub name: &'static str,
+    /// Several primitives.
+    pub plural: &'static str,
+}
 
 /// The parameters of a primitive, in f32. They are the question that kernels answer.
 pub trait Shape: Clone + Debug + Send + Sync + 'static {
+    /// Its names.
+    const INFO: ShapeInfo;
     /// Storage for packing in little memory.
     type Compact: CompactBlocks<Self>;
+
+    /// The number of its parameters.
+    const NUMBERS: usize;
+    /// The largest number of points at which a line meets a primitive.
+    const MOST_CROSSINGS: usize;
+    /// Whether primitives have finite boxes. If not, all are tested.
+    const IS_BOUNDED: bool = true;
 
     /// A primitive that no ray hits, for unused lanes.
     fn nowhere() -> Self;
 
+    /// Writes the parameters.
+    fn write(&self, numbers: &mut [f32]);
+
+    /// The primitive with the parameters.
+    fn read(numbers: &impl Values<f32>) -> Self;
+
+    /// The boxes around primitives with the parameters.
+    fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L>;
+
     /// The primitive's box in the tree. It encloses the primitive, also as kernels recompute it from packed
     /// values. Empty or not finite if no ray can hit the primitive.
     fn bounds(&self) -> Aabb;
+
+    /// The surface where a ray hits the primitive.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
 }
+
+/// A primitive's parameters.
+pub(crate) fn numbers_of<S: Shape>(shape: &S) -> [f32; MAX_NUMBERS] {
+    let mut numbers = [0.0; MAX_NUMBERS];
+    shape.write(&mut numbers[..S::NUMBERS]);
+    numbers
+}
+
+/// Half an ulp of 1 in f32.
+const U: f32 = f32::EPSILON / 2.0;
+
+/// The largest number of parameters of any shape.
+const MAX_NUMBERS: usize = 16;
 
 /// A list of primitives of one shape.
 pub trait Primitives<S>: Send + Sync {

@@ -8,12 +8,14 @@ use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{CameraError, Projection, Turntable};
+use hitscope_core::group::{all_kernels, kernel_named};
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel, triangle_kernel};
+use hitscope_core::kernel::KernelChoice;
+use hitscope_core::loading::{LoadedScene, StartView};
 use hitscope_core::mesh::Crease;
 use hitscope_core::obj::{FaultPolicy, LoadOptions, Recentre};
-use hitscope_core::scene::{LoadedScene, SceneOptions};
+use hitscope_core::scene::SceneOptions;
 use hitscope_core::{Camera, Scene};
 use std::path::Path;
 use std::sync::Arc;
@@ -24,7 +26,7 @@ pub struct CameraArgs {
     /// Width and height of the picture in pixels, each at most 16384
     #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse_size)]
     pub size: UVec2,
-    /// Position of the camera [default: the window's starting view of the whole mesh]
+    /// Position of the camera [default: the sensor of a scene file, else the window's starting view of the whole mesh]
     #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
     pub eye: Option<DVec3>,
     /// Point in the centre of the picture; requires --eye [default: the centre of the mesh]
@@ -60,19 +62,35 @@ impl CameraArgs {
         }
     }
 
-    /// The camera for a scene.
+    /// The camera for a scene whose file asks for a view, if it does.
     ///
     /// # Errors
     /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if no camera can show
     /// the mesh.
-    pub fn camera(&self, scene: &Scene) -> Result<Camera, CommandError> {
+    pub fn camera(&self, scene: &Scene, view: Option<&StartView>) -> Result<Camera, CommandError> {
         let Some(eye) = self.eye else {
-            return Ok(self.framing(scene)?);
+            return Ok(match view {
+                Some(view) => self.given(scene, view)?,
+                None => self.framing(scene)?,
+            });
         };
         let origin = scene.mesh().origin();
         let centre = scene.bounds().centre().as_dvec3();
         let target = self.target.map_or(centre, |target| target - origin);
         self.look_at(eye - origin, target).map_err(usage)
+    }
+
+    /// The camera of the file's sensor, with this size and, if given, angle or height.
+    fn given(&self, scene: &Scene, view: &StartView) -> Result<Camera, CameraError> {
+        let eye = view.eye - scene.mesh().origin();
+        let projection = match (self.fov, self.ortho, view.fov_y_radians) {
+            (None, None, Some(fov_y_radians)) => Projection::Perspective { fov_y_radians },
+            (None, None, None) => Projection::Orthographic {
+                height: view.height,
+            },
+            _ => self.projection(),
+        };
+        Camera::look_at(eye, eye + view.forward, view.up, projection, self.size)
     }
 
     /// The camera that shows the whole mesh.
@@ -115,9 +133,9 @@ pub struct KernelArg {
 }
 
 impl KernelArg {
-    /// The kernel's row in the table.
-    pub fn kernel(&self) -> &'static TriangleKernel {
-        triangle_kernel(&self.kernel).expect("clap accepts only names in the table")
+    /// The kernel of each shape.
+    pub fn kernel(&self) -> KernelChoice {
+        kernel_named(&self.kernel).expect("clap accepts only names in the tables")
     }
 }
 
@@ -190,7 +208,7 @@ impl MemoryArg {
         what: std::fmt::Arguments,
     ) -> Result<(), CommandError> {
         let mesh: usize = scene.mesh().bytes().iter().map(|(_, bytes)| bytes).sum();
-        let held = (mesh + scene.bvh().bytes() + packed_bytes) as u64;
+        let held = (mesh + scene.tree_bytes() + packed_bytes) as u64;
         if held.saturating_add(bytes) <= self.bytes() {
             return Ok(());
         }
@@ -250,9 +268,10 @@ impl ViewArg {
 
 pub(super) fn kernel_names() -> impl clap::builder::TypedValueParser<Value = String> {
     let mut names: Vec<&'static str> = Vec::new();
-    for kernel in TRIANGLE_KERNELS.iter() {
-        let tier = kernel.info.tier.map(|tier| tier.name());
-        for name in tier.into_iter().chain([kernel.info.name]) {
+    let kernels = all_kernels().into_iter().flat_map(|shape| shape.kernels);
+    for kernel in kernels {
+        let tier = kernel.tier.map(|tier| tier.name());
+        for name in tier.into_iter().chain([kernel.name]) {
             if !names.contains(&name) {
                 names.push(name);
             }

@@ -8,7 +8,8 @@ use crate::measure::workloads::{WORKLOADS, workloads};
 use clap::Args;
 use cpu_time::ThreadTime;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
+use hitscope_core::group::kernel_named;
+use hitscope_core::kernel::KernelChoice;
 use hitscope_core::obj::Recentre;
 use hitscope_core::shape::bounds_in;
 use hitscope_core::simd::SimdLevel;
@@ -37,7 +38,7 @@ Examples:
   hitscope bench bunny.obj
   hitscope bench bunny.obj --kernel fast --kernel exact --threads 1 --json")]
 pub struct BenchArgs {
-    /// OBJ file, plain or gzipped; - for standard input
+    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
     /// Camera of the primary rays.
     #[command(flatten)]
@@ -67,6 +68,8 @@ const RAYS_PER_PART: usize = 4096;
 #[derive(Serialize)]
 struct Report {
     triangles: usize,
+    /// Of all shapes.
+    primitives: usize,
     simd: &'static str,
     load_ms: f64,
     /// Building the tree, on all cores.
@@ -118,9 +121,10 @@ impl BenchArgs {
         self.camera.check()?;
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
-        let camera = self.camera.camera(scene)?;
+        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         let triangles = scene.mesh().triangles().len();
-        let per_triangle = |bytes: usize| bytes as f64 / triangles.max(1) as f64;
+        let primitives = scene.primitive_count();
+        let per_triangle = |bytes: usize| bytes as f64 / primitives.max(1) as f64;
         let mut packed = Vec::new();
         let mut intersectors = Vec::new();
         for kernel in self.kernels() {
@@ -129,12 +133,13 @@ impl BenchArgs {
             packed.push(PackedKernel {
                 kernel: kernel.info.short_name(),
                 pack_ms: milliseconds(start.elapsed()),
-                bytes_per_triangle: per_triangle(scene.bvh().bytes() + intersector.bytes()),
+                bytes_per_triangle: per_triangle(scene.tree_bytes() + intersector.bytes()),
             });
             intersectors.push(intersector);
         }
         let report = Report {
             triangles,
+            primitives,
             simd: SimdLevel::current().name(),
             load_ms: milliseconds(loaded.report.duration),
             build_ms: milliseconds(scene.build_time()),
@@ -154,7 +159,7 @@ impl BenchArgs {
         Ok(())
     }
 
-    fn kernels(&self) -> Vec<&'static TriangleKernel> {
+    fn kernels(&self) -> Vec<KernelChoice> {
         let tiers = ["fast", "watertight", "precise", "exact"].map(str::to_owned);
         let names = if self.kernels.is_empty() {
             &tiers[..]
@@ -162,7 +167,7 @@ impl BenchArgs {
             &self.kernels
         };
         let named =
-            |name: &String| triangle_kernel(name).expect("clap accepts only names in the table");
+            |name: &String| kernel_named(name).expect("clap accepts only names in the tables");
         names.iter().map(named).collect()
     }
 

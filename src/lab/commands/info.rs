@@ -10,9 +10,9 @@ use crate::second_opinion::{SecondOpinion, compare};
 use clap::Args;
 use hitscope_core::counts::counted;
 use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{FLAWS, Health, bytes_as};
 use hitscope_core::obj::{self, Recentre};
-use hitscope_core::scene::LoadedScene;
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -26,7 +26,7 @@ Examples:
   hitscope info bunny.obj
   gunzip -c bunny.obj.gz | hitscope info - --json")]
 pub struct InfoArgs {
-    /// OBJ file, plain or gzipped; - for standard input
+    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
     /// How the mesh is loaded.
     #[command(flatten)]
@@ -126,7 +126,7 @@ impl Info {
         let bounds = scene.bounds_with_elements();
         let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         let mut bytes = BTreeMap::from(mesh.bytes());
-        bytes.insert("tree", scene.bvh().bytes());
+        bytes.insert("tree", scene.tree_bytes());
         bytes.insert("packed triangles", packed_bytes);
         let health = Health::of(mesh);
         Self {

@@ -3,9 +3,10 @@
 use super::CommandError;
 use super::stderr::{ProgressLine, print_line};
 use hitscope_core::counts::counted;
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::{self, LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
-use hitscope_core::scene::{LoadedScene, SceneOptions};
+use hitscope_core::scene::SceneOptions;
 use std::io;
 use std::path::Path;
 

@@ -49,7 +49,7 @@ Exit status:
 #[derive(Args, Clone, Debug)]
 #[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct InspectArgs {
-    /// OBJ file, plain or gzipped; - for standard input
+    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
     /// Pixel; 0,0 is at the top left
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_pixel)]
@@ -93,7 +93,7 @@ impl InspectArgs {
         self.crease.check(self.shading)?;
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = self.crease.apply(loaded.scene);
-        let camera = self.camera.camera(&scene)?;
+        let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
         let intersector = scene.intersector(self.kernel.kernel());
         let mut inspection =
             Inspection::of_pixel(&scene, &*intersector, self.shading.into(), &camera, pixel);
@@ -138,11 +138,17 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     print_hit(kernel, hit.as_ref(), out)?;
     match exact {
         None => writeln!(out, "exact: no hit")?,
-        Some(exact) => {
-            writeln!(out, "exact: triangle {}, counted from 0", exact.triangle)?;
-            writeln!(out, "  t            {} = {}", exact.t, exact.t_fraction)?;
-            writeln!(out, "  barycentric  {}", list(exact.barycentric))?;
-        }
+        Some(exact) => match &exact.fractions {
+            Some(fractions) => {
+                writeln!(out, "exact: triangle {}, counted from 0", exact.primitive)?;
+                writeln!(out, "  t            {} = {}", exact.t, fractions.t_fraction)?;
+                writeln!(out, "  barycentric  {}", list(fractions.barycentric))?;
+            }
+            None => {
+                writeln!(out, "exact: primitive {}, counted from 0", exact.primitive)?;
+                writeln!(out, "  t            {}", exact.t)?;
+            }
+        },
     }
     writeln!(
         out,
@@ -162,29 +168,45 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
     let Some(hit) = hit else {
         return writeln!(out, "{kernel}: no hit");
     };
-    let (triangle, face, side) = (hit.triangle, hit.face, hit.side);
-    let line = hit
-        .line
-        .map_or(String::new(), |line| format!(" on line {line}"));
-    writeln!(
-        out,
-        "{kernel}: {side} side of triangle {triangle} in face {face}{line} (triangles and faces are counted from 0)"
-    )?;
-    let [a, b, c] = hit.vertices.map(list);
-    let rows = [
-        ("t", hit.t.to_string()),
-        ("barycentric", list(hit.barycentric)),
+    let side = hit.side;
+    match &hit.triangle {
+        Some(triangle) => {
+            let (index, face) = (triangle.index, triangle.face);
+            let line = triangle.line;
+            let line = line.map_or(String::new(), |line| format!(" on line {line}"));
+            writeln!(
+                out,
+                "{kernel}: {side} side of triangle {index} in face {face}{line} (triangles and faces are counted from 0)"
+            )?;
+        }
+        None => writeln!(
+            out,
+            "{kernel}: {side} side of {} (primitive {}, counted from 0)",
+            hit.shape, hit.primitive
+        )?,
+    }
+    let mut rows = vec![("t", hit.t.to_string())];
+    if let Some(triangle) = &hit.triangle {
+        rows.push(("barycentric", list(triangle.barycentric)));
+    }
+    rows.extend([
         ("position", list(hit.position)),
         ("normal", list(hit.geometric_normal) + " geometric"),
         ("", list(hit.shading_normal) + " shading"),
-        ("vertices", a),
-        ("", b),
-        ("", c),
-        (
-            "material",
-            format!("{}, group {}", or_dash(&hit.material), or_dash(&hit.group)),
-        ),
-    ];
+    ]);
+    if let Some(triangle) = &hit.triangle {
+        let [a, b, c] = triangle.vertices.map(list);
+        rows.extend([("vertices", a), ("", b), ("", c)]);
+    } else {
+        rows.push(("parameters", format!("{:?}", hit.parameters)));
+    }
+    if let Some(uv) = hit.surface_uv {
+        rows.push(("u, v", format!("{uv:?}")));
+    }
+    rows.push((
+        "material",
+        format!("{}, group {}", or_dash(&hit.material), or_dash(&hit.group)),
+    ));
     for (name, value) in rows {
         writeln!(out, "  {name:<12} {value}")?;
     }

@@ -51,7 +51,7 @@ pub struct LabArgs {
     /// Random seed
     #[arg(long, default_value_t = 1, allow_negative_numbers = true, value_parser = parse_seed)]
     pub seed: u64,
-    /// Measure with camera rays in this OBJ file instead; - for standard input
+    /// Measure with camera rays in this OBJ or scene file instead; - for standard input
     #[arg(long, value_name = "FILE", conflicts_with_all = CASE_OPTIONS)]
     pub scene: Option<PathBuf>,
     /// Camera.
@@ -182,8 +182,9 @@ impl LabArgs {
 
     fn measure_scene(&self, file: &Path, out: &mut dyn Write) -> Result<(), CommandError> {
         self.camera.check()?;
-        let scene = self.mesh.load(file, Recentre::Auto)?.scene;
-        let camera = self.camera.camera(&scene)?;
+        let loaded = self.mesh.load(file, Recentre::Auto)?;
+        let scene = loaded.scene;
+        let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
         let sizes = if self.quick {
             SceneSizes::PANEL
         } else {

@@ -7,9 +7,10 @@ use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::integrator::{Comparison, Context};
 use hitscope_core::kernel::triangle_kernel;
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
-use hitscope_core::scene::{LoadedScene, Shading};
+use hitscope_core::scene::Shading;
 use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Film, Intersector};
 use std::sync::Arc;
@@ -111,7 +112,7 @@ impl PictureArgs {
     /// See [`CommandError`].
     pub fn trace(&self, mut loaded: LoadedScene) -> Result<Rendered, CommandError> {
         loaded.scene = self.crease.apply(loaded.scene);
-        let camera = self.camera.camera(&loaded.scene)?;
+        let camera = self.camera.camera(&loaded.scene, loaded.view.as_ref())?;
         let shading = self.shading.into();
         let intersector: Arc<dyn Intersector> =
             Arc::from(loaded.scene.intersector(self.kernel.kernel()));

@@ -17,7 +17,7 @@ Examples:
 
 The output file appears under its name once it is complete. A picture takes 19 bytes of memory per pixel.")]
 pub struct RenderArgs {
-    /// OBJ file, plain or gzipped; - for standard input
+    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
     /// PNG file, pipe or device to write
     #[arg(short, long, value_name = "OUT.png", value_parser = parse_png)]

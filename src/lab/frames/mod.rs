@@ -12,7 +12,7 @@
 //! [`PlacedRay::rounding`] is the remaining error.
 
 use glam::{DVec3, Vec3};
-use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::kernel::KernelChoice;
 use hitscope_core::ray::RayError;
 use hitscope_core::{Intersector, Ray, Scene};
 use std::sync::OnceLock;
@@ -65,7 +65,7 @@ enum FrameKind {
 /// A scene, and its intersectors in the frames in which rays are traced.
 pub struct Frames<'a> {
     scene: &'a Scene,
-    kernel: &'static TriangleKernel,
+    kernel: KernelChoice,
     max_memory: u64,
     mesh: Box<dyn Intersector>,
     has_file_frame: OnceLock<bool>,
@@ -74,7 +74,8 @@ pub struct Frames<'a> {
 
 impl<'a> Frames<'a> {
     /// `max_memory` limits the bytes of both trees and their triangles; if they exceed it, there is no second tree.
-    pub fn new(scene: &'a Scene, kernel: &'static TriangleKernel, max_memory: u64) -> Self {
+    pub fn new(scene: &'a Scene, kernel: impl Into<KernelChoice>, max_memory: u64) -> Self {
+        let kernel = kernel.into();
         Self {
             scene,
             kernel,
@@ -136,7 +137,7 @@ impl<'a> Frames<'a> {
     fn fits_twice(&self) -> bool {
         let mesh = self.scene.mesh();
         let lists = size_of_val(mesh.positions()) + size_of_val(mesh.triangles());
-        let one = lists + self.scene.bvh().bytes() + self.mesh.bytes();
+        let one = lists + self.scene.tree_bytes() + self.mesh.bytes();
         2 * one as u64 <= self.max_memory
     }
 

@@ -203,7 +203,7 @@ impl OrderCase {
             let exact = oracle::crossings(mesh, &ray, &every);
             ties += u64::from(exact.iter().any(|(_, primitives)| primitives.len() > 1));
             for (kernel, (nearest, all)) in kernels.iter().zip(&mut wrong) {
-                let intersector = scene.intersector(kernel);
+                let intersector = scene.intersector(*kernel);
                 let expected = exact.first().map(|(_, primitives)| primitives[0]);
                 let found = intersector.closest_hit(&ray).map(|hit| hit.primitive);
                 *nearest += u64::from(found != expected);

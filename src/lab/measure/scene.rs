@@ -3,8 +3,9 @@
 use super::speed::{Bench, Speed};
 use super::statistics::{Quantiles, bound_per_million, per_million};
 use super::workloads::{Workloads, workloads};
-use crate::oracle::{self, ExactHit};
-use hitscope_core::kernel::{TRIANGLE_KERNELS, default_triangle_kernel};
+use crate::oracle;
+use hitscope_core::counts::counted_as;
+use hitscope_core::kernel::{TRIANGLE_KERNELS, default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::ray::ulp_at;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
@@ -62,6 +63,15 @@ pub struct SceneRow {
     pub speed: Speed,
 }
 
+/// The scene's primitives, as in “12 triangles, 3 spheres”.
+fn counted_primitives(scene: &Scene) -> String {
+    let counted = scene.groups().iter().map(|group| {
+        let shape = group.shape();
+        counted_as(group.count(), shape.name, shape.plural)
+    });
+    counted.collect::<Vec<_>>().join(", ")
+}
+
 /// Measures every kernel in a scene seen by a camera. Passes each row to `each` as soon as it is measured.
 ///
 /// # Errors
@@ -76,7 +86,7 @@ pub fn measure(
     let workloads = workloads(scene, camera, sizes.timed, 1);
     let checked = checked_rays(&workloads, sizes.checked);
     let answers = answers(scene, &checked, progress)?;
-    let name = format!("{} triangles", scene.mesh().triangles().len());
+    let name = counted_primitives(scene);
     let bench = Bench::new(scene, name, &workloads, sizes.rounds);
     for kernel in TRIANGLE_KERNELS.iter() {
         progress.check()?;
@@ -99,15 +109,17 @@ fn checked_rays(workloads: &Workloads, count: usize) -> Vec<Ray> {
     rays
 }
 
-/// A ray and its nearest hit according to the oracle.
+/// A ray and its nearest hit: according to the oracle if only triangles can be hit, else to the exact kernels.
 struct Answer {
     ray: Ray,
-    nearest: Option<(u32, ExactHit)>,
+    /// The primitive, and t rounded once.
+    nearest: Option<(u32, f64)>,
 }
 
 fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answer>, Cancelled> {
     // The candidates contain every triangle that the ray can hit, for any kernel.
     let intersector = scene.intersector(default_triangle_kernel());
+    let exact = scene.intersector(exact_triangle_kernel());
     let mut answers = Vec::with_capacity(rays.len());
     for ray in rays {
         progress.check()?;
@@ -115,7 +127,18 @@ fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answe
         candidates.sort_unstable();
         answers.push(Answer {
             ray: *ray,
-            nearest: oracle::nearest(scene.mesh(), ray, &candidates),
+            nearest: if candidates
+                .iter()
+                .all(|&primitive| scene.is_triangle(primitive))
+            {
+                let nearest = oracle::nearest(scene.mesh(), ray, &candidates);
+                nearest.map(|(triangle, hit)| (triangle, hit.t.to_f64()))
+            } else {
+                exact.closest_hit(ray).and_then(|hit| {
+                    let [t, ..] = scene.exact_answer(ray, hit.primitive)?;
+                    Some((hit.primitive, t))
+                })
+            },
         });
     }
     Ok(answers)
@@ -130,10 +153,9 @@ fn row(intersector: &dyn Intersector, answers: &[Answer], speed: Speed) -> Scene
             (None, None) => {}
             (None, Some(_)) => missed += 1,
             (Some(_), None) => false_hits += 1,
-            (Some(hit), Some((triangle, exact))) => {
-                if hit.primitive == *triangle {
-                    let t = exact.t.to_f64();
-                    t_ulps.push((f64::from(hit.t) - t).abs() / ulp_at(t));
+            (Some(hit), Some((primitive, t))) => {
+                if hit.primitive == *primitive {
+                    t_ulps.push((f64::from(hit.t) - t).abs() / ulp_at(*t));
                 } else {
                     other_triangle += 1;
                 }

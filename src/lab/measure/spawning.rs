@@ -116,12 +116,7 @@ impl SpawnCase {
                     break;
                 };
                 let corners = scene.mesh().corners(hit.primitive);
-                let departure = Departure {
-                    arrived_by: &arrived_by,
-                    hit: &hit,
-                    corners,
-                    dir,
-                };
+                let departure = Departure::of_triangle(&arrived_by, &hit, corners, dir);
                 for (k, policy) in SPAWN_POLICIES.iter().enumerate() {
                     let ray = policy
                         .spawn(&departure)

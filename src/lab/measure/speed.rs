@@ -111,7 +111,7 @@ impl<'a> Bench<'a> {
         let is_fast = kernel.info.name == self.fast.kernel().name;
         let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
         let triangles = self.scene.mesh().triangles().len().max(1) as f64;
-        let bytes = intersector.bytes() + self.scene.bvh().bytes();
+        let bytes = intersector.bytes() + self.scene.tree_bytes();
         let adaptive = adaptive(intersector, self.workloads);
         Ok(Speed {
             kernel: kernel.info.name,

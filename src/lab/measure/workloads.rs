@@ -68,6 +68,13 @@ fn bounce_rays(
     let lift = LIFT * 2.0 * scene.bounds().radius();
     let bounce = |(ray, hit): (&Ray, Option<hitscope_core::Hit>)| {
         let hit = hit?;
+        if !scene.is_triangle(hit.primitive) {
+            let surface = scene.surface(ray, &hit);
+            let facing = -surface.facing_normal(ray.dir).as_dvec3();
+            let origin = surface.position.as_dvec3() + lift * facing;
+            let dir = (facing + random.direction()).normalize_or(facing);
+            return Ray::new(origin.as_vec3(), dir.as_vec3()).ok();
+        }
         let corners = scene.mesh().corners(hit.primitive);
         let normal = unit_normal(corners);
         let facing = if normal.dot(ray.dir.as_dvec3()) > 0.0 {

@@ -2,7 +2,9 @@
 //! kernels.
 
 mod fraction;
+mod sphere;
 mod triangle;
 
 pub use fraction::Fraction;
+pub use sphere::sphere_crossings;
 pub use triangle::{Crossing, ExactHit, crossings, intersect, nearest};

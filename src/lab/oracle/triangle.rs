@@ -110,7 +110,7 @@ pub fn nearest(mesh: &TriangleMesh, ray: &Ray, triangles: &[u32]) -> Option<(u32
 }
 
 /// The vectors as integers times a common power of two, and its exponent.
-fn integers(vectors: &[Vec3]) -> Option<(Vec<[IBig; 3]>, i32)> {
+pub(super) fn integers(vectors: &[Vec3]) -> Option<(Vec<[IBig; 3]>, i32)> {
     let mut decoded = Vec::with_capacity(vectors.len());
     for v in vectors {
         let [x, y, z] = v.to_array().map(|x| decode(f64::from(x)));
@@ -129,7 +129,7 @@ fn integers(vectors: &[Vec3]) -> Option<(Vec<[IBig; 3]>, i32)> {
     Some((integers, common))
 }
 
-fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
+pub(super) fn minus(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
     std::array::from_fn(|k| &a[k] - &b[k])
 }
 
@@ -140,7 +140,7 @@ fn cross(a: &[IBig; 3], b: &[IBig; 3]) -> [IBig; 3] {
     })
 }
 
-fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
+pub(super) fn dot(a: &[IBig; 3], b: &[IBig; 3]) -> IBig {
     &a[0] * &b[0] + &a[1] * &b[1] + &a[2] * &b[2]
 }
 

@@ -8,7 +8,8 @@ use crate::trade::Trade;
 use crate::watch::Watch;
 use egui::{Align, Layout, RichText};
 use glam::UVec2;
-use hitscope_core::counts::counted;
+use hitscope_core::Scene;
+use hitscope_core::counts::{counted, counted_as};
 use hitscope_core::integrator::INTEGRATORS;
 
 /// Width in points that the panel leaves for the picture in a narrow window.
@@ -258,7 +259,7 @@ impl App {
         let kernel = self.document.intersector().kernel().short_name();
         let mut parts = vec![
             format!("{kernel} kernel"),
-            counted(scene.mesh().triangles().len(), "triangle"),
+            primitives(scene),
             format!(
                 "{} of {}{pause}",
                 status.samples,
@@ -401,5 +402,13 @@ impl App {
         if response.inner || response.backdrop_response.clicked() {
             actions.push(Action::ToggleHelp);
         }
+    }
+}
+
+/// The primitives of a scene: triangles, or all of them if it has other shapes.
+fn primitives(scene: &Scene) -> String {
+    match scene.groups() {
+        [group] => counted_as(group.count(), group.shape().name, group.shape().plural),
+        _ => counted(scene.primitive_count(), "primitive"),
     }
 }

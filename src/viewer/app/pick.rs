@@ -7,10 +7,11 @@ use crate::panels::{self, inspect::PickView};
 use crate::settings::Tab;
 use crate::task::Task;
 use glam::{DVec3, UVec2, Vec3};
+use hitscope_core::loading::is_scene_file;
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, TriangleMesh};
-use hitscope_lab::inspection::{HitReport, Inspection};
+use hitscope_lab::inspection::{Inspection, TriangleReport};
 use std::sync::Arc;
 
 /// A clicked pixel and its inspection.
@@ -36,9 +37,15 @@ struct InspectionBasis {
 }
 
 impl Pick {
+    /// The triangle that was hit, if it is one.
+    fn triangle(&self) -> Option<&TriangleReport> {
+        let hit = self.inspection.hit.as_ref();
+        hit.and_then(|hit| hit.triangle.as_ref())
+    }
+
     /// The contents of the Inspect tab.
     pub fn view(&self, document: &Document, is_reading_face: bool) -> PickView<'_> {
-        let hit = self.inspection.hit.as_ref();
+        let triangle = self.triangle();
         let mesh = document.loaded.scene.mesh();
         let coordinates = &mesh.attributes().texture_coordinates;
         PickView {
@@ -46,15 +53,15 @@ impl Pick {
             kernel: panels::kernel_name(self.basis.kernel),
             face: self.face.as_ref(),
             is_reading_face,
-            has_uv: hit.is_some_and(|hit| coordinates.are_complete(hit.triangle)),
-            colour: hit.and_then(|hit| colour_at(mesh, hit)),
+            has_uv: triangle.is_some_and(|triangle| coordinates.are_complete(triangle.index)),
+            colour: triangle.and_then(|triangle| colour_at(mesh, triangle)),
         }
     }
 }
 
 /// The file's vertex colours, interpolated at a hit.
-fn colour_at(mesh: &TriangleMesh, hit: &HitReport) -> Option<[f32; 3]> {
-    let corners = mesh.triangles().get(hit.triangle as usize)?;
+fn colour_at(mesh: &TriangleMesh, hit: &TriangleReport) -> Option<[f32; 3]> {
+    let corners = mesh.triangles().get(hit.index as usize)?;
     let mut sum = Vec3::ZERO;
     for (&vertex, weight) in corners.iter().zip(hit.barycentric) {
         sum += *mesh.attributes().colours.get(vertex as usize)? * weight;
@@ -119,11 +126,14 @@ impl App {
     }
 
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
-        self.face_lookup = pick.inspection.hit.as_ref().map(|hit| {
-            let document = &self.document;
-            let line = hit.line.unwrap_or(0);
+        let document = &self.document;
+        let triangle = pick.triangle();
+        // The faces of a scene file's meshes aren't in that file.
+        let is_mesh = !document.path.as_deref().is_some_and(is_scene_file);
+        self.face_lookup = triangle.filter(|_| is_mesh).map(|triangle| {
+            let line = triangle.line.unwrap_or(0);
             let scene = &document.loaded.scene;
-            FaceLookup::start(document.path.clone(), scene, hit.triangle, line, ctx)
+            FaceLookup::start(document.path.clone(), scene, triangle.index, line, ctx)
         });
     }
 
@@ -152,8 +162,8 @@ impl App {
             Ok(mut pick) => {
                 pick.inspection
                     .find_line(&self.document.loaded.report.face_lines);
-                let triangle = |pick: &Pick| pick.inspection.hit.as_ref().map(|hit| hit.triangle);
-                let is_same = |old: &Pick| triangle(old) == triangle(&pick) && old.face.is_some();
+                let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);
+                let is_same = |old: &Pick| index(old) == index(&pick) && old.face.is_some();
                 match self.pick.take().filter(is_same) {
                     Some(old) => pick.face = old.face,
                     None => self.start_face_lookup(&pick, ctx),

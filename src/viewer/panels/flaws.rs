@@ -5,8 +5,8 @@ use crate::bindings::Action;
 use crate::flaw_place::{self, FlawPlace};
 use egui::RichText;
 use hitscope_core::counts::grouped;
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{FLAWS, Health};
-use hitscope_core::scene::LoadedScene;
 
 /// Shows the flaws. A click marks all flaws of a kind or shows one of them.
 pub fn flaws_ui(

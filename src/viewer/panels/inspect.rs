@@ -6,7 +6,9 @@ use crate::face_lookup::FaceInFile;
 use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
 use hitscope_core::counts::{counted, counted_as};
-use hitscope_lab::inspection::{ExactReport, HitReport, Inspection, KernelRow};
+use hitscope_lab::inspection::{
+    ExactReport, ExactTriangle, HitReport, Inspection, KernelRow, TriangleReport,
+};
 
 /// The contents of the tab for a pick.
 pub struct PickView<'p> {
@@ -52,7 +54,10 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
     match &inspection.hit {
         Some(hit) => {
             hit_ui(ui, &pick, hit);
-            element_ui(ui, &pick, hit);
+            match &hit.triangle {
+                Some(triangle) => triangle_ui(ui, &pick, triangle),
+                None => shape_ui(ui, hit),
+            }
         }
         None => _ = ui.label(format!("No hit ({})", pick.kernel)),
     }
@@ -66,8 +71,8 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
     section_ui(ui, "Ray", |ui| {
         let cost = inspection.cost;
         let boxes = counted_as(cost.boxes as usize, "box", "boxes");
-        let triangles = counted(cost.triangles as usize, "triangle");
-        row_ui(ui, "tested", format!("{boxes}\n{triangles}"));
+        let primitives = counted(cost.triangles as usize, "primitive");
+        row_ui(ui, "tested", format!("{boxes}\n{primitives}"));
         row_ui(ui, "origin", lines(inspection.ray.origin));
         row_ui(ui, "direction", lines(inspection.ray.direction));
     });
@@ -78,12 +83,17 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
         row_ui(ui, "t", number(hit.t));
         row_ui(ui, "position", lines(hit.position));
         row_ui(ui, "side", hit.side);
-        row_ui(ui, "barycentric", lines(hit.barycentric));
-        match pick.face.and_then(|face| face.uv(hit.barycentric)) {
-            Some(uv) => row_ui(ui, "uv", uv.map(|x| significant(x, 7)).join("\n")),
-            // Keeps the rows below in place.
-            None if pick.has_uv && pick.is_reading_face => row_ui(ui, "uv", "…\n"),
-            None => {}
+        if let Some(triangle) = &hit.triangle {
+            row_ui(ui, "barycentric", lines(triangle.barycentric));
+            match pick.face.and_then(|face| face.uv(triangle.barycentric)) {
+                Some(uv) => row_ui(ui, "uv", uv.map(|x| significant(x, 7)).join("\n")),
+                // Keeps the rows below in place.
+                None if pick.has_uv && pick.is_reading_face => row_ui(ui, "uv", "…\n"),
+                None => {}
+            }
+        }
+        if let Some(uv) = hit.surface_uv {
+            row_ui(ui, "u, v", uv.map(|x| significant(x, 7)).join("\n"));
         }
         if let Some(colour) = pick.colour {
             let text = colour.map(|channel| significant(channel.into(), 3));
@@ -94,10 +104,20 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     });
 }
 
+/// Shows a shape other than a triangle.
+fn shape_ui(ui: &mut egui::Ui, hit: &HitReport) {
+    section_ui(ui, "Shape", |ui| {
+        row_ui(ui, "shape", hit.shape);
+        row_ui(ui, "primitive", format!("{} (0-based)", hit.primitive));
+        let numbers = hit.parameters.iter().copied().map(number);
+        row_ui(ui, "parameters", numbers.collect::<Vec<_>>().join("\n"));
+    });
+}
+
 /// Shows the triangle and its face in the file.
-fn element_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
+fn triangle_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &TriangleReport) {
     section_ui(ui, "Triangle", |ui| {
-        row_ui(ui, "triangle", format!("{} (0-based)", hit.triangle));
+        row_ui(ui, "triangle", format!("{} (0-based)", hit.index));
         let face = u64::from(hit.face) + 1;
         row_ui(ui, "face", format!("{face} (1-based)"));
         if let Some(line) = hit.line {
@@ -123,37 +143,31 @@ fn kernels_ui(ui: &mut egui::Ui, inspection: &Inspection) {
     ui.label(RichText::new("Kernels compared with exact arithmetic").strong());
     ui.label(summary(exact, kernels));
     if let Some(exact) = exact {
-        let also = exact
-            .also
-            .iter()
-            .map(|t| format!(", and triangle {t} at the same t"));
-        let place = if exact.is_on_boundary {
-            "on the boundary of"
-        } else {
-            "inside"
+        let also = exact.also.iter();
+        let also: String = also.map(|t| format!(", and {t} at the same t")).collect();
+        let place = match &exact.fractions {
+            Some(triangle) if triangle.is_on_boundary => "on the boundary of triangle",
+            Some(_) => "inside triangle",
+            None => "on primitive",
         };
-        let text = format!(
-            "The exact hit is {place} triangle {}{}.",
-            exact.triangle,
-            also.collect::<String>()
-        );
+        let text = format!("The exact hit is {place} {}{also}.", exact.primitive);
         ui.label(RichText::new(text).weak());
     }
     CollapsingHeader::new("All kernels")
         .id_salt("kernels")
         .show_unindented(ui, |ui| kernel_tables_ui(ui, exact, kernels));
-    if let Some(exact) = exact {
-        fractions_ui(ui, exact);
+    if let Some(triangle) = exact.and_then(|exact| exact.fractions.as_ref()) {
+        fractions_ui(ui, triangle);
     }
     ui.add_space(4.0);
 }
 
 /// The number of kernels that agree with exact arithmetic, and the largest error of t.
 fn summary(exact: Option<&ExactReport>, kernels: &[KernelRow]) -> String {
-    let is_right = |kernel: &&KernelRow| kernel.triangle == exact.map(|exact| exact.triangle);
+    let is_right = |kernel: &&KernelRow| kernel.triangle == exact.map(|exact| exact.primitive);
     let right = kernels.iter().filter(is_right).count();
     let decision = if exact.is_some() {
-        "find the exact triangle"
+        "find the exact primitive"
     } else {
         "miss, as exact arithmetic does"
     };
@@ -175,15 +189,16 @@ fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[K
         .id_salt("kernel tables")
         .show(ui, |ui| {
             ui.label("Distance, with its error in f32 ulps");
-            let columns = ["", "t", "error", "triangle"];
+            let columns = ["", "t", "error", "primitive"];
             let rows = kernels.iter().map(kernel_distance);
             table_ui(
                 ui,
                 columns,
                 std::iter::once(exact_distance(exact)).chain(rows),
             );
-            // A miss has no barycentric coordinates.
-            if exact.is_none() && kernels.iter().all(|kernel| !kernel.hit) {
+            // Only hits of triangles have barycentric coordinates.
+            let has_none = |kernel: &KernelRow| kernel.barycentric.is_none();
+            if exact.is_none_or(|exact| exact.fractions.is_none()) && kernels.iter().all(has_none) {
                 return;
             }
             ui.add_space(4.0);
@@ -199,7 +214,7 @@ fn kernel_tables_ui(ui: &mut egui::Ui, exact: Option<&ExactReport>, kernels: &[K
 }
 
 /// Shows the exact numbers as fractions of up to some hundred digits.
-fn fractions_ui(ui: &mut egui::Ui, exact: &ExactReport) {
+fn fractions_ui(ui: &mut egui::Ui, exact: &ExactTriangle) {
     CollapsingHeader::new("As fractions")
         .id_salt("fractions")
         .show(ui, |ui| {
@@ -219,7 +234,7 @@ fn exact_distance(exact: Option<&ExactReport>) -> [String; 4] {
         // Two digits more than an f32 needs.
         exact.map_or("miss".to_owned(), |exact| significant(exact.t, 11)),
         dash(),
-        exact.map_or_else(dash, |exact| exact.triangle.to_string()),
+        exact.map_or_else(dash, |exact| exact.primitive.to_string()),
     ]
 }
 
@@ -233,7 +248,8 @@ fn kernel_distance(kernel: &KernelRow) -> [String; 4] {
 }
 
 fn exact_barycentric(exact: Option<&ExactReport>) -> [String; 5] {
-    let [l1, l2, l3] = coordinates(exact.map(|exact| exact.barycentric));
+    let [l1, l2, l3] =
+        coordinates(exact.and_then(|exact| Some(exact.fractions.as_ref()?.barycentric)));
     [EXACT.to_owned(), l1, l2, l3, dash()]
 }
 

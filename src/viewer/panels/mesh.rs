@@ -9,7 +9,7 @@ use crate::numbers::{duration, number, significant};
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::counts::{counted, grouped};
-use hitscope_core::scene::LoadedScene;
+use hitscope_core::loading::LoadedScene;
 
 /// Shows the tab; `flaw` is the selected flaw.
 pub fn mesh_ui(
@@ -137,7 +137,7 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
         for (part, bytes) in parts.filter(|(_, bytes)| *bytes > 0) {
             row_ui(ui, part, kb(bytes));
         }
-        row_ui(ui, "tree", kb(scene.bvh().bytes()));
+        row_ui(ui, "tree", kb(scene.tree_bytes()));
         row_ui(ui, "packed triangles", kb(document.intersector().bytes()));
     });
     if let Some(findings) = findings {

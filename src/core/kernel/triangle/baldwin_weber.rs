@@ -12,8 +12,8 @@
 use super::bounds;
 use super::dominant_axis::{self, Rows};
 use crate::aabb::Planes;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
-use crate::lane::{Lane, LaneMask, Number, dot, plus, times};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::lane::{Lane, LaneMask, Number, Values, dot, plus, times};
 use crate::shape::Triangle;
 
 /// Index of the box in the packed values.

@@ -5,29 +5,25 @@
 //! every box of the tree around the triangle.
 
 use crate::aabb::Planes;
-use crate::kernel::Values;
-use crate::lane::{Lane, Number, plus};
+use crate::lane::{Lane, Number, Values, plus};
+use crate::shape::{Shape as _, Triangle};
 use glam::Vec3;
-
-/// The box around A, B and C, which are packed from value 0.
-#[inline(always)]
-pub(super) fn around_corners<L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-    around([triangles.three(0), triangles.three(3), triangles.three(6)])
-}
 
 /// The box around A, A + e1 and A + e2, which are packed from value 0.
 #[inline(always)]
 pub(super) fn around_edges<L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
     let a = triangles.three(0);
     let (b, c) = (plus(&a, &triangles.three(3)), plus(&a, &triangles.three(6)));
-    around([a, b, c])
+    Triangle::planes(&Corners([a, b, c]))
 }
 
-#[inline(always)]
-fn around<L: Lane>([a, b, c]: [[L; 3]; 3]) -> Planes<L> {
-    let lower = |axis: usize| a[axis].lesser(b[axis]).lesser(c[axis]);
-    let upper = |axis: usize| a[axis].greater(b[axis]).greater(c[axis]);
-    [lower(0), upper(0), lower(1), upper(1), lower(2), upper(2)]
+struct Corners<L>([[L; 3]; 3]);
+
+impl<L: Lane> Values<L> for Corners<L> {
+    #[inline(always)]
+    fn value(&self, index: usize) -> L {
+        self.0[index / 3][index % 3]
+    }
 }
 
 /// Packs the box of a triangle whose corners the kernel doesn't store; [`kept`] reads it.

@@ -16,13 +16,10 @@
 //!   edge's normal alike); accuracy far from the triangle, because the normals grow with the square of the
 //!   distance.
 
-use super::bounds;
 use crate::aabb::Planes;
-use crate::kernel::{
-    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
-};
-use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
-use crate::shape::Triangle;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::lane::{Lane, LaneMask, Number, Values, cross, dot, minus};
+use crate::shape::{Shape as _, Triangle};
 
 /// See the [module](self).
 pub(super) struct EdgePlanes;
@@ -50,12 +47,12 @@ impl Kernel for EdgePlanes {
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
-        pack_corners(triangle.0, values);
+        triangle.write(values);
     }
 
     #[inline(always)]
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        bounds::around_corners(triangles)
+        Triangle::planes(triangles)
     }
 
     #[inline(always)]

@@ -18,7 +18,6 @@ use super::{KernelList, KernelRow, KernelTable, KernelVisitor, Tier};
 use crate::shape::Triangle;
 use baldwin_weber::BaldwinWeber;
 use edge_planes::EdgePlanes;
-use glam::Vec3;
 use moller_trumbore::MollerTrumbore;
 use parametric::Parametric;
 use plane_projection::PlaneProjection;
@@ -39,18 +38,18 @@ impl KernelTable for Triangle {
 
 impl KernelList for Triangle {
     fn visit_kernels<V: KernelVisitor<Self>>(visitor: &mut V) {
-        visitor.visit::<PlaneProjection, f32>();
-        visitor.visit::<PlaneProjection, f64>();
-        visitor.visit::<Parametric, f32>();
-        visitor.visit::<Parametric, f64>();
-        visitor.visit::<EdgePlanes, f32>();
-        visitor.visit::<EdgePlanes, f64>();
-        visitor.visit::<BaldwinWeber, f32>();
-        visitor.visit::<BaldwinWeber, f64>();
+        visitor.visit_with_levels::<PlaneProjection, f32>();
+        visitor.visit_with_levels::<PlaneProjection, f64>();
+        visitor.visit_with_levels::<Parametric, f32>();
+        visitor.visit_with_levels::<Parametric, f64>();
+        visitor.visit_with_levels::<EdgePlanes, f32>();
+        visitor.visit_with_levels::<EdgePlanes, f64>();
+        visitor.visit_with_levels::<BaldwinWeber, f32>();
+        visitor.visit_with_levels::<BaldwinWeber, f64>();
         visitor.visit_with_packets::<MollerTrumbore>();
-        visitor.visit::<MollerTrumbore, f64>();
+        visitor.visit_with_levels::<MollerTrumbore, f64>();
         visitor.visit_with_packets::<Watertight>();
-        visitor.visit::<Watertight, f64>();
+        visitor.visit_with_levels::<Watertight, f64>();
         visitor.visit_exact_triangle();
     }
 }
@@ -68,17 +67,4 @@ pub fn default_triangle_kernel() -> &'static TriangleKernel {
 /// The kernel whose decisions match exact arithmetic.
 pub fn exact_triangle_kernel() -> &'static TriangleKernel {
     Triangle::kernel_of(Tier::Exact)
-}
-
-/// Packs the corners unchanged: x, y and z of A, then of B, then of C.
-pub(crate) fn pack_corners(corners: [Vec3; 3], values: &mut [f32]) {
-    for (corner, kept) in corners.iter().zip(values.chunks_exact_mut(3)) {
-        kept.copy_from_slice(&corner.to_array());
-    }
-}
-
-/// The corners packed by [`pack_corners`].
-#[inline(always)]
-pub(crate) fn corners_of(values: &impl super::Values<f32>) -> [Vec3; 3] {
-    [values.three(0), values.three(3), values.three(6)].map(Vec3::from_array)
 }

@@ -9,11 +9,9 @@
 
 use super::bounds;
 use crate::aabb::Planes;
-use crate::kernel::{
-    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
-};
-use crate::lane::{Lane, LaneMask, Number, cross, dot, minus};
-use crate::shape::Triangle;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::lane::{Lane, LaneMask, Number, Values, cross, dot, minus};
+use crate::shape::{Shape as _, Triangle};
 
 /// See the [module](self).
 pub(super) struct MollerTrumbore;
@@ -45,16 +43,16 @@ impl Kernel for MollerTrumbore {
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
         let [a, b, c] = triangle.0;
         if N::HOLDS_PRODUCTS {
-            pack_corners(triangle.0, values);
+            triangle.write(values);
         } else {
-            pack_corners([a, b - a, c - a], values);
+            Triangle([a, b - a, c - a]).write(values);
         }
     }
 
     #[inline(always)]
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
         if N::HOLDS_PRODUCTS {
-            bounds::around_corners(triangles)
+            Triangle::planes(triangles)
         } else {
             bounds::around_edges(triangles)
         }

@@ -6,13 +6,10 @@
 //! Promises: nothing beyond the measured figures.
 //! Doesn't promise: a hit at shared edges and vertices.
 
-use super::bounds;
 use crate::aabb::Planes;
-use crate::kernel::{
-    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values, pack_corners,
-};
-use crate::lane::{Lane, LaneMask, Number, cross, dot, minus, times};
-use crate::shape::Triangle;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::lane::{Lane, LaneMask, Number, Values, cross, dot, minus, times};
+use crate::shape::{Shape as _, Triangle};
 
 /// See the [module](self).
 pub(super) struct Parametric;
@@ -39,12 +36,12 @@ impl Kernel for Parametric {
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
-        pack_corners(triangle.0, values);
+        triangle.write(values);
     }
 
     #[inline(always)]
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        bounds::around_corners(triangles)
+        Triangle::planes(triangles)
     }
 
     #[inline(always)]

@@ -13,8 +13,8 @@
 use super::bounds;
 use super::dominant_axis::{self, Rows};
 use crate::aabb::Planes;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Values};
-use crate::lane::{Lane, LaneMask, Number, dot, minus, times};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::lane::{Lane, LaneMask, Number, Values, dot, minus, times};
 use crate::shape::Triangle;
 
 /// Index of the box in the packed values.

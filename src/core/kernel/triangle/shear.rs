@@ -2,8 +2,8 @@
 //!
 //! Source: Woop, Benthin, Wald, "Watertight Ray/Triangle Intersection", JCGT 2(1), 2013.
 
-use crate::kernel::{RayLanes, Values};
-use crate::lane::{Lane, Number};
+use crate::kernel::RayLanes;
+use crate::lane::{Lane, Number, Values};
 use crate::ray::Ray;
 
 /// A ray prepared for shearing triangles.

@@ -17,17 +17,13 @@
 //! the ray to the wrong neighbour. If the computed t places that neighbour behind the ray's origin, or if the
 //! ray misses its box, both triangles are missed.
 
-use super::bounds;
-use super::corners_of;
 use super::exact::{self, filter};
 use super::shear::ShearedRay;
 use crate::aabb::Planes;
-use crate::kernel::{
-    Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier, Values, pack_corners,
-};
-use crate::lane::{Lane, LaneMask, Number};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::lane::{Lane, LaneMask, Number, Values};
 use crate::ray::Ray;
-use crate::shape::Triangle;
+use crate::shape::{Shape as _, Triangle};
 
 /// See the [module](self).
 pub(super) struct Watertight;
@@ -78,12 +74,12 @@ impl Kernel for Watertight {
     type Prepared<L: Lane> = PreparedRay<L>;
 
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
-        pack_corners(triangle.0, values);
+        triangle.write(values);
     }
 
     #[inline(always)]
     fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        bounds::around_corners(triangles)
+        Triangle::planes(triangles)
     }
 
     #[inline(always)]
@@ -135,7 +131,7 @@ impl Kernel for Watertight {
     }
 
     fn decide<N: Number>(ray: &Ray, triangle: &impl Values<f32>) -> Option<[N; 3]> {
-        let [t, u, v] = exact::answer_for::<N>(ray, corners_of(triangle))?.map(N::of_f64);
+        let [t, u, v] = exact::answer_for::<N>(ray, Triangle::read(triangle).0)?.map(N::of_f64);
         // The hit lies inside the interval, but rounding may have moved it to an end.
         let [start, end] = ray.finite_interval().map(N::from);
         Some([t.greater(start.next_up()).lesser(end.next_down()), u, v])

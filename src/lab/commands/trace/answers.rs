@@ -5,8 +5,7 @@ use crate::frames::{Frames, GivenRay, PlacedRay};
 use crate::inspection::{position_in_file, weights};
 use crate::json;
 use glam::DVec3;
-use hitscope_core::Hit;
-use hitscope_core::mesh::TriangleMesh;
+use hitscope_core::{Hit, Scene};
 use serde::Serialize;
 
 /// Maximum number of characters of a word that an error message quotes.
@@ -51,12 +50,28 @@ struct ErrorAnswer<'e> {
 #[derive(Serialize)]
 struct HitEntry {
     t: f64,
-    barycentric: [f32; 3],
-    triangle: u32,
-    face: u32,
+    #[serde(flatten)]
+    triangle: Option<TriangleEntry>,
+    #[serde(flatten)]
+    shape: Option<ShapeEntry>,
     position: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<Vec<u32>>,
+}
+
+/// A hit of a triangle.
+#[derive(Serialize)]
+struct TriangleEntry {
+    barycentric: [f32; 3],
+    triangle: u32,
+    face: u32,
+}
+
+/// A hit of another shape.
+#[derive(Serialize)]
+struct ShapeEntry {
+    shape: &'static str,
+    primitive: u32,
 }
 
 impl Request {
@@ -113,7 +128,7 @@ fn not_a_number(word: &str) -> String {
 
 /// Traces rays through one scene and formats the answers.
 pub(super) struct RayAnswerer<'a> {
-    pub mesh: &'a TriangleMesh,
+    pub scene: &'a Scene,
     pub frames: &'a Frames<'a>,
     pub query: RayQuery,
 }
@@ -170,12 +185,20 @@ impl RayAnswerer<'_> {
     }
 
     fn entry(&self, placed: &PlacedRay, hit: &Hit, also: Option<Vec<u32>>) -> HitEntry {
+        let (scene, primitive) = (self.scene, hit.primitive);
+        let is_triangle = scene.is_triangle(primitive);
         HitEntry {
             t: placed.t_as_given(hit.t),
-            barycentric: weights(hit),
-            triangle: hit.primitive,
-            face: self.mesh.face_of(hit.primitive),
-            position: position_in_file(self.mesh, hit),
+            triangle: is_triangle.then(|| TriangleEntry {
+                barycentric: weights(hit),
+                triangle: primitive,
+                face: scene.mesh().face_of(primitive),
+            }),
+            shape: (!is_triangle).then(|| ShapeEntry {
+                shape: scene.group_of(primitive).0.shape().name,
+                primitive,
+            }),
+            position: position_in_file(scene, &placed.ray, hit),
             also,
         }
     }

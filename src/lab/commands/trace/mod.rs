@@ -44,6 +44,9 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
 
   t             distance from o, in lengths of d
   barycentric   barycentric coordinates for the triangle's corners A, B and C
+  shape         the shape that is hit, if it isn't a triangle: sphere, plane, disk, ...; instead of
+                barycentric, triangle and face
+  primitive     index of that primitive, counted from 0: triangles come first
   triangle      index of the triangle, counted from 0, in the order of triangulation
   face          index of the face in the file, counted from 0
   position      in the file's coordinates, from the barycentric coordinates; in large triangles less
@@ -77,7 +80,7 @@ Exit status:
 #[derive(Args, Clone, Debug)]
 #[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct TraceArgs {
-    /// OBJ file, plain or gzipped; - for standard input
+    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
     /// File of rays, one per line: ox oy oz dx dy dz [tmin tmax]; - for standard input
     #[arg(long, value_name = "RAYS")]
@@ -153,7 +156,7 @@ impl TraceArgs {
         let frames = Frames::new(&scene, self.kernel.kernel(), self.mesh.memory.bytes());
         let tracer = Tracing {
             answerer: RayAnswerer {
-                mesh: scene.mesh(),
+                scene: &scene,
                 frames: &frames,
                 query: match (self.any, self.all) {
                     (true, _) => RayQuery::Any,

@@ -43,8 +43,7 @@
 //! S by no more than O(u)·err/|S|.
 
 use super::super::shear::ShearedRay;
-use crate::kernel::Values;
-use crate::lane::{Lane, LaneMask, Number};
+use crate::lane::{Lane, LaneMask, Number, Values};
 
 /// The filter's result for the triangles in the lanes. A lane in neither mask is undecided.
 pub(crate) struct Filtered<L: Lane> {

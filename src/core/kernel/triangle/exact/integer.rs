@@ -11,6 +11,7 @@
 //! Bits, if coordinates have L and directions D of them: |W| < 2^(D+2L+5), |A·n| < 2^(3L+8), and
 //! |det| < 2^(D+2L+7).
 
+use crate::algebra::Dyadic;
 use crate::ray::Ray;
 use dashu_int::IBig;
 use dashu_int::ops::{BitTest, UnsignedAbs};
@@ -90,6 +91,17 @@ pub(super) fn rounded(ray: &Ray, corners: [Vec3; 3]) -> [f64; 3] {
         quotient(&numerator, &det, exponent),
         quotient(&w_b, &det, 0),
         quotient(&w_c, &det, 0),
+    ]
+}
+
+/// Numerator and denominator of t.
+pub(super) fn ratio(ray: &Ray, corners: [Vec3; 3]) -> [Dyadic; 2] {
+    let lengths = Span::of(&[ray.origin, corners[0], corners[1], corners[2]]);
+    let dirs = Span::of(&[ray.dir]);
+    let (numerator, det) = fraction::<IBig>(ray, corners, lengths, dirs);
+    [
+        Dyadic::new(numerator, lengths.exponent - dirs.exponent),
+        Dyadic::new(det, 0),
     ]
 }
 

@@ -3,9 +3,9 @@
 
 use super::super::shear::ShearedRay;
 use super::{Filtered, VALUES, filter, integer};
-use crate::kernel::{OneValue, pack_corners};
 use crate::lane::Number;
 use crate::ray::{Hit, Ray};
+use crate::shape::{Shape as _, Triangle};
 use glam::Vec3;
 use std::cmp::Ordering;
 
@@ -278,6 +278,6 @@ impl<'a, C: Corners> Judge<'a, C> {
 #[inline(never)]
 fn in_f64(ray: &Ray, corners: [Vec3; 3]) -> Option<Filtered<f64>> {
     let mut values = [0.0; VALUES];
-    pack_corners(corners, &mut values);
-    filter(&ShearedRay::<f64>::of((), ray), &OneValue(&values))
+    Triangle(corners).write(&mut values);
+    filter(&ShearedRay::<f64>::of((), ray), &&values[..])
 }

@@ -20,6 +20,7 @@ pub(crate) use filter::{Filtered, filter};
 pub(crate) use judge::{Candidate, Corners, Judge};
 pub(crate) use rounding::HitLanes;
 
+use crate::algebra::Algebraic;
 use crate::kernel::{KernelInfo, Precision, Promises, Tier};
 use crate::lane::Number;
 use crate::ray::{Hit, Ray};
@@ -49,16 +50,21 @@ pub(in crate::kernel) fn intersect_one(ray: &Ray, corners: [Vec3; 3]) -> Option<
     evaluate(ray, corners, |judge, candidate| judge.hit(candidate))
 }
 
-/// t, u and v of a ray's hit of a triangle, or `None` for a miss. For views and tables that show a kernel's
-/// errors.
-///
-/// t errs by at most 2⁻³² relatively, u and v by at most 2⁻³¹. A NaN or an infinity in a corner is a miss.
-pub fn exact_answer(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
-    answer_for::<f64>(ray, corners)
+/// Bounds of t, given t as computed by [`Judge::values`].
+pub(crate) fn t_bounds(t: f64) -> [f64; 2] {
+    // 2⁻³¹ exceeds the error, 2⁻³², and the rounding of the bounds.
+    let slack = t.abs() / (1u64 << 31) as f64;
+    [t - slack, t + slack]
 }
 
-/// As [`exact_answer`], with t and the weights as accurate as `N` requires.
-pub(super) fn answer_for<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
+/// The exact t of a triangle that the ray hits.
+pub(crate) fn exact_t(ray: &Ray, corners: [Vec3; 3]) -> Algebraic {
+    let [numerator, denominator] = integer::ratio(ray, corners);
+    Algebraic::ratio(&numerator, &denominator).expect("a ray that hits isn't parallel")
+}
+
+/// t, u and v of a ray's hit of a triangle, or `None` for a miss; t and the weights are as accurate as `N` requires.
+pub(in crate::kernel) fn answer_for<N: Number>(ray: &Ray, corners: [Vec3; 3]) -> Option<[f64; 3]> {
     evaluate(ray, corners, |judge, candidate| {
         judge.values_for::<N>(candidate)
     })

@@ -1,8 +1,8 @@
 //! t, u and v of several hits, one per lane, to little more than half an ulp of f32.
 
 use super::{VALUES, filter};
-use crate::kernel::{RayLanes, ShearedRay, Values, axes_of};
-use crate::lane::{LANES, Lane, LaneMask, Number};
+use crate::kernel::{RayLanes, ShearedRay, axes_of};
+use crate::lane::{LANES, Lane, LaneMask, Number, Values};
 use crate::ray::Ray;
 use fearless_simd::{Simd, f64x8};
 use glam::Vec3;

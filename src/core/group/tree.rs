@@ -1,23 +1,22 @@
-//! The tree over a scene's triangles, and its replacement by a better one.
+//! The tree over a group's primitives, and its replacement by a better one.
 
 use crate::bvh::Bvh;
 use crate::intersector::improving::{Current, Improving, WeakCurrent};
-use crate::intersector::{Intersector, Packing, intersector};
-use crate::kernel::TriangleKernel;
-use crate::mesh::TriangleMesh;
+use crate::intersector::{GroupIntersector, Packing, intersector};
+use crate::kernel::{KernelList, KernelRow};
 use crate::progress::{Cancelled, Progress};
-use crate::shape::bounds_in;
+use crate::shape::{Primitives, Shape, bounds_in};
 use crate::simd::SimdLevel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 use std::time::{Duration, Instant};
 
-/// The tree that a scene starts with. Either gives the same hits, bit for bit.
+/// The tree that a group starts with. Either gives the same hits, bit for bit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum FirstTree {
     /// The tree that is fastest to trace.
     #[default]
     Best,
-    /// For a large mesh, one that is built sooner; [`Scene::improve`](crate::Scene::improve) replaces it.
+    /// For a large group, one that is built sooner; [`Scene::improve`](crate::Scene::improve) replaces it.
     Quick,
 }
 
@@ -26,11 +25,11 @@ pub enum FirstTree {
 pub struct SceneOptions {
     /// The tree to start with.
     pub first_tree: FirstTree,
-    /// Whether triangles are packed for speed or for memory.
+    /// Whether primitives are packed for speed or for memory.
     pub packing: Packing,
 }
 
-/// From this many triangles on, the best tree takes more than 0.1 s on two cores (2026-11).
+/// From this many primitives on, the best tree takes more than 0.1 s on two cores (2026-11).
 const LARGE: usize = 200_000;
 
 #[derive(Clone, Debug)]
@@ -42,41 +41,41 @@ struct Built {
 
 /// See the [module](self).
 #[derive(Debug)]
-pub(super) struct Tree {
+pub(super) struct Tree<S: 'static> {
     built: RwLock<Built>,
     packing: Packing,
     /// Held while the better tree is built.
     turn: Mutex<()>,
-    waiting: Mutex<Vec<PendingIntersector>>,
+    waiting: Mutex<Vec<PendingIntersector<S>>>,
 }
 
 /// An intersector that uses the first tree and waits for the better one.
-struct PendingIntersector {
+struct PendingIntersector<S: 'static> {
     current: WeakCurrent,
-    kernel: &'static TriangleKernel,
+    kernel: &'static KernelRow<S>,
     level: SimdLevel,
 }
 
-impl std::fmt::Debug for PendingIntersector {
+impl<S> std::fmt::Debug for PendingIntersector<S> {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(self.kernel.info.name)
     }
 }
 
-impl Tree {
+impl<S: KernelList> Tree<S> {
     pub fn build(
-        mesh: &TriangleMesh,
+        primitives: &impl Primitives<S>,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let is_large = mesh.triangles().len() >= LARGE;
+        let is_large = primitives.count() >= LARGE;
         let first = if is_large {
             options.first_tree
         } else {
             FirstTree::Best
         };
         Ok(Self {
-            built: RwLock::new(built(mesh, first, progress)?),
+            built: RwLock::new(built(primitives, first, progress)?),
             packing: options.packing,
             turn: Mutex::default(),
             waiting: Mutex::default(),
@@ -91,10 +90,6 @@ impl Tree {
         self.current().time
     }
 
-    pub fn packing(&self) -> Packing {
-        self.packing
-    }
-
     pub fn is_best(&self) -> bool {
         self.current().is_best
     }
@@ -104,15 +99,15 @@ impl Tree {
         built.clone()
     }
 
-    /// Packs a mesh for a kernel; [`improve`](Self::improve) packs it again.
+    /// Packs the primitives for a kernel; [`improve`](Self::improve) packs it again.
     pub fn intersector(
         &self,
-        mesh: &TriangleMesh,
-        kernel: &'static TriangleKernel,
+        primitives: &impl Primitives<S>,
+        kernel: &'static KernelRow<S>,
         level: SimdLevel,
-    ) -> Box<dyn Intersector> {
+    ) -> Box<dyn GroupIntersector> {
         let Built { bvh, is_best, .. } = self.current();
-        let packed = intersector(kernel, mesh, bvh, level, self.packing);
+        let packed = intersector(kernel, primitives, bvh, level, self.packing);
         if is_best {
             return packed;
         }
@@ -121,7 +116,7 @@ impl Tree {
         if self.is_best() {
             // The better tree has arrived meanwhile; the list is no longer read.
             drop(waiting);
-            return self.intersector(mesh, kernel, level);
+            return self.intersector(primitives, kernel, level);
         }
         waiting.push(PendingIntersector {
             current: current.downgrade(),
@@ -134,11 +129,15 @@ impl Tree {
         })
     }
 
-    pub fn improve(&self, mesh: &TriangleMesh, progress: &Progress) -> Result<(), Cancelled> {
+    pub fn improve(
+        &self,
+        primitives: &impl Primitives<S>,
+        progress: &Progress,
+    ) -> Result<(), Cancelled> {
         // One thread builds, the others wait.
         let _turn = locked(&self.turn);
         if !self.is_best() {
-            let better = built(mesh, FirstTree::Best, progress)?;
+            let better = built(primitives, FirstTree::Best, progress)?;
             *self.built.write().unwrap_or_else(PoisonError::into_inner) = better;
         }
         loop {
@@ -152,7 +151,7 @@ impl Tree {
             else {
                 return Ok(());
             };
-            current.replace(|| intersector(kernel, mesh, self.bvh(), level, self.packing));
+            current.replace(|| intersector(kernel, primitives, self.bvh(), level, self.packing));
         }
     }
 }
@@ -162,10 +161,15 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
     mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
-fn built(mesh: &TriangleMesh, tree: FirstTree, progress: &Progress) -> Result<Built, Cancelled> {
-    let (start, count) = (Instant::now(), mesh.triangles().len());
-    let (bounds_of, keep_going) = (bounds_in(mesh), || progress.check());
+fn built<S: Shape>(
+    primitives: &impl Primitives<S>,
+    tree: FirstTree,
+    progress: &Progress,
+) -> Result<Built, Cancelled> {
+    let (start, count) = (Instant::now(), primitives.count());
+    let (bounds_of, keep_going) = (bounds_in(primitives), || progress.check());
     let bvh = match tree {
+        _ if !S::IS_BOUNDED => Bvh::unbounded(count),
         FirstTree::Best => Bvh::build(count, bounds_of, &keep_going)?,
         FirstTree::Quick => Bvh::build_quickly(count, bounds_of, &keep_going)?,
     };

@@ -1,0 +1,35 @@
+//! Exact arithmetic for the crossings of a ray with curved shapes.
+//!
+//! A shape states where a ray meets it as polynomials in t; see [`Pieces`]. Intervals of f64 decide most
+//! questions about their roots, and integers of any size decide the rest.
+//!
+//! | module | contents |
+//! |---|---|
+//! | [`ring`] | the numbers that a shape's formulas are generic over, and vectors of them |
+//! | [`interval`] | intervals of f64, rounded outwards |
+//! | [`dyadic`] | exact numbers: an integer times a power of two |
+//! | [`polynomial`] | polynomials of degree 4 at most over either kind of number |
+//! | [`interval_roots`] | roots of a polynomial with interval coefficients |
+//! | [`remainders`] | integer polynomials and their signed remainder sequences |
+//! | [`isolation`] | intervals that contain one root of an integer polynomial each |
+//! | [`algebraic`] | exact roots: comparison, signs of polynomials, rounding |
+//! | [`crossing`] | crossings of a ray with a shape |
+
+mod algebraic;
+mod crossing;
+mod dyadic;
+mod interval;
+mod interval_roots;
+mod isolation;
+mod polynomial;
+mod remainders;
+mod ring;
+
+pub use algebraic::Algebraic;
+pub use crossing::{Crossing, CrossingSolver, Piece, Pieces, RayIn};
+pub use dyadic::Dyadic;
+pub use polynomial::Polynomial;
+pub use ring::{Ring, cross, difference, dot, squared_length, vector};
+
+#[cfg(test)]
+mod tests;

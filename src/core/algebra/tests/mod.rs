@@ -1,0 +1,12 @@
+//! Tests of the exact arithmetic.
+
+/// Crossings of rays with shapes: intervals against exact numbers.
+mod crossings;
+/// Intervals and dyadic numbers.
+mod numbers;
+/// Roots of polynomials, exact and in intervals.
+mod roots;
+/// A sphere, a cylinder and a torus as pieces.
+mod shapes;
+/// The time that crossings take; run by hand.
+mod speed;

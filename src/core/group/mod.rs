@@ -1,0 +1,180 @@
+//! Groups: the primitives of one shape with their tree.
+
+mod table;
+mod tree;
+
+pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
+pub use tree::{FirstTree, SceneOptions};
+
+use crate::aabb::Aabb;
+use crate::bvh::Bvh;
+use crate::intersector::GroupIntersector;
+use crate::kernel::{KernelChoice, KernelInfo, KernelList, exact_answer};
+use crate::mesh::Runs;
+use crate::progress::{Cancelled, Progress};
+use crate::ray::{Hit, Ray};
+use crate::shape::{Primitives, Shape, ShapeInfo, SurfacePoint};
+use crate::simd::SimdLevel;
+use std::fmt::{self, Debug, Formatter};
+use std::marker::PhantomData;
+use std::sync::Arc;
+use std::time::Duration;
+use tree::Tree;
+
+/// Primitives of one shape with their tree.
+pub trait Group: Debug + Send + Sync {
+    /// The shape.
+    fn shape(&self) -> &'static ShapeInfo;
+
+    /// The kernels of the shape's table.
+    fn kernels(&self) -> Vec<&'static KernelInfo>;
+
+    /// The number of primitives.
+    fn count(&self) -> usize;
+
+    /// The box around all primitives that rays can hit.
+    fn bounds(&self) -> Aabb;
+
+    /// The current tree; [`improve`](Self::improve) may replace it.
+    fn bvh(&self) -> Arc<Bvh>;
+
+    /// Whether the tree is the final one.
+    fn has_best_tree(&self) -> bool;
+
+    /// Time it took to build the current tree.
+    fn build_time(&self) -> Duration;
+
+    /// Replaces a quick tree by the best one, also in intersectors that already use it.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled; another call resumes.
+    fn improve(&self, progress: &Progress) -> Result<(), Cancelled>;
+
+    /// The surface where a ray hits a primitive; `hit.primitive` is its index in the group.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
+
+    /// t, u and v of a ray's first hit of a primitive, or `None` for a miss; see [`exact_answer`].
+    fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]>;
+
+    /// The material of a primitive, as an index into the mesh's materials.
+    fn material(&self, index: u32) -> u32;
+
+    /// The parameters of a primitive in a group's order, for display.
+    fn numbers(&self, index: u32) -> Vec<f32>;
+
+    /// A group of some of the primitives.
+    fn subset(&self, indices: &[u32]) -> Arc<dyn Group>;
+
+    /// Packs the primitives for a kernel. Primitives are numbered from 0.
+    fn intersector(&self, kernel: KernelChoice, level: SimdLevel) -> Box<dyn GroupIntersector>;
+}
+
+/// The group of a shape's primitives.
+pub(crate) struct ShapeGroup<S: 'static, P> {
+    primitives: Arc<P>,
+    tree: Tree<S>,
+    bounds: Aabb,
+    /// Each primitive's material.
+    materials: Runs,
+    shape: PhantomData<S>,
+}
+
+impl<S: KernelList, P: Primitives<S>> ShapeGroup<S, P> {
+    /// Builds the tree.
+    pub fn new(
+        primitives: Arc<P>,
+        options: SceneOptions,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
+        let tree = Tree::build(&*primitives, options, progress)?;
+        Ok(Self {
+            bounds: tree.bvh().bounds(),
+            tree,
+            primitives,
+            materials: Runs::default(),
+            shape: PhantomData,
+        })
+    }
+
+    /// The group with a material for each primitive, as indices into the mesh's materials.
+    pub fn with_materials(self, materials: Runs) -> Self {
+        Self { materials, ..self }
+    }
+}
+
+impl<S: Shape, P> Debug for ShapeGroup<S, P> {
+    fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
+        write!(f, "group of {}", S::INFO.plural)
+    }
+}
+
+impl<S: Grouped, P: Primitives<S> + 'static> Group for ShapeGroup<S, P> {
+    fn shape(&self) -> &'static ShapeInfo {
+        &S::INFO
+    }
+
+    fn kernels(&self) -> Vec<&'static KernelInfo> {
+        S::kernels().iter().map(|row| row.info).collect()
+    }
+
+    fn count(&self) -> usize {
+        self.primitives.count()
+    }
+
+    fn bounds(&self) -> Aabb {
+        self.bounds
+    }
+
+    fn bvh(&self) -> Arc<Bvh> {
+        self.tree.bvh()
+    }
+
+    fn has_best_tree(&self) -> bool {
+        self.tree.is_best()
+    }
+
+    fn build_time(&self) -> Duration {
+        self.tree.build_time()
+    }
+
+    fn improve(&self, progress: &Progress) -> Result<(), Cancelled> {
+        self.tree.improve(&*self.primitives, progress)
+    }
+
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        self.primitives.primitive(hit.primitive).surface(ray, hit)
+    }
+
+    fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]> {
+        exact_answer(ray, &self.primitives.primitive(index))
+    }
+
+    fn material(&self, index: u32) -> u32 {
+        self.materials.of(index)
+    }
+
+    fn numbers(&self, index: u32) -> Vec<f32> {
+        let mut numbers = vec![0.0; S::NUMBERS];
+        self.primitives.primitive(index).write(&mut numbers);
+        numbers
+    }
+
+    fn subset(&self, indices: &[u32]) -> Arc<dyn Group> {
+        let primitives = indices
+            .iter()
+            .map(|&index| self.primitives.primitive(index));
+        let (materials, options) = (Runs::default(), SceneOptions::default());
+        let group = S::group(
+            primitives.collect(),
+            materials,
+            options,
+            &Progress::default(),
+        );
+        group.expect("nobody cancels")
+    }
+
+    fn intersector(&self, kernel: KernelChoice, level: SimdLevel) -> Box<dyn GroupIntersector> {
+        self.tree
+            .intersector(&*self.primitives, kernel.row(), level)
+    }
+}

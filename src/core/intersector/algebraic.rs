@@ -1,0 +1,220 @@
+//! Method for shapes that state their crossings as polynomials: hits are decided and ordered as in exact arithmetic.
+
+use super::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
+use super::levels::BaselineLevel;
+use super::method::{BlocksOf, Method, Tester};
+use super::order::precedes;
+use super::{ExactT, RankedHit};
+use crate::algebra::{Crossing, CrossingSolver, Pieces};
+use crate::bvh::{BLOCK_SIZE, SlabRay, end_slackened};
+use crate::lane::Lane;
+use crate::ray::{Hit, Ray};
+use crate::shape::{EmptyLanes, Shape};
+use fearless_simd::{Simd, SimdBase, f32x8};
+use std::cmp::Ordering;
+use std::marker::PhantomData;
+
+/// Decides exactly about hits of the shape `T`.
+pub(super) struct Algebraic<T>(PhantomData<T>);
+
+/// A point at which the ray crosses a primitive.
+#[derive(Clone)]
+pub(super) struct Found<T> {
+    primitive: u32,
+    shape: T,
+    crossing: Crossing,
+}
+
+impl<T: Shape + Pieces> Method for Algebraic<T> {
+    type Shape = T;
+    type Stored = f32;
+    const VALUES: usize = T::NUMBERS;
+    type Levels = BaselineLevel;
+    const EMPTY: EmptyLanes = EmptyLanes::Nowhere;
+    type Found = Found<T>;
+    type Tester<'a, S: Simd> = AlgebraicTester<'a, T, S>;
+    type Batch = ();
+
+    fn pack(shape: &T, values: &mut [f32]) {
+        shape.write(values);
+    }
+
+    fn tester<'a, S: Simd>(
+        blocks: &'a BlocksOf<Self>,
+        token: S,
+        ray: &'a Ray,
+        scratch: &'a mut Scratch<f32>,
+    ) -> AlgebraicTester<'a, T, S> {
+        AlgebraicTester {
+            blocks,
+            token,
+            scratch,
+            ray,
+            solver: CrossingSolver::new(ray),
+        }
+    }
+
+    fn batch() {}
+
+    fn keep<S: Simd>(
+        tester: &mut AlgebraicTester<'_, T, S>,
+        nearest: Found<T>,
+        index: usize,
+        hits: &mut [Option<Hit>],
+        _: &mut (),
+    ) {
+        hits[index] = Some(tester.hit(nearest));
+    }
+}
+
+/// Tests one ray.
+pub(super) struct AlgebraicTester<'a, T: Shape + Pieces, S: Simd> {
+    blocks: &'a BlocksOf<Algebraic<T>>,
+    token: S,
+    scratch: &'a mut Scratch<f32>,
+    ray: &'a Ray,
+    solver: CrossingSolver<'a>,
+}
+
+impl<T: Shape + Pieces, S: Simd> AlgebraicTester<'_, T, S> {
+    /// The primitives of a block whose boxes the ray enters before `limit`, or all if there is no limit.
+    fn candidates<const IS_BEHIND: bool, const MAYBE_COMPACT: bool>(
+        &mut self,
+        block: usize,
+        slabs: &SlabRay<S>,
+        limit: f32,
+    ) -> [Option<(u32, T)>; BLOCK_SIZE] {
+        let rows = (self.blocks).rows::<MAYBE_COMPACT>(block, T::NUMBERS, self.scratch, T::write);
+        let boxes = T::planes::<f32x8<S>>(&BlockValues::<f32, S, f32>::new(self.token, rows));
+        let boxes = boxes.map(|plane| plane.to_array());
+        let limit = Lane::splat(self.token, limit);
+        let (_, met) = slabs.enter::<IS_BEHIND>(self.token, &boxes, limit);
+        let primitives = self.blocks.bvh.lanes(block);
+        std::array::from_fn(|lane| {
+            let is_candidate =
+                met >> lane & 1 == 1 && can_be_hit(primitives[lane], self.ray.exclude);
+            is_candidate.then(|| (primitives[lane], T::read(&LaneOf { rows, lane })))
+        })
+    }
+}
+
+impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
+    type Found = Found<T>;
+    type Nearest = Option<Found<T>>;
+
+    fn nothing(&self) -> Option<Found<T>> {
+        None
+    }
+
+    fn nearest<const IS_BEHIND: bool, const MAYBE_COMPACT: bool>(
+        &mut self,
+        block: usize,
+        slabs: &SlabRay<S>,
+        nearest: &mut Option<Found<T>>,
+    ) {
+        // Visited boxes have the same slack.
+        let limit = end_slackened(self.farthest(nearest));
+        let found = self.candidates::<IS_BEHIND, MAYBE_COMPACT>(block, slabs, limit);
+        for (primitive, shape) in found.into_iter().flatten() {
+            let Some(crossing) = self.solver.crossings(&shape).into_iter().next() else {
+                continue;
+            };
+            let mut found = Found {
+                primitive,
+                shape,
+                crossing,
+            };
+            let is_before = nearest.as_mut().is_none_or(|nearest| {
+                let order = self.compare(&mut found, nearest).into();
+                precedes(order, order, found.primitive < nearest.primitive)
+            });
+            if is_before {
+                *nearest = Some(found);
+            }
+        }
+    }
+
+    fn farthest(&self, nearest: &Option<Found<T>>) -> f32 {
+        nearest.as_ref().map_or(self.ray.t_max, |nearest| {
+            let farthest = nearest.crossing.t().hi as f32;
+            farthest.next_up().min(self.ray.t_max)
+        })
+    }
+
+    fn found(&self, nearest: &Option<Found<T>>) -> Option<Found<T>> {
+        nearest.clone()
+    }
+
+    fn any<const MAYBE_COMPACT: bool>(&mut self, block: usize, slabs: &SlabRay<S>) -> bool {
+        let shapes = self.candidates::<false, MAYBE_COMPACT>(block, slabs, f32::INFINITY);
+        let mut shapes = shapes.iter().flatten();
+        shapes.any(|(_, shape)| !self.solver.crossings(shape).is_empty())
+    }
+
+    fn all(&mut self, block: usize, slabs: &SlabRay<S>, found: &mut Vec<Found<T>>) {
+        let shapes = self.candidates::<true, true>(block, slabs, f32::INFINITY);
+        for (primitive, shape) in shapes.into_iter().flatten() {
+            for crossing in self.solver.crossings(&shape) {
+                found.push(Found {
+                    primitive,
+                    shape: shape.clone(),
+                    crossing,
+                });
+            }
+        }
+    }
+
+    fn count(&mut self, block: usize) -> usize {
+        let rows = (self.blocks).rows::<true>(block, T::NUMBERS, self.scratch, T::write);
+        let lanes = 0..self.blocks.bvh.block(block).len();
+        let shapes = lanes.map(|lane| T::read(&LaneOf { rows, lane }));
+        let counts = shapes.map(|shape| self.solver.crossings(&shape).len());
+        counts.sum()
+    }
+
+    fn compare(&mut self, first: &mut Found<T>, second: &mut Found<T>) -> Ordering {
+        self.solver.compare(
+            (&first.shape, &mut first.crossing),
+            (&second.shape, &mut second.crossing),
+        )
+    }
+
+    fn primitive(found: &Found<T>) -> u32 {
+        found.primitive
+    }
+
+    fn hit(&mut self, mut found: Found<T>) -> Hit {
+        let t = self.solver.t_in_f32(&found.shape, &mut found.crossing);
+        Hit {
+            t: t.min(f32::MAX),
+            u: f32::from(found.crossing.part()),
+            v: 0.0,
+            primitive: found.primitive,
+        }
+    }
+
+    fn ranked(&mut self, found: Found<T>) -> RankedHit {
+        let bounds = found.crossing.t();
+        let (ray, shape, crossing) = (*self.ray, found.shape.clone(), found.crossing.clone());
+        let exact = move || {
+            let mut crossing = crossing.clone();
+            let mut solver = CrossingSolver::new(&ray);
+            solver.exact(&shape, &mut crossing).clone()
+        };
+        RankedHit {
+            hit: self.hit(found),
+            t: [bounds.lo, bounds.hi],
+            exact: Some(ExactT::new(exact)),
+        }
+    }
+
+    fn announce<const MAYBE_COMPACT: bool>(&self, block: usize) {
+        (self.blocks).announce::<MAYBE_COMPACT, S>(self.token, block, T::NUMBERS);
+    }
+
+    fn work(&self) -> [u32; 2] {
+        let work = self.solver.work;
+        let exact = work.exact_pieces + work.exact_roots;
+        [0, exact.min(u64::from(u32::MAX)) as u32]
+    }
+}

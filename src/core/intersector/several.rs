@@ -1,0 +1,250 @@
+//! Intersector of several groups: their hits in one order.
+
+use super::order::{Comparison, precedes};
+use super::{Cost, Crossing, Intersector};
+use crate::algebra::Algebraic;
+use crate::kernel::{KernelInfo, Precision};
+use crate::ray::{Hit, Ray};
+use std::cell::OnceCell;
+use std::cmp::Ordering;
+
+/// A hit and its t, for comparison with hits of other groups.
+pub struct RankedHit {
+    /// The hit, rounded.
+    pub hit: Hit,
+    /// Bounds of t; equal if t counts as computed.
+    pub(super) t: [f64; 2],
+    /// t, if the kernel is exact.
+    pub(super) exact: Option<ExactT>,
+}
+
+/// An exact t, computed on first use.
+pub(super) struct ExactT {
+    compute: Box<dyn Fn() -> Algebraic>,
+    known: OnceCell<Algebraic>,
+}
+
+impl ExactT {
+    pub fn new(compute: impl Fn() -> Algebraic + 'static) -> Self {
+        Self {
+            compute: Box::new(compute),
+            known: OnceCell::new(),
+        }
+    }
+
+    fn get(&self) -> &Algebraic {
+        self.known.get_or_init(|| (self.compute)())
+    }
+}
+
+/// Intersector of one group.
+pub trait GroupIntersector: Intersector {
+    /// The nearest hit of one ray, to be compared with the hits of other groups.
+    fn nearest(&self, ray: &Ray) -> Option<RankedHit>;
+
+    /// All hits of one ray, in any order.
+    fn every_hit(&self, ray: &Ray) -> Vec<RankedHit>;
+}
+
+/// The intersector of a scene's groups, given their numbers of primitives; that of the group if there is only one.
+pub(crate) fn several(
+    kernel: &'static KernelInfo,
+    mut groups: Vec<(usize, Box<dyn GroupIntersector>)>,
+) -> Box<dyn Intersector> {
+    if groups.len() == 1 {
+        return groups.remove(0).1;
+    }
+    let mut first = 0;
+    let number = |(count, intersector): (usize, Box<dyn GroupIntersector>)| {
+        let numbered = Numbered {
+            first,
+            count: count as u32,
+            intersector,
+        };
+        first += count as u32;
+        numbered
+    };
+    Box::new(Several {
+        kernel,
+        groups: groups.into_iter().map(number).collect(),
+    })
+}
+
+/// A group whose primitives are numbered from `first`.
+struct Numbered {
+    first: u32,
+    count: u32,
+    intersector: Box<dyn GroupIntersector>,
+}
+
+impl Numbered {
+    /// The ray in this group's numbers, up to `t_max`.
+    fn ray(&self, ray: &Ray, t_max: f32) -> Ray {
+        let local = ray.exclude.and_then(|index| index.checked_sub(self.first));
+        Ray {
+            exclude: local.filter(|&index| index < self.count),
+            t_max,
+            ..*ray
+        }
+    }
+
+    /// The hit in the scene's numbers.
+    fn numbered(&self, hit: Hit) -> Hit {
+        Hit {
+            primitive: self.first + hit.primitive,
+            ..hit
+        }
+    }
+
+    fn ranked(&self, ranked: RankedHit) -> RankedHit {
+        RankedHit {
+            hit: self.numbered(ranked.hit),
+            ..ranked
+        }
+    }
+}
+
+/// See the [module](self).
+struct Several {
+    kernel: &'static KernelInfo,
+    groups: Vec<Numbered>,
+}
+
+impl RankedHit {
+    /// Compares by t.
+    fn compare(&self, other: &Self) -> Ordering {
+        match (&self.exact, &other.exact) {
+            _ if self.t[1] < other.t[0] => Ordering::Less,
+            _ if self.t[0] > other.t[1] => Ordering::Greater,
+            (Some(exact), Some(other)) => exact.get().compare(other.get()),
+            _ => self.t[0].total_cmp(&other.t[0]),
+        }
+    }
+
+    fn is_before(&self, other: &Self) -> bool {
+        let order: Comparison<bool> = self.compare(other).into();
+        precedes(order, order, self.hit.primitive < other.hit.primitive)
+    }
+}
+
+impl Several {
+    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+        let mut nearest: Option<RankedHit> = None;
+        for group in &self.groups {
+            // Hits at the same t, or at one that rounds to the same f32, are compared.
+            let t_max = nearest
+                .as_ref()
+                .map_or(ray.t_max, |n| n.hit.t.next_up().min(ray.t_max));
+            let found = group.intersector.nearest(&group.ray(ray, t_max));
+            let found = found.map(|found| group.ranked(found));
+            if let Some(found) = found
+                && nearest
+                    .as_ref()
+                    .is_none_or(|nearest| found.is_before(nearest))
+            {
+                nearest = Some(found);
+            }
+        }
+        nearest.map(|nearest| nearest.hit)
+    }
+}
+
+impl Intersector for Several {
+    fn kernel(&self) -> &'static KernelInfo {
+        self.kernel
+    }
+
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.nearest(ray);
+        }
+    }
+
+    fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if self.kernel.precision != Precision::F32 {
+            return self.closest_hits(rays, hits);
+        }
+        hits.fill(None);
+        let mut found = vec![None; rays.len()];
+        for group in &self.groups {
+            // A hit's t is as computed, so a hit of a later group counts only if it is nearer.
+            let t_max = |ray: &Ray, hit: &Option<Hit>| hit.map_or(ray.t_max, |hit| hit.t);
+            let pairs = rays.iter().zip(&*hits);
+            let rays: Vec<Ray> = pairs
+                .map(|(ray, hit)| group.ray(ray, t_max(ray, hit)))
+                .collect();
+            group.intersector.coherent_hits(&rays, &mut found);
+            for (hit, found) in hits.iter_mut().zip(&found) {
+                if let Some(found) = found {
+                    *hit = Some(group.numbered(*found));
+                }
+            }
+        }
+    }
+
+    fn rays_together(&self) -> usize {
+        let together = self.groups.iter().map(|g| g.intersector.rays_together());
+        together.max().unwrap_or(1)
+    }
+
+    fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
+        let mut sum = Cost::default();
+        for group in &self.groups {
+            let (_, cost) = group
+                .intersector
+                .closest_hit_with_cost(&group.ray(ray, ray.t_max));
+            sum = Cost {
+                boxes: sum.boxes + cost.boxes,
+                primitives: sum.primitives + cost.primitives,
+                in_f64: sum.in_f64 + cost.in_f64,
+                in_integers: sum.in_integers + cost.in_integers,
+            };
+        }
+        (self.nearest(ray), sum)
+    }
+
+    fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        for (ray, is_hit) in rays.iter().zip(are_hits) {
+            let mut groups = self.groups.iter();
+            *is_hit = groups.any(|group| group.intersector.any_hit(&group.ray(ray, ray.t_max)));
+        }
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
+        let mut hits: Vec<RankedHit> = Vec::new();
+        for group in &self.groups {
+            let found = group.intersector.every_hit(&group.ray(ray, ray.t_max));
+            hits.extend(found.into_iter().map(|hit| group.ranked(hit)));
+        }
+        hits.sort_by(|a, b| {
+            let by_t = a.compare(b);
+            by_t.then(a.hit.primitive.cmp(&b.hit.primitive))
+        });
+        hits.chunk_by(|a, b| a.compare(b).is_eq())
+            .map(|equal| Crossing {
+                hit: equal[0].hit,
+                also: equal[1..].iter().map(|other| other.hit.primitive).collect(),
+            })
+            .collect()
+    }
+
+    fn candidates(&self, ray: &Ray) -> Vec<u32> {
+        let of_group = |group: &Numbered| {
+            let local = group.intersector.candidates(&group.ray(ray, ray.t_max));
+            local
+                .into_iter()
+                .map(|index| group.first + index)
+                .collect::<Vec<_>>()
+        };
+        self.groups.iter().flat_map(of_group).collect()
+    }
+
+    fn count_hits(&self, ray: &Ray) -> usize {
+        let counts = self.groups.iter().map(|g| g.intersector.count_hits(ray));
+        counts.sum()
+    }
+
+    fn bytes(&self) -> usize {
+        self.groups.iter().map(|g| g.intersector.bytes()).sum()
+    }
+}

@@ -1,0 +1,53 @@
+//! The choice of a kernel for each shape, by one name.
+
+use super::{KernelInfo, KernelRow, KernelTable, Precision, Tier};
+
+/// A kernel chosen by name. Shapes whose tables lack the name use the kernel of a tier.
+#[derive(Clone, Copy, Debug)]
+pub struct KernelChoice {
+    /// The description of the chosen kernel.
+    pub info: &'static KernelInfo,
+}
+
+impl KernelChoice {
+    /// The kernel of a shape.
+    pub fn row<S: KernelTable>(self) -> &'static KernelRow<S> {
+        S::kernel(self.info.name).unwrap_or_else(|| S::kernel_of(self.tier()))
+    }
+
+    /// The tier that it serves; for a kernel without one, the tier of its precision.
+    pub fn tier(self) -> Tier {
+        self.info.tier.unwrap_or(match self.info.precision {
+            Precision::F32 => Tier::Watertight,
+            Precision::F64 => Tier::Precise,
+            Precision::Adaptive => Tier::Exact,
+        })
+    }
+}
+
+impl<S> From<&'static KernelRow<S>> for KernelChoice {
+    fn from(row: &'static KernelRow<S>) -> Self {
+        Self { info: row.info }
+    }
+}
+
+impl PartialEq for KernelChoice {
+    fn eq(&self, other: &Self) -> bool {
+        self.info.name == other.info.name
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::TRIANGLE_KERNELS;
+    use crate::shape::Triangle;
+
+    #[test]
+    fn a_choice_leads_to_the_kernel_of_its_name() {
+        for row in TRIANGLE_KERNELS.iter() {
+            let choice = KernelChoice::from(row);
+            assert!(std::ptr::eq(choice.row::<Triangle>(), row));
+        }
+    }
+}

@@ -1,0 +1,86 @@
+//! Ray–cone test by the quadratic equation as textbooks write it.
+//!
+//! Source: Goldstein, Nagel, "3-D Visual Simulation", Simulation 16(1), 1971.
+//! Differs from it: any axis, by products with it.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: right decisions for thin or distant cones: b² and ac nearly cancel.
+
+use super::offer_base;
+use crate::aabb::Planes;
+use crate::kernel::crossings::{Nearest, Roots};
+use crate::kernel::cylinder::offer_side;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::lane::{Lane, Number, Values, cross, dot, minus};
+use crate::shape::{Cone, Shape as _};
+
+/// See the [module](self).
+pub(super) struct Naive;
+
+impl Kernel for Naive {
+    type Shape = Cone;
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "cone-naive",
+        title: "Quadratic equation",
+        tier: Some(Tier::Fast),
+        precision: Precision::F32,
+        source: "Goldstein, Nagel, 3-D Visual Simulation, 1971",
+        summary: "The textbook formula; wrong for thin and distant cones.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "cone-naive-f64",
+        title: "Quadratic equation, f64",
+        tier: None,
+        precision: Precision::F64,
+        summary: "The textbook formula in f64.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = Cone::NUMBERS;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = RayLanes<L>;
+
+    fn pack<N: Number>(shape: &Cone, values: &mut [f32]) {
+        shape.write(values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
+        Cone::planes(shapes)
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &RayLanes<L>,
+        shapes: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        // From the apex towards the base.
+        let (apex, base) = (shapes.three(3), shapes.three(0));
+        let (w, f) = (minus(&base, &apex), minus(&ray.origin, &apex));
+        let (from, step) = (cross(&f, &w), cross(&ray.dir, &w));
+        let along = [dot(&f, &w), dot(&ray.dir, &w)];
+        let (length_squared, r) = (dot(&w, &w), shapes.value(6));
+        let r_squared = r * r;
+        let a = length_squared * dot(&step, &step) - r_squared * along[1] * along[1];
+        let b = length_squared * dot(&from, &step) - r_squared * along[0] * along[1];
+        let c = length_squared * dot(&from, &from) - r_squared * along[0] * along[0];
+        let roots = Roots::naive(a, b, c);
+        let mut nearest = Nearest::new(t_min, t_max);
+        offer_side(&mut nearest, &roots, along, length_squared);
+        offer_base(
+            &mut nearest,
+            shapes.value(7),
+            [&from, &step],
+            along,
+            length_squared,
+            r_squared,
+        );
+        nearest.hit()
+    }
+}

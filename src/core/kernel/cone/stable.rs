@@ -1,0 +1,93 @@
+//! Ray–cone test with a discriminant that doesn't cancel far from the apex.
+//!
+//! Source: Press et al., Numerical Recipes, 1986, for the roots; the discriminant is derived here.
+//! Differs from it: nothing.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: right decisions about rays that pass close to the apex.
+//!
+//! With F = f×w, D = d×w, k = f·w, m = d·w and the length |w|, Lagrange's identity turns b² − ac into
+//! |w|²·(r²·|m·F − k·D|² − |w|²·|F×D|²). F×D is parallel to w and grows with the distance between ray and axis alone.
+
+use super::offer_base;
+use crate::aabb::Planes;
+use crate::kernel::crossings::{Nearest, Roots};
+use crate::kernel::cylinder::offer_side;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::lane::{Lane, Number, Values, cross, dot, minus, times};
+use crate::shape::{Cone, Shape as _};
+
+/// See the [module](self).
+pub(super) struct Stable;
+
+impl Kernel for Stable {
+    type Shape = Cone;
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "cone-stable",
+        title: "Lagrange, Press",
+        tier: Some(Tier::Watertight),
+        precision: Precision::F32,
+        source: "Press et al., Numerical Recipes, 1986",
+        summary: "Accurate for thin and distant cones.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "cone-stable-f64",
+        title: "Lagrange, Press, f64",
+        tier: Some(Tier::Precise),
+        precision: Precision::F64,
+        summary: "Correct to the last place of f32 but for grazing rays.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = Cone::NUMBERS;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = RayLanes<L>;
+
+    fn pack<N: Number>(shape: &Cone, values: &mut [f32]) {
+        shape.write(values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
+        Cone::planes(shapes)
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &RayLanes<L>,
+        shapes: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        // From the apex towards the base.
+        let (apex, base) = (shapes.three(3), shapes.three(0));
+        let (w, f) = (minus(&base, &apex), minus(&ray.origin, &apex));
+        let (from, step) = (cross(&f, &w), cross(&ray.dir, &w));
+        let along = [dot(&f, &w), dot(&ray.dir, &w)];
+        let (length_squared, r) = (dot(&w, &w), shapes.value(6));
+        let r_squared = r * r;
+        let a = length_squared * dot(&step, &step) - r_squared * along[1] * along[1];
+        let b = length_squared * dot(&from, &step) - r_squared * along[0] * along[1];
+        let c = length_squared * dot(&from, &from) - r_squared * along[0] * along[0];
+        let turned = minus(&times(along[1], &from), &times(along[0], &step));
+        let wound = cross(&from, &step);
+        let discriminant = length_squared
+            * (r_squared * dot(&turned, &turned) - length_squared * dot(&wound, &wound));
+        let roots = Roots::press(a, b, c, discriminant);
+        let mut nearest = Nearest::new(t_min, t_max);
+        offer_side(&mut nearest, &roots, along, length_squared);
+        offer_base(
+            &mut nearest,
+            shapes.value(7),
+            [&from, &step],
+            along,
+            length_squared,
+            r_squared,
+        );
+        nearest.hit()
+    }
+}

@@ -1,0 +1,86 @@
+//! Ray–cylinder test by the quadratic equation as textbooks write it.
+//!
+//! Source: Goldstein, Nagel, "3-D Visual Simulation", Simulation 16(1), 1971.
+//! Differs from it: any axis, by cross products with it.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: right decisions for thin or distant cylinders: b² and ac nearly cancel.
+
+use super::{offer_caps, offer_side};
+use crate::aabb::Planes;
+use crate::kernel::crossings::{Nearest, Roots};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::lane::{Lane, Number, Values, cross, dot, minus};
+use crate::shape::{Cylinder, Shape as _};
+
+/// See the [module](self).
+pub(super) struct Naive;
+
+impl Kernel for Naive {
+    type Shape = Cylinder;
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "cylinder-naive",
+        title: "Quadratic equation",
+        tier: Some(Tier::Fast),
+        precision: Precision::F32,
+        source: "Goldstein, Nagel, 3-D Visual Simulation, 1971",
+        summary: "The textbook formula; wrong for thin and distant cylinders.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "cylinder-naive-f64",
+        title: "Quadratic equation, f64",
+        tier: None,
+        precision: Precision::F64,
+        summary: "The textbook formula in f64.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = Cylinder::NUMBERS;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = RayLanes<L>;
+
+    fn pack<N: Number>(shape: &Cylinder, values: &mut [f32]) {
+        shape.write(values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
+        Cylinder::planes(shapes)
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &RayLanes<L>,
+        shapes: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        let (p0, p1) = (shapes.three(0), shapes.three(3));
+        let (w, f) = (minus(&p1, &p0), minus(&ray.origin, &p0));
+        let (from, step) = (cross(&f, &w), cross(&ray.dir, &w));
+        let length_squared = dot(&w, &w);
+        let r = shapes.value(6);
+        let reach = r * r * length_squared;
+        let roots = Roots::naive(
+            dot(&step, &step),
+            dot(&from, &step),
+            dot(&from, &from) - reach,
+        );
+        let along = [dot(&f, &w), dot(&ray.dir, &w)];
+        let mut nearest = Nearest::new(t_min, t_max);
+        offer_side(&mut nearest, &roots, along, length_squared);
+        offer_caps(
+            &mut nearest,
+            shapes.value(7),
+            [&from, &step],
+            along,
+            length_squared,
+            reach,
+        );
+        nearest.hit()
+    }
+}

@@ -1,0 +1,83 @@
+//! Ray–cylinder test without the cancellations of the quadratic equation.
+//!
+//! Source: the sphere's test of Haines, Günther, Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection",
+//!   Ray Tracing Gems, 2019, in the plane across the axis.
+//! Differs from it: origin and direction are replaced by their cross products with the axis.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: right decisions from far away along the axis, where the cross products round.
+
+use super::{offer_caps, offer_side};
+use crate::aabb::Planes;
+use crate::kernel::crossings::{Nearest, Roots};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::lane::{Lane, Number, Values, cross, dot, minus};
+use crate::shape::{Cylinder, Shape as _};
+
+/// See the [module](self).
+pub(super) struct Stable;
+
+impl Kernel for Stable {
+    type Shape = Cylinder;
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "cylinder-stable",
+        title: "Closest approach, Press",
+        tier: Some(Tier::Watertight),
+        precision: Precision::F32,
+        source: "Haines, Günther, Akenine-Möller, Precision Improvements for Ray/Sphere Intersection, 2019",
+        summary: "Accurate for thin and distant cylinders.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "cylinder-stable-f64",
+        title: "Closest approach, Press, f64",
+        tier: Some(Tier::Precise),
+        precision: Precision::F64,
+        summary: "Correct to the last place of f32 but for grazing rays.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = Cylinder::NUMBERS;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = RayLanes<L>;
+
+    fn pack<N: Number>(shape: &Cylinder, values: &mut [f32]) {
+        shape.write(values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
+        Cylinder::planes(shapes)
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &RayLanes<L>,
+        shapes: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        let (p0, p1) = (shapes.three(0), shapes.three(3));
+        let (w, f) = (minus(&p1, &p0), minus(&ray.origin, &p0));
+        let (from, step) = (cross(&f, &w), cross(&ray.dir, &w));
+        let length_squared = dot(&w, &w);
+        let r = shapes.value(6);
+        let reach = r * r * length_squared;
+        let roots = Roots::at_distance(&from, &step, reach);
+        let along = [dot(&f, &w), dot(&ray.dir, &w)];
+        let mut nearest = Nearest::new(t_min, t_max);
+        offer_side(&mut nearest, &roots, along, length_squared);
+        offer_caps(
+            &mut nearest,
+            shapes.value(7),
+            [&from, &step],
+            along,
+            length_squared,
+            reach,
+        );
+        nearest.hit()
+    }
+}

@@ -1,0 +1,77 @@
+//! Ray–sphere test by the quadratic equation as textbooks write it.
+//!
+//! Source: Goldstein, Nagel, "3-D Visual Simulation", Simulation 16(1), 1971; Lensch, Basic Geometry, lecture, 2022.
+//! Differs from it: any centre and radius.
+//! Promises: nothing beyond the measured figures.
+//! Doesn't promise: right decisions for small or distant spheres: b² and 4ac nearly cancel; an accurate near hit of a
+//!   large sphere, where −b and the root nearly cancel.
+
+use crate::aabb::Planes;
+use crate::kernel::crossings::Roots;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::lane::{Lane, Number, Values, dot, minus};
+use crate::shape::{Shape as _, Sphere};
+
+/// See the [module](self).
+pub(super) struct Algebraic;
+
+impl Kernel for Algebraic {
+    type Shape = Sphere;
+    const IN_F32: KernelInfo = KernelInfo {
+        name: "sphere-algebraic",
+        title: "Quadratic equation",
+        tier: None,
+        precision: Precision::F32,
+        source: "Goldstein, Nagel, 3-D Visual Simulation, 1971",
+        summary: "The textbook formula; wrong for small and distant spheres.",
+        promises: Promises::PLAIN,
+    };
+    const IN_F64: KernelInfo = KernelInfo {
+        name: "sphere-algebraic-f64",
+        title: "Quadratic equation, f64",
+        precision: Precision::F64,
+        summary: "The textbook formula; good to distances of a million radii.",
+        ..Self::IN_F32
+    };
+    const VALUES: usize = Sphere::NUMBERS;
+    type Stored<N: Number> = f32;
+    type Prepared<L: Lane> = RayLanes<L>;
+
+    fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
+        sphere.write(values);
+    }
+
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(spheres: &impl Values<L>) -> Planes<L> {
+        Sphere::planes(spheres)
+    }
+
+    #[inline(always)]
+    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
+        *rays
+    }
+
+    #[inline(always)]
+    fn intersect<L: Lane>(
+        ray: &RayLanes<L>,
+        spheres: &impl Values<L>,
+        t_min: L,
+        t_max: L,
+    ) -> Option<LaneHit<L>> {
+        let constant = |x: f32| L::of(t_min.token(), x);
+        let r = spheres.value(3);
+        let f = minus(&ray.origin, &spheres.three(0));
+        let a = dot(&ray.dir, &ray.dir);
+        let b = constant(2.0) * dot(&f, &ray.dir);
+        let c = dot(&f, &f) - r * r;
+        let discriminant = b * b - constant(4.0) * a * c;
+        let root = discriminant.sqrt();
+        let doubled = constant(2.0) * a;
+        let roots = Roots {
+            exist: constant(0.0).le(discriminant),
+            near: (-b - root) / doubled,
+            far: (-b + root) / doubled,
+        };
+        roots.nearest(t_min, t_max)
+    }
+}

@@ -1,0 +1,240 @@
+//! A scene from the description of a scene file.
+
+use super::merge::{Part, merged};
+use super::placed::{List, Lists, Placed};
+use super::{LoadedScene, StartView, size_warning};
+use crate::group::Grouped;
+use crate::mesh::{Illumination, Material, Runs};
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
+use crate::progress::{Cancelled, Phase, Progress};
+use crate::scene::{Scene, SceneOptions};
+use crate::scene_file::{self, Place, SceneFile, ShapeKind};
+use glam::DVec3;
+use std::path::Path;
+use std::sync::Arc;
+use std::time::Instant;
+
+/// Loads a scene file and the meshes that it names.
+///
+/// # Errors
+/// See [`LoadError`].
+pub(super) fn load(
+    path: &Path,
+    load_options: LoadOptions,
+    options: SceneOptions,
+    progress: &Progress,
+) -> Result<LoadedScene, LoadError> {
+    let start = Instant::now();
+    let file = scene_file::load(path, load_options.max_memory, progress)?;
+    let mut contents = Contents::load(&file, load_options, progress)?;
+    contents.report.duration = start.elapsed();
+    progress.enter(Phase::Building);
+    let scene = contents.scene(&file, load_options.recentre, options, progress);
+    let (scene, mut report) = scene.map_err(|Cancelled| LoadError::Cancelled {
+        path: path.to_owned(),
+    })?;
+    report.warnings.extend(size_warning(scene.bounds()));
+    Ok(LoadedScene {
+        scene: Arc::new(scene),
+        report,
+        view: file.sensors.first().map(StartView::new),
+    })
+}
+
+/// What a scene file contains, in the world's coordinates.
+struct Contents {
+    parts: Vec<Part>,
+    /// Shapes other than meshes and their materials.
+    shapes: Vec<(Placed, u32)>,
+    report: LoadReport,
+}
+
+impl Contents {
+    fn load(
+        file: &SceneFile,
+        options: LoadOptions,
+        progress: &Progress,
+    ) -> Result<Self, LoadError> {
+        let mut contents = Self {
+            parts: Vec::new(),
+            shapes: Vec::new(),
+            report: LoadReport {
+                warnings: file.warnings.clone(),
+                files: file.files.clone(),
+                ..LoadReport::default()
+            },
+        };
+        for shape in &file.shapes {
+            let refused = |message| refused(file, shape.place, message);
+            // The first material stands for none.
+            let material = shape.material.map(|material| material + 1);
+            if shape.flip_normals {
+                let message = "flip_normals has no effect".to_owned();
+                contents.warn(file, shape.place, message);
+            }
+            let placed = Placed::new(&shape.kind, &shape.to_world).map_err(refused)?;
+            if let Some(placed) = placed {
+                contents.shapes.push((placed, material.unwrap_or(0)));
+            } else if let ShapeKind::Obj {
+                file: path,
+                face_normals,
+                ..
+            } = &shape.kind
+            {
+                let loaded = obj::load(path, options, progress)?;
+                contents.take_report(path, loaded.report);
+                let name = shape.name.as_ref().or(shape.id.as_ref());
+                contents.parts.push(Part {
+                    mesh: loaded.mesh,
+                    to_world: shape.to_world,
+                    material,
+                    name: name.cloned().unwrap_or_default(),
+                    has_face_normals: *face_normals,
+                });
+            }
+        }
+        Ok(contents)
+    }
+
+    fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
+        // Lines of included files are told with the file.
+        let message = if place.file == 0 {
+            message
+        } else {
+            format!("{}: {message}", shown(file.path_of(place)))
+        };
+        self.report.warnings.push(Warning {
+            line: Some(place.line as usize),
+            message,
+        });
+    }
+
+    /// Adds the report of an OBJ file.
+    fn take_report(&mut self, path: &Path, report: LoadReport) {
+        let told = report.warnings.into_iter().map(|warning| {
+            let line = warning
+                .line
+                .map_or(String::new(), |line| format!(":{line}"));
+            Warning {
+                line: None,
+                message: format!("{}{line}: {}", shown(path), warning.message),
+            }
+        });
+        let sum = &mut self.report;
+        sum.warnings.extend(told);
+        sum.dropped.zero_area += report.dropped.zero_area;
+        sum.dropped.non_finite += report.dropped.non_finite;
+        sum.dropped.bad_index += report.dropped.bad_index;
+        sum.dropped.elements += report.dropped.elements;
+        sum.vertex_count += report.vertex_count;
+        sum.max_rounding = sum.max_rounding.max(report.max_rounding);
+        sum.files.push(path.to_owned());
+        sum.files.extend(report.files);
+    }
+
+    fn scene(
+        mut self,
+        file: &SceneFile,
+        recentre: Recentre,
+        options: SceneOptions,
+        progress: &Progress,
+    ) -> Result<(Scene, LoadReport), Cancelled> {
+        let origin = self.origin(recentre);
+        self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
+        let mut lists = Lists::default();
+        for (shape, material) in &self.shapes {
+            shape.push_to(&mut lists, origin, *material);
+        }
+        let mesh = merged(self.parts, origin, materials(file));
+        let mut scene = Scene::with_options(mesh, options, progress)?;
+        let Lists {
+            spheres,
+            planes,
+            disks,
+            rectangles,
+            cuboids,
+            cylinders,
+            cones,
+            tori,
+            quadrics,
+        } = lists;
+        let add = &mut scene;
+        extend(add, spheres, options, progress)?;
+        extend(add, disks, options, progress)?;
+        extend(add, rectangles, options, progress)?;
+        extend(add, cuboids, options, progress)?;
+        extend(add, cylinders, options, progress)?;
+        extend(add, cones, options, progress)?;
+        extend(add, tori, options, progress)?;
+        extend(add, quadrics, options, progress)?;
+        extend(add, planes, options, progress)?;
+        Ok((scene, self.report))
+    }
+
+    /// The scene's origin: one near everything, if that is far from (0, 0, 0) for its size.
+    fn origin(&self, recentre: Recentre) -> DVec3 {
+        if recentre == Recentre::Off {
+            return DVec3::ZERO;
+        }
+        let of_shapes = self.shapes.iter().filter_map(|(shape, _)| shape.bounds());
+        let corners = of_shapes.flatten();
+        let vertices = self.parts.iter().flat_map(Part::positions);
+        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        let all = corners
+            .chain(vertices)
+            .filter(|p| p.is_finite())
+            .fold(none, |[min, max], p| [min.min(p), max.max(p)]);
+        obj::origin_near(all).unwrap_or(DVec3::ZERO)
+    }
+
+    /// The largest rounding of a vertex's coordinate.
+    fn rounding(&self, origin: DVec3) -> f64 {
+        let vertices = self.parts.iter().flat_map(Part::positions);
+        let rounding = |p: DVec3| {
+            let near = p - origin;
+            (near.as_vec3().as_dvec3() - near).abs().max_element()
+        };
+        let finite = vertices
+            .map(rounding)
+            .filter(|rounding| rounding.is_finite());
+        finite.fold(0.0, f64::max)
+    }
+}
+
+/// Adds a group of shapes to a scene, if there are any.
+fn extend<S: Grouped>(
+    scene: &mut Scene,
+    list: List<S>,
+    options: SceneOptions,
+    progress: &Progress,
+) -> Result<(), Cancelled> {
+    if list.shapes.is_empty() {
+        return Ok(());
+    }
+    let mut materials = Runs::default();
+    for (index, material) in (0..).zip(list.materials) {
+        materials.begin(index, material);
+    }
+    scene.add_group(list.shapes, materials, options, progress)
+}
+
+/// The materials of a scene file; the first stands for none.
+fn materials(file: &SceneFile) -> Vec<Material> {
+    let material = |material: &scene_file::Material| Material {
+        name: material.id.clone().unwrap_or_default(),
+        diffuse: Some(material.front.as_vec3()),
+        illumination: Illumination::Diffuse,
+        ..Material::default()
+    };
+    let none = std::iter::once(Material::default());
+    none.chain(file.materials.iter().map(material)).collect()
+}
+
+fn refused(file: &SceneFile, place: Place, message: String) -> LoadError {
+    LoadError::Line {
+        path: file.path_of(place).to_owned(),
+        line: place.line as usize,
+        column: None,
+        message,
+    }
+}

@@ -1,0 +1,188 @@
+//! All meshes of a scene as one, in the coordinates of the world.
+
+use crate::mesh::{
+    Assigned, Attributes, CornerValues, Faces, Material, NO_INDEX, Runs, Texture, TriangleMesh,
+};
+use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
+
+/// A mesh of the scene before it is merged.
+pub(super) struct Part {
+    pub mesh: TriangleMesh,
+    pub to_world: DMat4,
+    /// Index of its material in the scene; `None` to keep the OBJ file's.
+    pub material: Option<u32>,
+    /// Prefix of its groups' names.
+    pub name: String,
+    /// Whether the file's normals are ignored.
+    pub has_face_normals: bool,
+}
+
+impl Part {
+    /// The vertices in the world.
+    pub fn positions(&self) -> impl Iterator<Item = DVec3> {
+        let in_world = |p: &Vec3| {
+            self.to_world
+                .transform_point3(self.mesh.in_file(p.as_dvec3()))
+        };
+        self.mesh.positions().iter().map(in_world)
+    }
+}
+
+/// Merges meshes relative to an origin. `materials` come first in the merged list.
+pub(super) fn merged(parts: Vec<Part>, origin: DVec3, materials: Vec<Material>) -> TriangleMesh {
+    let mut merged = Merged {
+        materials,
+        groups: vec![String::new()],
+        ..Merged::default()
+    };
+    let has_colours = parts
+        .iter()
+        .any(|part| !part.mesh.attributes().colours.is_empty());
+    for part in &parts {
+        merged.append(part, origin, has_colours);
+    }
+    merged.mesh(origin)
+}
+
+#[derive(Default)]
+struct Merged {
+    positions: Vec<Vec3>,
+    triangles: Vec<[u32; 3]>,
+    faces: Faces,
+    face_count: u32,
+    normals: Vec<Vec3>,
+    normal_corners: Vec<[u32; 3]>,
+    coordinates: Vec<Vec2>,
+    coordinate_corners: Vec<[u32; 3]>,
+    colours: Vec<Vec3>,
+    materials: Vec<Material>,
+    material_runs: Runs,
+    groups: Vec<String>,
+    group_runs: Runs,
+    textures: Vec<Texture>,
+    lines: Vec<[u32; 2]>,
+    points: Vec<u32>,
+}
+
+impl Merged {
+    fn append(&mut self, part: &Part, origin: DVec3, has_colours: bool) {
+        let (mesh, attributes) = (&part.mesh, part.mesh.attributes());
+        let first_position = self.positions.len() as u32;
+        self.positions
+            .extend(part.positions().map(|p| (p - origin).as_vec3()));
+        if has_colours && attributes.colours.is_empty() {
+            self.colours.resize(self.positions.len(), Vec3::ONE);
+        }
+        self.colours.extend(&attributes.colours);
+
+        // Materials and textures of the file are used unless the scene names another material.
+        let first_material = self.materials.len() as u32;
+        if part.material.is_none() {
+            let first_texture = self.textures.len() as u32;
+            self.textures.extend_from_slice(&attributes.textures);
+            self.materials
+                .extend(attributes.materials.entries().iter().map(|material| {
+                    let mut material = material.clone();
+                    if let Some(map) = &mut material.diffuse_map {
+                        map.texture += first_texture;
+                    }
+                    material
+                }));
+        }
+        let first_group = self.groups.len() as u32;
+        let names = attributes.groups.entries().iter();
+        self.groups
+            .extend(names.map(|group| named(&part.name, group)));
+        if attributes.groups.entries().is_empty() {
+            self.groups.push(part.name.clone());
+        }
+
+        let linear = DMat3::from_mat4(part.to_world);
+        let for_normals = linear.inverse().transpose();
+        let is_mirrored = linear.determinant() < 0.0;
+        let [first_normal, first_coordinate] =
+            [self.normals.len() as u32, self.coordinates.len() as u32];
+        if !part.has_face_normals {
+            let turned = |n: &Vec3| (for_normals * n.as_dvec3()).normalize_or_zero().as_vec3();
+            self.normals
+                .extend(attributes.normals.values().iter().map(turned));
+        }
+        self.coordinates
+            .extend(attributes.texture_coordinates.values());
+
+        let ordered = |[a, b, c]: [u32; 3]| if is_mirrored { [a, c, b] } else { [a, b, c] };
+        for (old, corners) in (0..).zip(mesh.triangles()) {
+            let corners = ordered(*corners).map(|vertex| first_position + vertex);
+            let positions = corners.map(|vertex| self.positions[vertex as usize]);
+            let is_traceable =
+                positions.iter().all(|p| p.is_finite()) && !crate::mesh::has_zero_area(positions);
+            if !is_traceable {
+                continue;
+            }
+            let new = self.triangles.len() as u32;
+            self.triangles.push(corners);
+            let outline = outline(attributes.faces.outline(old), is_mirrored);
+            let face = self.face_count + mesh.face_of(old);
+            self.faces.push(new, face, outline);
+            let shifted = |corners: [u32; 3], first: u32| {
+                ordered(corners).map(|index| match index {
+                    NO_INDEX => NO_INDEX,
+                    index => first + index,
+                })
+            };
+            let normals = if part.has_face_normals {
+                [NO_INDEX; 3]
+            } else {
+                shifted(attributes.normals.indices(old), first_normal)
+            };
+            self.normal_corners.push(normals);
+            let coordinates = attributes.texture_coordinates.indices(old);
+            self.coordinate_corners
+                .push(shifted(coordinates, first_coordinate));
+            let own = || first_material + attributes.materials.index(old);
+            self.material_runs
+                .begin(new, part.material.unwrap_or_else(own));
+            let group = attributes.groups.index(old);
+            self.group_runs.begin(new, first_group + group);
+        }
+        self.face_count += mesh.face_count() as u32;
+        let vertex = |vertex: u32| first_position + vertex;
+        self.lines
+            .extend(attributes.lines.iter().map(|ends| ends.map(vertex)));
+        self.points
+            .extend(attributes.points.iter().map(|&p| vertex(p)));
+    }
+
+    fn mesh(self, origin: DVec3) -> TriangleMesh {
+        let mesh = TriangleMesh::new_unchecked(self.positions, self.triangles);
+        mesh.with_origin(origin).with_attributes(Attributes {
+            faces: self.faces,
+            normals: CornerValues::new(self.normals, self.normal_corners),
+            texture_coordinates: CornerValues::new(self.coordinates, self.coordinate_corners),
+            colours: self.colours,
+            materials: Assigned::new(self.materials, self.material_runs),
+            groups: Assigned::new(self.groups, self.group_runs),
+            smoothing: None,
+            textures: self.textures,
+            lines: self.lines,
+            points: self.points,
+        })
+    }
+}
+
+/// The edges AB, BC, CA of an outline, after B and C are exchanged if the shape is mirrored.
+fn outline(edges: u8, is_mirrored: bool) -> u8 {
+    if is_mirrored {
+        (edges & 1) << 2 | edges & 2 | (edges & 4) >> 2
+    } else {
+        edges
+    }
+}
+
+fn named(prefix: &str, group: &str) -> String {
+    match (prefix, group) {
+        (prefix, "") => prefix.to_owned(),
+        ("", group) => group.to_owned(),
+        (prefix, group) => format!("{prefix} {group}"),
+    }
+}

@@ -1,0 +1,138 @@
+//! Loading of scenes from files: OBJ files, and scene files with the meshes that they name.
+//!
+//! | step | file |
+//! |---|---|
+//! | **a scene from the description of a scene file** | `assemble` |
+//! | the shapes of the core that a transformed shape becomes | `placed` |
+//! | all meshes as one | `merge` |
+//! | the sensor as a view | `view` |
+//!
+//! Transforms are applied in f64 once; the results are rounded to f32 relative to one origin of the scene.
+
+mod assemble;
+mod merge;
+mod placed;
+mod view;
+
+pub use view::StartView;
+
+use crate::aabb::Aabb;
+use crate::mesh::SAFE_SIZE;
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
+use crate::progress::{BackgroundError, Cancelled, Progress};
+use crate::scene::{Scene, SceneOptions};
+use std::path::Path;
+use std::sync::Arc;
+
+/// A scene and facts about the file that it was loaded from.
+#[derive(Clone, Debug)]
+pub struct LoadedScene {
+    /// The scene.
+    pub scene: Arc<Scene>,
+    /// The load report of the file.
+    pub report: LoadReport,
+    /// The view that the file asks for, if it has one.
+    pub view: Option<StartView>,
+}
+
+impl LoadedScene {
+    /// Loads an OBJ file, or a scene file (`.xml`), and builds the trees.
+    ///
+    /// # Errors
+    /// See [`LoadError`].
+    pub fn load(
+        path: &Path,
+        load_options: LoadOptions,
+        options: SceneOptions,
+        progress: &Progress,
+    ) -> Result<Self, LoadError> {
+        let cancelled = |path: &Path| LoadError::Cancelled {
+            path: path.to_owned(),
+        };
+        let (file, shared) = (path.to_owned(), progress.clone());
+        let load = move || {
+            if is_scene_file(&file) {
+                return assemble::load(&file, load_options, options, &shared);
+            }
+            let loaded = obj::load(&file, load_options, &shared)?;
+            Self::of(loaded, options, &shared).map_err(|Cancelled| cancelled(&file))
+        };
+        progress
+            .run_in_background("load", load)
+            .unwrap_or_else(|why| {
+                Err(match why {
+                    BackgroundError::Cancelled => cancelled(path),
+                    BackgroundError::NoThread(source) => LoadError::Unreadable {
+                        path: path.to_owned(),
+                        source,
+                    },
+                })
+            })
+    }
+
+    /// Builds the tree over a mesh.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn of(
+        loaded: Loaded,
+        options: SceneOptions,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
+        let Loaded { mesh, mut report } = loaded;
+        let scene = Scene::with_options(mesh, options, progress)?;
+        report.warnings.extend(size_warning(scene.bounds()));
+        let scene = Arc::new(scene);
+        Ok(Self {
+            scene,
+            report,
+            view: None,
+        })
+    }
+}
+
+/// Whether a path names a scene file.
+pub fn is_scene_file(path: &Path) -> bool {
+    let extension = path.extension();
+    extension.is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
+}
+
+/// The warning for a mesh whose size f32 kernels can't handle well.
+fn size_warning(bounds: Aabb) -> Option<Warning> {
+    let size = 2.0 * bounds.radius();
+    let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
+    (!SAFE_SIZE.contains(&size)).then(|| Warning {
+        line: None,
+        message: format!(
+            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits and the watertight kernel is slow: scale the mesh or use the precise kernel"
+        ),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_mesh_too_large_or_too_small_for_f32_kernels_gives_a_warning() {
+        let library = |_: &str| Err(std::io::ErrorKind::NotFound.into());
+        let (path, progress) = (Path::new("x.obj"), Progress::default());
+        for (scale, is_warned) in [
+            ("1e-20", true),
+            ("1e-3", false),
+            ("1e9", false),
+            ("1e30", true),
+        ] {
+            let text = format!("v 0 0 0\nv {scale} 0 0\nv 0 {scale} 0\nf 1 2 3\n");
+            let bytes = text.as_bytes();
+            let loaded = obj::parse(bytes, path, LoadOptions::default(), &library, &progress);
+            let loaded = LoadedScene::of(loaded.expect("good"), SceneOptions::default(), &progress);
+            let warnings = loaded.expect("never cancelled").report.warnings;
+            assert_eq!(
+                warnings.len(),
+                usize::from(is_warned),
+                "{scale}: {warnings:?}"
+            );
+        }
+    }
+}

@@ -1,0 +1,196 @@
+//! Files of a scene: the main one and those that are included.
+
+use super::description::Place;
+use super::element::{Element, OpenFile};
+use super::outline::Outline;
+use super::problem::{Problem, quoted};
+use super::reader::{Reader, Visit};
+use super::text::{Lines, decoded, decoded_bytes};
+use crate::obj::shown;
+use roxmltree::{Document, ParsingOptions};
+use std::io;
+use std::path::{Component, Path, PathBuf};
+
+/// As in Mitsuba.
+const MAX_INCLUDE_DEPTH: usize = 15;
+/// More than any scene has. Bounds the time for files that include others several times.
+const MAX_INCLUDE_COUNT: usize = 10_000;
+
+/// The included files.
+#[derive(Default)]
+pub(super) struct Includes {
+    /// The paths of the files that are open, each included by the one before.
+    open: Vec<PathBuf>,
+    count: usize,
+    /// The bytes of all files together.
+    bytes: u64,
+}
+
+impl<'r> Reader<'r> {
+    /// Reads the main file.
+    pub(super) fn read_main(&mut self, bytes: &[u8], path: &Path) -> Result<(), Problem> {
+        self.read_scene(bytes, path, &mut |reader, element| reader.object(element))
+    }
+
+    /// Calls `visit` for the objects of an included file.
+    ///
+    /// # Errors
+    /// The file can't be read, includes itself, or contains an error.
+    pub(super) fn include(
+        &mut self,
+        element: Element,
+        visit: Visit<'_, 'r>,
+    ) -> Result<(), Problem> {
+        element.require_known_attributes(&["filename"])?;
+        let name = element.required("filename", &self.defaults)?;
+        let path = self.named_file(&name, &element.file.folder, element.place)?;
+        self.require_includable(&path, element)?;
+        let limit = self.memory.left();
+        let read = (self.read_file)(&path, limit);
+        let bytes = read.map_err(|error| {
+            let reason = match error.kind() {
+                io::ErrorKind::NotFound => "not found".to_owned(),
+                _ => error.to_string(),
+            };
+            element.problem(format!("included file {}: {reason}", quoted(&name)))
+        })?;
+        self.read_scene(&bytes, &path, visit)
+    }
+
+    fn require_includable(&mut self, path: &Path, element: Element) -> Result<(), Problem> {
+        let path = normal(path);
+        let open = &self.includes.open;
+        let chain = |from: usize| {
+            let paths = open[from..].iter().chain([&path]);
+            let shown: Vec<String> = paths.map(|path| shown(path)).collect();
+            shown.join(" → ")
+        };
+        if let Some(first) = open.iter().position(|other| *other == path) {
+            return Err(element.problem(format!("the file includes itself: {}", chain(first))));
+        }
+        if open.len() > MAX_INCLUDE_DEPTH {
+            let message = format!("files are included more than {MAX_INCLUDE_DEPTH} deep: ");
+            return Err(element.problem(message + &chain(0)));
+        }
+        self.includes.count += 1;
+        if self.includes.count > MAX_INCLUDE_COUNT {
+            let message = format!("more than {MAX_INCLUDE_COUNT} files are included");
+            return Err(element.problem(message));
+        }
+        Ok(())
+    }
+
+    /// Calls `visit` for the children of a file's `<scene>`.
+    fn read_scene(
+        &mut self,
+        bytes: &[u8],
+        path: &Path,
+        visit: Visit<'_, 'r>,
+    ) -> Result<(), Problem> {
+        let index = self.scene.files.len() as u32;
+        self.scene.files.push(path.to_owned());
+        let start = Place {
+            file: index,
+            line: 1,
+        };
+        self.includes.bytes += bytes.len() as u64;
+        if self.includes.bytes > self.memory.limit() {
+            // Bounds the time for a large file that is included often.
+            return Err(self.memory.exceeded(start));
+        }
+        let mut held = bytes.len() as u64 + decoded_bytes(bytes);
+        self.memory.take(held, start)?;
+        let text = decoded(bytes).map_err(|error| {
+            let line = error.line;
+            Problem::at(Place { file: index, line }, error.message)
+        })?;
+        self.memory.take(Lines::bytes(&text), start)?;
+        held += Lines::bytes(&text);
+        let lines = Lines::of(&text);
+        let outline = Outline::of(&text).map_err(|excess| {
+            let line = lines.line(excess.offset);
+            Problem::at(Place { file: index, line }, excess.message)
+        })?;
+        self.memory.take(outline.bytes, start)?;
+        held += outline.bytes;
+        let document = document(&text, index)?;
+        let file = OpenFile {
+            index,
+            folder: path.parent().unwrap_or(Path::new("")).to_owned(),
+            lines,
+        };
+        let root = Element::new(document.root_element(), &file);
+        require_scene(root)?;
+        self.includes.open.push(normal(path));
+        self.each_child(root, visit)?;
+        self.includes.open.pop();
+        self.memory.give_back(held);
+        Ok(())
+    }
+}
+
+fn document(text: &str, file: u32) -> Result<Document<'_>, Problem> {
+    let options = ParsingOptions {
+        allow_dtd: false,
+        ..ParsingOptions::default()
+    };
+    Document::parse_with_options(text, options).map_err(|error| {
+        let position = error.pos();
+        // The position stands before the message.
+        let message = error.to_string();
+        let message = message.replacen(&format!(" at {position}"), "", 1);
+        Problem::Line {
+            place: Place {
+                file,
+                line: position.row,
+            },
+            column: Some(position.col as usize),
+            message: shown(Path::new(&message)),
+        }
+    })
+}
+
+/// Checks the root element and its version.
+fn require_scene(root: Element) -> Result<(), Problem> {
+    if root.tag() != "scene" {
+        let tag = quoted(root.tag());
+        return Err(root.problem(format!("the root element is {tag}, not “scene”")));
+    }
+    root.require_known_attributes(&["version"])?;
+    let Some(version) = root.node.attribute("version") else {
+        return Err(root.problem("<scene> has no attribute “version”, such as “3.0.0”"));
+    };
+    let parts: Vec<Option<u32>> = version.split('.').map(|part| part.parse().ok()).collect();
+    match parts[..] {
+        [Some(0 | 1), Some(_), Some(_)] => {
+            let version = quoted(version);
+            let message =
+                format!("version {version} of the format isn't supported: 2.0.0 is the first");
+            Err(root.problem(message))
+        }
+        [Some(_), Some(_), Some(_)] => Ok(()),
+        _ => {
+            let version = quoted(version);
+            Err(root.problem(format!("{version} isn't a version such as “3.0.0”")))
+        }
+    }
+}
+
+/// A path without `.`, and without `..` after another part. Only compares paths: a link may lead elsewhere.
+fn normal(path: &Path) -> PathBuf {
+    let mut normal = PathBuf::new();
+    for part in path.components() {
+        match part {
+            Component::CurDir => {}
+            Component::ParentDir if ends_with_name(&normal) => {
+                normal.pop();
+            }
+            other => normal.push(other),
+        }
+    }
+    normal
+}
+
+fn ends_with_name(path: &Path) -> bool {
+    matches!(path.components().next_back(), Some(Component::Normal(_)))
+}

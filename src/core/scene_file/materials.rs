@@ -1,0 +1,269 @@
+//! Materials: `<bsdf>` elements and references to them.
+
+use super::description::{Material, Place, Shape, ShapeKind};
+use super::element::Element;
+use super::objects::{self, Head};
+use super::parameters::Parameters;
+use super::plugin::Value;
+use super::problem::{Problem, quoted, unknown};
+use super::properties;
+use super::reader::Reader;
+use glam::DVec3;
+use std::collections::HashMap;
+
+/// The reflectance of Mitsuba's `diffuse` without parameters.
+const DEFAULT_REFLECTANCE: DVec3 = DVec3::splat(0.5);
+
+/// The BSDFs of Mitsuba 3.9.1.
+const BSDFS: [&str; 23] = [
+    "diffuse",
+    "twosided",
+    "blendbsdf",
+    "bumpmap",
+    "circular",
+    "conductor",
+    "dielectric",
+    "hair",
+    "mask",
+    "measured",
+    "measured_polarized",
+    "normalmap",
+    "null",
+    "plastic",
+    "polarizer",
+    "pplastic",
+    "principled",
+    "principledthin",
+    "retarder",
+    "roughconductor",
+    "roughdielectric",
+    "roughplastic",
+    "thindielectric",
+];
+
+/// Marks an index into the list of materials without identifier.
+const UNNAMED: u32 = 1 << 31;
+
+/// The materials defined or referred to so far.
+#[derive(Default)]
+pub(super) struct Materials {
+    /// Those with identifiers, in the order in which they are mentioned.
+    named: Vec<Named>,
+    by_id: HashMap<String, u32>,
+    unnamed: Vec<Material>,
+}
+
+struct Named {
+    id: String,
+    /// Where it is mentioned first.
+    place: Place,
+    material: Option<Material>,
+}
+
+impl Materials {
+    /// A temporary index of the material with an identifier, which may be defined later.
+    fn mention(&mut self, id: &str, place: Place) -> u32 {
+        if let Some(&index) = self.by_id.get(id) {
+            return index;
+        }
+        let index = self.named.len() as u32;
+        self.by_id.insert(id.to_owned(), index);
+        self.named.push(Named {
+            id: id.to_owned(),
+            place,
+            material: None,
+        });
+        index
+    }
+
+    /// A temporary index of a new material.
+    fn define(&mut self, material: Material) -> u32 {
+        let Some(id) = material.id.clone() else {
+            self.unnamed.push(material);
+            return UNNAMED | (self.unnamed.len() as u32 - 1);
+        };
+        let index = self.mention(&id, material.place);
+        self.named[index as usize].material = Some(material);
+        index
+    }
+
+    /// The list of materials. Replaces the shapes' temporary indices.
+    ///
+    /// # Errors
+    /// A material isn't defined.
+    pub(super) fn finish(
+        self,
+        shapes: &mut [Shape],
+        ids: &HashMap<String, Registered>,
+    ) -> Result<Vec<Material>, Problem> {
+        let named = self.named.into_iter().map(|named| {
+            let missing = || undefined(&named.id, named.place, ids);
+            named.material.ok_or_else(missing)
+        });
+        let mut materials: Vec<Material> = named.collect::<Result<_, _>>()?;
+        let mut unnamed = self.unnamed.into_iter().map(Some).collect();
+        resolve(shapes, &mut unnamed, &mut materials);
+        Ok(materials)
+    }
+}
+
+/// Appends the shapes' unnamed materials to the list. Those of nested shapes come first, as the writer writes them.
+fn resolve(
+    shapes: &mut [Shape],
+    unnamed: &mut Vec<Option<Material>>,
+    materials: &mut Vec<Material>,
+) {
+    for shape in shapes {
+        if let ShapeKind::Csg { children, .. } = &mut shape.kind {
+            resolve(children, unnamed, materials);
+        }
+        let Some(index) = shape.material.filter(|index| index & UNNAMED != 0) else {
+            continue;
+        };
+        let material = unnamed[(index & !UNNAMED) as usize].take();
+        shape.material = Some(materials.len() as u32);
+        materials.extend(material);
+    }
+}
+
+/// An object with an identifier.
+pub(super) struct Registered {
+    pub place: Place,
+    pub element: String,
+}
+
+fn undefined(id: &str, place: Place, ids: &HashMap<String, Registered>) -> Problem {
+    /// More than any scene has; comparing a name with all takes time.
+    const MAX_COMPARED: usize = 1000;
+    if let Some(other) = ids.get(id) {
+        let message = format!("{} is <{}>, not <bsdf>", quoted(id), other.element);
+        return Problem::at(place, message);
+    }
+    let known = ids.iter().filter(|(_, other)| other.element == "bsdf");
+    let mut known: Vec<&str> = known
+        .map(|(id, _)| id.as_str())
+        .take(MAX_COMPARED)
+        .collect();
+    known.sort_unstable();
+    Problem::at(place, unknown("id of a bsdf:", id, &known))
+}
+
+/// The temporary index of the material that a `<ref>` names.
+pub(super) fn reference(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
+    let id = objects::reference(reader, element)?;
+    let bytes = 2 * (size_of::<Named>() + 2 * id.len()) as u64;
+    reader.memory.take(bytes, element.place)?;
+    Ok(reader.materials.mention(&id, element.place))
+}
+
+/// The temporary index of a new material.
+pub(super) fn define(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
+    let material = bsdf(reader, element)?;
+    let bytes = 2 * (size_of::<Material>() + size_of::<Named>()) as u64;
+    reader.memory.take(bytes, element.place)?;
+    Ok(reader.materials.define(material))
+}
+
+fn bsdf(reader: &mut Reader, element: Element) -> Result<Material, Problem> {
+    let head = Head::of(reader, element)?;
+    let mut material = Material {
+        place: element.place,
+        id: head.id,
+        front: DEFAULT_REFLECTANCE,
+        back: None,
+    };
+    match head.kind.as_str() {
+        "diffuse" => material.front = reflectance(reader, element)?,
+        "twosided" => {
+            let (front, back) = both_sides(reader, element)?;
+            material.front = front;
+            material.back = Some(back);
+        }
+        kind if BSDFS.contains(&kind) => {
+            let kind = quoted(kind);
+            let message =
+                format!("bsdf {kind} isn't supported; a diffuse reflectance of 0.5 is used");
+            reader.warnings.add(element.place, message);
+            material.back = Some(DEFAULT_REFLECTANCE);
+        }
+        kind => return Err(element.problem(unknown("bsdf", kind, &BSDFS))),
+    }
+    Ok(material)
+}
+
+/// The reflectance of a `diffuse` BSDF.
+fn reflectance(reader: &mut Reader, element: Element) -> Result<DVec3, Problem> {
+    let mut parameters = Parameters::new("bsdf", "diffuse", element.place);
+    reader.each_child(element, &mut |reader, child| {
+        if let Some(parameter) = properties::parameter(reader, child)? {
+            return parameters.add(parameter);
+        }
+        if child.tag() == "ref" {
+            objects::reference(reader, child)?;
+            let message = "textures aren't supported; a diffuse reflectance of 0.5 is used";
+            reader.warnings.add(child.place, message.to_owned());
+            return Ok(());
+        }
+        objects::skip(reader, child, &parameters.object())
+    })?;
+    let Some(given) = parameters.take("reflectance") else {
+        parameters.finish()?;
+        return Ok(DEFAULT_REFLECTANCE);
+    };
+    let at = |message: String| Err(Problem::at(given.place, message));
+    let rgb = match given.value {
+        Value::Rgb(rgb) => rgb,
+        Value::Spectrum(all) | Value::Float(all) => DVec3::splat(all),
+        other => {
+            let element = other.element();
+            return at(format!("“reflectance” must be <rgb>, not <{element}>"));
+        }
+    };
+    if rgb.min_element() < 0.0 || rgb.max_element() > 1.0 {
+        return at("“reflectance” must be from 0 to 1".to_owned());
+    }
+    parameters.finish()?;
+    Ok(rgb)
+}
+
+/// The reflectances of the front and the back of a `twosided` BSDF, which contains one BSDF for both or two.
+fn both_sides(reader: &mut Reader, element: Element) -> Result<(DVec3, DVec3), Problem> {
+    let parameters = Parameters::new("bsdf", "twosided", element.place);
+    let mut sides = Vec::new();
+    reader.each_child(element, &mut |reader, child| {
+        let side = match child.tag() {
+            "bsdf" => {
+                let nested = bsdf(reader, child)?;
+                let front = nested.front;
+                if nested.id.is_some() {
+                    reader.materials.define(nested);
+                }
+                front
+            }
+            "ref" => {
+                let id = objects::reference(reader, child)?;
+                let index = reader.materials.by_id.get(&id);
+                let named = index.and_then(|&index| {
+                    let named = &reader.materials.named[index as usize];
+                    named.material.as_ref()
+                });
+                let Some(named) = named else {
+                    let id = quoted(&id);
+                    return Err(child.problem(format!("no bsdf {id} is defined before this line")));
+                };
+                named.front
+            }
+            _ => return objects::skip(reader, child, &parameters.object()),
+        };
+        if sides.len() == 2 {
+            return Err(child.problem("bsdf “twosided” contains more than two BSDFs"));
+        }
+        sides.push(side);
+        Ok(())
+    })?;
+    match *sides {
+        [both] => Ok((both, both)),
+        [front, back] => Ok((front, back)),
+        _ => Err(parameters.problem("a nested bsdf is missing")),
+    }
+}

@@ -1,0 +1,65 @@
+//! Reader of scene files from the disk.
+
+use std::fs::File;
+use std::io::{self, Read};
+use std::path::Path;
+
+/// Reads a file of at most the given number of bytes.
+pub type ReadFile<'a> = &'a dyn Fn(&Path, u64) -> io::Result<Vec<u8>>;
+
+/// The bytes of a regular file. Opens neither pipes, which may block, nor devices, which may never end.
+///
+/// # Errors
+/// The file can't be read, is larger than `max_bytes`, or isn't a regular file.
+pub(super) fn read(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
+    let info = std::fs::metadata(path)?;
+    if info.is_dir() {
+        return Err(io::Error::other("this is a directory, not a scene file"));
+    }
+    if !info.is_file() {
+        return Err(io::Error::other("not a regular file"));
+    }
+    let size = usize::try_from(info.len().min(max_bytes)).unwrap_or(0);
+    let mut bytes = Vec::with_capacity(size);
+    let file = File::open(path)?;
+    // The file may have grown, or report a wrong size.
+    file.take(max_bytes.saturating_add(1))
+        .read_to_end(&mut bytes)?;
+    if bytes.len() as u64 > max_bytes {
+        return Err(too_large(max_bytes));
+    }
+    Ok(bytes)
+}
+
+/// The error about a file larger than the limit.
+fn too_large(max_bytes: u64) -> io::Error {
+    let message = format!(
+        "larger than the {} MB of memory left (--max-memory)",
+        max_bytes >> 20
+    );
+    io::Error::other(message)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn only_regular_files_within_the_limit_are_read() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("five");
+        std::fs::write(&path, "12345").expect("written");
+        assert_eq!(read(&path, 5).expect("small enough"), b"12345");
+        let error = |path: &Path, limit| read(path, limit).expect_err("refused").to_string();
+        assert_eq!(
+            error(&path, 4),
+            "larger than the 0 MB of memory left (--max-memory)"
+        );
+        assert_eq!(
+            error(folder.path(), 5),
+            "this is a directory, not a scene file"
+        );
+        #[cfg(target_os = "linux")]
+        assert_eq!(error(Path::new("/dev/zero"), 5), "not a regular file");
+    }
+}

@@ -1,0 +1,247 @@
+//! Cylinders of finite length, open or capped.
+
+use super::compact::Slots;
+use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use crate::aabb::{Aabb, Planes};
+use crate::algebra::{
+    Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, squared_length, vector,
+};
+use crate::lane::{Lane, Values};
+use crate::ray::{Hit, Ray};
+use glam::{DVec2, DVec3, Vec3};
+
+/// The points at a radius from the segment between two points, and two disks if it is capped. No ray hits it if the
+/// points are equal, the radius isn't positive, or a number isn't finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cylinder {
+    /// The centre of one end.
+    pub p0: Vec3,
+    /// The centre of the other end.
+    pub p1: Vec3,
+    /// The radius.
+    pub radius: f32,
+    /// Whether disks close the ends.
+    pub is_capped: bool,
+}
+
+/// The parts of a cylinder's and a cone's surface.
+pub(crate) const SIDE: u8 = 0;
+/// The disk about `p0`.
+pub(crate) const BASE: u8 = 1;
+/// The disk about `p1`.
+pub(crate) const TOP: u8 = 2;
+
+impl Cylinder {
+    fn can_be_hit(&self) -> bool {
+        let is_finite = self.p0.is_finite() && self.p1.is_finite() && self.radius.is_finite();
+        is_finite && self.radius > 0.0 && self.p0 != self.p1
+    }
+}
+
+impl Shape for Cylinder {
+    const INFO: ShapeInfo = ShapeInfo {
+        name: "cylinder",
+        plural: "cylinders",
+    };
+    type Compact = Slots<Self>;
+    const NUMBERS: usize = 8;
+    const MOST_CROSSINGS: usize = 4;
+
+    fn nowhere() -> Self {
+        Self {
+            p0: Vec3::NAN,
+            p1: Vec3::NAN,
+            radius: f32::NAN,
+            is_capped: false,
+        }
+    }
+
+    fn write(&self, numbers: &mut [f32]) {
+        numbers[..3].copy_from_slice(&self.p0.to_array());
+        numbers[3..6].copy_from_slice(&self.p1.to_array());
+        numbers[6] = self.radius;
+        numbers[7] = f32::from(u8::from(self.is_capped));
+    }
+
+    #[inline(always)]
+    fn read(numbers: &impl Values<f32>) -> Self {
+        Self {
+            p0: Vec3::from_array(numbers.three(0)),
+            p1: Vec3::from_array(numbers.three(3)),
+            radius: numbers.value(6),
+            is_capped: numbers.value(7) == 1.0,
+        }
+    }
+
+    /// The box around the boxes of two spheres, widened as that of a sphere.
+    #[inline(always)]
+    fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
+        around_spheres(numbers.three(0), numbers.three(3), numbers.value(6))
+    }
+
+    fn bounds(&self) -> Aabb {
+        if self.can_be_hit() {
+            Aabb::from_planes(Self::planes(&numbers_of(self)))
+        } else {
+            Aabb::EMPTY
+        }
+    }
+
+    /// u is the angle about the axis, from 0 to 1, and v the position along it; on a cap v is the distance from the axis
+    /// in radii.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let radius = f64::from(self.radius);
+        let along = Along::new(self.p0, self.p1, ray.at(hit.t));
+        let (normal, position, v) = match part_of(hit) {
+            SIDE => {
+                let position = along.foot + radius * along.outwards;
+                (along.outwards, position, along.part)
+            }
+            part => {
+                let at_top = f64::from(u8::from(part == TOP));
+                let normal = (2.0 * at_top - 1.0) * along.axis;
+                let position = along.on_cap(at_top);
+                (normal, position, along.distance / radius)
+            }
+        };
+        SurfacePoint {
+            position: position.as_vec3(),
+            normal,
+            uv: DVec2::new(along.turn, v),
+            error: error(self.p0, self.p1, self.radius),
+            is_flat: false,
+        }
+    }
+}
+
+impl Pieces for Cylinder {
+    fn centre(&self) -> Vec3 {
+        0.5 * self.p0 + 0.5 * self.p1
+    }
+
+    /// With w = p1 − p0 and f = o + t·d − p0: |f×w|² = r²·w·w where 0 ≤ f·w ≤ w·w, and f·w = 0 or w·w where
+    /// |f×w|² ≤ r²·w·w.
+    fn pieces<R: Ring>(&self, ray: &RayIn<R>, emit: &mut impl FnMut(Piece<'_, R>)) {
+        if !self.can_be_hit() {
+            return;
+        }
+        let axial = AxialRay::new(self.p0, self.p1, ray);
+        let r = R::from(self.radius);
+        let reach = Polynomial::constant(r.square().times(&axial.length_squared));
+        let beyond_end = Polynomial::constant(axial.length_squared.clone()).minus(&axial.along);
+        emit(Piece {
+            part: SIDE,
+            surface: &axial.across_squared.minus(&reach),
+            conditions: &[axial.along.clone(), beyond_end.clone()],
+        });
+        if self.is_capped {
+            let inside = [reach.minus(&axial.across_squared)];
+            for (part, surface) in [(BASE, &axial.along), (TOP, &beyond_end)] {
+                emit(Piece {
+                    part,
+                    surface,
+                    conditions: &inside,
+                });
+            }
+        }
+    }
+}
+
+/// A ray in the coordinates of an axis from a point p0 to a point p1: w = p1 − p0, f = o + t·d − p0.
+pub(super) struct AxialRay<R> {
+    /// f·w.
+    pub along: Polynomial<R>,
+    /// |f×w|².
+    pub across_squared: Polynomial<R>,
+    /// w·w.
+    pub length_squared: R,
+}
+
+impl<R: Ring> AxialRay<R> {
+    pub fn new(p0: Vec3, p1: Vec3, ray: &RayIn<R>) -> Self {
+        let origin = vector::<R>(p0);
+        let w = difference(&vector::<R>(p1), &origin);
+        let f = difference(&ray.origin, &origin);
+        let (from, step) = (cross(&f, &w), cross(&ray.dir, &w));
+        Self {
+            along: Polynomial::new([dot(&f, &w), dot(&ray.dir, &w)]),
+            across_squared: Polynomial::new([
+                squared_length(&from),
+                dot(&from, &step).doubled(),
+                squared_length(&step),
+            ]),
+            length_squared: squared_length(&w),
+        }
+    }
+}
+
+/// A point in the coordinates of an axis.
+pub(super) struct Along {
+    /// Unit vector along the axis.
+    pub axis: DVec3,
+    /// Unit vector from the axis to the point.
+    pub outwards: DVec3,
+    /// The nearest point of the axis.
+    pub foot: DVec3,
+    /// Where that is: 0 at p0, 1 at p1.
+    pub part: f64,
+    /// The distance from the axis.
+    pub distance: f64,
+    /// The angle about the axis, from 0 to 1.
+    pub turn: f64,
+    p0: DVec3,
+    length: f64,
+}
+
+impl Along {
+    pub fn new(p0: Vec3, p1: Vec3, p: DVec3) -> Self {
+        let [p0, p1] = [p0, p1].map(Vec3::as_dvec3);
+        let length = (p1 - p0).length();
+        let axis = (p1 - p0) / length;
+        let part = (p - p0).dot(axis) / length;
+        let foot = p0 + part * (p1 - p0);
+        let side = p - foot;
+        let (x, y) = axis.any_orthonormal_pair();
+        let turn = side.dot(y).atan2(side.dot(x)) / std::f64::consts::TAU;
+        Self {
+            axis,
+            outwards: side.normalize_or(x),
+            foot,
+            part,
+            distance: side.length(),
+            turn: turn.rem_euclid(1.0),
+            p0,
+            length,
+        }
+    }
+
+    /// The point moved along the axis to p0 (0) or p1 (1).
+    pub fn on_cap(&self, at: f64) -> DVec3 {
+        self.p0 + at * self.length * self.axis + self.distance * self.outwards
+    }
+}
+
+/// The part that a hit is on.
+pub(super) fn part_of(hit: &Hit) -> u8 {
+    hit.u as u8
+}
+
+/// The box around two spheres of equal radius, widened by 2⁻²² of the reach.
+#[inline(always)]
+pub(super) fn around_spheres<L: Lane>(a: [L; 3], b: [L; 3], radius: L) -> Planes<L> {
+    let side = |axis: usize| {
+        let (a, b) = (a[axis], b[axis]);
+        let slack = (a.abs().greater(b.abs()) + radius) * L::of(a.token(), 2.0 * f32::EPSILON);
+        [a.lesser(b) - radius - slack, a.greater(b) + radius + slack]
+    };
+    let [[a, b], [c, d], [e, f]] = [side(0), side(1), side(2)];
+    [a, b, c, d, e, f]
+}
+
+/// The error of a point of a cylinder or a cone: the point is rounded, and the next test sees the surface to some
+/// roundings of its size.
+pub(super) fn error(p0: Vec3, p1: Vec3, radius: f32) -> Vec3 {
+    let size = (p1 - p0).length() + radius;
+    let reach = p0.abs().max(p1.abs()) + Vec3::splat(radius);
+    2.0 * U * reach + Vec3::splat(16.0 * U * size)
+}

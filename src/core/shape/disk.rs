@@ -1,0 +1,78 @@
+//! Disks, and their images under affine maps.
+
+use super::compact::Slots;
+use super::span::{Span, SpannedRay};
+use super::{Shape, ShapeInfo, SurfacePoint, numbers_of};
+use crate::aabb::{Aabb, Planes};
+use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
+use crate::lane::{Lane, Values};
+use crate::ray::{Hit, Ray};
+use glam::Vec3;
+
+/// The points c + a·u + b·v with a² + b² ≤ 1: a disk if u and v are perpendicular and equally long, else an ellipse.
+/// No ray hits it if they are parallel or a number isn't finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Disk(pub Span);
+
+impl Shape for Disk {
+    const INFO: ShapeInfo = ShapeInfo {
+        name: "disk",
+        plural: "disks",
+    };
+    type Compact = Slots<Self>;
+    const NUMBERS: usize = Span::NUMBERS;
+    const MOST_CROSSINGS: usize = 1;
+
+    fn nowhere() -> Self {
+        Self(Span::NOWHERE)
+    }
+
+    fn write(&self, numbers: &mut [f32]) {
+        self.0.write(numbers);
+    }
+
+    #[inline(always)]
+    fn read(numbers: &impl Values<f32>) -> Self {
+        Self(Span::read(numbers))
+    }
+
+    #[inline(always)]
+    fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
+        Span::planes(numbers)
+    }
+
+    fn bounds(&self) -> Aabb {
+        if self.0.is_finite() {
+            Aabb::from_planes(Self::planes(&numbers_of(self)))
+        } else {
+            Aabb::EMPTY
+        }
+    }
+
+    /// u and v are a and b, each from −1 to 1.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        self.0.surface(ray, hit)
+    }
+}
+
+impl Pieces for Disk {
+    fn centre(&self) -> Vec3 {
+        self.0.centre
+    }
+
+    /// The plane, and 1 − a² − b².
+    fn pieces<R: Ring>(&self, ray: &RayIn<R>, emit: &mut impl FnMut(Piece<'_, R>)) {
+        if !self.0.is_finite() {
+            return;
+        }
+        let SpannedRay { plane, a, b, scale } = SpannedRay::new(&self.0, ray);
+        let inside = Polynomial::constant(scale.square())
+            .minus(&a.times(&a))
+            .minus(&b.times(&b));
+        emit(Piece {
+            part: 0,
+            surface: &plane,
+            conditions: &[inside],
+        });
+    }
+}

@@ -1,0 +1,117 @@
+//! A centre and two half axes: what disks and rectangles have in common.
+
+use super::{SurfacePoint, U};
+use crate::aabb::Planes;
+use crate::algebra::{Polynomial, RayIn, Ring, cross, difference, dot, vector};
+use crate::lane::{Lane, Values};
+use crate::ray::{Hit, Ray};
+use glam::{DVec2, DVec3, Vec3};
+
+/// The plane of the points c + a·u + b·v, with a and b as its coordinates.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Span {
+    /// The centre c.
+    pub centre: Vec3,
+    /// The first half axis.
+    pub u: Vec3,
+    /// The second half axis, not parallel to the first.
+    pub v: Vec3,
+}
+
+impl Span {
+    /// The number of its parameters.
+    pub(super) const NUMBERS: usize = 9;
+    /// No plane.
+    pub(super) const NOWHERE: Self = Self {
+        centre: Vec3::NAN,
+        u: Vec3::NAN,
+        v: Vec3::NAN,
+    };
+
+    /// Whether all numbers are finite. If the half axes are parallel, the exact kernel finds no crossing.
+    pub(super) fn is_finite(&self) -> bool {
+        self.centre.is_finite() && self.u.is_finite() && self.v.is_finite()
+    }
+
+    pub(super) fn write(&self, numbers: &mut [f32]) {
+        for (vector, kept) in [self.centre, self.u, self.v]
+            .iter()
+            .zip(numbers.chunks_exact_mut(3))
+        {
+            kept.copy_from_slice(&vector.to_array());
+        }
+    }
+
+    #[inline(always)]
+    pub(super) fn read(numbers: &impl Values<f32>) -> Self {
+        let [centre, u, v] =
+            [numbers.three(0), numbers.three(3), numbers.three(6)].map(Vec3::from_array);
+        Self { centre, u, v }
+    }
+
+    /// The box around the parallelogram: |u| + |v| on either side of the centre, widened by 2⁻²² of the reach: each of three sums errs by at most 2⁻²⁴ of
+    /// it.
+    #[inline(always)]
+    pub(super) fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
+        let side = |axis: usize| {
+            let [c, u, v] = [
+                numbers.value(axis),
+                numbers.value(3 + axis),
+                numbers.value(6 + axis),
+            ];
+            let half = u.abs() + v.abs();
+            let slack = (c.abs() + half) * L::of(c.token(), 2.0 * f32::EPSILON);
+            [c - half - slack, c + half + slack]
+        };
+        let [[a, b], [c, d], [e, f]] = [side(0), side(1), side(2)];
+        [a, b, c, d, e, f]
+    }
+
+    /// The point of a hit, with a and b as its surface coordinates.
+    pub(super) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let [centre, u, v] = [self.centre, self.u, self.v].map(Vec3::as_dvec3);
+        let normal = u.cross(v);
+        let across = normal.length_squared();
+        let p = ray.at(hit.t) - centre;
+        let (a, b) = (
+            p.cross(v).dot(normal) / across,
+            u.cross(p).dot(normal) / across,
+        );
+        let position = (centre + a * u + b * v).as_vec3();
+        let reach = self.centre.abs() + self.u.abs() + self.v.abs();
+        SurfacePoint {
+            position,
+            normal: normal.normalize_or(DVec3::Z),
+            uv: DVec2::new(a, b),
+            error: 4.0 * U * (position.abs() + reach),
+            is_flat: true,
+        }
+    }
+}
+
+/// A ray in the coordinates of a span.
+pub(super) struct SpannedRay<R> {
+    /// 0 where the ray meets the plane.
+    pub plane: Polynomial<R>,
+    /// a and b times `scale`.
+    pub a: Polynomial<R>,
+    pub b: Polynomial<R>,
+    /// |u×v|², not negative.
+    pub scale: R,
+}
+
+impl<R: Ring> SpannedRay<R> {
+    /// With n = u×v and p = o + t·d − c: n·p, (v×n)·p = n·(p×v) and (n×u)·p = n·(u×p).
+    pub fn new(span: &Span, ray: &RayIn<R>) -> Self {
+        let [u, v] = [span.u, span.v].map(vector::<R>);
+        let normal = cross(&u, &v);
+        let f = difference(&ray.origin, &vector(span.centre));
+        let along = |w: &[R; 3]| Polynomial::new([dot(w, &f), dot(w, &ray.dir)]);
+        Self {
+            plane: along(&normal),
+            a: along(&cross(&v, &normal)),
+            b: along(&cross(&normal, &u)),
+            scale: dot(&normal, &normal),
+        }
+    }
+}

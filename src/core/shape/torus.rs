@@ -1,0 +1,152 @@
+//! Tori.
+
+use super::compact::Slots;
+use super::cylinder::around_spheres;
+use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use crate::aabb::{Aabb, Planes};
+use crate::algebra::{
+    Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
+};
+use crate::lane::{Lane, Values};
+use crate::ray::{Hit, Ray};
+use glam::{DVec2, DVec3, Vec3};
+
+/// The points at the minor radius from a circle with the major radius. No ray hits it if a radius isn't positive, the
+/// axis is 0, or a number isn't finite. If the minor radius is larger, the surface meets itself.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Torus {
+    /// The centre.
+    pub centre: Vec3,
+    /// The axis of the circle, of any length.
+    pub axis: Vec3,
+    /// The radius of the circle.
+    pub major: f32,
+    /// The radius of the tube.
+    pub minor: f32,
+}
+
+impl Torus {
+    fn can_be_hit(&self) -> bool {
+        let is_finite = self.centre.is_finite() && self.axis.is_finite();
+        let has_axis = is_finite && self.axis != Vec3::ZERO;
+        let is_radius = |r: f32| r > 0.0 && r.is_finite();
+        has_axis && is_radius(self.major) && is_radius(self.minor)
+    }
+}
+
+impl Shape for Torus {
+    const INFO: ShapeInfo = ShapeInfo {
+        name: "torus",
+        plural: "tori",
+    };
+    type Compact = Slots<Self>;
+    const NUMBERS: usize = 8;
+    const MOST_CROSSINGS: usize = 4;
+
+    fn nowhere() -> Self {
+        Self {
+            centre: Vec3::NAN,
+            axis: Vec3::NAN,
+            major: f32::NAN,
+            minor: f32::NAN,
+        }
+    }
+
+    fn write(&self, numbers: &mut [f32]) {
+        numbers[..3].copy_from_slice(&self.centre.to_array());
+        numbers[3..6].copy_from_slice(&self.axis.to_array());
+        numbers[6..].copy_from_slice(&[self.major, self.minor]);
+    }
+
+    #[inline(always)]
+    fn read(numbers: &impl Values<f32>) -> Self {
+        Self {
+            centre: Vec3::from_array(numbers.three(0)),
+            axis: Vec3::from_array(numbers.three(3)),
+            major: numbers.value(6),
+            minor: numbers.value(7),
+        }
+    }
+
+    /// The box around the sphere of both radii, widened as that of a sphere.
+    #[inline(always)]
+    fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
+        let reach = numbers.value(6) + numbers.value(7);
+        let wider = reach * L::of(reach.token(), 1.0 + f32::EPSILON);
+        around_spheres(numbers.three(0), numbers.three(0), wider)
+    }
+
+    fn bounds(&self) -> Aabb {
+        if self.can_be_hit() {
+            Aabb::from_planes(Self::planes(&numbers_of(self)))
+        } else {
+            Aabb::EMPTY
+        }
+    }
+
+    /// u is the angle about the axis and v that about the tube, from 0 to 1.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let (centre, axis) = (
+            self.centre.as_dvec3(),
+            self.axis.as_dvec3().normalize_or(DVec3::Z),
+        );
+        let [major, minor] = [self.major, self.minor].map(f64::from);
+        let p = ray.at(hit.t) - centre;
+        let height = p.dot(axis);
+        let side = p - height * axis;
+        let (x, y) = axis.any_orthonormal_pair();
+        let outwards = side.normalize_or(x);
+        let in_tube = p - major * outwards;
+        let normal = in_tube.normalize_or(outwards);
+        let turn = |sin: f64, cos: f64| (sin.atan2(cos) / std::f64::consts::TAU).rem_euclid(1.0);
+        let reach = self.centre.abs() + Vec3::splat(self.major + self.minor);
+        SurfacePoint {
+            position: (centre + major * outwards + minor * normal).as_vec3(),
+            normal,
+            uv: DVec2::new(
+                turn(side.dot(y), side.dot(x)),
+                turn(height, in_tube.dot(outwards)),
+            ),
+            error: 2.0 * U * reach + Vec3::splat(32.0 * U * (self.major + self.minor)),
+            is_flat: false,
+        }
+    }
+}
+
+impl Pieces for Torus {
+    fn centre(&self) -> Vec3 {
+        self.centre
+    }
+
+    /// With p = o + t·d − c, the axis w, and w·w·p·p − (p·w)² = |p×w|²: (p·p + R² − r²)²·w·w = 4R²·|p×w|².
+    ///
+    /// Source: Hanrahan, "A Survey of Ray-Surface Intersection Algorithms", in Glassner (ed.), An Introduction to Ray
+    /// Tracing, 1989.
+    fn pieces<R: Ring>(&self, ray: &RayIn<R>, emit: &mut impl FnMut(Piece<'_, R>)) {
+        if !self.can_be_hit() {
+            return;
+        }
+        let f = difference(&ray.origin, &vector(self.centre));
+        let axis = vector::<R>(self.axis);
+        let axis_squared = squared_length(&axis);
+        let [major, minor] = [self.major, self.minor].map(|r| R::from(r).square());
+        let squared = Polynomial::new([
+            squared_length(&f),
+            dot(&f, &ray.dir).doubled(),
+            squared_length(&ray.dir),
+        ]);
+        let along = Polynomial::new([dot(&f, &axis), dot(&ray.dir, &axis)]);
+        let across = squared.scaled(&axis_squared).minus(&along.times(&along));
+        let ball = squared.plus(&Polynomial::constant(major.minus(&minor)));
+        let four_major = major.doubled().doubled();
+        let surface = ball
+            .times(&ball)
+            .scaled(&axis_squared)
+            .minus(&across.scaled(&four_major));
+        emit(Piece {
+            part: 0,
+            surface: &surface,
+            conditions: &[],
+        });
+    }
+}

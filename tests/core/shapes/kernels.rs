@@ -1,0 +1,201 @@
+//! Every kernel of every shape on easy cases, and its promises.
+
+use super::{Sample, ray_near};
+use glam::Vec3;
+use hitscope_core::Ray;
+use hitscope_core::kernel::{KernelTable, Precision, Tier, exact_answer};
+use hitscope_core::random::Random;
+use hitscope_core::shape::{
+    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
+};
+
+fn ray(origin: [f32; 3], dir: [f32; 3]) -> Ray {
+    Ray::new(origin.into(), dir.into()).expect("a ray")
+}
+
+#[test]
+fn a_sphere_is_hit_from_outside_from_inside_and_by_a_tangent() {
+    let sphere = Sphere {
+        centre: Vec3::new(1.0, 2.0, 3.0),
+        radius: 2.0,
+    };
+    for kernel in Sphere::kernels() {
+        let name = kernel.info.name;
+        let t = |origin, dir| kernel.intersect(&ray(origin, dir), sphere).map(|hit| hit.t);
+        assert_eq!(t([1.0, 2.0, -4.0], [0.0, 0.0, 1.0]), Some(5.0), "{name}");
+        assert_eq!(t([1.0, 2.0, -4.0], [0.0, 0.0, 4.0]), Some(1.25), "{name}");
+        assert_eq!(t([1.0, 2.0, 3.0], [0.0, 1.0, 0.0]), Some(2.0), "{name}");
+        assert_eq!(t([1.0, 2.0, -4.0], [0.0, 0.0, -1.0]), None, "{name}");
+        assert_eq!(t([3.5, 2.0, -4.0], [0.0, 0.0, 1.0]), None, "{name}");
+        // All numbers are small integers, so every kernel sees the exact tangent.
+        assert_eq!(t([3.0, 2.0, -4.0], [0.0, 0.0, 1.0]), Some(7.0), "{name}");
+    }
+}
+
+#[test]
+fn an_interval_selects_the_crossing_and_excludes_its_ends() {
+    let sphere = Sphere {
+        centre: Vec3::ZERO,
+        radius: 1.0,
+    };
+    for kernel in Sphere::kernels() {
+        let t = |t_min, t_max| {
+            let ray = Ray::with_interval(Vec3::NEG_Z * 3.0, Vec3::Z, t_min, t_max);
+            let hit = kernel.intersect(&ray.expect("a ray"), sphere);
+            hit.map(|hit| hit.t)
+        };
+        let name = kernel.info.name;
+        assert_eq!(t(0.0, 10.0), Some(2.0), "{name}");
+        assert_eq!(t(2.0, 10.0), Some(4.0), "{name}");
+        assert_eq!(t(2.5, 4.0), None, "{name}");
+        assert_eq!(t(0.0, 2.0), None, "{name}");
+        assert_eq!(t(-9.0, 3.0), Some(2.0), "{name}");
+    }
+}
+
+#[test]
+fn spheres_without_a_radius_or_with_a_nan_are_missed() {
+    let nan = f32::NAN;
+    let bad = [
+        (Vec3::ZERO, nan),
+        (Vec3::new(nan, 0.0, 0.0), 1.0),
+        (Vec3::ZERO, f32::INFINITY),
+        (Vec3::new(0.0, f32::INFINITY, 0.0), 1.0),
+    ];
+    for (centre, radius) in bad {
+        let sphere = Sphere { centre, radius };
+        for kernel in Sphere::kernels() {
+            let hit = kernel.intersect(&ray([0.1, 0.2, -4.0], [0.0, 0.0, 1.0]), sphere);
+            assert_eq!(hit, None, "{} {sphere:?}", kernel.info.name);
+        }
+    }
+}
+
+/// Compares each kernel with the exact one on rays that are neither grazing nor far away.
+fn kernels_agree_with_the_exact_one<S: Sample>(seed: u64) {
+    let mut random = Random::new(seed);
+    let mut hits = 0;
+    for _ in 0..20_000 {
+        let shape = S::sample(&mut random, Vec3::ZERO, 1.0);
+        let ray = ray_near(&mut random, Vec3::ZERO, 1.0, 4.0);
+        let exact = exact_answer(&ray, &shape);
+        hits += u32::from(exact.is_some());
+        for kernel in S::kernels() {
+            let found = kernel.intersect(&ray, shape.clone());
+            let name = kernel.info.name;
+            match (exact, found) {
+                (Some([t, ..]), Some(hit)) => {
+                    let least = match kernel.info.precision {
+                        Precision::F32 if kernel.info.tier == Some(Tier::Watertight) => 1e-3,
+                        // Textbook formulas lose most digits of a thin torus, four of its radii away.
+                        Precision::F32 => 3e-2,
+                        Precision::F64 => 1e-6,
+                        // Rounded correctly.
+                        Precision::Adaptive => f64::from(f32::EPSILON / 2.0),
+                    };
+                    let error = (f64::from(hit.t) - t).abs();
+                    assert!(
+                        error <= least * t || is_grazing(&shape, &ray, 1e-4),
+                        "{name} {shape:?} {ray:?}: {error:e}"
+                    );
+                }
+                (None, None) => {}
+                // Only a grazing ray is decided wrongly.
+                _ => {
+                    assert_ne!(kernel.info.tier, Some(Tier::Exact), "{name}");
+                    let is_textbook = kernel.info.precision == Precision::F32
+                        && kernel.info.tier != Some(Tier::Watertight);
+                    let beside = if is_textbook { 1e-2 } else { 1e-4 };
+                    assert!(is_grazing(&shape, &ray, beside), "{name} {shape:?} {ray:?}");
+                }
+            }
+        }
+    }
+    assert!(hits > 1500, "{hits}");
+}
+
+/// Whether a parallel ray at this distance is decided otherwise.
+fn is_grazing<S: Sample>(shape: &S, ray: &Ray, distance: f32) -> bool {
+    let decision = |origin: Vec3| {
+        let near = Ray::new(origin, ray.dir).expect("a ray");
+        exact_answer(&near, shape).is_some()
+    };
+    let here = decision(ray.origin);
+    let side = ray.dir.any_orthonormal_vector();
+    let other = ray.dir.cross(side);
+    (0..16).any(|k| {
+        let (sin, cos) = (std::f32::consts::TAU * k as f32 / 16.0).sin_cos();
+        decision(ray.origin + distance * (cos * side + sin * other)) != here
+    })
+}
+
+#[test]
+fn every_kernel_agrees_with_the_exact_one_of_its_shape() {
+    kernels_agree_with_the_exact_one::<Sphere>(1);
+    kernels_agree_with_the_exact_one::<Plane>(2);
+    kernels_agree_with_the_exact_one::<Disk>(3);
+    kernels_agree_with_the_exact_one::<Rectangle>(4);
+    kernels_agree_with_the_exact_one::<Cuboid>(5);
+    kernels_agree_with_the_exact_one::<Cylinder>(6);
+    kernels_agree_with_the_exact_one::<Cone>(7);
+    kernels_agree_with_the_exact_one::<Quadric>(8);
+    kernels_agree_with_the_exact_one::<Torus>(9);
+}
+
+/// The point of each hit lies on the ray, and its normal is a unit vector.
+fn surfaces_are_on_the_ray<S: Sample>(seed: u64) {
+    let mut random = Random::new(seed);
+    let mut hits = 0;
+    for _ in 0..2000 {
+        let shape = S::sample(&mut random, Vec3::ZERO, 1.0);
+        let ray = ray_near(&mut random, Vec3::ZERO, 1.0, 4.0);
+        let Some(hit) = S::kernel_of(Tier::Exact).intersect(&ray, shape.clone()) else {
+            continue;
+        };
+        hits += 1;
+        let surface = shape.surface(&ray, &hit);
+        assert!((surface.normal.length() - 1.0).abs() < 1e-12, "{shape:?}");
+        let off = surface.position.as_dvec3().distance(ray.at(hit.t));
+        let farthest = 1.0 + f64::from(hit.t);
+        assert!(off < 1e-6 * farthest, "{shape:?} {ray:?} {hit:?}: {off:e}");
+        let error = surface.error;
+        assert!(error.min_element() >= 0.0 && f64::from(error.max_element()) < 1e-5 * farthest);
+    }
+    assert!(hits > 150, "{hits}");
+}
+
+#[test]
+fn the_surface_of_a_hit_is_on_the_ray_and_has_a_unit_normal() {
+    surfaces_are_on_the_ray::<Sphere>(1);
+    surfaces_are_on_the_ray::<Plane>(2);
+    surfaces_are_on_the_ray::<Disk>(3);
+    surfaces_are_on_the_ray::<Rectangle>(4);
+    surfaces_are_on_the_ray::<Cuboid>(5);
+    surfaces_are_on_the_ray::<Cylinder>(6);
+    surfaces_are_on_the_ray::<Cone>(7);
+    surfaces_are_on_the_ray::<Quadric>(8);
+    surfaces_are_on_the_ray::<Torus>(9);
+}
+
+/// The normal of a closed shape faces a ray that comes from outside.
+#[test]
+fn normals_of_closed_shapes_face_outwards() {
+    fn check<S: Sample>(is_closed: fn(&S) -> bool) {
+        let mut random = Random::new(3);
+        for _ in 0..2000 {
+            let shape = S::sample(&mut random, Vec3::ZERO, 1.0);
+            let ray = ray_near(&mut random, Vec3::ZERO, 1.0, 8.0);
+            let hit = S::kernel_of(Tier::Exact).intersect(&ray, shape.clone());
+            if let Some(hit) = hit.filter(|_| is_closed(&shape)) {
+                let surface = shape.surface(&ray, &hit);
+                let towards = surface.normal.dot(ray.dir.as_dvec3());
+                assert!(towards < 1e-5, "{shape:?} {ray:?} {hit:?}: {towards}");
+            }
+        }
+    }
+    check::<Sphere>(|_| true);
+    check::<Torus>(|_| true);
+    check::<Cuboid>(|_| true);
+    check::<Cylinder>(|cylinder| cylinder.is_capped);
+    check::<Cone>(|cone| cone.is_capped);
+}
