@@ -180,7 +180,7 @@ impl Placed {
                 material,
             ),
             Self::Disk { centre, axes } => {
-                lists.disks.push(Disk(span(near(centre), axes)), material)
+                lists.disks.push(Disk(span(near(centre), axes)), material);
             }
             Self::Rectangle { centre, axes } => lists
                 .rectangles

@@ -56,7 +56,7 @@ impl Shape for Triangle {
         Aabb::around([a, b, c, a + (b - a), a + (c - a)])
     }
 
-    /// The point l1·A + l2·B + l3·C, with the error bounds of [`Triangle::error`].
+    /// The point l1·A + l2·B + l3·C, with the error bounds of `Triangle::error`.
     fn surface(&self, _: &Ray, hit: &Hit) -> SurfacePoint {
         let [l1, l2, l3] = hit.barycentric();
         let [a, b, c] = self.0;

@@ -62,7 +62,7 @@ impl Kernel for Naive {
         let f = minus(&ray.origin, &quadrics.three(10));
         let [a, b, c] = coefficients(quadrics, &f, &ray.dir);
         let mut nearest = Nearest::new(t_min, t_max);
-        let zero = a - a;
+        let zero = L::of(a.token(), 0.0);
         offer(
             &mut nearest,
             &Roots::naive(a, b, c),

@@ -60,7 +60,7 @@ impl Kernel for Unshifted {
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let f = minus(&ray.origin, &tori.three(0));
-        let zero = t_min - t_min;
+        let zero = L::of(t_min.token(), 0.0);
         nearest_root(tori, &f, &ray.dir, zero, [t_min, t_max])
     }
 }
