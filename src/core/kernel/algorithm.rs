@@ -43,8 +43,8 @@ pub trait Kernel: Send + Sync + 'static {
     const IN_F32: KernelInfo;
     /// Its description in f64.
     const IN_F64: KernelInfo;
-    /// The number of values stored per primitive.
-    const VALUES: usize;
+    /// The number of values stored per primitive; by default, its parameters.
+    const VALUES: usize = Self::Shape::NUMBERS;
     /// The type of the stored values when computing in `N`.
     type Stored<N: Number>: Stored<N> + Stored<f32>;
     /// Rays prepared for many tests.
@@ -66,8 +66,12 @@ pub trait Kernel: Send + Sync + 'static {
     /// Packs a primitive into [`VALUES`](Self::VALUES) numbers, once.
     fn pack<N: Number>(shape: &Self::Shape, values: &mut [Self::Stored<N>]);
 
-    /// The exact box around each primitive as packed by `pack::<N>`; it lies within [`Shape::bounds`].
-    fn bounds<N: Number, L: Lane>(primitives: &impl Values<L>) -> Planes<L>;
+    /// The exact box around each primitive as packed by `pack::<N>`; it lies within [`Shape::bounds`]. By default, of
+    /// values that are parameters.
+    #[inline(always)]
+    fn bounds<N: Number, L: Lane>(primitives: &impl Values<L>) -> Planes<L> {
+        Self::Shape::planes(primitives)
+    }
 
     /// Prepares rays, once per ray.
     fn prepare<L: Lane>(rays: &RayLanes<L>) -> Self::Prepared<L>;

@@ -57,6 +57,7 @@ mod words;
 pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
 pub use materials::ReadFile;
+pub(crate) use materials::read_past;
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
 pub use tally::LineRuns;

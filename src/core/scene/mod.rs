@@ -65,26 +65,16 @@ impl Scene {
         progress.enter(Phase::Building);
         let mesh = Arc::new(mesh);
         let group = ShapeGroup::new(Arc::clone(&mesh), options, progress)?;
-        Ok(Self::of_groups(
-            mesh,
-            vec![Arc::new(group)],
-            options.packing,
-        ))
-    }
-
-    fn of_groups(mesh: Arc<TriangleMesh>, groups: Vec<Arc<dyn Group>>, packing: Packing) -> Self {
-        let bounds = groups
-            .iter()
-            .fold(mesh.bounds(), |bounds, group| bounds.union(group.bounds()));
-        Self {
+        let bounds = mesh.bounds();
+        Ok(Self {
             bounds,
             bounds_with_elements: framed(bounds, mesh.line_and_point_bounds()),
             mesh,
-            groups,
-            packing,
+            groups: vec![Arc::new(group)],
+            packing: options.packing,
             crease: Crease::default(),
             vertex_normals: OnceLock::new(),
-        }
+        })
     }
 
     /// The same groups with another crease angle for smooth shading.
@@ -115,14 +105,16 @@ impl Scene {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
-        let group = S::group(primitives, materials, options, progress)?;
-        if self.mesh.triangles().is_empty() {
-            self.groups.retain(|group| group.count() > 0);
-        }
-        self.groups.push(group);
-        let groups = std::mem::take(&mut self.groups);
-        *self = Self::of_groups(Arc::clone(&self.mesh), groups, self.packing);
+        self.push(S::group(primitives, materials, options, progress)?);
         Ok(())
+    }
+
+    /// Adds a group; it replaces an empty group of triangles.
+    fn push(&mut self, group: Arc<dyn Group>) {
+        self.bounds = self.bounds.union(group.bounds());
+        self.bounds_with_elements = framed(self.bounds, self.mesh.line_and_point_bounds());
+        self.groups.retain(|group| group.count() > 0);
+        self.groups.push(group);
     }
 
     /// A scene of the given primitives, in this order, without normals, materials and faces. The numbers must ascend.
@@ -142,14 +134,11 @@ impl Scene {
             let (own, others) = rest.split_at(rest.partition_point(|&p| p < end));
             if !own.is_empty() {
                 let local: Vec<u32> = own.iter().map(|p| p - first).collect();
-                scene.groups.push(group.subset(&local));
+                scene.push(group.subset(&local));
             }
             (rest, first) = (others, end);
         }
-        if of_mesh.is_empty() && scene.groups.len() > 1 {
-            scene.groups.remove(0);
-        }
-        Self::of_groups(scene.mesh, scene.groups, scene.packing)
+        scene
     }
 
     /// The same triangles with the origin at (0, 0, 0), without normals, materials and faces; `None` if that would

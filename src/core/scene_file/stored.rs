@@ -1,30 +1,21 @@
 //! Reader of scene files from the disk.
 
-use std::fs::File;
-use std::io::{self, Read};
+use crate::obj;
+use std::io;
 use std::path::Path;
 
 /// Reads a file of at most the given number of bytes.
 pub type ReadFile<'a> = &'a dyn Fn(&Path, u64) -> io::Result<Vec<u8>>;
 
-/// The bytes of a regular file. Opens neither pipes, which may block, nor devices, which may never end.
+/// The bytes of a stored file. Opens neither pipes, which may block, nor devices, which may never end.
 ///
 /// # Errors
-/// The file can't be read, is larger than `max_bytes`, or isn't a regular file.
+/// The file can't be read, is larger than `max_bytes`, or isn't a stored file.
 pub(super) fn read(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
-    let info = std::fs::metadata(path)?;
-    if info.is_dir() {
+    if std::fs::metadata(path)?.is_dir() {
         return Err(io::Error::other("this is a directory, not a scene file"));
     }
-    if !info.is_file() {
-        return Err(io::Error::other("not a regular file"));
-    }
-    let size = usize::try_from(info.len().min(max_bytes)).unwrap_or(0);
-    let mut bytes = Vec::with_capacity(size);
-    let file = File::open(path)?;
-    // The file may have grown, or report a wrong size.
-    file.take(max_bytes.saturating_add(1))
-        .read_to_end(&mut bytes)?;
+    let bytes = obj::read_past(path, max_bytes)?;
     if bytes.len() as u64 > max_bytes {
         return Err(too_large(max_bytes));
     }

@@ -5,13 +5,11 @@
 //! Promises: nothing beyond the measured figures.
 //! Doesn't promise: right decisions for thin or distant cones: b² and ac nearly cancel.
 
-use super::offer_base;
-use crate::aabb::Planes;
 use crate::kernel::crossings::{Nearest, Roots};
-use crate::kernel::cylinder::offer_side;
+use crate::kernel::cylinder::{offer_cap, offer_side};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus};
-use crate::shape::{Cone, Shape as _};
+use crate::shape::{BASE, Cone, Shape as _};
 
 /// See the [module](self).
 pub(super) struct Naive;
@@ -35,17 +33,11 @@ impl Kernel for Naive {
         summary: "The textbook formula in f64.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Cone::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(shape: &Cone, values: &mut [f32]) {
         shape.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        Cone::planes(shapes)
     }
 
     #[inline(always)]
@@ -73,14 +65,9 @@ impl Kernel for Naive {
         let roots = Roots::naive(a, b, c);
         let mut nearest = Nearest::new(t_min, t_max);
         offer_side(&mut nearest, &roots, along, length_squared);
-        offer_base(
-            &mut nearest,
-            shapes.value(7),
-            [&from, &step],
-            along,
-            length_squared,
-            r_squared,
-        );
+        let (across, reach) = ([&from, &step], r_squared * length_squared);
+        let base = (BASE, length_squared);
+        offer_cap(&mut nearest, shapes.value(7), across, along, base, reach);
         nearest.hit()
     }
 }

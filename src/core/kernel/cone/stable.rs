@@ -8,13 +8,11 @@
 //! With F = f×w, D = d×w, k = f·w, m = d·w and the length |w|, Lagrange's identity turns b² − ac into
 //! |w|²·(r²·|m·F − k·D|² − |w|²·|F×D|²). F×D is parallel to w and grows with the distance between ray and axis alone.
 
-use super::offer_base;
-use crate::aabb::Planes;
 use crate::kernel::crossings::{Nearest, Roots};
-use crate::kernel::cylinder::offer_side;
+use crate::kernel::cylinder::{offer_cap, offer_side};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus, times};
-use crate::shape::{Cone, Shape as _};
+use crate::shape::{BASE, Cone, Shape as _};
 
 /// See the [module](self).
 pub(super) struct Stable;
@@ -38,17 +36,11 @@ impl Kernel for Stable {
         summary: "Correct to the last place of f32 but for grazing rays.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Cone::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(shape: &Cone, values: &mut [f32]) {
         shape.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        Cone::planes(shapes)
     }
 
     #[inline(always)]
@@ -80,14 +72,9 @@ impl Kernel for Stable {
         let roots = Roots::press(a, b, c, discriminant);
         let mut nearest = Nearest::new(t_min, t_max);
         offer_side(&mut nearest, &roots, along, length_squared);
-        offer_base(
-            &mut nearest,
-            shapes.value(7),
-            [&from, &step],
-            along,
-            length_squared,
-            r_squared,
-        );
+        let (across, reach) = ([&from, &step], r_squared * length_squared);
+        let base = (BASE, length_squared);
+        offer_cap(&mut nearest, shapes.value(7), across, along, base, reach);
         nearest.hit()
     }
 }

@@ -7,7 +7,7 @@ use super::crossings::{Nearest, Roots};
 use super::table::rows_of;
 use super::{KernelList, KernelRow, KernelTable, KernelVisitor};
 use crate::lane::{Lane, dot, plus, times};
-use crate::shape::{BASE, Cylinder, SIDE, TOP};
+use crate::shape::{Cylinder, SIDE};
 use naive::Naive;
 use stable::Stable;
 use std::sync::LazyLock;
@@ -47,21 +47,19 @@ pub(super) fn offer_side<L: Lane>(
     }
 }
 
-/// Offers the crossings with the disks at both ends, if the cylinder is capped. `across` is f×w at t = 0 and its growth.
+/// Offers the crossing with the disk at a position along the axis, if the shape is capped. `across` is f×w at t = 0 and
+/// its growth, `along` is f·w likewise; `reach` is the square of r·|w|.
 #[inline(always)]
-fn offer_caps<L: Lane>(
+pub(super) fn offer_cap<L: Lane>(
     nearest: &mut Nearest<L>,
     is_capped: L,
     across: [&[L; 3]; 2],
     along: [L; 2],
-    length_squared: L,
+    (part, end): (u8, L),
     reach: L,
 ) {
-    let zero = L::of(length_squared.token(), 0.0);
-    for (part, end) in [(BASE, zero), (TOP, length_squared)] {
-        let t = (end - along[0]) / along[1];
-        let side = plus(across[0], &times(t, across[1]));
-        let is_inside = zero.lt(is_capped) & dot(&side, &side).le(reach);
-        nearest.offer(is_inside, t, part);
-    }
+    let t = (end - along[0]) / along[1];
+    let side = plus(across[0], &times(t, across[1]));
+    let zero = L::of(t.token(), 0.0);
+    nearest.offer(zero.lt(is_capped) & dot(&side, &side).le(reach), t, part);
 }

@@ -6,12 +6,11 @@
 //! Promises: nothing beyond the measured figures.
 //! Doesn't promise: right decisions from far away along the axis, where the cross products round.
 
-use super::{offer_caps, offer_side};
-use crate::aabb::Planes;
+use super::{offer_cap, offer_side};
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus};
-use crate::shape::{Cylinder, Shape as _};
+use crate::shape::{BASE, Cylinder, Shape as _, TOP};
 
 /// See the [module](self).
 pub(super) struct Stable;
@@ -35,17 +34,11 @@ impl Kernel for Stable {
         summary: "Correct to the last place of f32 but for grazing rays.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Cylinder::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(shape: &Cylinder, values: &mut [f32]) {
         shape.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        Cylinder::planes(shapes)
     }
 
     #[inline(always)]
@@ -70,14 +63,10 @@ impl Kernel for Stable {
         let along = [dot(&f, &w), dot(&ray.dir, &w)];
         let mut nearest = Nearest::new(t_min, t_max);
         offer_side(&mut nearest, &roots, along, length_squared);
-        offer_caps(
-            &mut nearest,
-            shapes.value(7),
-            [&from, &step],
-            along,
-            length_squared,
-            reach,
-        );
+        let (is_capped, zero) = (shapes.value(7), L::of(reach.token(), 0.0));
+        for end in [(BASE, zero), (TOP, length_squared)] {
+            offer_cap(&mut nearest, is_capped, [&from, &step], along, end, reach);
+        }
         nearest.hit()
     }
 }

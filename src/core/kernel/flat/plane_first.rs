@@ -6,7 +6,6 @@
 //! Doesn't promise: right decisions for distant or nearly parallel rays, whose point o + t·d is rounded.
 
 use super::Outline;
-use crate::aabb::Planes;
 use crate::kernel::crossings::Nearest;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus, plus, times};
@@ -34,17 +33,11 @@ impl<S: Outline> Kernel for PlaneFirst<S> {
         summary: "Plane first, then 2D.",
         ..Self::IN_F32
     };
-    const VALUES: usize = S::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(shape: &S, values: &mut [f32]) {
         shape.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        S::planes(shapes)
     }
 
     #[inline(always)]

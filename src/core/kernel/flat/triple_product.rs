@@ -6,7 +6,6 @@
 //! Doesn't promise: right decisions about rays that pass an edge closely.
 
 use super::Outline;
-use crate::aabb::Planes;
 use crate::kernel::crossings::Nearest;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus};
@@ -34,17 +33,11 @@ impl<S: Outline> Kernel for TripleProduct<S> {
         summary: "Correct to the last place of f32 but at edges.",
         ..Self::IN_F32
     };
-    const VALUES: usize = S::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(shape: &S, values: &mut [f32]) {
         shape.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        S::planes(shapes)
     }
 
     #[inline(always)]

@@ -5,11 +5,10 @@
 //! Promises: nothing beyond the measured figures.
 //! Doesn't promise: an accurate t far from (0, 0, 0), where D and o·n nearly cancel.
 
-use crate::aabb::Planes;
 use crate::kernel::crossings::Nearest;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot};
-use crate::shape::{Plane, Shape as _};
+use crate::shape::Plane;
 use glam::DVec3;
 
 /// See the [module](self).
@@ -43,11 +42,6 @@ impl Kernel for Hesse {
         let distance = normal.dot(plane.point.as_dvec3());
         let [x, y, z] = normal.to_array();
         values.copy_from_slice(&[x, y, z, distance].map(N::of_f64));
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        Plane::planes(shapes)
     }
 
     #[inline(always)]

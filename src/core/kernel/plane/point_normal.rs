@@ -5,7 +5,6 @@
 //! Promises: nothing beyond the measured figures; the distance of plane and origin is measured from the plane's point.
 //! Doesn't promise: an accurate t for a ray that is nearly parallel to the plane.
 
-use crate::aabb::Planes;
 use crate::kernel::crossings::Nearest;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus};
@@ -33,17 +32,11 @@ impl Kernel for PointNormal {
         summary: "Correct to the last place of f32 but for nearly parallel rays.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Plane::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(shape: &Plane, values: &mut [f32]) {
         shape.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(shapes: &impl Values<L>) -> Planes<L> {
-        Plane::planes(shapes)
     }
 
     #[inline(always)]

@@ -6,7 +6,6 @@
 //! Doesn't promise: right decisions for small or distant quadrics: b² and ac nearly cancel.
 
 use super::{coefficients, offer};
-use crate::aabb::Planes;
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, minus};
@@ -34,17 +33,11 @@ impl Kernel for Naive {
         summary: "The textbook formula in f64.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Quadric::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(quadric: &Quadric, values: &mut [f32]) {
         quadric.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(quadrics: &impl Values<L>) -> Planes<L> {
-        Quadric::planes(quadrics)
     }
 
     #[inline(always)]

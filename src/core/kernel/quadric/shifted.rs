@@ -7,7 +7,6 @@
 //! Doesn't promise: right decisions for quadrics that are small in their box.
 
 use super::{coefficients, offer};
-use crate::aabb::Planes;
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
@@ -35,17 +34,11 @@ impl Kernel for Shifted {
         summary: "Correct to the last place of f32 but for grazing rays.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Quadric::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(quadric: &Quadric, values: &mut [f32]) {
         quadric.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(quadrics: &impl Values<L>) -> Planes<L> {
-        Quadric::planes(quadrics)
     }
 
     #[inline(always)]

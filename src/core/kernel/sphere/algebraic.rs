@@ -6,7 +6,6 @@
 //! Doesn't promise: right decisions for small or distant spheres: b² and 4ac nearly cancel; an accurate near hit of a
 //!   large sphere, where −b and the root nearly cancel.
 
-use crate::aabb::Planes;
 use crate::kernel::crossings::Roots;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
 use crate::lane::{Lane, Number, Values, dot, minus};
@@ -33,17 +32,11 @@ impl Kernel for Algebraic {
         summary: "The textbook formula; good to distances of a million radii.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Sphere::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
         sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(spheres: &impl Values<L>) -> Planes<L> {
-        Sphere::planes(spheres)
     }
 
     #[inline(always)]

@@ -15,7 +15,6 @@
 //!   ◀──── s ──▶◀q─▶
 //! ```
 
-use crate::aabb::Planes;
 use crate::kernel::crossings::Roots;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus};
@@ -53,17 +52,11 @@ impl Kernel for Geometric {
         summary: "Least arithmetic; good to distances of a million radii.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Sphere::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = PreparedRay<L>;
 
     fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
         sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(spheres: &impl Values<L>) -> Planes<L> {
-        Sphere::planes(spheres)
     }
 
     #[inline(always)]

@@ -12,7 +12,6 @@
 //! The discriminant r² − l·l is a difference of numbers of the sphere's size, however far away the origin is. With
 //! q = b + sign(b)·√(aΔ), which adds numbers of equal sign, the roots are (f·f − r²)/q and q/a.
 
-use crate::aabb::Planes;
 use crate::kernel::crossings::Roots;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, minus};
@@ -40,17 +39,11 @@ impl Kernel for HearnBaker {
         summary: "No cancellation; t correct to the last place of f32 but for grazing rays.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Sphere::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
         sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(spheres: &impl Values<L>) -> Planes<L> {
-        Sphere::planes(spheres)
     }
 
     #[inline(always)]

@@ -9,7 +9,6 @@
 //! At the nearest point l the equation is a·s² = r² − l·l, and t is the moved distance ± s. The remainder of l along d,
 //! which is 0 but for rounding, is subtracted once more.
 
-use crate::aabb::Planes;
 use crate::kernel::crossings::Roots;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
@@ -35,17 +34,11 @@ impl Kernel for MovedOrigin {
         precision: Precision::F64,
         ..Self::IN_F32
     };
-    const VALUES: usize = Sphere::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
         sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(spheres: &impl Values<L>) -> Planes<L> {
-        Sphere::planes(spheres)
     }
 
     #[inline(always)]

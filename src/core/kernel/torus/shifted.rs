@@ -7,7 +7,6 @@
 //! Doesn't promise: right decisions about tubes that are thin relative to the major radius in f32.
 
 use super::nearest_root;
-use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
 use crate::shape::{Shape as _, Torus};
@@ -34,17 +33,11 @@ impl Kernel for Shifted {
         summary: "Right at any distance but for grazing rays.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Torus::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(torus: &Torus, values: &mut [f32]) {
         torus.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(tori: &impl Values<L>) -> Planes<L> {
-        Torus::planes(tori)
     }
 
     #[inline(always)]

@@ -7,7 +7,6 @@
 //! Doesn't promise: right decisions from a distance, where the coefficients grow with its fourth power and cancel.
 
 use super::nearest_root;
-use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, minus};
 use crate::shape::{Shape as _, Torus};
@@ -34,17 +33,11 @@ impl Kernel for Unshifted {
         summary: "The textbook quartic; good to 300 radii.",
         ..Self::IN_F32
     };
-    const VALUES: usize = Torus::NUMBERS;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(torus: &Torus, values: &mut [f32]) {
         torus.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(tori: &impl Values<L>) -> Planes<L> {
-        Torus::planes(tori)
     }
 
     #[inline(always)]

@@ -16,7 +16,6 @@
 //!   edge's normal alike); accuracy far from the triangle, because the normals grow with the square of the
 //!   distance.
 
-use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, Values, cross, dot, minus};
 use crate::shape::{Shape as _, Triangle};
@@ -42,17 +41,11 @@ impl Kernel for EdgePlanes {
         summary: "Accurate up to a distance of a million times the triangle's size.",
         ..Self::IN_F32
     };
-    const VALUES: usize = 9;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
         triangle.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        Triangle::planes(triangles)
     }
 
     #[inline(always)]

@@ -35,7 +35,6 @@ impl Kernel for MollerTrumbore {
         summary: "Accurate; rays aimed exactly at a vertex may still slip through.",
         ..Self::IN_F32
     };
-    const VALUES: usize = 9;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 

@@ -6,7 +6,6 @@
 //! Promises: nothing beyond the measured figures.
 //! Doesn't promise: a hit at shared edges and vertices.
 
-use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, Values, cross, dot, minus, times};
 use crate::shape::{Shape as _, Triangle};
@@ -31,17 +30,11 @@ impl Kernel for Parametric {
         precision: Precision::F64,
         ..Self::IN_F32
     };
-    const VALUES: usize = 9;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
         triangle.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        Triangle::planes(triangles)
     }
 
     #[inline(always)]

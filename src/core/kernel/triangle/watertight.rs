@@ -19,7 +19,6 @@
 
 use super::exact::{self, filter};
 use super::shear::ShearedRay;
-use crate::aabb::Planes;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, LaneMask, Number, Values};
 use crate::ray::Ray;
@@ -68,18 +67,12 @@ impl Kernel for Watertight {
         },
         ..Self::IN_F32
     };
-    const VALUES: usize = 9;
     const IS_ADAPTIVE: bool = true;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = PreparedRay<L>;
 
     fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
         triangle.write(values);
-    }
-
-    #[inline(always)]
-    fn bounds<N: Number, L: Lane>(triangles: &impl Values<L>) -> Planes<L> {
-        Triangle::planes(triangles)
     }
 
     #[inline(always)]

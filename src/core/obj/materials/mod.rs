@@ -10,6 +10,7 @@ mod textures;
 
 pub use referenced_files::ReadFile;
 pub(super) use referenced_files::{Folder, NamedFiles, ReferencedFiles};
+pub(crate) use stored_file::read_past;
 
 use super::Warning;
 use super::contents::Contents;

@@ -12,6 +12,19 @@ use std::path::Path;
 /// # Errors
 /// The file can't be read, is larger than `max_bytes`, or isn't a stored file.
 pub(super) fn read(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
+    let bytes = read_past(path, max_bytes)?;
+    if bytes.len() as u64 > max_bytes {
+        let message = format!("larger than the limit of {} MB", max_bytes >> 20);
+        return Err(io::Error::other(message));
+    }
+    Ok(bytes)
+}
+
+/// The bytes of a stored file, or its first `max_bytes` + 1 if it is larger.
+///
+/// # Errors
+/// The file can't be read, or isn't a stored file.
+pub(crate) fn read_past(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
     // Check before opening, which may change a device's state.
     require_regular(&std::fs::metadata(path)?)?;
     let file = open(path)?;
@@ -25,10 +38,6 @@ pub(super) fn read(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
     let mut bytes = Vec::with_capacity(usize::try_from(size).unwrap_or(0));
     file.take(max_bytes.saturating_add(1))
         .read_to_end(&mut bytes)?;
-    if bytes.len() as u64 > max_bytes {
-        let message = format!("larger than the limit of {} MB", max_bytes >> 20);
-        return Err(io::Error::other(message));
-    }
     Ok(bytes)
 }
 
