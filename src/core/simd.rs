@@ -110,17 +110,23 @@ fn levels(_: Level) -> Vec<(&'static str, Option<Level>)> {
 /// The level that every machine of the target supports. Rare queries are compiled for it alone, because each
 /// further level compiles every kernel once more.
 #[cfg(target_arch = "x86_64")]
-pub(crate) fn baseline() -> impl Simd {
-    let token = Level::baseline().as_sse2();
-    token.expect("every x86-64 has SSE2")
-}
+pub(crate) type Baseline = fearless_simd::Sse2;
 
 /// The level that every machine of the target supports.
-#[cfg(not(target_arch = "x86_64"))]
-pub(crate) fn baseline() -> impl Simd {
+#[cfg(target_arch = "aarch64")]
+pub(crate) type Baseline = fearless_simd::Neon;
+
+/// The level that every machine of the target supports.
+#[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
+pub(crate) type Baseline = fearless_simd::Fallback;
+
+/// The token of [`Baseline`].
+pub(crate) fn baseline() -> Baseline {
+    #[cfg(target_arch = "x86_64")]
+    return Level::baseline().as_sse2().expect("every x86-64 has SSE2");
     #[cfg(target_arch = "aarch64")]
     return Level::baseline().as_neon().expect("every AArch64 has NEON");
-    #[cfg(not(target_arch = "aarch64"))]
+    #[cfg(not(any(target_arch = "x86_64", target_arch = "aarch64")))]
     return fearless_simd::Fallback::new();
 }
 

@@ -138,7 +138,7 @@ fn test_triangles(bencher: Bencher<'_, '_>, name: &str) {
 #[divan::bench]
 fn build(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build(mesh.triangles().len(), bounds_in(mesh), &|| Ok(()))
+        Bvh::build(mesh.triangles().len(), &bounds_in(mesh), &|| Ok(()))
     });
 }
 
@@ -146,7 +146,7 @@ fn build(bencher: Bencher<'_, '_>) {
 #[divan::bench]
 fn build_quickly(bencher: Bencher<'_, '_>) {
     build_with(bencher, |mesh| {
-        Bvh::build_quickly(mesh.triangles().len(), bounds_in(mesh), &|| Ok(()))
+        Bvh::build_quickly(mesh.triangles().len(), &bounds_in(mesh), &|| Ok(()))
     });
 }
 

@@ -97,9 +97,9 @@ fn every_tree_and_packing_gives_bit_identical_hits_for_every_kernel() {
         let all = (0..count as u32).map(bounds_in(mesh));
         let everything = all.fold(Aabb::EMPTY, Aabb::union);
         let built = [
-            Bvh::build(count, |_| everything, &|| Ok(())),
-            Bvh::build(count, bounds_in(mesh), &|| Ok(())),
-            Bvh::build_quickly(count, bounds_in(mesh), &|| Ok(())),
+            Bvh::build(count, &|_| everything, &|| Ok(())),
+            Bvh::build(count, &bounds_in(mesh), &|| Ok(())),
+            Bvh::build_quickly(count, &bounds_in(mesh), &|| Ok(())),
         ];
         let trees = built.map(|tree| Arc::new(tree.expect("not cancelled")));
         for kernel in TRIANGLE_KERNELS.iter() {

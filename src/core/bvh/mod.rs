@@ -14,7 +14,7 @@ use crate::simd::prefetch;
 use fearless_simd::Simd;
 pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
 pub(crate) use slab::SlabRay;
-pub(crate) use walk::{Stack, Visitor, end_slackened, rank, rank_floor, with_stack};
+pub(crate) use walk::{LentStack, Stack, Visitor, end_slackened, rank, rank_floor};
 
 /// Primitives per block; a SIMD test takes a whole block.
 pub const BLOCK_SIZE: usize = 8;

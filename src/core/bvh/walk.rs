@@ -21,7 +21,7 @@ use crate::lane::Lane;
 use crate::ray::Ray;
 use crate::simd::prefetch;
 use fearless_simd::{Simd, f32x8};
-use std::cell::RefCell;
+use std::cell::Cell;
 use std::ops::ControlFlow;
 
 /// Relative distance by which boxes are visited beyond the farthest t of interest and beyond the interval's
@@ -44,13 +44,28 @@ pub(crate) type Stack = [u64; 256];
 
 const _: () = assert!(MAX_DEPTH * (WIDTH - 1) < 256);
 
-/// Lends the thread's stack to `walk`, which mustn't borrow it again. Zeroing a stack for each ray costs 10
-/// to 25 % (2026-11).
-pub(crate) fn with_stack<T>(walk: impl FnOnce(&mut Stack) -> T) -> T {
-    thread_local! {
-        static STACK: RefCell<Stack> = const { RefCell::new([0; 256]) };
+thread_local! {
+    static SPARE: Cell<Option<Box<Stack>>> = const { Cell::new(None) };
+}
+
+/// A stack that returns to its thread when dropped. Zeroing a stack for each ray costs 10 to 25 % (2026-11).
+pub(crate) struct LentStack(Option<Box<Stack>>);
+
+impl LentStack {
+    /// The thread's stack, or a new one if that is lent.
+    pub fn new() -> Self {
+        Self(SPARE.take())
     }
-    STACK.with_borrow_mut(walk)
+
+    pub fn get(&mut self) -> &mut Stack {
+        self.0.get_or_insert_with(|| Box::new([0; 256]))
+    }
+}
+
+impl Drop for LentStack {
+    fn drop(&mut self) {
+        SPARE.set(self.0.take());
+    }
 }
 
 /// Handler of the blocks that a ray meets.

@@ -16,7 +16,6 @@ use crate::ray::{Hit, Ray};
 use crate::shape::{Primitives, Shape, ShapeInfo, SurfacePoint};
 use crate::simd::SimdLevel;
 use std::fmt::{self, Debug, Formatter};
-use std::marker::PhantomData;
 use std::sync::Arc;
 use std::time::Duration;
 use tree::Tree;
@@ -70,19 +69,18 @@ pub trait Group: Debug + Send + Sync {
 }
 
 /// The group of a shape's primitives.
-pub(crate) struct ShapeGroup<S: 'static, P> {
-    primitives: Arc<P>,
+pub(crate) struct ShapeGroup<S: 'static> {
+    primitives: Arc<dyn Primitives<S>>,
     tree: Tree<S>,
     bounds: Aabb,
     /// Each primitive's material.
     materials: Runs,
-    shape: PhantomData<S>,
 }
 
-impl<S: KernelList, P: Primitives<S>> ShapeGroup<S, P> {
+impl<S: KernelList> ShapeGroup<S> {
     /// Builds the tree.
     pub fn new(
-        primitives: Arc<P>,
+        primitives: Arc<dyn Primitives<S>>,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
@@ -92,7 +90,6 @@ impl<S: KernelList, P: Primitives<S>> ShapeGroup<S, P> {
             tree,
             primitives,
             materials: Runs::default(),
-            shape: PhantomData,
         })
     }
 
@@ -102,13 +99,13 @@ impl<S: KernelList, P: Primitives<S>> ShapeGroup<S, P> {
     }
 }
 
-impl<S: Shape, P> Debug for ShapeGroup<S, P> {
+impl<S: Shape> Debug for ShapeGroup<S> {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         write!(f, "group of {}", S::INFO.plural)
     }
 }
 
-impl<S: Grouped, P: Primitives<S> + 'static> Group for ShapeGroup<S, P> {
+impl<S: Grouped> Group for ShapeGroup<S> {
     fn shape(&self) -> &'static ShapeInfo {
         &S::INFO
     }

@@ -58,7 +58,7 @@ macro_rules! shapes {
                 options: SceneOptions,
                 progress: &Progress,
             ) -> Result<Arc<dyn Group>, Cancelled> {
-                let group = ShapeGroup::<Self, _>::new(Arc::new(primitives), options, progress)?;
+                let group = ShapeGroup::<Self>::new(Arc::new(primitives), options, progress)?;
                 Ok(Arc::new(group.with_materials(materials)))
             }
         }

@@ -5,7 +5,7 @@ use crate::intersector::improving::{Current, Improving, WeakCurrent};
 use crate::intersector::{GroupIntersector, Packing, intersector};
 use crate::kernel::{KernelList, KernelRow};
 use crate::progress::{Cancelled, Progress};
-use crate::shape::{Primitives, Shape, bounds_in};
+use crate::shape::{Primitives, Shape};
 use crate::simd::SimdLevel;
 use std::sync::{Arc, Mutex, MutexGuard, PoisonError, RwLock};
 use std::time::{Duration, Instant};
@@ -64,7 +64,7 @@ impl<S> std::fmt::Debug for PendingIntersector<S> {
 
 impl<S: KernelList> Tree<S> {
     pub fn build(
-        primitives: &impl Primitives<S>,
+        primitives: &dyn Primitives<S>,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
@@ -102,7 +102,7 @@ impl<S: KernelList> Tree<S> {
     /// Packs the primitives for a kernel; [`improve`](Self::improve) packs it again.
     pub fn intersector(
         &self,
-        primitives: &impl Primitives<S>,
+        primitives: &dyn Primitives<S>,
         kernel: &'static KernelRow<S>,
         level: SimdLevel,
     ) -> Box<dyn GroupIntersector> {
@@ -131,7 +131,7 @@ impl<S: KernelList> Tree<S> {
 
     pub fn improve(
         &self,
-        primitives: &impl Primitives<S>,
+        primitives: &dyn Primitives<S>,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
         // One thread builds, the others wait.
@@ -162,12 +162,13 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 }
 
 fn built<S: Shape>(
-    primitives: &impl Primitives<S>,
+    primitives: &dyn Primitives<S>,
     tree: FirstTree,
     progress: &Progress,
 ) -> Result<Built, Cancelled> {
     let (start, count) = (Instant::now(), primitives.count());
-    let (bounds_of, keep_going) = (bounds_in(primitives), || progress.check());
+    let bounds_of = &|index| primitives.primitive(index).bounds();
+    let keep_going = || progress.check();
     let bvh = match tree {
         _ if !S::IS_BOUNDED => Bvh::unbounded(count),
         FirstTree::Best => Bvh::build(count, bounds_of, &keep_going)?,

@@ -1,7 +1,7 @@
 //! The primitives of the tree's blocks in a kernel's packed layout, one primitive per lane.
 
 use crate::aabb::Planes;
-use crate::bvh::{BLOCK_SIZE, Bvh, NO_PRIMITIVE, SlabRay, Visitor, with_stack};
+use crate::bvh::{BLOCK_SIZE, Bvh, LentStack, NO_PRIMITIVE, SlabRay, Visitor};
 use crate::kernel::{Kernel, MAX_VALUES};
 use crate::lane::{Number, Stored, Values};
 use crate::ray::Ray;
@@ -128,12 +128,12 @@ impl<S: Shape, T: Copy + Default + Send + Sync> Blocks<S, T> {
     /// Packs the primitives of all blocks. `pack` writes `rows_per_block` values per primitive; those of
     /// [`Shape::nowhere`] must be a miss for the kernel.
     pub fn new(
-        primitives: &impl Primitives<S>,
+        primitives: &dyn Primitives<S>,
         bvh: Arc<Bvh>,
         packing: Packing,
         rows_per_block: usize,
         empty: EmptyLanes,
-        pack: impl Fn(&S, &mut [T]) + Sync,
+        pack: fn(&S, &mut [T]),
     ) -> Self {
         let (rows, compact) = match packing {
             Packing::Full => (rows_of(primitives, &bvh, rows_per_block, empty, pack), None),
@@ -220,32 +220,44 @@ pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
 
 /// Packs the rows of all blocks.
 fn rows_of<S: Shape, T: Copy + Default + Send + Sync>(
-    primitives: &impl Primitives<S>,
+    primitives: &dyn Primitives<S>,
     bvh: &Bvh,
     rows_per_block: usize,
     empty: EmptyLanes,
-    pack: impl Fn(&S, &mut [T]) + Sync,
+    pack: fn(&S, &mut [T]),
 ) -> Vec<Row<T>> {
     let mut rows = vec![Row([T::default(); BLOCK_SIZE]); bvh.block_count() * rows_per_block];
-    let chunks = rows.par_chunks_mut(rows_per_block * BLOCKS_AT_ONCE);
-    chunks.enumerate().for_each(|(chunk, rows)| {
-        let mut one = vec![T::default(); rows_per_block];
-        for (index, rows) in rows.chunks_exact_mut(rows_per_block).enumerate() {
-            let indices = bvh.block(chunk * BLOCKS_AT_ONCE + index);
-            for lane in 0..BLOCK_SIZE {
-                let primitive = match (indices.get(lane), empty) {
-                    (Some(&index), _) => primitives.primitive(index),
-                    (None, EmptyLanes::First) => primitives.primitive(indices[0]),
-                    (None, EmptyLanes::Nowhere) => S::nowhere(),
-                };
-                pack(&primitive, &mut one);
-                for (value, row) in one.iter().zip(&mut *rows) {
-                    row.0[lane] = *value;
-                }
+    fill_blocks(&mut rows, rows_per_block, &|block, rows| {
+        let indices = bvh.block(block);
+        let mut one = [T::default(); MAX_VALUES];
+        for lane in 0..BLOCK_SIZE {
+            let primitive = match (indices.get(lane), empty) {
+                (Some(&index), _) => primitives.primitive(index),
+                (None, EmptyLanes::First) => primitives.primitive(indices[0]),
+                (None, EmptyLanes::Nowhere) => S::nowhere(),
+            };
+            pack(&primitive, &mut one[..rows.len()]);
+            for (value, row) in one.iter().zip(&mut *rows) {
+                row.0[lane] = *value;
             }
         }
     });
     rows
+}
+
+/// Fills the rows of all blocks by several threads.
+// Compiled once per type of value, not per kernel.
+fn fill_blocks<T: Send>(
+    rows: &mut [Row<T>],
+    rows_per_block: usize,
+    fill: &(dyn Fn(usize, &mut [Row<T>]) + Sync),
+) {
+    let chunks = rows.par_chunks_mut(rows_per_block * BLOCKS_AT_ONCE);
+    chunks.enumerate().for_each(|(chunk, rows)| {
+        for (index, rows) in rows.chunks_exact_mut(rows_per_block).enumerate() {
+            fill(chunk * BLOCKS_AT_ONCE + index, rows);
+        }
+    });
 }
 
 /// The primitives in all blocks that the ray meets.
@@ -269,7 +281,7 @@ pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
         t_max: ray.t_max,
         found: Vec::new(),
     };
-    with_stack(|stack| bvh.walk(baseline(), ray, stack, &mut gathered));
+    bvh.walk(baseline(), ray, LentStack::new().get(), &mut gathered);
     gathered.found
 }
 

@@ -69,7 +69,7 @@ pub struct Crossing {
 /// Packs primitives for a kernel and returns the intersector.
 pub(crate) fn intersector<S: KernelList>(
     kernel: &'static KernelRow<S>,
-    primitives: &impl Primitives<S>,
+    primitives: &dyn Primitives<S>,
     bvh: Arc<Bvh>,
     level: SimdLevel,
     packing: Packing,
@@ -98,20 +98,17 @@ pub fn mesh_intersector(
 }
 
 /// Packs primitives for the kernel of the table that has the description `kernel`.
-struct Packer<'a, P> {
+struct Packer<'a, S> {
     kernel: &'static KernelInfo,
-    primitives: &'a P,
+    primitives: &'a dyn Primitives<S>,
     bvh: Arc<Bvh>,
     level: SimdLevel,
     packing: Packing,
     packed: Option<Box<dyn GroupIntersector>>,
 }
 
-impl<P> Packer<'_, P> {
-    fn pack<M: Method>(&mut self, kernel: &KernelInfo, packets: Option<Packets<M>>)
-    where
-        P: Primitives<M::Shape>,
-    {
+impl<S: Shape> Packer<'_, S> {
+    fn pack<M: Method<Shape = S>>(&mut self, kernel: &KernelInfo, packets: Option<Packets<M>>) {
         if kernel.name == self.kernel.name {
             self.packed = Some(Box::new(TreeIntersector::new(
                 self.kernel,
@@ -125,7 +122,7 @@ impl<P> Packer<'_, P> {
     }
 }
 
-impl<S: Shape, P: Primitives<S>> KernelVisitor<S> for Packer<'_, P> {
+impl<S: Shape> KernelVisitor<S> for Packer<'_, S> {
     fn visit<K: Kernel<Shape = S>, N: Number>(&mut self) {
         self.pack::<Ranked<K, N, BaselineLevel>>(K::info::<N>(), None);
     }
@@ -219,7 +216,7 @@ pub trait Intersector: Send + Sync {
 
 /// Traces the rays whose intervals start behind their origins, one by one. These rays need boxes padded on
 /// both sides, a cost that the other rays avoid.
-fn answer_behind<T>(rays: &[Ray], answers: &mut [T], answer: impl Fn(&Ray) -> T) {
+fn answer_behind<T>(rays: &[Ray], answers: &mut [T], answer: &dyn Fn(&Ray) -> T) {
     let pairs = rays.iter().zip(answers);
     for (ray, place) in pairs.filter(|(ray, _)| is_behind(ray)) {
         *place = answer(ray);

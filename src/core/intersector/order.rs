@@ -39,7 +39,8 @@ pub(super) fn crossings<S: Simd, T: Tester<S>>(
     hits: Vec<T::Found>,
 ) -> Vec<Crossing> {
     let mut sorted = Vec::new();
-    sort_into_crossings(tester, hits, &mut sorted);
+    let compare = &mut |a: &mut _, b: &mut _| tester.compare(a, b);
+    sort_into_crossings(hits, compare, T::primitive, &mut sorted);
     let crossing = |equal: Vec<T::Found>| Crossing {
         hit: tester.hit(equal[0].clone()),
         also: equal[1..].iter().map(T::primitive).collect(),
@@ -49,24 +50,25 @@ pub(super) fn crossings<S: Simd, T: Tester<S>>(
 
 /// A three-way quicksort: it compares each hit with few others, even if thousands are at equal t, as at the
 /// tip of a fan or around an edge, where an exact comparison needs integers.
-fn sort_into_crossings<S: Simd, T: Tester<S>>(
-    tester: &mut T,
-    hits: Vec<T::Found>,
-    crossings: &mut Vec<Vec<T::Found>>,
+fn sort_into_crossings<F: Clone>(
+    hits: Vec<F>,
+    compare: &mut dyn FnMut(&mut F, &mut F) -> Ordering,
+    primitive: fn(&F) -> u32,
+    crossings: &mut Vec<Vec<F>>,
 ) {
     let Some(mut middle) = hits.get(hits.len() / 2).cloned() else {
         return;
     };
     let (mut nearer, mut equal, mut farther) = (Vec::new(), Vec::new(), Vec::new());
     for mut hit in hits {
-        match tester.compare(&mut hit, &mut middle) {
+        match compare(&mut hit, &mut middle) {
             Ordering::Less => nearer.push(hit),
             Ordering::Equal => equal.push(hit),
             Ordering::Greater => farther.push(hit),
         }
     }
-    equal.sort_unstable_by_key(T::primitive);
-    sort_into_crossings(tester, nearer, crossings);
+    equal.sort_unstable_by_key(primitive);
+    sort_into_crossings(nearer, compare, primitive, crossings);
     crossings.push(equal);
-    sort_into_crossings(tester, farther, crossings);
+    sort_into_crossings(farther, compare, primitive, crossings);
 }

@@ -8,7 +8,7 @@ use super::order::{Comparison, precedes};
 use super::ranked::Ranked;
 use super::tree::TreeIntersector;
 use crate::bvh::{
-    BLOCK_SIZE, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank, rank_floor, with_stack,
+    BLOCK_SIZE, LentStack, NO_PRIMITIVE, PacketVisitor, RayPacket, Slabs, Stack, rank, rank_floor,
 };
 use crate::kernel::{Kernel, RayLanes};
 use crate::lane::PACKET;
@@ -125,8 +125,9 @@ impl<K: Kernel> TreeIntersector<Ranked<K, f32, EveryLevel>> {
             let (packets, rest) = rays.as_chunks::<PACKET>();
             let (hits_of_packets, hits_of_rest) = hits.as_chunks_mut::<PACKET>();
             let mut scratch = Scratch::new();
-            let mut incoherent = with_stack(|stack| {
-                dispatch!(self.level.level(), token => {
+            let mut lent = LentStack::new();
+            let stack = lent.get();
+            let mut incoherent = dispatch!(self.level.level(), token => {
                     let mut incoherent = 0u64;
                     for (i, (rays, hits)) in packets.iter().zip(&mut *hits_of_packets).enumerate() {
                         // Tracing a packet takes less time than loading its rays from memory: without the
@@ -135,7 +136,6 @@ impl<K: Kernel> TreeIntersector<Ranked<K, f32, EveryLevel>> {
                         incoherent |= u64::from(!self.packet(token, rays, hits, stack, &mut scratch)) << i;
                     }
                     incoherent
-                })
             });
             while incoherent != 0 {
                 let i = incoherent.trailing_zeros() as usize;

@@ -180,6 +180,22 @@ impl<K: Kernel, N: Number, S: Simd> RankedTester<'_, K, N, S> {
         }
         ControlFlow::Continue(())
     }
+
+    /// As [`test`](Self::test), for any interval and packing.
+    // Compiled once for all callers.
+    #[inline(never)]
+    fn test_rarely(
+        &mut self,
+        block: usize,
+        slabs: &SlabRay<S>,
+        limit: N,
+        found: &mut dyn FnMut(Found<N>),
+    ) {
+        _ = self.test::<true, true>(block, slabs, limit, |hit| {
+            found(hit);
+            ControlFlow::Continue(())
+        });
+    }
 }
 
 /// t, u and v of a hit that the kernel left doubtful.
@@ -211,12 +227,19 @@ impl<K: Kernel, N: Number, S: Simd> Tester<S> for RankedTester<'_, K, N, S> {
         nearest: &mut Found<N>,
     ) {
         let limit = nearest.rank;
-        _ = self.test::<IS_BEHIND, MAYBE_COMPACT>(block, slabs, limit, |hit| {
+        let mut keep = |hit: Found<N>| {
             if hit.is_before(nearest) {
                 *nearest = hit;
             }
-            ControlFlow::Continue(())
-        });
+        };
+        if IS_BEHIND {
+            self.test_rarely(block, slabs, limit, &mut keep);
+        } else {
+            _ = self.test::<false, MAYBE_COMPACT>(block, slabs, limit, |hit| {
+                keep(hit);
+                ControlFlow::Continue(())
+            });
+        }
     }
 
     #[inline(always)]
@@ -242,11 +265,10 @@ impl<K: Kernel, N: Number, S: Simd> Tester<S> for RankedTester<'_, K, N, S> {
         for round in 0..K::Shape::MOST_CROSSINGS {
             let (first, mut starts) = (found.len(), [end; BLOCK_SIZE]);
             let primitives = *self.blocks.bvh.lanes(block);
-            _ = self.test::<true, true>(block, slabs, end, |hit| {
+            self.test_rarely(block, slabs, end, &mut |hit| {
                 let lane = primitives.iter().position(|&p| p == hit.primitive);
                 starts[lane.unwrap_or(0)] = hit.t;
                 found.push(hit);
-                ControlFlow::Continue(())
             });
             if found.len() == first || round + 1 == K::Shape::MOST_CROSSINGS {
                 break;

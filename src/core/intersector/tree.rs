@@ -6,12 +6,12 @@ use super::method::{BlocksOf, Method, Tester};
 use super::order::crossings;
 use super::visitors::{Any, Each, Kept, Nearest};
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
-use crate::bvh::{Bvh, Stack, with_stack};
+use crate::bvh::{Bvh, LentStack, Stack};
 use crate::kernel::{KernelInfo, MAX_VALUES};
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
 use crate::shape::Primitives;
-use crate::simd::{SimdLevel, baseline};
+use crate::simd::{Baseline, SimdLevel, baseline};
 use fearless_simd::Simd;
 use std::marker::PhantomData;
 use std::sync::Arc;
@@ -30,7 +30,7 @@ pub(super) type Packets<M> = fn(&TreeIntersector<M>, &[Ray], &mut [Option<Hit>])
 impl<M: Method> TreeIntersector<M> {
     pub fn new(
         kernel: &'static KernelInfo,
-        primitives: &impl Primitives<M::Shape>,
+        primitives: &dyn Primitives<M::Shape>,
         bvh: Arc<Bvh>,
         level: SimdLevel,
         packing: Packing,
@@ -98,46 +98,35 @@ impl<M: Method> TreeIntersector<M> {
     }
 
     /// Finds the nearest hit or all hits of one ray, and passes them to `finish`.
-    fn each<S: Simd, T>(
-        &self,
-        token: S,
-        ray: &Ray,
-        query: Query,
-        finish: impl FnOnce(&mut M::Tester<'_, S>, Vec<M::Found>) -> T,
-    ) -> (T, Cost) {
-        with_stack(|stack| {
-            let mut scratch = Scratch::new();
-            let tester = M::tester(&self.blocks, token, ray, &mut scratch);
-            let mut visitor = Each {
-                kept: match query {
-                    Query::Nearest => Kept::Nearest(tester.nothing()),
-                    Query::All => Kept::All(Vec::new()),
-                },
-                tester,
-                t_max: ray.t_max,
-                cost: Cost::default(),
-                count: &|block| self.blocks.bvh.block(block).len(),
-                token: PhantomData,
-            };
-            self.blocks.bvh.walk(token, ray, stack, &mut visitor);
-            let Each {
-                mut tester,
-                kept,
-                cost,
-                ..
-            } = visitor;
-            let [in_f64, in_integers] = tester.work();
-            let found = match kept {
-                Kept::Nearest(nearest) => tester.found(&nearest).into_iter().collect(),
-                Kept::All(found) => found,
-            };
-            let cost = Cost {
-                in_f64,
-                in_integers,
-                ..cost
-            };
-            (finish(&mut tester, found), cost)
-        })
+    // One function for all queries and callers, so that each kernel's code is compiled once for them.
+    fn each(&self, ray: &Ray, query: Query, finish: Finish<'_, M>) -> Cost {
+        let (mut lent, mut scratch) = (LentStack::new(), Scratch::new());
+        let tester = M::tester(&self.blocks, baseline(), ray, &mut scratch);
+        let mut visitor = Each {
+            kept: match query {
+                Query::Nearest => Kept::Nearest(tester.nothing()),
+                Query::All => Kept::All(Vec::new()),
+            },
+            tester,
+            t_max: ray.t_max,
+            cost: Cost::default(),
+            count: &|block| self.blocks.bvh.block(block).len(),
+            token: PhantomData,
+        };
+        self.blocks
+            .bvh
+            .walk(baseline(), ray, lent.get(), &mut visitor);
+        let [in_f64, in_integers] = visitor.tester.work();
+        let found = match visitor.kept {
+            Kept::Nearest(nearest) => visitor.tester.found(&nearest).into_iter().collect(),
+            Kept::All(found) => found,
+        };
+        finish(&mut visitor.tester, found);
+        Cost {
+            in_f64,
+            in_integers,
+            ..visitor.cost
+        }
     }
 
     #[inline(always)]
@@ -153,6 +142,10 @@ impl<M: Method> TreeIntersector<M> {
     }
 }
 
+/// Receives the tester and the hits of a ray.
+type Finish<'f, M> =
+    &'f mut dyn FnMut(&mut <M as Method>::Tester<'_, Baseline>, Vec<<M as Method>::Found>);
+
 /// The query of [`TreeIntersector::each`].
 enum Query {
     Nearest,
@@ -165,17 +158,18 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        with_stack(|stack| {
-            let (rays, hits) = (rays.chunks(M::BATCH_SIZE), hits.chunks_mut(M::BATCH_SIZE));
-            for (rays, hits) in rays.zip(hits) {
-                let mut batch = M::batch();
-                M::Levels::find(self, rays, hits, &mut batch, stack);
-                // Separate from the search, which otherwise becomes a tenth slower (exact kernel, bunny, primary
-                // rays, 2026-11).
-                M::round(&self.blocks, self.level, rays, &batch, hits);
-            }
-        });
-        answer_behind(rays, hits, |ray| self.closest_hit_with_cost(ray).0);
+        let mut lent = LentStack::new();
+        let batches = rays
+            .chunks(M::BATCH_SIZE)
+            .zip(hits.chunks_mut(M::BATCH_SIZE));
+        for (rays, hits) in batches {
+            let mut batch = M::batch();
+            M::Levels::find(self, rays, hits, &mut batch, lent.get());
+            // Separate from the search, which otherwise becomes a tenth slower (exact kernel, bunny, primary
+            // rays, 2026-11).
+            M::round(&self.blocks, self.level, rays, &batch, hits);
+        }
+        answer_behind(rays, hits, &|ray| self.closest_hit_with_cost(ray).0);
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
@@ -194,25 +188,26 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
-        self.each(baseline(), ray, Query::Nearest, |tester, found| {
-            found.into_iter().next().map(|found| tester.hit(found))
-        })
+        let mut hit = None;
+        let cost = self.each(ray, Query::Nearest, &mut |tester, mut found| {
+            hit = found.pop().map(|found| tester.hit(found));
+        });
+        (hit, cost)
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        with_stack(|stack| {
-            M::Levels::find_any(self, rays, are_hits, stack);
-        });
-        answer_behind(rays, are_hits, |ray| {
+        M::Levels::find_any(self, rays, are_hits, LentStack::new().get());
+        answer_behind(rays, are_hits, &|ray| {
             self.closest_hit_with_cost(ray).0.is_some()
         });
     }
 
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
-        self.each(baseline(), ray, Query::All, |tester, found| {
-            crossings(tester, found)
-        })
-        .0
+        let mut all = Vec::new();
+        self.each(ray, Query::All, &mut |tester, found| {
+            all = crossings(tester, found);
+        });
+        all
     }
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
@@ -230,19 +225,18 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
 impl<M: Method> GroupIntersector for TreeIntersector<M> {
     fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
-        self.each(baseline(), ray, Query::Nearest, |tester, found| {
-            found.into_iter().next().map(|found| tester.ranked(found))
-        })
-        .0
+        let mut hit = None;
+        self.each(ray, Query::Nearest, &mut |tester, mut found| {
+            hit = found.pop().map(|found| tester.ranked(found));
+        });
+        hit
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
-        self.each(baseline(), ray, Query::All, |tester, found| {
-            found
-                .into_iter()
-                .map(|found| tester.ranked(found))
-                .collect()
-        })
-        .0
+        let mut all = Vec::new();
+        self.each(ray, Query::All, &mut |tester, found| {
+            all.extend(found.into_iter().map(|found| tester.ranked(found)));
+        });
+        all
     }
 }

@@ -64,7 +64,7 @@ impl Scene {
     ) -> Result<Self, Cancelled> {
         progress.enter(Phase::Building);
         let mesh = Arc::new(mesh);
-        let group = ShapeGroup::new(Arc::clone(&mesh), options, progress)?;
+        let group = ShapeGroup::new(mesh.clone(), options, progress)?;
         let bounds = mesh.bounds();
         Ok(Self {
             bounds,

@@ -20,7 +20,7 @@ pub(crate) const BLOCKS_AT_ONCE: usize = 1024;
 /// The primitives of a tree's blocks.
 pub trait CompactBlocks<S>: Sized + Send + Sync {
     /// Stores the primitives of all blocks.
-    fn of(primitives: &impl Primitives<S>, bvh: &Bvh, empty: EmptyLanes) -> Self;
+    fn of(primitives: &dyn Primitives<S>, bvh: &Bvh, empty: EmptyLanes) -> Self;
 
     /// The primitive in a lane of a block.
     fn primitive(&self, block: usize, lane: usize) -> S;
@@ -36,7 +36,7 @@ pub trait CompactBlocks<S>: Sized + Send + Sync {
 pub struct Slots<S>(Vec<S>);
 
 impl<S: Shape> CompactBlocks<S> for Slots<S> {
-    fn of(primitives: &impl Primitives<S>, bvh: &Bvh, empty: EmptyLanes) -> Self {
+    fn of(primitives: &dyn Primitives<S>, bvh: &Bvh, empty: EmptyLanes) -> Self {
         let mut slots = Vec::with_capacity(bvh.block_count() * BLOCK_SIZE);
         for block in 0..bvh.block_count() {
             let indices = bvh.block(block);

@@ -22,7 +22,7 @@ pub struct SharedCorners {
 }
 
 impl CompactBlocks<Triangle> for SharedCorners {
-    fn of(mesh: &impl Primitives<Triangle>, bvh: &Bvh, empty: EmptyLanes) -> Self {
+    fn of(mesh: &dyn Primitives<Triangle>, bvh: &Bvh, empty: EmptyLanes) -> Self {
         let count = bvh.block_count();
         let parts: Vec<Self> = (0..count.div_ceil(BLOCKS_AT_ONCE))
             .into_par_iter()
@@ -77,7 +77,7 @@ impl CompactBlocks<Triangle> for SharedCorners {
 
 impl SharedCorners {
     /// Appends a block of triangles.
-    fn push(&mut self, mesh: &impl Primitives<Triangle>, triangles: &[u32], empty: EmptyLanes) {
+    fn push(&mut self, mesh: &dyn Primitives<Triangle>, triangles: &[u32], empty: EmptyLanes) {
         let first = self.corners.len();
         let mut corners = [[0; BLOCK_SIZE]; 3];
         for (lane, &triangle) in triangles.iter().enumerate() {

@@ -57,7 +57,7 @@ impl Item {
 }
 
 /// The primitives that rays can hit: those whose boxes aren't empty and hold no NaN or infinity.
-fn items_of(count: usize, bounds_of: impl Fn(u32) -> Aabb + Sync) -> Vec<Item> {
+fn items_of(count: usize, bounds_of: BoundsOf) -> Vec<Item> {
     let item = |index| {
         let bounds = bounds_of(index);
         let is_valid = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
@@ -171,6 +171,9 @@ impl Bvh {
     }
 }
 
+/// A function that returns the box of a primitive.
+type BoundsOf<'a> = &'a (dyn Fn(u32) -> Aabb + Sync);
+
 type KeepGoing<'a> = &'a (dyn Fn() -> Result<(), Cancelled> + Sync);
 
 impl Bvh {
@@ -183,7 +186,7 @@ impl Bvh {
     /// [`Cancelled`] if `keep_going` returned it.
     pub fn build(
         count: usize,
-        bounds_of: impl Fn(u32) -> Aabb + Sync,
+        bounds_of: BoundsOf,
         keep_going: KeepGoing,
     ) -> Result<Self, Cancelled> {
         keep_going()?;

@@ -6,8 +6,7 @@
 //! count, not where codes differ, so that every block and node but the last ones is full.
 
 use super::split::around;
-use super::{Bounds, KeepGoing, items_of};
-use crate::aabb::Aabb;
+use super::{Bounds, BoundsOf, KeepGoing, items_of};
 use crate::bvh::{BLOCK_SIZE, Bvh, Child, NO_PRIMITIVE, Node, WIDTH};
 use crate::progress::Cancelled;
 use glam::Vec3A;
@@ -23,7 +22,7 @@ impl Bvh {
     /// [`Cancelled`] if `keep_going` returned it.
     pub fn build_quickly(
         count: usize,
-        bounds_of: impl Fn(u32) -> Aabb + Sync,
+        bounds_of: BoundsOf,
         keep_going: KeepGoing,
     ) -> Result<Self, Cancelled> {
         keep_going()?;

@@ -5,12 +5,12 @@ use glam::Vec3;
 
 fn build(boxes: &[Aabb]) -> Bvh {
     let bounds_of = |primitive: u32| boxes[primitive as usize];
-    Bvh::build(boxes.len(), bounds_of, &|| Ok(())).expect("never cancelled")
+    Bvh::build(boxes.len(), &bounds_of, &|| Ok(())).expect("never cancelled")
 }
 
 fn build_quickly(boxes: &[Aabb]) -> Bvh {
     let bounds_of = |primitive: u32| boxes[primitive as usize];
-    Bvh::build_quickly(boxes.len(), bounds_of, &|| Ok(())).expect("never cancelled")
+    Bvh::build_quickly(boxes.len(), &bounds_of, &|| Ok(())).expect("never cancelled")
 }
 
 const BUILDERS: [fn(&[Aabb]) -> Bvh; 2] = [build, build_quickly];
@@ -136,7 +136,7 @@ fn lanes(v: Vec3A) -> [f32; 4] {
 fn no_lane_that_the_builder_computes_with_is_subnormal() {
     // Multiplied, a subnormal number costs an Intel processor some 150 cycles.
     let boxes = scattered(1000);
-    let items = items_of(boxes.len(), |primitive| boxes[primitive as usize]);
+    let items = items_of(boxes.len(), &|primitive| boxes[primitive as usize]);
     let far = Item::new(boxes[1], NO_PRIMITIVE - 1);
     for item in items.iter().chain([&far]) {
         assert!(item.index < 1000 || item.index == NO_PRIMITIVE - 1);
@@ -150,8 +150,8 @@ fn no_lane_that_the_builder_computes_with_is_subnormal() {
 #[test]
 fn a_cancelled_build_returns_an_error() {
     let unit = |_| Aabb::around([Vec3::ZERO, Vec3::ONE]);
-    assert!(Bvh::build(2000, unit, &|| Err(Cancelled)).is_err());
-    assert!(Bvh::build_quickly(2000, unit, &|| Err(Cancelled)).is_err());
+    assert!(Bvh::build(2000, &unit, &|| Err(Cancelled)).is_err());
+    assert!(Bvh::build_quickly(2000, &unit, &|| Err(Cancelled)).is_err());
 }
 
 #[test]
