@@ -38,6 +38,21 @@ impl Aabb {
         }
     }
 
+    /// The planes of the box; see [`Planes`].
+    pub(crate) fn planes(&self) -> Planes<f32> {
+        let (a, b) = (self.min, self.max);
+        [a.x, b.x, a.y, b.y, a.z, b.z]
+    }
+
+    /// The points in both boxes.
+    #[must_use]
+    pub fn intersection(self, other: Self) -> Self {
+        Self {
+            min: self.min.max(other.min),
+            max: self.max.min(other.max),
+        }
+    }
+
     /// The smallest box around both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {

@@ -1,5 +1,6 @@
 //! The surface at a hit: normals, material, texture coordinates and colour.
 
+use crate::barycentric::{spherical_mean, weighted};
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use glam::{Vec2, Vec3};
@@ -32,11 +33,13 @@ impl SurfaceInteraction {
         let geometric_normal = mesh.geometric_normal(hit.primitive);
         let shading_normal = match shading {
             Shading::Flat => geometric_normal,
-            Shading::Smooth => {
+            Shading::Smooth | Shading::Spherical => {
                 let corners = scene.vertex_normals().of_triangle(mesh, hit.primitive);
-                weighted(weights, corners)
-                    .try_normalize()
-                    .unwrap_or(geometric_normal)
+                let interpolated = match shading {
+                    Shading::Spherical => spherical_mean(weights, corners),
+                    _ => weighted(weights, corners).try_normalize(),
+                };
+                interpolated.unwrap_or(geometric_normal)
             }
         };
         Self {
@@ -78,11 +81,6 @@ pub fn vertex_colour(scene: &Scene, hit: &Hit) -> Option<Vec3> {
     Some(weighted(hit.barycentric(), colours))
 }
 
-/// l1·a + l2·b + l3·c.
-fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
-    l1 * a + l2 * b + l3 * c
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -122,11 +120,5 @@ mod tests {
             let ray = Ray::new(Vec3::ZERO, dir).expect("a ray");
             assert_eq!(smooth.facing_normal(&ray), side * smooth.shading_normal);
         }
-    }
-
-    #[test]
-    fn barycentric_coordinates_weight_the_right_corners() {
-        let corners = [Vec3::X, Vec3::Y, Vec3::Z];
-        assert_eq!(weighted([0.2, 0.3, 0.5], corners), Vec3::new(0.2, 0.3, 0.5));
     }
 }

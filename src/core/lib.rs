@@ -17,6 +17,7 @@
 //! | [`bvh`] | bounding volume hierarchy: building and traversal |
 //! | [`kernel`] | **ray–primitive intersection**, one folder per shape, one file per algorithm |
 //! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
+//! | [`barycentric`] | barycentric coordinates and interpolation |
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
 //! | [`integrator`] | the views: from a hit to a colour |
 //! | [`spawn`] | origins of rays that leave a surface |
@@ -30,6 +31,7 @@
 
 pub mod aabb;
 mod algebra;
+pub mod barycentric;
 pub mod bvh;
 pub mod camera;
 pub mod counts;

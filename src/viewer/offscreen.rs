@@ -5,7 +5,9 @@ use crate::gpu::adapter::Gpu;
 use crate::gpu::depth::DepthMesh;
 use crate::gpu::drawing::{Canvas, Drawing, DrawingState, DrawnLines, Overlay, Paces, Targets};
 use crate::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
+use crate::gpu::traced::TracedLayer;
 use crate::gpu::view::ViewUniform;
+use crate::overlay::traced::Shapes;
 use crate::overlay::wireframe::{self, WireframeEdges};
 use crate::overlay::{Options, marks, normals};
 use glam::UVec2;
@@ -37,7 +39,7 @@ pub fn draw_over(
     };
     let mut wanted: Vec<(Vec<Line>, StyleUniform)> = Vec::new();
     if let Some(edges) = options.wireframe {
-        let lines = wireframe::lines(scene.mesh(), edges);
+        let lines = wireframe::all_lines(scene, edges);
         wanted.push((lines, options.wire_style()));
     }
     if let Some(shading) = options.normals {
@@ -50,11 +52,18 @@ pub fn draw_over(
         Ok(DrawnLines {
             lines: Arc::new(LineSet::new(device, queue, &lines)?),
             style,
-            occlusion: LineOcclusion::HiddenByMesh,
+            occlusion: LineOcclusion::Hidden,
         })
     };
+    let view = ViewUniform::new(&rendered.camera, &scene.bounds_with_elements());
+    let traced = scene.has_other_shapes().then(|| {
+        let pixels = Shapes::default().trace(scene, &rendered.camera, &view);
+        Arc::new(TracedLayer::new(device, queue, view.size(), &pixels))
+    });
     let drawing = Drawing {
-        view: ViewUniform::new(&rendered.camera, &scene.bounds_with_elements()),
+        view,
+        traced,
+        outline: options.wireframe.map(|_| options.wire_style()),
         mesh: Arc::new(DepthMesh::new(device, queue, scene.mesh())?),
         sets: wanted
             .into_iter()

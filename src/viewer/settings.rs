@@ -44,6 +44,8 @@ pub struct Settings {
     pub against: String,
     /// Whether shading is smooth.
     pub is_smooth: bool,
+    /// Whether smooth shading interpolates normals on the unit sphere instead of linearly.
+    pub is_spherical: bool,
     /// Whether the wireframe is drawn.
     pub shows_wireframe: bool,
     /// Whether the wireframe includes the diagonals of triangulated polygons.
@@ -86,6 +88,7 @@ impl Default for Settings {
             session_kernel: None,
             against: exact_triangle_kernel().info.name.to_owned(),
             is_smooth: false,
+            is_spherical: false,
             shows_wireframe: false,
             shows_diagonals: false,
             wire_colour: [12, 14, 18],
@@ -148,12 +151,12 @@ impl Settings {
         self.view().against.kernel(chosen)
     }
 
-    /// Flat or smooth shading.
+    /// How normals vary over a triangle.
     pub fn shading(&self) -> Shading {
-        if self.is_smooth {
-            Shading::Smooth
-        } else {
-            Shading::Flat
+        match (self.is_smooth, self.is_spherical) {
+            (false, _) => Shading::Flat,
+            (true, false) => Shading::Smooth,
+            (true, true) => Shading::Spherical,
         }
     }
 

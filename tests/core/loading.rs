@@ -67,7 +67,7 @@ fn every_shape_is_hit_where_its_parameters_say() {
              <transform name="to_world"><translate x="80" z="3"/></transform></shape>"#,
     );
     let below = |x: f32, y: f32| crossings(&scene, [x, y, 10.0], [0.0, 0.0, -1.0]);
-    let plane = ("plane", 60.0);
+    let plane = ("axis-aligned plane", 60.0);
     assert_eq!(below(0.0, 0.0), [("sphere", 8.0), ("sphere", 12.0), plane]);
     // Beside the axis of the open cylinder there is nothing, and its side is met from the side.
     assert_eq!(below(10.5, 0.0), [plane]);
@@ -76,7 +76,10 @@ fn every_shape_is_hit_where_its_parameters_say() {
     assert_eq!(below(20.5, 0.5), [("disk", 10.0), plane]);
     assert_eq!(below(20.8, 0.8), [plane]);
     assert_eq!(below(30.8, 0.8), [("rectangle", 10.0), plane]);
-    assert_eq!(below(40.5, 0.5), [("box", 9.0), ("box", 11.0), plane]);
+    assert_eq!(
+        below(40.5, 0.5),
+        [("axis-aligned box", 9.0), ("axis-aligned box", 11.0), plane]
+    );
     assert_eq!(below(50.5, 0.0), [("cone", 8.0), plane]);
     assert_eq!(below(61.0, 0.0), [("torus", 9.75), ("torus", 10.25), plane]);
     assert_eq!(below(60.0, 0.0), [plane]);
@@ -193,15 +196,109 @@ fn a_scene_far_from_the_origin_is_stored_relative_to_one_nearby() {
 }
 
 #[test]
+fn boxes_and_planes_are_axis_aligned_as_long_as_transforms_keep_them_so() {
+    let shape = |kind: &str, transform: &str| {
+        format!(
+            r#"<shape type="{kind}"><transform name="to_world">{transform}</transform></shape>"#
+        )
+    };
+    let name_of = |contents: &str| {
+        let scene = loaded(contents).scene;
+        scene.group_of(0).0.shape().name
+    };
+    for (transform, is_aligned) in [
+        (r#"<translate x="3"/>"#, true),
+        (r#"<scale x="1" y="-2" z="3"/>"#, true),
+        (r#"<rotate y="1" angle="30"/>"#, false),
+        (r#"<matrix value="0 1 0 0 1 0 0 0 0 0 1 0 0 0 0 1"/>"#, true),
+    ] {
+        let name = |kind: &str| name_of(&shape(kind, transform));
+        let expected = if is_aligned {
+            ("axis-aligned box", "axis-aligned plane")
+        } else {
+            ("box", "plane")
+        };
+        assert_eq!((name("cube"), name("plane")), expected, "{transform}");
+    }
+}
+
+#[test]
+fn the_four_descriptions_of_a_plane_give_the_same_one() {
+    for description in [
+        r#"<point name="point" x="0" y="0" z="2"/><vector name="normal" x="0" y="0" z="3"/>"#,
+        r#"<point name="point" x="5" y="0" z="2"/><vector name="v" x="1" y="0" z="0"/><vector name="w" x="1" y="1" z="0"/>"#,
+        r#"<point name="p0" x="0" y="0" z="2"/><point name="p1" x="1" y="0" z="2"/><point name="p2" x="0" y="1" z="2"/>"#,
+        r#"<float name="c" value="2"/><float name="d" value="-4"/>"#,
+    ] {
+        let scene = loaded(&format!(r#"<shape type="plane">{description}</shape>"#));
+        let found = crossings(&scene, [0.5, 0.5, 3.0], [0.0, 0.0, -2.0]);
+        assert_eq!(found, [("axis-aligned plane", 0.5)], "{description}");
+    }
+    for (wrong, expected) in [
+        (
+            r#"<point name="p1" value="2 2 0"/><point name="p2" value="1 1 0"/>"#,
+            "collinear",
+        ),
+        (
+            r#"<vector name="v" value="1 0 0"/><vector name="w" value="2 0 0"/>"#,
+            "parallel",
+        ),
+        (
+            r#"<float name="d" value="1"/>"#,
+            "“a”, “b” and “c” are zero",
+        ),
+    ] {
+        let error = Files::new(&format!(r#"<shape type="plane">{wrong}</shape>"#)).load();
+        let error = error.expect_err("refused").to_string();
+        assert!(error.contains(expected), "{error}");
+    }
+}
+
+#[test]
 fn planes_alone_make_a_scene() {
     let scene = loaded(r#"<shape type="plane"/>"#);
     let found = crossings(&scene, [0.5, 0.5, 3.0], [0.0, 0.0, -2.0]);
-    assert_eq!(found, [("plane", 1.5)]);
+    assert_eq!(found, [("axis-aligned plane", 1.5)]);
     for tier in [Tier::Fast, Tier::Watertight, Tier::Precise, Tier::Exact] {
         let plane =
             <hitscope_core::shape::Plane as hitscope_core::kernel::KernelTable>::kernel_of(tier);
         let ray = Ray::new(Vec3::new(9.0, 9.0, 3.0), Vec3::NEG_Z).expect("a ray");
         let hit = scene.scene.intersector(plane).closest_hit(&ray);
         assert_eq!(hit.map(|hit| hit.t), Some(3.0), "{tier:?}");
+    }
+}
+
+#[test]
+fn solids_are_combined_and_what_is_no_solid_is_refused_with_its_line() {
+    let csg = |operation: &str, second: &str| {
+        format!(
+            r#"<shape type="csg"><string name="operation" value="{operation}"/>
+               <transform name="to_world"><translate x="10"/></transform>
+               <shape type="cube"/>
+               {second}</shape>"#
+        )
+    };
+    let ball = r#"<shape type="sphere"><float name="radius" value="0.5"/><transform name="to_world"><translate z="1"/></transform></shape>"#;
+    let scene = loaded(&csg("difference", ball));
+    let down = |x: f32| crossings(&scene, [x, 0.0, 5.0], [0.0, 0.0, -1.0]);
+    assert_eq!(down(10.0), [("solid", 4.5), ("solid", 6.0)]);
+    assert_eq!(down(10.75), [("solid", 4.0), ("solid", 6.0)]);
+    for (second, expected) in [
+        (r#"<shape type="disk"/>"#, "a disk isn't a solid"),
+        (
+            r#"<shape type="cylinder"/>"#,
+            "an open cylinder isn't a solid: set “capped” to true",
+        ),
+        (
+            r#"<shape type="obj"><string name="filename" value="mesh.obj"/></shape>"#,
+            "a mesh can't be part of a csg",
+        ),
+    ] {
+        let error = Files::new(&csg("union", second)).load();
+        let error = error.expect_err("refused").to_string();
+        assert!(
+            error.ends_with(&format!("scene.xml:5: {expected}")),
+            "{error}"
+        );
     }
 }

@@ -63,12 +63,11 @@ fn drawing(
         occlusion,
     };
     Ok(Drawing {
+        traced: None,
+        outline: None,
         view: ViewUniform::new(&camera, &scene.bounds()),
         mesh: Arc::new(DepthMesh::new(device, queue, scene.mesh())?),
-        sets: vec![
-            set(LineOcclusion::HiddenByMesh),
-            set(LineOcclusion::ThroughMesh),
-        ],
+        sets: vec![set(LineOcclusion::Hidden), set(LineOcclusion::Through)],
     })
 }
 

@@ -72,7 +72,6 @@ impl Crossing {
 
     /// Whether the part's polynomial has a root of even multiplicity: the ray touches the surface without
     /// passing through it.
-    #[cfg_attr(not(test), expect(dead_code, reason = "tests compare with it"))]
     pub fn is_tangent(&self) -> bool {
         self.is_tangent
     }
@@ -341,7 +340,7 @@ impl<'a> CrossingSolver<'a> {
 }
 
 /// Whether a number is in an open interval.
-fn is_between(t: &Algebraic, [start, end]: [f64; 2]) -> bool {
+pub fn is_between(t: &Algebraic, [start, end]: [f64; 2]) -> bool {
     t.compare_with(&start.into()) == Ordering::Greater
         && t.compare_with(&end.into()) == Ordering::Less
 }

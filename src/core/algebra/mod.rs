@@ -26,7 +26,7 @@ mod remainders;
 mod ring;
 
 pub use algebraic::Algebraic;
-pub use crossing::{Crossing, CrossingSolver, Piece, Pieces, RayIn};
+pub use crossing::{Crossing, CrossingSolver, Piece, Pieces, RayIn, is_between};
 pub use dyadic::Dyadic;
 pub use polynomial::Polynomial;
 pub use ring::{Ring, cross, difference, dot, squared_length, vector};

@@ -1,8 +1,11 @@
 //! Groups: the primitives of one shape with their tree.
 
+mod csg;
 mod table;
 mod tree;
 
+pub(crate) use csg::CsgGroup;
+pub use csg::{CSG_KERNELS, CsgOperation, Solid};
 pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
 pub use tree::{FirstTree, SceneOptions};
 
@@ -13,7 +16,7 @@ use crate::kernel::{KernelChoice, KernelInfo, KernelList, exact_answer};
 use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
-use crate::shape::{Primitives, Shape, ShapeInfo, SurfacePoint};
+use crate::shape::{AddLine, Interior, LineDetail, Primitives, Shape, ShapeInfo, SurfacePoint};
 use crate::simd::SimdLevel;
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
@@ -51,6 +54,12 @@ pub trait Group: Debug + Send + Sync {
 
     /// The surface where a ray hits a primitive; `hit.primitive` is its index in the group.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
+
+    /// Passes lines on a primitive's surface to `add`, for display.
+    fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>);
+
+    /// The points that a primitive's surface encloses, along the ray's whole line.
+    fn interior(&self, index: u32, ray: &Ray) -> Interior;
 
     /// t, u and v of a ray's first hit of a primitive, or `None` for a miss; see [`exact_answer`].
     fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]>;
@@ -140,6 +149,14 @@ impl<S: Grouped> Group for ShapeGroup<S> {
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.primitives.primitive(hit.primitive).surface(ray, hit)
+    }
+
+    fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {
+        self.primitives.primitive(index).lines(detail, add);
+    }
+
+    fn interior(&self, index: u32, ray: &Ray) -> Interior {
+        self.primitives.primitive(index).interior(ray)
     }
 
     fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]> {

@@ -1,12 +1,12 @@
 //! The table of shapes that scenes can hold.
 
-use super::{Group, SceneOptions, ShapeGroup};
+use super::{CSG_KERNELS, Group, SceneOptions, ShapeGroup, csg};
 use crate::kernel::{KernelChoice, KernelInfo, KernelTable};
 use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Shape as _, ShapeInfo, Sphere, Torus,
-    Triangle,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Shape as _,
+    ShapeInfo, Sphere, Torus, Triangle,
 };
 use std::sync::Arc;
 
@@ -48,7 +48,10 @@ macro_rules! shapes {
         vec![$(ShapeKernels {
             shape: $shape::INFO,
             kernels: $shape::kernels().iter().map(|row| row.info).collect(),
-        }),*]
+        },)* ShapeKernels {
+            shape: csg::INFO,
+            kernels: CSG_KERNELS.to_vec(),
+        }]
     }
     $(
         impl Grouped for $shape {
@@ -66,5 +69,6 @@ macro_rules! shapes {
 }
 
 shapes!(
-    Triangle, Sphere, Plane, Disk, Rectangle, Cuboid, Cylinder, Cone, Torus, Quadric
+    Triangle, Sphere, Plane, AxisPlane, Disk, Rectangle, Cuboid, AxisBox, Cylinder, Cone, Torus,
+    Quadric
 );

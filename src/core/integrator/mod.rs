@@ -3,6 +3,7 @@
 //! Each view is a row of [`INTEGRATORS`]. Colours are linear RGB.
 
 mod compare;
+mod interpolation;
 mod legend;
 pub mod palette;
 mod shaded;
@@ -169,6 +170,15 @@ pub static INTEGRATORS: &[Integrator] = &[
         legend: legend::error_barycentric,
         depends_on_tree: false,
         colour: compare::error_barycentric,
+    },
+    Integrator {
+        name: "interpolation",
+        title: "Interpolation",
+        about: "Angle between the linearly and the spherically interpolated vertex normal, on a logarithmic scale; grey if they are equal.",
+        against: Comparison::Nothing,
+        legend: interpolation::legend,
+        depends_on_tree: false,
+        colour: interpolation::angle,
     },
     Integrator {
         name: "disagreement",

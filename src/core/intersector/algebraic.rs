@@ -195,6 +195,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
 
     fn ranked(&mut self, found: Found<T>) -> RankedHit {
         let bounds = found.crossing.t();
+        let is_tangent = found.crossing.is_tangent();
         let (ray, shape, crossing) = (*self.ray, found.shape.clone(), found.crossing.clone());
         let exact = move || {
             let mut crossing = crossing.clone();
@@ -205,6 +206,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
             hit: self.hit(found),
             t: [bounds.lo, bounds.hi],
             exact: Some(ExactT::new(exact)),
+            is_tangent,
         }
     }
 

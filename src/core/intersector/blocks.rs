@@ -261,7 +261,7 @@ fn fill_blocks<T: Send>(
 }
 
 /// The primitives in all blocks that the ray meets.
-pub(super) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
+pub(crate) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
     struct Gathered<'a> {
         bvh: &'a Bvh,
         t_max: f32,

@@ -378,6 +378,7 @@ impl<T: Shape + Into<Triangle>, S: Simd> Tester<S> for ExactTester<'_, T, S> {
             hit: found.hit(values),
             t: t_bounds(values[0]),
             exact: Some(ExactT::new(move || exact_t(&ray, corners))),
+            is_tangent: false,
         }
     }
 

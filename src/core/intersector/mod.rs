@@ -21,9 +21,10 @@ mod tree;
 mod visitors;
 
 pub use blocks::Packing;
+pub(crate) use blocks::candidates;
 use several::ExactT;
-pub(crate) use several::several;
 pub use several::{GroupIntersector, RankedHit};
+pub(crate) use several::{crossings_of, several};
 
 use crate::algebra::Pieces;
 use crate::bvh::Bvh;

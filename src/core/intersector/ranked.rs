@@ -317,6 +317,7 @@ impl<K: Kernel, N: Number, S: Simd> Tester<S> for RankedTester<'_, K, N, S> {
             hit: found.hit(),
             t: [found.t.into(); 2],
             exact: None,
+            is_tangent: false,
         }
     }
 

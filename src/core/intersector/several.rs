@@ -2,7 +2,7 @@
 
 use super::order::{Comparison, precedes};
 use super::{Cost, Crossing, Intersector};
-use crate::algebra::Algebraic;
+use crate::algebra::{Algebraic, is_between};
 use crate::kernel::{KernelInfo, Precision};
 use crate::ray::{Hit, Ray};
 use std::cell::OnceCell;
@@ -16,6 +16,8 @@ pub struct RankedHit {
     pub(super) t: [f64; 2],
     /// t, if the kernel is exact.
     pub(super) exact: Option<ExactT>,
+    /// Whether the ray certainly touches the surface without passing through it.
+    pub(crate) is_tangent: bool,
 }
 
 /// An exact t, computed on first use.
@@ -111,8 +113,41 @@ struct Several {
 }
 
 impl RankedHit {
+    /// The same with another hit at the same t.
+    pub(crate) fn with_hit(self, change: impl FnOnce(Hit) -> Hit) -> Self {
+        Self {
+            hit: change(self.hit),
+            ..self
+        }
+    }
+
+    /// t, rounded to f64; correctly if the kernel is exact.
+    pub(crate) fn t_in_f64(&self) -> f64 {
+        match &self.exact {
+            Some(exact) if self.t[0] != self.t[1] => exact.get().clone().nearest_f64(),
+            _ => self.t[0],
+        }
+    }
+
+    /// Whether t lies in the ray's open interval.
+    pub(crate) fn is_in_interval(&self, ray: &Ray) -> bool {
+        let [start, end] = ray.finite_interval().map(f64::from);
+        let [low, high] = self.t;
+        match &self.exact {
+            _ if start < low && high < end => true,
+            _ if high <= start || end <= low => false,
+            Some(exact) => is_between(exact.get(), [start, end]),
+            None => false,
+        }
+    }
+
+    /// A t behind which no hit precedes this one.
+    pub(crate) fn t_bound(&self, ray: &Ray) -> f32 {
+        self.hit.t.next_up().min(ray.t_max)
+    }
+
     /// Compares by t.
-    fn compare(&self, other: &Self) -> Ordering {
+    pub(crate) fn compare(&self, other: &Self) -> Ordering {
         match (&self.exact, &other.exact) {
             _ if self.t[1] < other.t[0] => Ordering::Less,
             _ if self.t[0] > other.t[1] => Ordering::Greater,
@@ -121,10 +156,25 @@ impl RankedHit {
         }
     }
 
-    fn is_before(&self, other: &Self) -> bool {
+    /// Whether it precedes another hit: by t, then by primitive.
+    pub(crate) fn is_before(&self, other: &Self) -> bool {
         let order: Comparison<bool> = self.compare(other).into();
         precedes(order, order, self.hit.primitive < other.hit.primitive)
     }
+}
+
+/// The hits as crossings, ordered by t. Hits at equal t form one crossing, ordered by primitive.
+pub(crate) fn crossings_of(mut hits: Vec<RankedHit>) -> Vec<Crossing> {
+    hits.sort_by(|a, b| {
+        let by_t = a.compare(b);
+        by_t.then(a.hit.primitive.cmp(&b.hit.primitive))
+    });
+    hits.chunk_by(|a, b| a.compare(b).is_eq())
+        .map(|equal| Crossing {
+            hit: equal[0].hit,
+            also: equal[1..].iter().map(|other| other.hit.primitive).collect(),
+        })
+        .collect()
 }
 
 impl Several {
@@ -134,7 +184,7 @@ impl Several {
             // Hits at the same t, or at one that rounds to the same f32, are compared.
             let t_max = nearest
                 .as_ref()
-                .map_or(ray.t_max, |n| n.hit.t.next_up().min(ray.t_max));
+                .map_or(ray.t_max, |nearest| nearest.t_bound(ray));
             let found = group.intersector.nearest(&group.ray(ray, t_max));
             let found = found.map(|found| group.ranked(found));
             if let Some(found) = found
@@ -216,16 +266,7 @@ impl Intersector for Several {
             let found = group.intersector.every_hit(&group.ray(ray, ray.t_max));
             hits.extend(found.into_iter().map(|hit| group.ranked(hit)));
         }
-        hits.sort_by(|a, b| {
-            let by_t = a.compare(b);
-            by_t.then(a.hit.primitive.cmp(&b.hit.primitive))
-        });
-        hits.chunk_by(|a, b| a.compare(b).is_eq())
-            .map(|equal| Crossing {
-                hit: equal[0].hit,
-                also: equal[1..].iter().map(|other| other.hit.primitive).collect(),
-            })
-            .collect()
+        crossings_of(hits)
     }
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {

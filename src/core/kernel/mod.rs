@@ -6,6 +6,8 @@
 
 pub(crate) mod algebraic;
 mod algorithm;
+mod axis_box;
+mod axis_plane;
 mod choice;
 mod cone;
 mod crossings;
@@ -16,6 +18,7 @@ mod info;
 mod plane;
 mod quadric;
 mod ray_lanes;
+mod slabs;
 mod sphere;
 mod table;
 mod torus;

@@ -1,10 +1,9 @@
 //! A scene from the description of a scene file.
 
 use super::merge::{Part, merged};
-use super::placed::{List, Lists, Placed};
+use super::placed::{Groups, Placed, Refusal, placed};
 use super::{LoadedScene, StartView, size_warning};
-use crate::group::Grouped;
-use crate::mesh::{Illumination, Material, Runs};
+use crate::mesh::{Illumination, Material};
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
@@ -45,7 +44,7 @@ pub(super) fn load(
 struct Contents {
     parts: Vec<Part>,
     /// Shapes other than meshes and their materials.
-    shapes: Vec<(Placed, u32)>,
+    shapes: Vec<(Box<dyn Placed>, u32)>,
     report: LoadReport,
 }
 
@@ -65,14 +64,14 @@ impl Contents {
             },
         };
         for shape in &file.shapes {
-            let refused = |message| refused(file, shape.place, message);
             // The first material stands for none.
             let material = shape.material.map(|material| material + 1);
             if shape.flip_normals {
                 let message = "flip_normals has no effect".to_owned();
                 contents.warn(file, shape.place, message);
             }
-            let placed = Placed::new(&shape.kind, &shape.to_world).map_err(refused)?;
+            let placed = placed(shape, &shape.to_world);
+            let placed = placed.map_err(|refusal| refused(file, refusal))?;
             if let Some(placed) = placed {
                 contents.shapes.push((placed, material.unwrap_or(0)));
             } else if let ShapeKind::Obj {
@@ -141,33 +140,13 @@ impl Contents {
     ) -> Result<(Scene, LoadReport), Cancelled> {
         let origin = self.origin(recentre);
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
-        let mut lists = Lists::default();
+        let mut groups = Groups::default();
         for (shape, material) in &self.shapes {
-            shape.push_to(&mut lists, origin, *material);
+            shape.push_to(&mut groups, origin, *material);
         }
         let mesh = merged(self.parts, origin, materials(file));
         let mut scene = Scene::with_options(mesh, options, progress)?;
-        let Lists {
-            spheres,
-            planes,
-            disks,
-            rectangles,
-            cuboids,
-            cylinders,
-            cones,
-            tori,
-            quadrics,
-        } = lists;
-        let add = &mut scene;
-        extend(add, spheres, options, progress)?;
-        extend(add, disks, options, progress)?;
-        extend(add, rectangles, options, progress)?;
-        extend(add, cuboids, options, progress)?;
-        extend(add, cylinders, options, progress)?;
-        extend(add, cones, options, progress)?;
-        extend(add, tori, options, progress)?;
-        extend(add, quadrics, options, progress)?;
-        extend(add, planes, options, progress)?;
+        groups.add_to(&mut scene, options, progress)?;
         Ok((scene, self.report))
     }
 
@@ -201,23 +180,6 @@ impl Contents {
     }
 }
 
-/// Adds a group of shapes to a scene, if there are any.
-fn extend<S: Grouped>(
-    scene: &mut Scene,
-    list: List<S>,
-    options: SceneOptions,
-    progress: &Progress,
-) -> Result<(), Cancelled> {
-    if list.shapes.is_empty() {
-        return Ok(());
-    }
-    let mut materials = Runs::default();
-    for (index, material) in (0..).zip(list.materials) {
-        materials.begin(index, material);
-    }
-    scene.add_group(list.shapes, materials, options, progress)
-}
-
 /// The materials of a scene file; the first stands for none.
 fn materials(file: &SceneFile) -> Vec<Material> {
     let material = |material: &scene_file::Material| Material {
@@ -230,7 +192,7 @@ fn materials(file: &SceneFile) -> Vec<Material> {
     none.chain(file.materials.iter().map(material)).collect()
 }
 
-fn refused(file: &SceneFile, place: Place, message: String) -> LoadError {
+fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {
     LoadError::Line {
         path: file.path_of(place).to_owned(),
         line: place.line as usize,

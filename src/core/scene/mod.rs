@@ -3,7 +3,7 @@
 pub use crate::group::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
-use crate::group::{Group, Grouped, ShapeGroup};
+use crate::group::{CsgGroup, Group, Grouped, ShapeGroup, Solid};
 use crate::intersector::{Intersector, Packing, several};
 use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, Runs, TriangleMesh, VertexNormals};
@@ -21,8 +21,10 @@ pub enum Shading {
     /// One normal per triangle.
     #[default]
     Flat,
-    /// Normals interpolated from the vertices.
+    /// Normals interpolated linearly from the vertices, then normalised.
     Smooth,
+    /// Normals interpolated from the vertices on the unit sphere.
+    Spherical,
 }
 
 /// Groups of primitives, each of one shape with its tree. No answer to a ray ever changes; a changed file makes
@@ -109,6 +111,20 @@ impl Scene {
         Ok(())
     }
 
+    /// Adds a group of solids, and their materials as indices into the mesh's.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    pub fn add_solids(
+        &mut self,
+        solids: Vec<Solid>,
+        materials: Runs,
+        progress: &Progress,
+    ) -> Result<(), Cancelled> {
+        self.push(Arc::new(CsgGroup::new(solids, materials, progress)?));
+        Ok(())
+    }
+
     /// Adds a group; it replaces an empty group of triangles.
     fn push(&mut self, group: Arc<dyn Group>) {
         self.bounds = self.bounds.union(group.bounds());
@@ -171,6 +187,21 @@ impl Scene {
     /// Whether a primitive is a triangle. Its number is then its index in the mesh.
     pub fn is_triangle(&self, primitive: u32) -> bool {
         (primitive as usize) < self.mesh.triangles().len()
+    }
+
+    /// Whether there are primitives that aren't triangles.
+    pub fn has_other_shapes(&self) -> bool {
+        self.primitive_count() > self.mesh.triangles().len()
+    }
+
+    /// The groups of shapes other than triangles, as a scene of their own.
+    pub fn without_triangles(&self) -> Self {
+        let mut rest = scene(TriangleMesh::default());
+        let is_mesh = !self.mesh.triangles().is_empty();
+        for group in self.groups.iter().skip(usize::from(is_mesh)) {
+            rest.push(Arc::clone(group));
+        }
+        rest
     }
 
     /// The group of a primitive, and its index there.

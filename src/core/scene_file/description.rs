@@ -1,5 +1,7 @@
 //! The contents of a scene file, as plain f64 numbers: no mesh is loaded and no shape is built.
 
+pub use crate::group::CsgOperation;
+
 use super::plugin::Plugin;
 use super::sensor::Sensor;
 use crate::obj::Warning;
@@ -157,17 +159,6 @@ pub struct Quadric {
     pub min: DVec3,
     /// The highest corner of the box.
     pub max: DVec3,
-}
-
-/// An operation on solids.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum CsgOperation {
-    /// All points in any solid.
-    Union,
-    /// The points in every solid.
-    Intersection,
-    /// The points in the first solid and in no other.
-    Difference,
 }
 
 /// A diffuse material. Colours are linear RGB from 0 to 1.

@@ -66,12 +66,12 @@
 //!
 //! | shape of ours | parameters and defaults |
 //! |---|---|
-//! | `plane` | infinite; `point` = 0, `normal` = (0, 0, 1) |
+//! | `plane` | infinite; `point` = 0 and `normal` = (0, 0, 1), or `point` and the vectors `v`, `w`, or the points `p0`, `p1`, `p2`, or `a`, `b`, `c`, `d` for ax + by + cz + d = 0 |
 //! | `box` | `min` = −1, `max` = 1 |
 //! | `cone` | base centre `p0` = 0, apex `p1` = (0, 0, 1), `radius` = 1, `capped` = false |
 //! | `torus` | `center` = 0, `axis` = (0, 0, 1), radii `major` = 1 and `minor` = 0.25 |
 //! | `quadric` | `a` to `j` = 0 for ax² + by² + cz² + 2dxy + 2eyz + 2fxz + 2gx + 2hy + 2iz + j = 0, cut by the box from `min` = −1 to `max` = 1 |
-//! | `csg` | `operation`: `union`, `intersection` or `difference` (of the first and all others); two or more nested shapes |
+//! | `csg` | `operation`: `union`, `intersection` or `difference` (of the first and all others); two or more nested solids: closed shapes, planes (the half-space behind the normal) or `csg` |
 //!
 //! Radii are positive here. Mitsuba also accepts 0 and negative ones.
 //!
@@ -107,6 +107,7 @@ mod number;
 mod objects;
 mod outline;
 mod parameters;
+mod plane;
 mod plugin;
 mod problem;
 mod properties;

@@ -51,6 +51,14 @@ impl Parameters {
         Ok(())
     }
 
+    /// Whether one of these parameters is given.
+    pub(super) fn has_any(&mut self, names: &[&'static str]) -> bool {
+        self.known.extend(names);
+        self.left
+            .iter()
+            .any(|other| names.contains(&other.name.as_str()))
+    }
+
     /// Removes the parameter with a name.
     pub(super) fn take(&mut self, name: &'static str) -> Option<Parameter> {
         self.known.push(name);

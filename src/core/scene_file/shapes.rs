@@ -5,6 +5,7 @@ use super::element::Element;
 use super::materials;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
+use super::plane::plane;
 use super::plugin::Plugin;
 use super::problem::{Problem, quoted, unknown};
 use super::properties;
@@ -153,10 +154,7 @@ fn kind_of(
         "disk" => ShapeKind::Disk,
         "rectangle" => ShapeKind::Rectangle,
         "cube" => ShapeKind::Cube,
-        "plane" => ShapeKind::Plane {
-            point: parameters.point("point", DVec3::ZERO)?,
-            normal: parameters.direction("normal", DVec3::Z)?,
-        },
+        "plane" => plane(parameters)?,
         "box" => {
             let (min, max) = extent(parameters)?;
             ShapeKind::Box { min, max }

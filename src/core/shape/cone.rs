@@ -2,12 +2,13 @@
 
 use super::compact::Slots;
 use super::cylinder::{Along, AxialRay, BASE, SIDE, around_spheres, error, part_of};
-use super::{Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::lines::{disk_lines, side_lines};
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// The lines from an apex to a circle about the axis, and a disk in the circle if it is capped. No ray hits it if the
 /// circle's centre is the apex, the radius isn't positive, or a number isn't finite.
@@ -100,6 +101,26 @@ impl Shape for Cone {
             uv: DVec2::new(along.turn, v),
             error: error(self.p0, self.p1, self.radius),
             is_flat: false,
+        }
+    }
+
+    fn interior(&self, _: &Ray) -> Interior {
+        if self.is_capped {
+            Interior::Convex
+        } else {
+            Interior::Open
+        }
+    }
+
+    /// Circles and straight lines, also on the base.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        let ends = [self.p0, self.p1].map(Vec3::as_dvec3);
+        let radius = f64::from(self.radius);
+        side_lines(ends, [radius, 0.0], detail, add);
+        if self.is_capped {
+            let axis = (ends[1] - ends[0]).normalize_or(DVec3::Z);
+            let (x, y) = axis.any_orthonormal_pair();
+            disk_lines(ends[0], [radius * x, radius * y], -axis, detail, add);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Boxes, and their images under affine maps.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::lines::box_grid;
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, vector};
 use crate::lane::{Lane, Values};
@@ -123,6 +124,15 @@ impl Shape for Cuboid {
                 + Vec3::splat(16.0 * U * reach.max_element()),
             is_flat: false,
         }
+    }
+
+    fn interior(&self, _: &Ray) -> Interior {
+        Interior::Convex
+    }
+
+    /// A grid on each face.
+    fn lines(&self, _: &LineDetail, add: AddLine<'_>) {
+        box_grid(self.centre.as_dvec3(), self.axes.map(Vec3::as_dvec3), add);
     }
 }
 

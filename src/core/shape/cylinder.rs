@@ -1,7 +1,8 @@
 //! Cylinders of finite length, open or capped.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::lines::{disk_lines, side_lines};
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, squared_length, vector,
@@ -110,6 +111,28 @@ impl Shape for Cylinder {
             uv: DVec2::new(along.turn, v),
             error: error(self.p0, self.p1, self.radius),
             is_flat: false,
+        }
+    }
+
+    fn interior(&self, _: &Ray) -> Interior {
+        if self.is_capped {
+            Interior::Convex
+        } else {
+            Interior::Open
+        }
+    }
+
+    /// Circles and straight lines, also on the caps.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        let ends = [self.p0, self.p1].map(Vec3::as_dvec3);
+        let radius = f64::from(self.radius);
+        side_lines(ends, [radius; 2], detail, add);
+        if self.is_capped {
+            let axis = (ends[1] - ends[0]).normalize_or(DVec3::Z);
+            let (x, y) = axis.any_orthonormal_pair();
+            for (end, normal) in ends.into_iter().zip([-axis, axis]) {
+                disk_lines(end, [radius * x, radius * y], normal, detail, add);
+            }
         }
     }
 }

@@ -1,8 +1,9 @@
 //! Disks, and their images under affine maps.
 
 use super::compact::Slots;
+use super::lines::disk_lines;
 use super::span::{Span, SpannedRay};
-use super::{Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{AddLine, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -52,6 +53,13 @@ impl Shape for Disk {
     /// u and v are a and b, each from −1 to 1.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.0.surface(ray, hit)
+    }
+
+    /// Circles and diameters.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        let [centre, u, v] = [self.0.centre, self.0.u, self.0.v].map(Vec3::as_dvec3);
+        let normal = u.cross(v).normalize_or_zero();
+        disk_lines(centre, [u, v], normal, detail, add);
     }
 }
 

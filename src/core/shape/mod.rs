@@ -1,12 +1,18 @@
 //! Shapes of primitives: one file per shape.
 
+mod axis_box;
+mod axis_plane;
 mod compact;
 mod cone;
 mod cuboid;
 mod cylinder;
 mod disk;
+mod interior;
+mod lines;
 mod plane;
+mod plane_form;
 mod quadric;
+mod quadric_lines;
 mod rectangle;
 mod shared_corners;
 mod span;
@@ -15,13 +21,18 @@ mod surface;
 mod torus;
 mod triangle;
 
+pub use axis_box::AxisBox;
+pub use axis_plane::AxisPlane;
 pub(crate) use compact::{BLOCKS_AT_ONCE, CompactBlocks, EmptyLanes};
 pub use cone::Cone;
 pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub(crate) use cylinder::{BASE, SIDE, TOP};
 pub use disk::Disk;
+pub use interior::Interior;
+pub use lines::{AddLine, LineDetail, LinePoint};
 pub use plane::Plane;
+pub use plane_form::PlaneForm;
 pub use quadric::Quadric;
 pub use rectangle::Rectangle;
 pub use span::Span;
@@ -76,6 +87,14 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
 
     /// The surface where a ray hits the primitive.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
+
+    /// Passes lines on the surface to `add`, for display.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>);
+
+    /// The points that the surface encloses, along the ray's whole line.
+    fn interior(&self, _ray: &Ray) -> Interior {
+        Interior::Open
+    }
 }
 
 /// A primitive's parameters.

@@ -1,12 +1,14 @@
 //! Infinite planes.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, U};
+use super::interior::unbounded;
+use super::lines::plane_grid;
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, vector};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
-use glam::{DVec2, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 
 /// The plane through a point that is perpendicular to a normal. No ray hits it if the normal is 0 or a number isn't
 /// finite.
@@ -82,6 +84,17 @@ impl Shape for Plane {
             error: 2.0 * U * (position.abs() + self.point.abs()),
             is_flat: true,
         }
+    }
+
+    /// The half-space behind the normal.
+    fn interior(&self, ray: &Ray) -> Interior {
+        unbounded(self, ray)
+    }
+
+    /// A grid near the region of interest.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        let normal = self.normal.as_dvec3().normalize_or(DVec3::Z);
+        plane_grid(self.point.as_dvec3(), normal, detail, add);
     }
 }
 

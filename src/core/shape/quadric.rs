@@ -1,7 +1,9 @@
 //! General quadrics, cut by a box.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::interior::unbounded;
+use super::quadric_lines::quadric_lines;
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -31,8 +33,14 @@ impl Quadric {
             && self.half.max_element() > 0.0
     }
 
+    /// The left side at a point relative to the centre.
+    pub(super) fn value(&self, p: DVec3) -> f64 {
+        let [.., g, h, i, j] = self.coefficients.map(f64::from);
+        p.dot(self.gradient(p)) + p.dot(DVec3::new(g, h, i)) + j
+    }
+
     /// The gradient of the left side at a point relative to the centre, halved.
-    fn gradient(&self, p: DVec3) -> DVec3 {
+    pub(super) fn gradient(&self, p: DVec3) -> DVec3 {
         let [a, b, c, d, e, f, g, h, i, _] = self.coefficients.map(f64::from);
         DVec3::new(
             a * p.x + d * p.y + f * p.z + g,
@@ -115,6 +123,16 @@ impl Shape for Quadric {
             error: 2.0 * U * reach + Vec3::splat(32.0 * U * self.half.max_element()),
             is_flat: false,
         }
+    }
+
+    /// The points inside the surface without its box: those where the left side is negative.
+    fn interior(&self, ray: &Ray) -> Interior {
+        unbounded(self, ray)
+    }
+
+    /// Curves in planes across each axis.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        quadric_lines(self, detail, add);
     }
 }
 

@@ -1,8 +1,9 @@
 //! Rectangles, and their images under affine maps.
 
 use super::compact::Slots;
+use super::lines::grid;
 use super::span::{Span, SpannedRay};
-use super::{Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{AddLine, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -52,6 +53,12 @@ impl Shape for Rectangle {
     /// u and v are a and b, each from −1 to 1.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.0.surface(ray, hit)
+    }
+
+    /// A grid.
+    fn lines(&self, _: &LineDetail, add: AddLine<'_>) {
+        let [centre, u, v] = [self.0.centre, self.0.u, self.0.v].map(Vec3::as_dvec3);
+        grid(centre, [u, v], 4, u.cross(v).normalize_or_zero(), add);
     }
 }
 

@@ -1,7 +1,7 @@
 //! Spheres.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
@@ -9,6 +9,7 @@ use crate::algebra::{
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
+use std::f64::consts::PI;
 
 /// A sphere by its centre and radius. No ray hits it if the radius isn't positive or a number isn't finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -89,12 +90,34 @@ impl Shape for Sphere {
         SurfacePoint {
             position: (centre + f64::from(self.radius) * normal).as_vec3(),
             normal,
-            uv: DVec2::new(
-                angle.rem_euclid(1.0),
-                normal.z.clamp(-1.0, 1.0).acos() / std::f64::consts::PI,
-            ),
+            uv: DVec2::new(angle.rem_euclid(1.0), normal.z.clamp(-1.0, 1.0).acos() / PI),
             error: self.error(),
             is_flat: false,
+        }
+    }
+
+    fn interior(&self, _: &Ray) -> Interior {
+        Interior::Convex
+    }
+
+    /// Meridians and parallels about the z axis.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        const MERIDIANS: u32 = 6;
+        const PARALLELS: [f64; 5] = [-60.0, -30.0, 0.0, 30.0, 60.0];
+        let (centre, radius) = (self.centre.as_dvec3(), f64::from(self.radius));
+        for k in 0..MERIDIANS {
+            let (sin, cos) = (PI * f64::from(k) / f64::from(MERIDIANS)).sin_cos();
+            let side = DVec3::new(cos, sin, 0.0);
+            let axes = [radius * side, radius * DVec3::Z];
+            detail.circle(centre, axes, add, |outwards| outwards);
+        }
+        for latitude in PARALLELS {
+            let (sin, cos) = latitude.to_radians().sin_cos();
+            let axes = [radius * cos * DVec3::X, radius * cos * DVec3::Y];
+            let height = radius * sin * DVec3::Z;
+            detail.circle(centre + height, axes, add, |outwards| {
+                cos * outwards + sin * DVec3::Z
+            });
         }
     }
 }

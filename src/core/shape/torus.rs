@@ -2,7 +2,7 @@
 
 use super::compact::Slots;
 use super::cylinder::around_spheres;
-use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
@@ -10,6 +10,7 @@ use crate::algebra::{
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
+use std::f64::consts::TAU;
 
 /// The points at the minor radius from a circle with the major radius. No ray hits it if a radius isn't positive, the
 /// axis is 0, or a number isn't finite. If the minor radius is larger, the surface meets itself.
@@ -98,7 +99,7 @@ impl Shape for Torus {
         let outwards = side.normalize_or(x);
         let in_tube = p - major * outwards;
         let normal = in_tube.normalize_or(outwards);
-        let turn = |sin: f64, cos: f64| (sin.atan2(cos) / std::f64::consts::TAU).rem_euclid(1.0);
+        let turn = |sin: f64, cos: f64| (sin.atan2(cos) / TAU).rem_euclid(1.0);
         let reach = self.centre.abs() + Vec3::splat(self.major + self.minor);
         SurfacePoint {
             position: (centre + major * outwards + minor * normal).as_vec3(),
@@ -109,6 +110,36 @@ impl Shape for Torus {
             ),
             error: 2.0 * U * reach + Vec3::splat(32.0 * U * (self.major + self.minor)),
             is_flat: false,
+        }
+    }
+
+    fn interior(&self, _: &Ray) -> Interior {
+        Interior::Bounded
+    }
+
+    /// Circles about the axis and about the tube.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        const ABOUT_AXIS: u32 = 8;
+        const ABOUT_TUBE: u32 = 24;
+        let axis = self.axis.as_dvec3().normalize_or(DVec3::Z);
+        let (x, y) = axis.any_orthonormal_pair();
+        let centre = self.centre.as_dvec3();
+        let [major, minor] = [self.major, self.minor].map(f64::from);
+        let angle = |k: u32, count: u32| TAU * f64::from(k) / f64::from(count);
+        for k in 0..ABOUT_AXIS {
+            let (sin, cos) = angle(k, ABOUT_AXIS).sin_cos();
+            let radius = major + minor * cos;
+            let on = centre + minor * sin * axis;
+            detail.circle(on, [radius * x, radius * y], add, |outwards| {
+                // The radius is negative inside a tube that meets the axis.
+                radius.signum() * cos * outwards + sin * axis
+            });
+        }
+        for k in 0..ABOUT_TUBE {
+            let (sin, cos) = angle(k, ABOUT_TUBE).sin_cos();
+            let outwards = cos * x + sin * y;
+            let on = centre + major * outwards;
+            detail.circle(on, [minor * outwards, minor * axis], add, |normal| normal);
         }
     }
 }

@@ -1,7 +1,8 @@
 //! Triangles.
 
+use super::lines::straight;
 use super::shared_corners::SharedCorners;
-use super::{Shape, ShapeInfo, SurfacePoint, U};
+use super::{AddLine, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
@@ -68,6 +69,15 @@ impl Shape for Triangle {
             uv: DVec2::new(hit.u.into(), hit.v.into()),
             error: self.error(weighted, position),
             is_flat: true,
+        }
+    }
+
+    /// The edges.
+    fn lines(&self, _: &LineDetail, add: AddLine<'_>) {
+        let [a, b, c] = self.0.map(Vec3::as_dvec3);
+        let normal = (b - a).cross(c - a).normalize_or_zero();
+        for (from, to) in [(a, b), (b, c), (c, a)] {
+            straight(from, to, normal, add);
         }
     }
 }

@@ -236,7 +236,8 @@ impl CreaseArg {
     /// [`CommandError::Usage`].
     pub fn check(self, shading: ShadingArg) -> Result<(), CommandError> {
         if self.crease.is_some() && shading == ShadingArg::Flat {
-            let message = "--crease has no effect on flat shading: it needs --shading smooth";
+            let message =
+                "--crease has no effect on flat shading: it needs --shading smooth or spherical";
             return Err(CommandError::Usage(message.to_owned()));
         }
         Ok(())

@@ -52,8 +52,10 @@ pub struct PictureArgs {
 pub enum ShadingArg {
     /// One normal per triangle
     Flat,
-    /// Interpolated between the vertices
+    /// Interpolated linearly between the vertices, then normalised
     Smooth,
+    /// Interpolated between the vertices on the unit sphere
+    Spherical,
 }
 
 impl From<ShadingArg> for Shading {
@@ -61,6 +63,7 @@ impl From<ShadingArg> for Shading {
         match arg {
             ShadingArg::Flat => Self::Flat,
             ShadingArg::Smooth => Self::Smooth,
+            ShadingArg::Spherical => Self::Spherical,
         }
     }
 }
@@ -73,7 +76,7 @@ pub struct Rendered {
     pub camera: Camera,
     /// The scene.
     pub loaded: LoadedScene,
-    /// Flat or smooth shading.
+    /// How normals vary over a triangle.
     pub shading: Shading,
 }
 

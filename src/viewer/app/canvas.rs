@@ -190,7 +190,7 @@ impl App {
             normal_length: settings.normal_length,
             elements: self.document.loaded.scene.mesh().has_lines_or_points(),
             flaw: self.flaw.as_ref().map(|place| place.flaw),
-            picked: hit.and_then(|hit| Some(hit.triangle.as_ref()?.index)),
+            picked: hit.map(|hit| hit.primitive),
             line_width_px: pixels_per_point.max(1.0),
         }
     }

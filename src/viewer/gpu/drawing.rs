@@ -1,11 +1,12 @@
-//! Drawing of the overlay: lines over a mesh, hidden where the mesh is in front of them.
+//! Drawing of the overlay: lines, hidden where a surface is in front of them.
 //!
-//! The overlay has its own colour and depth textures, so that the result doesn't depend on the window's. The mesh's
-//! depth is drawn first, then the lines. Depth is reversed (1 near, 0 far), which keeps precision at a distance.
+//! The overlay has its own colour and depth textures, so that the result doesn't depend on the window's. The
+//! depth of the mesh and of other shapes is drawn first, then the lines. Depth is reversed (1 near, 0 far), which keeps precision at a distance.
 
 use super::depth::{DepthMesh, DepthPipeline};
 use super::lines::{LineOcclusion, LinePipelines, LineSet, LineStyle, StyleUniform};
 use super::slices::{Pace, Slices, submit_and_wait};
+use super::traced::{TracedGroup, TracedLayer, TracedPipelines};
 use super::view::{ViewBinding, ViewUniform};
 use super::{COLOUR_FORMAT, DEPTH_FORMAT, texture};
 use glam::UVec2;
@@ -19,7 +20,7 @@ pub struct DrawnLines {
     pub lines: Arc<LineSet>,
     /// Their style.
     pub style: StyleUniform,
-    /// Whether the mesh hides them.
+    /// Whether surfaces hide them.
     pub occlusion: LineOcclusion,
 }
 
@@ -30,6 +31,10 @@ pub struct Drawing {
     pub view: ViewUniform,
     /// The mesh that hides lines.
     pub mesh: Arc<DepthMesh>,
+    /// The other shapes that hide lines.
+    pub traced: Option<Arc<TracedLayer>>,
+    /// The style of their outlines, if these are drawn.
+    pub outline: Option<StyleUniform>,
     /// The lines; later sets are drawn over earlier ones.
     pub sets: Vec<DrawnLines>,
 }
@@ -40,15 +45,19 @@ impl PartialEq for Drawing {
             Arc::ptr_eq(&a.lines, &b.lines) && (a.style, a.occlusion) == (b.style, b.occlusion)
         };
         self.has_depth_of(other)
+            && self.outline == other.outline
             && self.sets.len() == other.sets.len()
             && self.sets.iter().zip(&other.sets).all(is_same)
     }
 }
 
 impl Drawing {
-    /// Whether both have the same depth of the mesh.
+    /// Whether both have the same depth.
     pub fn has_depth_of(&self, other: &Self) -> bool {
-        self.view == other.view && Arc::ptr_eq(&self.mesh, &other.mesh)
+        let traced = |drawing: &Self| drawing.traced.as_ref().map(Arc::as_ptr);
+        self.view == other.view
+            && Arc::ptr_eq(&self.mesh, &other.mesh)
+            && traced(self) == traced(other)
     }
 
     /// Whether most of its lines aren't in `other`.
@@ -143,15 +152,19 @@ pub struct Overlay {
     view: ViewBinding,
     depth: DepthPipeline,
     lines: LinePipelines,
+    traced: TracedPipelines,
 }
 
 impl Overlay {
     /// Compiles the shaders.
     pub fn new(device: &wgpu::Device, queue: &wgpu::Queue) -> Self {
         let view = ViewBinding::new(device);
+        let lines = LinePipelines::new(device, &view, COLOUR_FORMAT, DEPTH_FORMAT);
+        let formats = [COLOUR_FORMAT, DEPTH_FORMAT];
         Self {
             depth: DepthPipeline::new(device, &view, DEPTH_FORMAT),
-            lines: LinePipelines::new(device, &view, COLOUR_FORMAT, DEPTH_FORMAT),
+            traced: TracedPipelines::new(device, &view, &lines, formats),
+            lines,
             view,
             device: device.clone(),
             queue: queue.clone(),
@@ -189,6 +202,7 @@ impl Overlay {
         state: &DrawingState,
     ) -> bool {
         let mut slices = Slices::new(drawing.mesh.triangle_counts());
+        let traced = self.traced_group(drawing);
         let mut load = wgpu::LoadOp::Clear(0.0);
         let depth = view_of(&canvas.targets.depth);
         loop {
@@ -204,6 +218,9 @@ impl Overlay {
                     ..Default::default()
                 });
                 pass.set_bind_group(0, self.view.group(), &[]);
+                if let Some((group, style)) = traced.as_ref().filter(|_| is_first(load)) {
+                    self.traced.draw_depth(&mut pass, group, style);
+                }
                 self.depth.draw(&mut pass, &drawing.mesh, &slice);
             }
             self.submit(encoder, pace);
@@ -235,6 +252,7 @@ impl Overlay {
             .iter()
             .map(|&(set, k)| drawing.sets[set].lines.buffers()[k].1);
         let mut slices = Slices::new(sizes.collect());
+        let traced = self.traced_group(drawing);
         let mut load = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let colour = view_of(canvas.targets.colour(canvas.colour));
         let depth = view_of(&canvas.targets.depth);
@@ -253,6 +271,10 @@ impl Overlay {
                     ..Default::default()
                 });
                 pass.set_bind_group(0, self.view.group(), &[]);
+                let outline = traced.as_ref().filter(|_| drawing.outline.is_some());
+                if let Some((group, style)) = outline.filter(|_| is_first(load)) {
+                    self.traced.draw_outline(&mut pass, group, style);
+                }
                 for (part, range) in slice {
                     let (set, k) = parts[part];
                     let drawn = &drawing.sets[set];
@@ -271,6 +293,13 @@ impl Overlay {
         }
     }
 
+    /// The traced pixels and the style of outlines, ready to be drawn.
+    fn traced_group(&self, drawing: &Drawing) -> Option<(TracedGroup, LineStyle)> {
+        let group = self.traced.group(&self.device, drawing.traced.as_deref()?);
+        let style = drawing.outline.unwrap_or(StyleUniform::INVISIBLE);
+        Some((group, self.lines.style(&self.device, &style)))
+    }
+
     fn encoder(&self) -> wgpu::CommandEncoder {
         self.device
             .create_command_encoder(&wgpu::CommandEncoderDescriptor {
@@ -286,6 +315,11 @@ impl Overlay {
             pace.adapt(submit_and_wait(&self.device, &self.queue, commands));
         }
     }
+}
+
+/// Whether a pass is the first of several.
+fn is_first<T>(load: wgpu::LoadOp<T>) -> bool {
+    matches!(load, wgpu::LoadOp::Clear(_))
 }
 
 fn view_of(texture: &wgpu::Texture) -> wgpu::TextureView {

@@ -39,6 +39,15 @@ pub struct StyleUniform {
 }
 
 impl StyleUniform {
+    /// Nothing is drawn.
+    pub const INVISIBLE: Self = Self {
+        colour: [0.0; 4],
+        half_width_px: 0.0,
+        stretch: 1.0,
+        fade: 0.0,
+        padding: 0.0,
+    };
+
     /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
     pub(super) const OFFSETS: [usize; 4] = [
@@ -49,13 +58,13 @@ impl StyleUniform {
     ];
 }
 
-/// Whether the mesh hides lines.
+/// Whether surfaces hide lines.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum LineOcclusion {
-    /// Lines behind the mesh are hidden.
-    HiddenByMesh,
-    /// Lines behind the mesh are visible.
-    ThroughMesh,
+    /// Lines behind a surface are hidden.
+    Hidden,
+    /// Lines behind a surface are visible.
+    Through,
 }
 
 /// Lines on the GPU.
@@ -83,6 +92,13 @@ impl LineSet {
 
 /// A style on the GPU.
 pub(super) struct LineStyle(wgpu::BindGroup);
+
+impl LineStyle {
+    /// The bind group.
+    pub(super) fn group(&self) -> &wgpu::BindGroup {
+        &self.0
+    }
+}
 
 /// The pipelines that draw sets of lines.
 pub struct LinePipelines {
@@ -151,6 +167,11 @@ impl LinePipelines {
         }
     }
 
+    /// The layout of a style's bind group.
+    pub(super) fn style_layout(&self) -> &wgpu::BindGroupLayout {
+        &self.style_layout
+    }
+
     /// Uploads a style.
     pub(super) fn style(&self, device: &wgpu::Device, style: &StyleUniform) -> LineStyle {
         use wgpu::util::DeviceExt as _;
@@ -177,8 +198,8 @@ impl LinePipelines {
         lines: Range<u32>,
     ) {
         pass.set_pipeline(match occlusion {
-            LineOcclusion::HiddenByMesh => &self.hidden,
-            LineOcclusion::ThroughMesh => &self.through,
+            LineOcclusion::Hidden => &self.hidden,
+            LineOcclusion::Through => &self.through,
         });
         pass.set_bind_group(1, &style.0, &[]);
         pass.set_vertex_buffer(0, buffer.slice(..));

@@ -1,5 +1,5 @@
 //! GPU drawing: the traced picture ([`picture`]) and the overlay ([`drawing`]), which consists of the mesh's
-//! depth ([`depth`]) and [`lines`], both for the same [`view`].
+//! depth ([`depth`]), that of other shapes ([`traced`]) and [`lines`], all for the same [`view`].
 
 pub mod adapter;
 pub mod depth;
@@ -7,6 +7,7 @@ pub mod drawing;
 pub mod lines;
 pub mod picture;
 pub mod slices;
+pub mod traced;
 mod upload;
 pub mod view;
 

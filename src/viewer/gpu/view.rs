@@ -2,7 +2,7 @@
 
 use super::{uniform_group, uniform_layout};
 use bytemuck::{Pod, Zeroable};
-use glam::UVec2;
+use glam::{DVec3, DVec4, Mat4, UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::{Aabb, Camera};
 
@@ -48,6 +48,14 @@ impl ViewUniform {
             viewport: camera.resolution().as_vec2().to_array(),
             padding: [0.0; 2],
         }
+    }
+
+    /// The reversed depth of a point.
+    pub fn depth_of(&self, position: DVec3) -> f32 {
+        let from_eye = position - Vec3::from_array(self.eye).as_dvec3();
+        let clip = Mat4::from_cols_array_2d(&self.clip_from_eye).as_dmat4();
+        let DVec4 { z, w, .. } = clip * from_eye.extend(1.0);
+        (z / w) as f32
     }
 
     /// Width and height of the picture.

@@ -4,6 +4,8 @@
 //! |---|---|
 //! | [`options`] | contents and styles of the overlay |
 //! | [`wireframe`], [`normals`], [`marks`] | the lines of a mesh |
+//! | [`shapes`] | the lines of other shapes |
+//! | [`traced`] | the depth and the outlines of other shapes |
 //! | `uploaded` | gathering and uploading lines in the background |
 //! | `painter` | drawing in the background |
 
@@ -11,6 +13,8 @@ pub mod marks;
 pub mod normals;
 pub mod options;
 mod painter;
+pub mod shapes;
+pub mod traced;
 mod uploaded;
 pub mod wireframe;
 
@@ -20,6 +24,7 @@ use crate::gpu::GpuError;
 use crate::gpu::depth::DepthMesh;
 use crate::gpu::drawing::{Drawing, DrawnLines, Overlay};
 use crate::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
+use crate::gpu::traced::TracedLayer;
 use crate::gpu::view::ViewUniform;
 use crate::task::TaskPanicked;
 use eframe::egui_wgpu::RenderState;
@@ -28,14 +33,13 @@ use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Scene};
 use painter::Painter;
 use std::sync::Arc;
+use traced::Shapes;
 use uploaded::{Readiness, Uploaded};
 use wireframe::WireframeEdges;
 
 /// Marks are drawn twice, so that they are faint where the mesh hides them and strong elsewhere.
-const FAINT_AND_STRONG: [(LineOcclusion, f32); 2] = [
-    (LineOcclusion::ThroughMesh, 0.3),
-    (LineOcclusion::HiddenByMesh, 1.0),
-];
+const FAINT_AND_STRONG: [(LineOcclusion, f32); 2] =
+    [(LineOcclusion::Through, 0.3), (LineOcclusion::Hidden, 1.0)];
 
 /// An error that keeps the overlay from being drawn.
 #[derive(Debug, thiserror::Error)]
@@ -55,6 +59,9 @@ pub struct OverlayLayer {
     is_software: bool,
     scene: Option<Arc<Scene>>,
     mesh: Uploaded<(), DepthMesh>,
+    /// Other shapes, and what each pixel of a view shows of them.
+    shapes: Shapes,
+    traced: Uploaded<ViewUniform, TracedLayer>,
     wireframe: Uploaded<WireframeEdges, LineSet>,
     normals: Uploaded<Shading, LineSet>,
     elements: Uploaded<(), LineSet>,
@@ -102,6 +109,8 @@ impl OverlayLayer {
             is_software,
             scene: None,
             mesh: Uploaded::default(),
+            shapes: Shapes::default(),
+            traced: Uploaded::default(),
             wireframe: Uploaded::default(),
             normals: Uploaded::default(),
             elements: Uploaded::default(),
@@ -143,17 +152,47 @@ impl OverlayLayer {
                 return Ok(None);
             }
         };
+        let view = ViewUniform::new(camera, &scene.bounds_with_elements());
+        let traced = match self.trace(scene, camera, view, ctx)? {
+            Some(Readiness::Ready(traced)) => Some(traced),
+            Some(Readiness::Pending) => {
+                self.is_complete = false;
+                return Ok(None);
+            }
+            Some(Readiness::Failed) | None => None,
+        };
         let mut ready = Ready::default();
         self.prepare_lines(&mut ready, scene, options, ctx)?;
         self.prepare_marks(&mut ready, scene, health, options, ctx)?;
         let drawing = Drawing {
-            view: ViewUniform::new(camera, &scene.bounds_with_elements()),
+            view,
             mesh,
+            traced,
+            outline: options.wireframe.map(|_| options.wire_style()),
             sets: ready.sets,
         };
         let texture = self.painter.draw(&drawing, ctx)?.cloned();
         self.is_complete = !ready.is_pending && self.painter.is_shown(&drawing);
         Ok(texture)
+    }
+
+    /// What each pixel shows of shapes that aren't triangles; `None` if the scene has none.
+    fn trace(
+        &mut self,
+        scene: &Arc<Scene>,
+        camera: &Camera,
+        view: ViewUniform,
+        ctx: &egui::Context,
+    ) -> Result<Option<Readiness<TracedLayer>>, OverlayError> {
+        if !scene.has_other_shapes() {
+            return Ok(None);
+        }
+        let (shapes, shared, camera) = (self.shapes.clone(), Arc::clone(scene), *camera);
+        let trace = move |device: &wgpu::Device, queue: &wgpu::Queue| {
+            let pixels = shapes.trace(&shared, &camera, &view);
+            Ok(TracedLayer::new(device, queue, view.size(), &pixels))
+        };
+        self.traced.get(view, &self.overlay, ctx, trace).map(Some)
     }
 
     /// Whether the last texture shows everything that was requested.
@@ -180,6 +219,8 @@ impl OverlayLayer {
         // If the mesh is the same, only the creases of smooth shading have changed.
         if old.is_none_or(|old| !std::ptr::eq(old.mesh(), scene.mesh())) {
             self.mesh = Uploaded::default();
+            self.shapes = Shapes::default();
+            self.traced = Uploaded::default();
             self.wireframe = Uploaded::default();
             self.elements = Uploaded::default();
             self.flaws = Uploaded::default();
@@ -207,10 +248,10 @@ impl OverlayLayer {
         options: &Options,
         ctx: &egui::Context,
     ) -> Result<(), OverlayError> {
-        let hidden = |style| [(LineOcclusion::HiddenByMesh, style)];
+        let hidden = |style| [(LineOcclusion::Hidden, style)];
         if let Some(edges) = options.wireframe {
             let shared = Arc::clone(scene);
-            let gather = uploader(move || wireframe::lines(shared.mesh(), edges));
+            let gather = uploader(move || wireframe::all_lines(&shared, edges));
             let lines = self.wireframe.get(edges, &self.overlay, ctx, gather)?;
             ready.add(lines, &hidden(options.wire_style()));
         }
@@ -245,11 +286,10 @@ impl OverlayLayer {
             let style = |(occlusion, alpha)| (occlusion, options.flaw_style(alpha));
             ready.add(lines, &FAINT_AND_STRONG.map(style));
         }
-        if let Some(triangle) = options.picked {
+        if let Some(primitive) = options.picked {
             let shared = Arc::clone(scene);
-            let gather =
-                uploader(move || wireframe::triangle_lines(shared.mesh(), triangle).to_vec());
-            let lines = self.picked.get(triangle, &self.overlay, ctx, gather)?;
+            let gather = uploader(move || wireframe::primitive_lines(&shared, primitive));
+            let lines = self.picked.get(primitive, &self.overlay, ctx, gather)?;
             let style = |(occlusion, alpha)| (occlusion, options.picked_style(alpha));
             ready.add(lines, &FAINT_AND_STRONG.map(style));
         }

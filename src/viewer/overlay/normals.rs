@@ -1,5 +1,6 @@
 //! Normals as lines. Their length is the mesh's radius; the style shortens them.
 
+use super::shapes;
 use crate::gpu::lines::Line;
 use glam::Vec3;
 use hitscope_core::Scene;
@@ -7,13 +8,19 @@ use hitscope_core::scene::Shading;
 
 /// Normals of the faces for flat shading, of the vertices for smooth shading.
 pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
-    let mesh = scene.mesh();
     let length = scene.bounds().radius() as f32;
     let line = |start: Vec3, normal: Vec3, gap: Vec3| Line {
         start,
         end: start + normal * length,
         gap,
     };
+    let mut all = of_mesh(scene, shading, line);
+    all.extend(shapes::normals(scene));
+    all
+}
+
+fn of_mesh(scene: &Scene, shading: Shading, line: impl Fn(Vec3, Vec3, Vec3) -> Line) -> Vec<Line> {
+    let mesh = scene.mesh();
     match shading {
         Shading::Flat => (0..mesh.triangles().len() as u32)
             .map(|triangle| {
@@ -22,7 +29,7 @@ pub fn lines(scene: &Scene, shading: Shading) -> Vec<Line> {
                 line(middle, mesh.geometric_normal(triangle), 0.5 * (b - a))
             })
             .collect(),
-        Shading::Smooth => {
+        Shading::Smooth | Shading::Spherical => {
             let normals = scene.vertex_normals();
             let mut corners: Vec<(u32, [u32; 3], u32, usize)> = Vec::new();
             for (triangle, vertices) in mesh.triangles().iter().enumerate() {

@@ -20,7 +20,7 @@ pub struct Options {
     pub elements: bool,
     /// The flaws of this kind.
     pub flaw: Option<Flaw>,
-    /// The picked triangle.
+    /// The picked primitive.
     pub picked: Option<u32>,
     /// Width of the wireframe's lines in pixels.
     pub line_width_px: f32,

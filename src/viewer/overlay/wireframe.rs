@@ -1,8 +1,9 @@
-//! The edges of a mesh as lines.
+//! The edges of meshes and the lines of other shapes.
 
+use super::shapes;
 use crate::gpu::lines::Line;
 use glam::Vec3;
-use hitscope_core::TriangleMesh;
+use hitscope_core::{Scene, TriangleMesh};
 
 /// The edges that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -39,6 +40,22 @@ pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
         each.min_by(|a, b| length(a).total_cmp(&length(b)))
     };
     same_edge.filter_map(line).collect()
+}
+
+/// The edges of the mesh and the lines of other shapes.
+pub fn all_lines(scene: &Scene, edges: WireframeEdges) -> Vec<Line> {
+    let mut all = lines(scene.mesh(), edges);
+    all.extend(shapes::lines(scene));
+    all
+}
+
+/// The outline of a triangle, or the lines of another shape.
+pub fn primitive_lines(scene: &Scene, primitive: u32) -> Vec<Line> {
+    if scene.is_triangle(primitive) {
+        triangle_lines(scene.mesh(), primitive).to_vec()
+    } else {
+        shapes::lines_of(scene, primitive)
+    }
 }
 
 /// The outline of one triangle.

@@ -63,6 +63,11 @@ fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         ui.selectable_value(&mut settings.is_smooth, false, "Flat");
         ui.selectable_value(&mut settings.is_smooth, true, "Smooth");
         ui.label("shading");
+        let sphere = egui::Checkbox::new(&mut settings.is_spherical, "on the sphere");
+        ui.add_enabled(settings.is_smooth, sphere).on_hover_text(
+            "Interpolates vertex normals on the unit sphere, not linearly. The view Interpolation shows the angle \
+             between both.",
+        );
     });
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_crease, "Crease above")

@@ -11,7 +11,7 @@ use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::scene::SceneOptions;
 use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
 };
 use hitscope_core::{Hit, Ray, Scene};
 
@@ -99,6 +99,8 @@ fn primitives_in_a_tree_give_the_answers_of_primitives_tested_one_by_one() {
     answers_match_one_by_one::<Cone>(7);
     answers_match_one_by_one::<Quadric>(8);
     answers_match_one_by_one::<Torus>(9);
+    answers_match_one_by_one::<AxisBox>(10);
+    answers_match_one_by_one::<AxisPlane>(11);
 }
 
 #[test]

@@ -6,7 +6,7 @@ use hitscope_core::Ray;
 use hitscope_core::kernel::{KernelTable, Precision, Tier, exact_answer};
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
 };
 
 fn ray(origin: [f32; 3], dir: [f32; 3]) -> Ray {
@@ -140,6 +140,8 @@ fn every_kernel_agrees_with_the_exact_one_of_its_shape() {
     kernels_agree_with_the_exact_one::<Cone>(7);
     kernels_agree_with_the_exact_one::<Quadric>(8);
     kernels_agree_with_the_exact_one::<Torus>(9);
+    kernels_agree_with_the_exact_one::<AxisBox>(10);
+    kernels_agree_with_the_exact_one::<AxisPlane>(11);
 }
 
 /// The point of each hit lies on the ray, and its normal is a unit vector.
@@ -175,6 +177,8 @@ fn the_surface_of_a_hit_is_on_the_ray_and_has_a_unit_normal() {
     surfaces_are_on_the_ray::<Cone>(7);
     surfaces_are_on_the_ray::<Quadric>(8);
     surfaces_are_on_the_ray::<Torus>(9);
+    surfaces_are_on_the_ray::<AxisBox>(10);
+    surfaces_are_on_the_ray::<AxisPlane>(11);
 }
 
 /// The normal of a closed shape faces a ray that comes from outside.
@@ -196,6 +200,7 @@ fn normals_of_closed_shapes_face_outwards() {
     check::<Sphere>(|_| true);
     check::<Torus>(|_| true);
     check::<Cuboid>(|_| true);
+    check::<AxisBox>(|_| true);
     check::<Cylinder>(|cylinder| cylinder.is_capped);
     check::<Cone>(|cone| cone.is_capped);
 }

@@ -3,6 +3,7 @@
 
 mod groups;
 mod kernels;
+mod solids;
 mod spawned;
 
 use glam::{DVec3, Vec3};
@@ -10,7 +11,8 @@ use hitscope_core::Ray;
 use hitscope_core::group::Grouped;
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Span, Sphere, Torus,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Span, Sphere,
+    Torus,
 };
 
 /// A shape of which tests make random primitives.
@@ -56,6 +58,28 @@ impl Sample for Cuboid {
         Self {
             centre,
             axes: [u, v, w],
+        }
+    }
+}
+
+impl Sample for AxisBox {
+    fn sample(random: &mut Random, near: Vec3, size: f32) -> Self {
+        let centre = near + within(random, size);
+        let half = size * (Vec3::splat(0.1) + 0.9 * random.in_cube().as_vec3().abs());
+        Self {
+            min: centre - half,
+            max: centre + half,
+        }
+    }
+}
+
+impl Sample for AxisPlane {
+    fn sample(random: &mut Random, near: Vec3, size: f32) -> Self {
+        let axis = random.index(3);
+        Self {
+            axis: axis as u8,
+            coordinate: (near + within(random, size))[axis],
+            faces_up: random.index(2) == 0,
         }
     }
 }

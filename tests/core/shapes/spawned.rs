@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::kernel::Tier;
 use hitscope_core::random::Random;
-use hitscope_core::shape::{Cuboid, Disk, Plane, Rectangle, Shape, Sphere};
+use hitscope_core::shape::{AxisBox, Cuboid, Disk, Plane, Rectangle, Shape, Sphere};
 use hitscope_core::spawn::{Departure, default_spawn_policy};
 
 /// Leaves primitives outwards and inwards at hits of each kernel of a tier.
@@ -65,6 +65,7 @@ fn rays_that_leave_a_convex_shape_miss_it() {
     {
         spawned_rays_miss::<Sphere>(size, offset, k as u64);
         spawned_rays_miss::<Cuboid>(size, offset, k as u64);
+        spawned_rays_miss::<AxisBox>(size, offset, k as u64);
         spawned_rays_miss::<Plane>(size, offset, k as u64);
         spawned_rays_miss::<Disk>(size, offset, k as u64);
         spawned_rays_miss::<Rectangle>(size, offset, k as u64);

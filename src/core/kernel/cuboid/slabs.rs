@@ -8,7 +8,7 @@
 
 use super::{VALUES, bounds, pack};
 use crate::aabb::Planes;
-use crate::kernel::crossings::Nearest;
+use crate::kernel::slabs::SlabInterval;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus};
 use crate::shape::Cuboid;
@@ -62,34 +62,12 @@ impl Kernel for Slabs {
     ) -> Option<LaneHit<L>> {
         let f = minus(&ray.origin, &cuboids.three(0));
         let one = L::of(t_min.token(), 1.0);
-        let infinity = L::of(one.token(), f32::INFINITY);
-        let (mut enter, mut leave) = (-infinity, infinity);
-        let (mut entry, mut exit) = (L::of(one.token(), 0.0), L::of(one.token(), 0.0));
-        let mut axis = 0;
-        while axis < 3 {
-            let row = cuboids.three(3 + 3 * axis);
+        let mut inside = SlabInterval::whole(one);
+        for pair in 0..3 {
+            let row = cuboids.three(3 + 3 * pair);
             let (at, step) = (dot(&row, &f), dot(&row, &ray.dir));
-            let low = (-one - at) / step;
-            let high = (one - at) / step;
-            let is_forward = low.lt(high);
-            let (first, last) = (low.lesser(high), low.greater(high));
-            let faces = [2 * axis as u8, 2 * axis as u8 + 1].map(|k| L::of(one.token(), k.into()));
-            let [near_face, far_face] = [
-                L::select(is_forward, faces[0], faces[1]),
-                L::select(is_forward, faces[1], faces[0]),
-            ];
-            // A parallel ray between the planes gives −∞ and ∞; one outside gives two equal infinities.
-            let (is_later, is_sooner) = (enter.lt(first), last.lt(leave));
-            enter = L::select(is_later, first, enter);
-            entry = L::select(is_later, near_face, entry);
-            leave = L::select(is_sooner, last, leave);
-            exit = L::select(is_sooner, far_face, exit);
-            axis += 1;
+            inside.clip(pair as u8, (-one - at) / step, (one - at) / step);
         }
-        let meets = enter.le(leave);
-        let mut nearest = Nearest::new(t_min, t_max);
-        nearest.offer_face(meets, enter, entry);
-        nearest.offer_face(meets, leave, exit);
-        nearest.hit()
+        inside.hit(t_min, t_max, L::Number::from(0.0))
     }
 }

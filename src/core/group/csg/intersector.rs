@@ -1,0 +1,168 @@
+//! Intersector of combined solids.
+
+use super::crossings::PackedSolid;
+use crate::aabb::Planes;
+use crate::bvh::{BLOCK_SIZE, Bvh, LentStack, NO_PRIMITIVE, SlabRay, Visitor};
+use crate::intersector::{
+    Cost, Crossing, GroupIntersector, Intersector, RankedHit, candidates, crossings_of,
+};
+use crate::kernel::KernelInfo;
+use crate::ray::{Hit, Ray};
+use crate::simd::{Baseline, baseline};
+use fearless_simd::{SimdBase as _, f32x8};
+use std::ops::ControlFlow;
+use std::sync::Arc;
+
+/// See the [module](self).
+pub(super) struct CsgIntersector {
+    kernel: &'static KernelInfo,
+    bvh: Arc<Bvh>,
+    solids: Vec<PackedSolid>,
+    /// The boxes of each block's solids.
+    boxes: Vec<Planes<[f32; BLOCK_SIZE]>>,
+}
+
+/// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
+struct Visited<'a, F> {
+    intersector: &'a CsgIntersector,
+    ray: &'a Ray,
+    found: F,
+    t_max: f32,
+    cost: Cost,
+}
+
+impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for Visited<'_, F> {
+    const IS_BEHIND: bool = true;
+
+    fn visit(&mut self, block: usize, slabs: &SlabRay<Baseline>) -> ControlFlow<(), f32> {
+        let all = f32x8::splat(baseline(), f32::INFINITY);
+        let boxes = &self.intersector.boxes[block];
+        let (_, met) = slabs.enter::<true>(baseline(), boxes, all);
+        for (lane, &index) in self.intersector.bvh.lanes(block).iter().enumerate() {
+            if met >> lane & 1 == 0 || index == NO_PRIMITIVE || self.ray.exclude == Some(index) {
+                continue;
+            }
+            let solid = &self.intersector.solids[index as usize];
+            self.cost.primitives += solid.operand_count() as u32;
+            self.t_max = (self.found)(index, solid.crossings(self.ray));
+        }
+        ControlFlow::Continue(self.t_max)
+    }
+
+    fn announce(&self, _: usize) {}
+
+    fn count_boxes(&mut self, count: u32) {
+        self.cost.boxes += count;
+    }
+}
+
+impl CsgIntersector {
+    pub fn new(kernel: &'static KernelInfo, bvh: Arc<Bvh>, solids: Vec<PackedSolid>) -> Self {
+        let boxes = (0..bvh.block_count()).map(|block| {
+            let mut planes = [[0.0; BLOCK_SIZE]; 6];
+            for (lane, &index) in bvh.block(block).iter().enumerate() {
+                let sides = solids[index as usize].planes();
+                for (row, side) in planes.iter_mut().zip(sides) {
+                    row[lane] = side;
+                }
+            }
+            planes
+        });
+        Self {
+            kernel,
+            boxes: boxes.collect(),
+            bvh,
+            solids,
+        }
+    }
+
+    /// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
+    fn each(&self, ray: &Ray, found: impl FnMut(u32, Vec<RankedHit>) -> f32) -> Cost {
+        let mut visited = Visited {
+            intersector: self,
+            ray,
+            found,
+            t_max: ray.t_max,
+            cost: Cost::default(),
+        };
+        let mut stack = LentStack::new();
+        self.bvh.walk(baseline(), ray, stack.get(), &mut visited);
+        visited.cost
+    }
+
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
+        let mut nearest: Option<RankedHit> = None;
+        let cost = self.each(ray, |primitive, crossings| {
+            if let Some(first) = crossings.into_iter().next() {
+                let first = first.with_hit(|hit| Hit { primitive, ..hit });
+                if nearest
+                    .as_ref()
+                    .is_none_or(|nearest| first.is_before(nearest))
+                {
+                    nearest = Some(first);
+                }
+            }
+            nearest
+                .as_ref()
+                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
+        });
+        (nearest, cost)
+    }
+}
+
+impl Intersector for CsgIntersector {
+    fn kernel(&self) -> &'static KernelInfo {
+        self.kernel
+    }
+
+    fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        for (ray, hit) in rays.iter().zip(hits) {
+            *hit = self.closest_hit_with_cost(ray).0;
+        }
+    }
+
+    fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
+        let (nearest, cost) = self.nearest_with_cost(ray);
+        (nearest.map(|nearest| nearest.hit), cost)
+    }
+
+    fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        for (ray, is_hit) in rays.iter().zip(are_hits) {
+            *is_hit = self.nearest(ray).is_some();
+        }
+    }
+
+    fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
+        crossings_of(self.every_hit(ray))
+    }
+
+    fn candidates(&self, ray: &Ray) -> Vec<u32> {
+        candidates(&self.bvh, ray)
+    }
+
+    fn count_hits(&self, ray: &Ray) -> usize {
+        let is_hit = |solid: &&PackedSolid| !solid.crossings(ray).is_empty();
+        self.solids.iter().filter(is_hit).count()
+    }
+
+    fn bytes(&self) -> usize {
+        let of_solids = self.solids.iter().map(PackedSolid::bytes).sum::<usize>();
+        size_of_val(&self.boxes[..]) + of_solids
+    }
+}
+
+impl GroupIntersector for CsgIntersector {
+    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
+        self.nearest_with_cost(ray).0
+    }
+
+    fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
+        let mut hits = Vec::new();
+        self.each(ray, |primitive, crossings| {
+            let numbered = |ranked: RankedHit| ranked.with_hit(|hit| Hit { primitive, ..hit });
+            hits.extend(crossings.into_iter().map(numbered));
+            ray.t_max
+        });
+        hits
+    }
+}

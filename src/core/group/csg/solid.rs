@@ -1,0 +1,192 @@
+//! Solids: shapes combined by set operations.
+
+use crate::aabb::Aabb;
+use crate::group::{Group, Grouped, SceneOptions};
+use crate::mesh::Runs;
+use crate::progress::Progress;
+use crate::ray::{Hit, Ray};
+use crate::shape::{Cuboid, Quadric, SurfacePoint};
+use glam::Vec3;
+use std::sync::Arc;
+
+/// An operation on solids.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CsgOperation {
+    /// All points in any solid.
+    Union,
+    /// The points in every solid.
+    Intersection,
+    /// The points in the first solid and in no other.
+    Difference,
+}
+
+/// A solid: a shape's interior, or a combination of such solids. Where two surfaces coincide, only a wall between
+/// inside and outside counts as surface, so that a solid has no parts without thickness (“regularised” operations).
+#[derive(Clone, Debug)]
+pub struct Solid {
+    operands: Vec<Operand>,
+    root: Node,
+    /// The box around it; `None` if it may be infinite.
+    bounds: Option<Aabb>,
+}
+
+/// The interior of a shape, as part of a solid.
+#[derive(Clone, Debug)]
+pub(super) struct Operand {
+    /// A group of the one shape whose crossings count.
+    pub boundary: Arc<dyn Group>,
+    /// A group of the one shape that the surface belongs to.
+    pub surface: Arc<dyn Group>,
+    /// Whether its outside is the solid's inside.
+    pub is_subtracted: bool,
+}
+
+#[derive(Clone, Debug)]
+enum Node {
+    Operand(usize),
+    Operation(CsgOperation, Vec<Node>),
+}
+
+impl Solid {
+    /// The interior of a shape, empty if its surface isn't closed. A plane's interior is the half-space behind its
+    /// normal.
+    pub fn of<S: Grouped>(shape: S) -> Self {
+        let bounds = S::IS_BOUNDED.then(|| shape.bounds());
+        let group = group_of(shape);
+        Self::one(Arc::clone(&group), group, bounds)
+    }
+
+    /// The points in a quadric's box where the left side of its equation is negative.
+    pub fn of_quadric(quadric: Quadric) -> Self {
+        /// Far beyond every other coordinate, yet far below the largest f32.
+        const UNBOUNDED: Vec3 = Vec3::splat(1e30);
+        let boundary = group_of(Quadric {
+            half: UNBOUNDED,
+            ..quadric
+        });
+        let Vec3 { x, y, z } = quadric.half;
+        let cut = Cuboid {
+            centre: quadric.centre,
+            axes: [x * Vec3::X, y * Vec3::Y, z * Vec3::Z],
+        };
+        let inside = Self::one(boundary, group_of(quadric), None);
+        Self::combined(CsgOperation::Intersection, vec![inside, Self::of(cut)])
+    }
+
+    fn one(boundary: Arc<dyn Group>, surface: Arc<dyn Group>, bounds: Option<Aabb>) -> Self {
+        Self {
+            operands: vec![Operand {
+                boundary,
+                surface,
+                is_subtracted: false,
+            }],
+            root: Node::Operand(0),
+            bounds,
+        }
+    }
+
+    /// Combines solids. Without any, the result is empty.
+    pub fn combined(operation: CsgOperation, solids: Vec<Self>) -> Self {
+        let boxes: Vec<Option<Aabb>> = solids.iter().map(|solid| solid.bounds).collect();
+        let (mut operands, mut nodes) = (Vec::new(), Vec::new());
+        for (index, solid) in solids.into_iter().enumerate() {
+            let is_subtracted = operation == CsgOperation::Difference && index > 0;
+            nodes.push(solid.root.moved(operands.len()));
+            operands.extend(solid.operands.into_iter().map(|operand| Operand {
+                is_subtracted: operand.is_subtracted != is_subtracted,
+                ..operand
+            }));
+        }
+        Self {
+            operands,
+            root: Node::Operation(operation, nodes),
+            bounds: bounds_of(operation, &boxes),
+        }
+    }
+
+    /// The box around it; `None` if it may be infinite.
+    pub fn bounds(&self) -> Option<Aabb> {
+        self.bounds
+    }
+
+    pub(super) fn operands(&self) -> &[Operand] {
+        &self.operands
+    }
+
+    /// Whether a point is inside, given whether it is inside each operand.
+    pub(super) fn is_inside(&self, operands: &[bool]) -> bool {
+        self.root.is_inside(operands)
+    }
+
+    /// The surface at a hit; `hit.v` is the index of the operand.
+    pub(super) fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let operand = &self.operands[hit.v as usize];
+        let own = Hit {
+            v: 0.0,
+            primitive: 0,
+            ..*hit
+        };
+        let point = operand.surface.surface(ray, &own);
+        SurfacePoint {
+            normal: if operand.is_subtracted {
+                -point.normal
+            } else {
+                point.normal
+            },
+            // Two operands may share a plane, or one may cross it.
+            is_flat: false,
+            ..point
+        }
+    }
+}
+
+impl Node {
+    /// The same node after `count` other operands.
+    fn moved(self, count: usize) -> Self {
+        match self {
+            Self::Operand(index) => Self::Operand(index + count),
+            Self::Operation(operation, nodes) => {
+                let nodes = nodes.into_iter().map(|node| node.moved(count));
+                Self::Operation(operation, nodes.collect())
+            }
+        }
+    }
+
+    fn is_inside(&self, operands: &[bool]) -> bool {
+        match self {
+            Self::Operand(index) => operands[*index],
+            Self::Operation(CsgOperation::Union, nodes) => {
+                nodes.iter().any(|node| node.is_inside(operands))
+            }
+            Self::Operation(CsgOperation::Intersection, nodes) => {
+                !nodes.is_empty() && nodes.iter().all(|node| node.is_inside(operands))
+            }
+            Self::Operation(CsgOperation::Difference, nodes) => match &nodes[..] {
+                [] => false,
+                [first, rest @ ..] => {
+                    first.is_inside(operands) && !rest.iter().any(|node| node.is_inside(operands))
+                }
+            },
+        }
+    }
+}
+
+/// A group of one primitive.
+fn group_of<S: Grouped>(shape: S) -> Arc<dyn Group> {
+    let (options, progress) = (SceneOptions::default(), Progress::default());
+    let group = S::group(vec![shape], Runs::default(), options, &progress);
+    group.expect("nobody cancels")
+}
+
+/// The box around a combination of solids with these boxes.
+fn bounds_of(operation: CsgOperation, boxes: &[Option<Aabb>]) -> Option<Aabb> {
+    match operation {
+        CsgOperation::Union => {
+            let mut boxes = boxes.iter();
+            boxes.try_fold(Aabb::EMPTY, |sum, bounds| Some(sum.union((*bounds)?)))
+        }
+        CsgOperation::Intersection if boxes.is_empty() => Some(Aabb::EMPTY),
+        CsgOperation::Intersection => boxes.iter().flatten().copied().reduce(Aabb::intersection),
+        CsgOperation::Difference => boxes.first().copied().unwrap_or(Some(Aabb::EMPTY)),
+    }
+}

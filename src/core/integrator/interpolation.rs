@@ -1,0 +1,40 @@
+//! The view *Interpolation*: the angle between the two ways to interpolate vertex normals.
+
+use super::Context;
+use super::Legend;
+use super::compare::log_colour;
+use crate::interaction::SurfaceInteraction;
+use crate::ray::{Hit, Ray};
+use crate::scene::Shading;
+use glam::Vec3;
+
+/// Range of the scale in degrees: from an angle that no picture shows to one at which highlights move visibly.
+const RANGE: [f64; 2] = [0.001, 10.0];
+
+/// The angle between the linearly and the spherically interpolated normal; clay where there is nothing to interpolate.
+pub(super) fn angle(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+    let Some(hit) = hit else {
+        return context.background;
+    };
+    let normal = |shading| {
+        let surface = SurfaceInteraction::new(&context.scene, ray, hit, shading);
+        surface.shading_normal.as_dvec3()
+    };
+    let (linear, spherical) = (normal(Shading::Smooth), normal(Shading::Spherical));
+    if linear == spherical {
+        let facing = linear.dot(ray.dir.as_dvec3().normalize_or_zero());
+        return Vec3::splat(0.02 + 0.10 * facing.abs() as f32);
+    }
+    // Accurate for small angles, unlike the inverse cosine.
+    let angle = 2.0 * (0.5 * (linear - spherical).length()).asin();
+    log_colour(angle.to_degrees(), RANGE)
+}
+
+pub(super) fn legend() -> Legend {
+    let degrees = [0.001, 0.01, 0.1, 1.0, 10.0];
+    vec![
+        degrees
+            .map(|x| (log_colour(x, RANGE), format!("{x}°")))
+            .into(),
+    ]
+}

@@ -1,0 +1,86 @@
+//! Disks and rectangles.
+
+use super::PlacedPrimitive;
+use crate::shape::{Disk, Rectangle, Span};
+use glam::{DMat3, DMat4, DVec3};
+
+/// The image of the unit disk or of the square from −1 to 1.
+#[derive(Debug)]
+struct PlacedSpan {
+    centre: DVec3,
+    axes: [DVec3; 2],
+}
+
+impl PlacedSpan {
+    fn new(to_world: &DMat4) -> Self {
+        let linear = DMat3::from_mat4(*to_world);
+        Self {
+            centre: to_world.transform_point3(DVec3::ZERO),
+            axes: [linear.x_axis, linear.y_axis],
+        }
+    }
+
+    fn bounds(&self) -> [DVec3; 2] {
+        let half = self.axes[0].abs() + self.axes[1].abs();
+        [self.centre - half, self.centre + half]
+    }
+
+    fn rounded(&self, origin: DVec3) -> Span {
+        let [u, v] = self.axes.map(|axis| axis.as_vec3());
+        Span {
+            centre: (self.centre - origin).as_vec3(),
+            u,
+            v,
+        }
+    }
+}
+
+#[derive(Debug)]
+pub(super) struct PlacedDisk(PlacedSpan);
+
+#[derive(Debug)]
+pub(super) struct PlacedRectangle(PlacedSpan);
+
+impl PlacedDisk {
+    pub fn new(to_world: &DMat4) -> Self {
+        Self(PlacedSpan::new(to_world))
+    }
+}
+
+impl PlacedRectangle {
+    pub fn new(to_world: &DMat4) -> Self {
+        Self(PlacedSpan::new(to_world))
+    }
+}
+
+impl PlacedPrimitive for PlacedDisk {
+    type Shape = Disk;
+
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        Some(self.0.bounds())
+    }
+
+    fn rounded(&self, origin: DVec3) -> Disk {
+        Disk(self.0.rounded(origin))
+    }
+
+    fn why_open(&self) -> Option<String> {
+        Some("a disk isn't a solid".to_owned())
+    }
+}
+
+impl PlacedPrimitive for PlacedRectangle {
+    type Shape = Rectangle;
+
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        Some(self.0.bounds())
+    }
+
+    fn rounded(&self, origin: DVec3) -> Rectangle {
+        Rectangle(self.0.rounded(origin))
+    }
+
+    fn why_open(&self) -> Option<String> {
+        Some("a rectangle isn't a solid".to_owned())
+    }
+}

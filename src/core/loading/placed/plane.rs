@@ -1,0 +1,66 @@
+//! Infinite planes.
+
+use super::axis_of;
+use super::{Placed, PlacedPrimitive};
+use crate::shape::{AxisPlane, Plane};
+use glam::{DMat3, DMat4, DVec3};
+
+/// A plane; one that is perpendicular to an axis becomes an [`AxisPlane`].
+pub(super) fn placed(point: DVec3, normal: DVec3, to_world: &DMat4) -> Box<dyn Placed> {
+    let point = to_world.transform_point3(point);
+    let normal = DMat3::from_mat4(*to_world).inverse().transpose() * normal;
+    match axis_of(normal) {
+        Some(axis) => Box::new(PlacedAxisPlane {
+            axis,
+            coordinate: point[axis],
+            faces_up: normal[axis] > 0.0,
+        }),
+        None => Box::new(PlacedPlane { point, normal }),
+    }
+}
+
+#[derive(Debug)]
+struct PlacedPlane {
+    point: DVec3,
+    normal: DVec3,
+}
+
+impl PlacedPrimitive for PlacedPlane {
+    type Shape = Plane;
+
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        None
+    }
+
+    fn rounded(&self, origin: DVec3) -> Plane {
+        // The point nearest to the origin, so that it is rounded little.
+        let nearest = (self.point - origin).project_onto(self.normal);
+        Plane {
+            point: nearest.as_vec3(),
+            normal: self.normal.normalize_or_zero().as_vec3(),
+        }
+    }
+}
+
+#[derive(Debug)]
+struct PlacedAxisPlane {
+    axis: usize,
+    coordinate: f64,
+    faces_up: bool,
+}
+
+impl PlacedPrimitive for PlacedAxisPlane {
+    type Shape = AxisPlane;
+
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        None
+    }
+
+    fn rounded(&self, origin: DVec3) -> AxisPlane {
+        AxisPlane {
+            axis: self.axis as u8,
+            coordinate: (self.coordinate - origin[self.axis]) as f32,
+            faces_up: self.faces_up,
+        }
+    }
+}

@@ -1,0 +1,34 @@
+//! Maps that keep circles round.
+
+use glam::{DMat3, DVec3};
+
+/// Deviation from a right angle or from equal lengths, relatively, that counts as rounding of a matrix's entries: some
+/// compositions of rotations in f64.
+const ROUNDING: f64 = 1e-12;
+
+/// The factor of a map that scales all directions equally; `None` for others.
+pub(super) fn scale_of(linear: DMat3) -> Option<f64> {
+    let [x, y, z] = [linear.x_axis, linear.y_axis, linear.z_axis];
+    let squared = x.length_squared();
+    let is_near = |a: f64, b: f64| (a - b).abs() <= ROUNDING * squared;
+    let is_similar = is_near(y.length_squared(), squared)
+        && is_near(z.length_squared(), squared)
+        && [x.dot(y), y.dot(z), z.dot(x)]
+            .iter()
+            .all(|&product| is_near(product, 0.0));
+    is_similar.then(|| squared.sqrt())
+}
+
+/// The factor by which a map scales all directions across an axis, if it keeps them perpendicular to the axis.
+pub(super) fn scale_across(linear: DMat3, axis: DVec3) -> Option<f64> {
+    let along = axis.normalize();
+    let (u, v) = along.any_orthonormal_pair();
+    let [w, u, v] = [linear * along, linear * u, linear * v];
+    let squared = u.length_squared();
+    let is_zero = |product: f64, size: f64| product.abs() <= ROUNDING * size;
+    let is_round = is_zero(v.length_squared() - squared, squared)
+        && is_zero(u.dot(v), squared)
+        && is_zero(u.dot(w), u.length() * w.length())
+        && is_zero(v.dot(w), v.length() * w.length());
+    is_round.then(|| squared.sqrt())
+}

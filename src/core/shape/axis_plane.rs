@@ -1,0 +1,133 @@
+//! Infinite planes that are perpendicular to an axis.
+
+use super::compact::Slots;
+use super::interior::unbounded;
+use super::lines::plane_grid;
+use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
+use crate::aabb::{Aabb, Planes};
+use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
+use crate::lane::{Lane, Values};
+use crate::ray::{Hit, Ray};
+use glam::{DVec2, DVec3, Vec3};
+
+/// The plane of the points with one coordinate given. No ray hits it if that isn't finite.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AxisPlane {
+    /// The axis that is perpendicular to the plane: 0, 1 or 2.
+    pub axis: u8,
+    /// The points' coordinate along the axis.
+    pub coordinate: f32,
+    /// Whether the normal points to higher coordinates.
+    pub faces_up: bool,
+}
+
+impl AxisPlane {
+    fn axis(&self) -> usize {
+        usize::from(self.axis).min(2)
+    }
+
+    fn normal(&self) -> DVec3 {
+        let mut normal = DVec3::ZERO;
+        normal[self.axis()] = if self.faces_up { 1.0 } else { -1.0 };
+        normal
+    }
+}
+
+impl Shape for AxisPlane {
+    const INFO: ShapeInfo = ShapeInfo {
+        name: "axis-aligned plane",
+        plural: "axis-aligned planes",
+    };
+    type Compact = Slots<Self>;
+    const NUMBERS: usize = 3;
+    const MOST_CROSSINGS: usize = 1;
+    const IS_BOUNDED: bool = false;
+
+    fn nowhere() -> Self {
+        Self {
+            axis: 0,
+            coordinate: f32::NAN,
+            faces_up: true,
+        }
+    }
+
+    fn write(&self, numbers: &mut [f32]) {
+        let faces_up = f32::from(u8::from(self.faces_up));
+        numbers.copy_from_slice(&[self.axis.into(), self.coordinate, faces_up]);
+    }
+
+    #[inline(always)]
+    fn read(numbers: &impl Values<f32>) -> Self {
+        Self {
+            axis: numbers.value(0) as u8,
+            coordinate: numbers.value(1),
+            faces_up: numbers.value(2) == 1.0,
+        }
+    }
+
+    #[inline(always)]
+    fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
+        let infinity = L::of(numbers.value(0).token(), f32::INFINITY);
+        [
+            -infinity, infinity, -infinity, infinity, -infinity, infinity,
+        ]
+    }
+
+    fn bounds(&self) -> Aabb {
+        Aabb::EMPTY
+    }
+
+    /// u and v are the two other coordinates, in cyclic order.
+    fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        let axis = self.axis();
+        let mut position = ray.at(hit.t);
+        position[axis] = self.coordinate.into();
+        let rounded = position.as_vec3();
+        SurfacePoint {
+            position: rounded,
+            normal: self.normal(),
+            uv: DVec2::new(position[(axis + 1) % 3], position[(axis + 2) % 3]),
+            error: 2.0 * U * rounded.abs(),
+            is_flat: true,
+        }
+    }
+
+    /// The half-space behind the normal.
+    fn interior(&self, ray: &Ray) -> Interior {
+        unbounded(self, ray)
+    }
+
+    /// A grid near the region of interest.
+    fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
+        plane_grid(Pieces::centre(self).as_dvec3(), self.normal(), detail, add);
+    }
+}
+
+impl Pieces for AxisPlane {
+    fn centre(&self) -> Vec3 {
+        let mut centre = Vec3::ZERO;
+        centre[self.axis()] = self.coordinate;
+        centre
+    }
+
+    /// o + t·d − D along the axis, or the opposite if the normal points down.
+    fn pieces<R: Ring>(&self, ray: &RayIn<R>, emit: &mut impl FnMut(Piece<'_, R>)) {
+        if !self.coordinate.is_finite() {
+            return;
+        }
+        let axis = self.axis();
+        let from = ray.origin[axis].minus(&R::from(self.coordinate));
+        let above = Polynomial::new([from, ray.dir[axis].clone()]);
+        let nothing = Polynomial::constant(R::zero());
+        let surface = if self.faces_up {
+            above
+        } else {
+            nothing.minus(&above)
+        };
+        emit(Piece {
+            part: 0,
+            surface: &surface,
+            conditions: &[],
+        });
+    }
+}

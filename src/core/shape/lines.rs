@@ -1,0 +1,147 @@
+//! Lines on surfaces, by which wireframes show shapes: those of constant surface coordinates.
+
+use crate::aabb::Aabb;
+use glam::{DMat3, DVec3};
+use std::f64::consts::TAU;
+
+/// A point of a line on a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LinePoint {
+    /// The point.
+    pub position: DVec3,
+    /// Unit normal of the surface.
+    pub normal: DVec3,
+}
+
+/// How lines are drawn.
+#[derive(Clone, Copy, Debug)]
+pub struct LineDetail {
+    /// The number of straight pieces of a full circle.
+    pub segments: u32,
+    /// The region that infinite surfaces cover.
+    pub around: Aabb,
+}
+
+/// Receives lines, each as a sequence of points.
+pub type AddLine<'a> = &'a mut dyn FnMut(&[LinePoint]);
+
+impl LineDetail {
+    /// A part of a line from 0 to 1, given by its points; `turns` is the part of a full circle that it is.
+    pub(super) fn curve(&self, turns: f64, add: AddLine<'_>, point: impl Fn(f64) -> LinePoint) {
+        let count = (turns * f64::from(self.segments)).ceil().max(1.0) as u32;
+        let at = |k: u32| point(f64::from(k) / f64::from(count));
+        add(&(0..=count).map(at).collect::<Vec<_>>());
+    }
+
+    /// A full circle in the plane of two perpendicular vectors of its radius; `normal` is that at an outward unit
+    /// vector.
+    pub(super) fn circle(
+        &self,
+        centre: DVec3,
+        [x, y]: [DVec3; 2],
+        add: AddLine<'_>,
+        normal: impl Fn(DVec3) -> DVec3,
+    ) {
+        self.curve(1.0, add, |turn| {
+            let (sin, cos) = (TAU * turn).sin_cos();
+            let outwards = cos * x + sin * y;
+            LinePoint {
+                position: centre + outwards,
+                normal: normal(outwards.normalize_or_zero()),
+            }
+        });
+    }
+}
+
+/// A straight line on a flat part of a surface.
+pub(super) fn straight(from: DVec3, to: DVec3, normal: DVec3, add: AddLine<'_>) {
+    add(&[from, to].map(|position| LinePoint { position, normal }));
+}
+
+/// A grid over the points c + a·u + b·v with |a|, |b| ≤ 1, of `count` spaces along each side.
+pub(super) fn grid(centre: DVec3, [u, v]: [DVec3; 2], count: u32, normal: DVec3, add: AddLine<'_>) {
+    for k in 0..=count {
+        let at = 2.0 * f64::from(k) / f64::from(count) - 1.0;
+        straight(centre + at * u - v, centre + at * u + v, normal, add);
+        straight(centre + at * v - u, centre + at * v + u, normal, add);
+    }
+}
+
+/// A grid over the part of a plane that is near a region.
+pub(super) fn plane_grid(point: DVec3, normal: DVec3, detail: &LineDetail, add: AddLine<'_>) {
+    /// Spaces along each side.
+    const COUNT: u32 = 20;
+    let radius = detail.around.radius();
+    let reach = if radius > 0.0 { radius } else { 1.0 };
+    let centre = if detail.around.is_empty() {
+        point
+    } else {
+        detail.around.centre().as_dvec3()
+    };
+    let foot = centre - (centre - point).dot(normal) * normal;
+    let (u, v) = normal.any_orthonormal_pair();
+    grid(foot, [reach * u, reach * v], COUNT, normal, add);
+}
+
+/// Grids on the six sides of the box with these half axes about a centre.
+pub(super) fn box_grid(centre: DVec3, axes: [DVec3; 3], add: AddLine<'_>) {
+    /// Spaces along each edge.
+    const COUNT: u32 = 4;
+    let outwards = DMat3::from_cols(axes[0], axes[1], axes[2])
+        .inverse()
+        .transpose();
+    for axis in 0..3 {
+        let (u, v) = (axes[(axis + 1) % 3], axes[(axis + 2) % 3]);
+        for side in [-1.0, 1.0] {
+            let normal = (side * outwards.col(axis)).normalize_or_zero();
+            grid(centre + side * axes[axis], [u, v], COUNT, normal, add);
+        }
+    }
+}
+
+/// Circles and radii of a flat disk with perpendicular or other half axes, facing along a normal.
+pub(super) fn disk_lines(
+    centre: DVec3,
+    axes: [DVec3; 2],
+    normal: DVec3,
+    detail: &LineDetail,
+    add: AddLine<'_>,
+) {
+    /// Lines through the centre, as those of a cylinder's side.
+    const DIAMETERS: u32 = 6;
+    for part in [0.5, 1.0] {
+        detail.circle(centre, axes.map(|axis| part * axis), add, |_| normal);
+    }
+    for k in 0..DIAMETERS {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(2 * DIAMETERS)).sin_cos();
+        let radius = cos * axes[0] + sin * axes[1];
+        straight(centre - radius, centre + radius, normal, add);
+    }
+}
+
+/// Lines of a cylinder's or a cone's side from one end of an axis to the other, with the radii there.
+pub(super) fn side_lines(ends: [DVec3; 2], radii: [f64; 2], detail: &LineDetail, add: AddLine<'_>) {
+    /// Circles, including those at the ends, and straight lines.
+    const CIRCLES: u32 = 5;
+    const STRAIGHT: u32 = 12;
+    let along = ends[1] - ends[0];
+    let length = along.length();
+    let axis = along / length;
+    let (x, y) = axis.any_orthonormal_pair();
+    let normal =
+        |outwards: DVec3| (length * outwards + (radii[0] - radii[1]) * axis).normalize_or_zero();
+    let radius = |at: f64| radii[0] + at * (radii[1] - radii[0]);
+    for k in 0..CIRCLES {
+        let at = f64::from(k) / f64::from(CIRCLES - 1);
+        if radius(at) > 0.0 {
+            let axes = [radius(at) * x, radius(at) * y];
+            detail.circle(ends[0] + at * along, axes, add, normal);
+        }
+    }
+    for k in 0..STRAIGHT {
+        let (sin, cos) = (TAU * f64::from(k) / f64::from(STRAIGHT)).sin_cos();
+        let outwards = cos * x + sin * y;
+        let [from, to] = [0, 1].map(|end| ends[end] + radii[end] * outwards);
+        straight(from, to, normal(outwards), add);
+    }
+}

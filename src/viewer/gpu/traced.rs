@@ -1,0 +1,180 @@
+//! Depth and outlines of shapes that aren't meshes, from one traced ray per pixel.
+
+use super::lines::{LinePipelines, LineStyle};
+use super::view::ViewBinding;
+use super::{extent, shader, texture};
+use glam::UVec2;
+
+/// Appended to [`view::SHADER`](super::view::SHADER).
+pub const SHADER: &str = include_str!("../../../shaders/traced.wgsl");
+
+/// What one pixel's ray hits, as reversed depths.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, bytemuck::Pod, bytemuck::Zeroable)]
+pub struct TracedPixel {
+    /// Lines behind this depth are hidden; 0 hides none.
+    pub hides: f32,
+    /// The depth of an outline, or −1.
+    pub outline: f32,
+}
+
+/// The traced pixels on the GPU.
+pub struct TracedLayer(wgpu::Texture);
+
+impl TracedLayer {
+    /// Uploads pixels, row by row from the top left; as many as the size says.
+    pub fn new(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        size: UVec2,
+        pixels: &[TracedPixel],
+    ) -> Self {
+        use wgpu::TextureUsages as Usage;
+        let usage = Usage::TEXTURE_BINDING | Usage::COPY_DST;
+        let texture = texture(
+            device,
+            "traced",
+            size,
+            wgpu::TextureFormat::Rg32Float,
+            usage,
+        );
+        queue.write_texture(
+            texture.as_image_copy(),
+            bytemuck::cast_slice(pixels),
+            wgpu::TexelCopyBufferLayout {
+                offset: 0,
+                bytes_per_row: Some(size.x * size_of::<TracedPixel>() as u32),
+                rows_per_image: None,
+            },
+            extent(size),
+        );
+        Self(texture)
+    }
+}
+
+/// The pipelines that draw depth and outlines.
+pub(super) struct TracedPipelines {
+    layout: wgpu::BindGroupLayout,
+    depth: wgpu::RenderPipeline,
+    outline: wgpu::RenderPipeline,
+}
+
+/// The traced pixels, bound to the pipelines.
+pub(super) struct TracedGroup(wgpu::BindGroup);
+
+impl TracedPipelines {
+    pub fn new(
+        device: &wgpu::Device,
+        view: &ViewBinding,
+        lines: &LinePipelines,
+        [colour_format, depth_format]: [wgpu::TextureFormat; 2],
+    ) -> Self {
+        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+            label: Some("traced"),
+            entries: &[wgpu::BindGroupLayoutEntry {
+                binding: 0,
+                visibility: wgpu::ShaderStages::FRAGMENT,
+                ty: wgpu::BindingType::Texture {
+                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                    view_dimension: wgpu::TextureViewDimension::D2,
+                    multisampled: false,
+                },
+                count: None,
+            }],
+        });
+        let module = shader(device, "traced", SHADER);
+        let pipelines = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+            label: Some("traced"),
+            bind_group_layouts: &[
+                Some(view.layout()),
+                Some(&layout),
+                Some(lines.style_layout()),
+            ],
+            immediate_size: 0,
+        });
+        let pipeline = |entry_point, colour: Option<wgpu::ColorTargetState>| {
+            let (targets, writes_depth) = ([colour.clone()], colour.is_none());
+            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+                label: Some(entry_point),
+                layout: Some(&pipelines),
+                vertex: wgpu::VertexState {
+                    module: &module,
+                    entry_point: Some("vs_main"),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    buffers: &[],
+                },
+                primitive: wgpu::PrimitiveState::default(),
+                depth_stencil: Some(wgpu::DepthStencilState {
+                    format: depth_format,
+                    depth_write_enabled: Some(writes_depth),
+                    depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+                    stencil: wgpu::StencilState::default(),
+                    bias: wgpu::DepthBiasState::default(),
+                }),
+                multisample: wgpu::MultisampleState::default(),
+                fragment: Some(wgpu::FragmentState {
+                    module: &module,
+                    entry_point: Some(entry_point),
+                    compilation_options: wgpu::PipelineCompilationOptions::default(),
+                    targets: if writes_depth { &[] } else { &targets },
+                }),
+                multiview_mask: None,
+                cache: None,
+            })
+        };
+        let colour = wgpu::ColorTargetState {
+            format: colour_format,
+            blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
+            write_mask: wgpu::ColorWrites::ALL,
+        };
+        Self {
+            depth: pipeline("fs_depth", None),
+            outline: pipeline("fs_outline", Some(colour)),
+            layout,
+        }
+    }
+
+    pub fn group(&self, device: &wgpu::Device, layer: &TracedLayer) -> TracedGroup {
+        let view = layer.0.create_view(&wgpu::TextureViewDescriptor::default());
+        TracedGroup(device.create_bind_group(&wgpu::BindGroupDescriptor {
+            label: Some("traced"),
+            layout: &self.layout,
+            entries: &[wgpu::BindGroupEntry {
+                binding: 0,
+                resource: wgpu::BindingResource::TextureView(&view),
+            }],
+        }))
+    }
+
+    /// Draws the depth. The style isn't used.
+    pub fn draw_depth(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        group: &TracedGroup,
+        style: &LineStyle,
+    ) {
+        draw(pass, &self.depth, group, style);
+    }
+
+    /// Draws the outlines.
+    pub fn draw_outline(
+        &self,
+        pass: &mut wgpu::RenderPass<'_>,
+        group: &TracedGroup,
+        style: &LineStyle,
+    ) {
+        draw(pass, &self.outline, group, style);
+    }
+}
+
+fn draw(
+    pass: &mut wgpu::RenderPass<'_>,
+    pipeline: &wgpu::RenderPipeline,
+    group: &TracedGroup,
+    style: &LineStyle,
+) {
+    pass.set_pipeline(pipeline);
+    pass.set_bind_group(1, &group.0, &[]);
+    pass.set_bind_group(2, style.group(), &[]);
+    pass.draw(0..3, 0..1);
+}

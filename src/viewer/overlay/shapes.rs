@@ -1,0 +1,137 @@
+//! Lines and normals of shapes that aren't triangles.
+
+use crate::gpu::lines::Line;
+use glam::DVec3;
+use hitscope_core::Scene;
+use hitscope_core::group::Group;
+use hitscope_core::shape::{LineDetail, LinePoint};
+
+/// Shapes of a group beyond this number have outlines alone.
+const MOST_SHAPES: usize = 20_000;
+/// Straight pieces of all circles of a group, about.
+const PIECES: usize = 2_000_000;
+/// Lines per shape, about.
+const LINES_PER_SHAPE: usize = 16;
+
+/// Lines of constant surface coordinates.
+pub fn lines(scene: &Scene) -> Vec<Line> {
+    let mut lines = Vec::new();
+    each_line(scene, &mut |points, gap| {
+        let pieces = points.windows(2).map(|pair| piece(pair, gap));
+        lines.extend(pieces);
+    });
+    lines
+}
+
+/// The lines of one primitive.
+pub fn lines_of(scene: &Scene, primitive: u32) -> Vec<Line> {
+    let (group, index) = scene.group_of(primitive);
+    let mut lines = Vec::new();
+    group.lines(index, &detail(scene, 1), &mut |points: &[LinePoint]| {
+        lines.extend(points.windows(2).map(|pair| piece(pair, 0.0)));
+    });
+    lines
+}
+
+/// Normals at points of the same lines. Their length is the scene's radius; the style shortens them.
+pub fn normals(scene: &Scene) -> Vec<Line> {
+    /// Normals per full circle of 64 pieces.
+    const EVERY: usize = 4;
+    let length = scene.bounds().radius();
+    let mut lines = Vec::new();
+    each_line(scene, &mut |points, gap| {
+        lines.extend(points.iter().step_by(EVERY).map(|point| {
+            let end = point.position + length * point.normal;
+            let (side, _) = point.normal.any_orthonormal_pair();
+            Line {
+                start: point.position.as_vec3(),
+                end: end.as_vec3(),
+                gap: (gap * side).as_vec3(),
+            }
+        }));
+    });
+    lines
+}
+
+/// Passes the lines of all primitives, each with the expected distance to the next line.
+fn each_line(scene: &Scene, line: &mut dyn FnMut(&[LinePoint], f64)) {
+    for group in shape_groups(scene) {
+        let count = group.count().min(MOST_SHAPES);
+        let detail = detail(scene, count);
+        for index in 0..count as u32 {
+            let mut size = None;
+            group.lines(index, &detail, &mut |points: &[LinePoint]| {
+                // Lines divide a shape into some eight parts.
+                let size = *size.get_or_insert_with(|| extent(points));
+                line(points, size / 8.0);
+            });
+        }
+    }
+}
+
+/// The groups that aren't the mesh.
+fn shape_groups(scene: &Scene) -> impl Iterator<Item = &dyn Group> {
+    let is_mesh = !scene.mesh().triangles().is_empty();
+    let groups = scene.groups().iter().skip(usize::from(is_mesh));
+    groups.map(|group| &**group)
+}
+
+fn detail(scene: &Scene, count: usize) -> LineDetail {
+    let segments = PIECES / (LINES_PER_SHAPE * count.max(1));
+    LineDetail {
+        segments: segments.clamp(8, 64) as u32,
+        around: scene.bounds(),
+    }
+}
+
+fn piece(points: &[LinePoint], gap: f64) -> Line {
+    let [start, end] = [points[0], points[1]];
+    let along = end.position - start.position;
+    let side = along.cross(start.normal).normalize_or_zero();
+    Line {
+        start: start.position.as_vec3(),
+        end: end.position.as_vec3(),
+        gap: (gap * side).as_vec3(),
+    }
+}
+
+/// The longest edge of the box around points.
+fn extent(points: &[LinePoint]) -> f64 {
+    let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
+    let (min, max) = points.iter().fold(none, |(min, max), point| {
+        (min.min(point.position), max.max(point.position))
+    });
+    (max - min).max_element()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use hitscope_core::TriangleMesh;
+    use hitscope_core::mesh::Runs;
+    use hitscope_core::progress::Progress;
+    use hitscope_core::scene::{SceneOptions, scene};
+    use hitscope_core::shape::Sphere;
+
+    #[test]
+    fn lines_and_normals_of_a_sphere_start_on_it() {
+        let mut scene = scene(TriangleMesh::default());
+        let sphere = Sphere {
+            centre: Vec3::X,
+            radius: 2.0,
+        };
+        let options = SceneOptions::default();
+        let added = scene.add_group(vec![sphere], Runs::default(), options, &Progress::default());
+        added.expect("nobody cancels");
+        let (lines, normals) = (lines(&scene), normals(&scene));
+        assert!(lines.len() > 500 && lines.len() == lines_of(&scene, 0).len());
+        for line in lines.iter().chain(&normals) {
+            assert!(((line.start - Vec3::X).length() - 2.0).abs() < 1e-5);
+        }
+        for normal in &normals {
+            let along = (normal.end - normal.start).normalize();
+            assert!((along - (normal.start - Vec3::X) / 2.0).length() < 1e-5);
+        }
+    }
+}

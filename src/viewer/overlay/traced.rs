@@ -1,0 +1,148 @@
+//! Depth and outlines of shapes that aren't meshes: one ray per pixel, so that lines are hidden by what is traced.
+
+use crate::gpu::traced::TracedPixel;
+use crate::gpu::view::ViewUniform;
+use glam::{UVec2, Vec2};
+use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::{Camera, Intersector, Ray, Scene};
+use rayon::prelude::*;
+use std::sync::{Arc, OnceLock};
+
+/// Lines this many pixels from a nearer surface are still visible: half a line's width, half a pixel of soft edge, and
+/// a margin, as a line lies on the surface that mustn't hide it.
+const REACH_PX: usize = 2;
+
+/// The shapes of a scene other than triangles, packed on first use.
+#[derive(Clone, Default)]
+pub struct Shapes(Arc<OnceLock<Box<dyn Intersector>>>);
+
+/// What a pixel's ray hits: the reversed depth and an identifier of the surface, or 0 and nothing.
+#[derive(Clone, Copy, PartialEq)]
+struct Seen {
+    depth: f32,
+    surface: Option<[u32; 2]>,
+}
+
+impl Seen {
+    const NOTHING: Self = Self {
+        depth: 0.0,
+        surface: None,
+    };
+}
+
+impl Shapes {
+    /// Traces one ray through the centre of each pixel. Takes as long as a picture of one sample per pixel.
+    pub fn trace(&self, scene: &Scene, camera: &Camera, view: &ViewUniform) -> Vec<TracedPixel> {
+        let intersector = self.0.get_or_init(|| {
+            scene
+                .without_triangles()
+                .intersector(default_triangle_kernel())
+        });
+        let size = camera.resolution();
+        let mut seen = vec![Seen::NOTHING; (size.x * size.y) as usize];
+        let rows = seen.par_chunks_mut(size.x as usize).enumerate();
+        rows.for_each(|(y, row)| trace_row(&**intersector, camera, view, y as u32, row));
+        let hides = farthest_around(&seen, size);
+        let outline = |(index, hides)| TracedPixel {
+            hides,
+            outline: outline(&seen, size, index),
+        };
+        hides.into_iter().enumerate().map(outline).collect()
+    }
+}
+
+fn trace_row(
+    intersector: &dyn Intersector,
+    camera: &Camera,
+    view: &ViewUniform,
+    y: u32,
+    row: &mut [Seen],
+) {
+    let ray = |x: u32| camera.ray(UVec2::new(x, y), Vec2::splat(0.5));
+    let rays: Vec<Ray> = (0..row.len() as u32).map(ray).collect();
+    let mut hits = vec![None; rays.len()];
+    intersector.coherent_hits(&rays, &mut hits);
+    for ((seen, hit), ray) in row.iter_mut().zip(hits).zip(&rays) {
+        if let Some(hit) = hit {
+            *seen = Seen {
+                depth: view.depth_of(ray.at(hit.t)),
+                // v tells the operands of a solid apart.
+                surface: Some([hit.primitive, hit.v.to_bits()]),
+            };
+        }
+    }
+}
+
+/// The least depth, which is the farthest point, near each pixel.
+fn farthest_around(seen: &[Seen], size: UVec2) -> Vec<f32> {
+    let (width, height) = (size.x as usize, size.y as usize);
+    let least = |of: &dyn Fn(usize) -> f32, at: usize, count: usize| {
+        let near = at.saturating_sub(REACH_PX)..count.min(at + REACH_PX + 1);
+        near.map(of).fold(f32::INFINITY, f32::min)
+    };
+    let at = |index: usize| (index % width, index / width);
+    let in_rows: Vec<f32> = (0..seen.len())
+        .into_par_iter()
+        .map(|index| {
+            let (x, y) = at(index);
+            least(&|x| seen[y * width + x].depth, x, width)
+        })
+        .collect();
+    (0..seen.len())
+        .into_par_iter()
+        .map(|index| {
+            let (x, y) = at(index);
+            least(&|y| in_rows[y * width + x], y, height)
+        })
+        .collect()
+}
+
+/// The depth of the outline in a pixel, or −1 if there is none: the nearer of two neighbouring pixels that show different
+/// surfaces has it.
+fn outline(seen: &[Seen], size: UVec2, index: usize) -> f32 {
+    let width = size.x as usize;
+    let (x, y) = (index % width, index / width);
+    let neighbours = [
+        (x > 0).then(|| index - 1),
+        (x + 1 < width).then_some(index + 1),
+        (y > 0).then(|| index - width),
+        (y + 1 < size.y as usize).then_some(index + width),
+    ];
+    let own = seen[index];
+    let is_outline = |other: &usize| {
+        let other = seen[*other];
+        other.surface != own.surface && other.depth <= own.depth
+    };
+    if own.surface.is_some() && neighbours.iter().flatten().any(is_outline) {
+        own.depth
+    } else {
+        -1.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn row(depths: &[f32]) -> Vec<Seen> {
+        let seen = |&depth: &f32| Seen {
+            depth,
+            surface: (depth > 0.0).then_some([(10.0 * depth) as u32, 0]),
+        };
+        depths.iter().map(seen).collect()
+    }
+
+    #[test]
+    fn the_nearer_surface_has_the_outline_and_a_surface_hides_nothing_at_its_border() {
+        let seen = row(&[0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.2, 0.2]);
+        let size = UVec2::new(10, 1);
+        let outlines: Vec<f32> = (0..10).map(|index| outline(&seen, size, index)).collect();
+        let none = -1.0;
+        assert_eq!(
+            outlines,
+            [none, none, none, 0.5, none, none, none, 0.5, none, none]
+        );
+        let hides = farthest_around(&seen, size);
+        assert_eq!(hides, [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.2, 0.2, 0.2, 0.2]);
+    }
+}
