@@ -20,6 +20,7 @@ pub mod lecture;
 pub mod meshes;
 pub mod order;
 pub mod scene;
+pub mod shapes;
 pub mod spawning;
 pub mod speed;
 pub mod statistics;
@@ -29,7 +30,7 @@ pub mod workloads;
 use boxes::{BOX_CASES, BoxCell};
 use contestants::{Contestant, contestants};
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
-use hitscope_core::mesh::shapes;
+use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::sampler::mix;
 use meshes::{MeshCell, mesh_cases};
@@ -335,7 +336,7 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
 }
 
 fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {
-    let mesh = shapes::sphere(sizes.speed_cells, shapes::Placement::UNIT);
+    let mesh = sphere(sizes.speed_cells, Placement::UNIT);
     let name = format!("sphere, {} triangles", mesh.triangles().len());
     let scene = hitscope_core::scene::scene(mesh);
     let camera = speed::default_camera(&scene);

@@ -60,6 +60,20 @@ impl Fraction {
         }
     }
 
+    /// The sum of two fractions.
+    #[must_use]
+    pub fn plus(&self, other: &Self) -> Self {
+        Self {
+            numerator: &self.numerator * &other.denominator + &other.numerator * &self.denominator,
+            denominator: &self.denominator * &other.denominator,
+        }
+    }
+
+    /// Numerator and denominator.
+    pub(super) fn parts(&self) -> [&IBig; 2] {
+        [&self.numerator, &self.denominator]
+    }
+
     /// The same number in lowest terms.
     #[must_use]
     pub fn reduced(&self) -> Self {

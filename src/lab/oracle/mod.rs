@@ -1,10 +1,29 @@
 //! The oracle: exact intersections in integers of any size. It doesn't round, and shares no formula with the
 //! kernels.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`triangle`] | triangles |
+//! | [`flat`] | planes, disks, rectangles, boxes |
+//! | [`round`] | spheres, cylinders, cones, quadrics |
+//! | [`torus`] | tori |
+//! | [`shapes`], [`exact_t`] | the interface for all shapes, and exact values of t |
+//! | [`fraction`], [`surd`], [`isolated`] | rational numbers, roots of degree 2, roots of any degree |
+//! | [`quadratic`], [`polynomial`] | polynomials of degree 2, and of any degree |
 
+mod exact_t;
+mod flat;
 mod fraction;
-mod sphere;
+mod isolated;
+mod polynomial;
+mod quadratic;
+mod round;
+mod shapes;
+mod surd;
+mod torus;
 mod triangle;
 
+pub use exact_t::ExactT;
 pub use fraction::Fraction;
-pub use sphere::sphere_crossings;
+pub use shapes::{Oracle, crossings_in_f64};
 pub use triangle::{Crossing, ExactHit, crossings, intersect, nearest};
