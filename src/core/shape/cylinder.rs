@@ -1,7 +1,7 @@
 //! Cylinders of finite length, open or capped.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, squared_length, vector,
@@ -42,6 +42,17 @@ impl Shape for Cylinder {
     const INFO: ShapeInfo = ShapeInfo {
         name: "cylinder",
         plural: "cylinders",
+        parameters: &[
+            Parameter::point("p0", "p0"),
+            Parameter::point("p1", "p1"),
+            Parameter::number("radius", "r"),
+            Parameter::flag("capped"),
+        ],
+        equations: &[
+            "0 = |f × w|² − r²(w·w), where 0 ≤ f·w ≤ w·w, f = p − p0, w = p1 − p0",
+            "0 = f·w, where |f × w|² ≤ r²(w·w), f = p − p0, w = p1 − p0",
+            "0 = w·w − f·w, where |f × w|² ≤ r²(w·w), f = p − p0, w = p1 − p0",
+        ],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 8;

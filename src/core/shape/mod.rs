@@ -5,6 +5,7 @@ mod cone;
 mod cuboid;
 mod cylinder;
 mod disk;
+mod parameter;
 mod plane;
 mod quadric;
 mod rectangle;
@@ -21,6 +22,7 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub(crate) use cylinder::{BASE, SIDE, TOP};
 pub use disk::Disk;
+pub use parameter::{Parameter, ParameterKind};
 pub use plane::Plane;
 pub use quadric::Quadric;
 pub use rectangle::Rectangle;
@@ -35,13 +37,17 @@ use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
 use std::fmt::Debug;
 
-/// A shape's names.
+/// A shape's names and equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShapeInfo {
     /// One primitive, as in “1 sphere”.
     pub name: &'static str,
     /// Several primitives.
     pub plural: &'static str,
+    /// The names of its parameters, in the order of [`Shape::write`].
+    pub parameters: &'static [Parameter],
+    /// The equation of each part of its surface for a point p.
+    pub equations: &'static [&'static str],
 }
 
 /// The parameters of a primitive, in f32. They are the question that kernels answer.

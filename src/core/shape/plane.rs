@@ -1,7 +1,7 @@
 //! Infinite planes.
 
 use super::compact::Slots;
-use super::{Shape, ShapeInfo, SurfacePoint, U};
+use super::{Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, vector};
 use crate::lane::{Lane, Values};
@@ -28,6 +28,11 @@ impl Shape for Plane {
     const INFO: ShapeInfo = ShapeInfo {
         name: "plane",
         plural: "planes",
+        parameters: &[
+            Parameter::point("point", "a"),
+            Parameter::vector("normal", "n"),
+        ],
+        equations: &["0 = (p − a)·n"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 6;

@@ -2,7 +2,7 @@
 
 use super::compact::Slots;
 use super::cylinder::around_spheres;
-use super::{Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
@@ -38,6 +38,13 @@ impl Shape for Torus {
     const INFO: ShapeInfo = ShapeInfo {
         name: "torus",
         plural: "tori",
+        parameters: &[
+            Parameter::point("centre", "c"),
+            Parameter::vector("axis", "w"),
+            Parameter::number("major", "R"),
+            Parameter::number("minor", "r"),
+        ],
+        equations: &["0 = (q·q + R² − r²)²(w·w) − 4R²|q × w|², where q = p − c"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 8;

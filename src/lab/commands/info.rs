@@ -8,11 +8,13 @@ use crate::json;
 use crate::requirement::{Requirement, required_tier};
 use crate::second_opinion::{SecondOpinion, compare};
 use clap::Args;
-use hitscope_core::counts::counted;
+use hitscope_core::counts::{counted, counted_as};
+use hitscope_core::group::Group;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{FLAWS, Health, bytes_as};
 use hitscope_core::obj::{self, Recentre};
+use hitscope_core::{Aabb, TriangleMesh};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
@@ -49,6 +51,8 @@ struct Info {
     /// Segments of the file's polylines.
     lines: usize,
     points: usize,
+    /// The groups of primitives, one per shape.
+    shapes: Vec<ShapeGroup>,
     bounds: Bounds,
     origin: [f64; 3],
     /// Largest difference per coordinate between the file's decimals and the traced mesh.
@@ -72,6 +76,43 @@ struct Info {
 struct Bounds {
     min: [f64; 3],
     max: [f64; 3],
+}
+
+impl Bounds {
+    fn of(bounds: Aabb, mesh: &TriangleMesh) -> Self {
+        let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
+        Self {
+            min: in_file(bounds.min),
+            max: in_file(bounds.max),
+        }
+    }
+}
+
+/// The primitives of one shape with their tree.
+#[derive(Serialize)]
+struct ShapeGroup {
+    shape: &'static str,
+    count: usize,
+    tree_bytes: usize,
+    build_ms: f64,
+    /// Null if there is none, as for planes, which are infinite.
+    bounds: Option<Bounds>,
+    #[serde(skip)]
+    text: String,
+}
+
+impl ShapeGroup {
+    fn of(group: &dyn Group, mesh: &TriangleMesh) -> Self {
+        let (shape, bounds) = (group.shape(), group.bounds());
+        Self {
+            shape: shape.name,
+            count: group.count(),
+            tree_bytes: group.bvh().bytes(),
+            build_ms: group.build_time().as_secs_f64() * 1e3,
+            bounds: (!bounds.is_empty()).then(|| Bounds::of(bounds, mesh)),
+            text: counted_as(group.count(), shape.name, shape.plural),
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -124,7 +165,6 @@ impl Info {
         let scene = &loaded.scene;
         let mesh = scene.mesh();
         let bounds = scene.bounds_with_elements();
-        let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         let mut bytes = BTreeMap::from(mesh.bytes());
         bytes.insert("tree", scene.tree_bytes());
         bytes.insert("packed triangles", packed_bytes);
@@ -137,10 +177,12 @@ impl Info {
             groups: mesh.named_group_count(),
             lines: mesh.attributes().lines.len(),
             points: mesh.attributes().points.len(),
-            bounds: Bounds {
-                min: in_file(bounds.min),
-                max: in_file(bounds.max),
-            },
+            shapes: scene
+                .groups()
+                .iter()
+                .map(|group| ShapeGroup::of(&**group, mesh))
+                .collect(),
+            bounds: Bounds::of(bounds, mesh),
             origin: mesh.origin().to_array(),
             max_rounding: loaded.report.max_rounding,
             bytes,
@@ -181,6 +223,20 @@ impl Info {
         writeln!(out, "materials           {}", self.materials)?;
         writeln!(out, "groups              {}", self.groups)?;
         writeln!(out, "lines, points       {}, {}", self.lines, self.points)?;
+        for group in &self.shapes {
+            writeln!(
+                out,
+                "shape               {}: tree of {} bytes in {:.1} ms",
+                group.text, group.tree_bytes, group.build_ms
+            )?;
+            match &group.bounds {
+                Some(bounds) => {
+                    writeln!(out, "                    {:?}", bounds.min)?;
+                    writeln!(out, "                    {:?}", bounds.max)?;
+                }
+                None => writeln!(out, "                    no bounds")?,
+            }
+        }
         writeln!(out, "bounds              {:?}", self.bounds.min)?;
         writeln!(out, "                    {:?}", self.bounds.max)?;
         writeln!(out, "origin              {:?}", self.origin)?;
