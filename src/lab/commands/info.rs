@@ -5,13 +5,14 @@ use super::input::is_stdin;
 use super::inspect::at_most;
 use super::{CommandError, file_error};
 use crate::json;
+use crate::measure::speed::default_camera;
 use crate::requirement::{Requirement, required_tier};
 use crate::second_opinion::{SecondOpinion, compare};
 use clap::Args;
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::loading::LoadedScene;
+use hitscope_core::loading::{LoadedScene, StartView, scene_text};
 use hitscope_core::mesh::{FLAWS, Health, bytes_as};
 use hitscope_core::obj::{self, Recentre};
 use hitscope_core::{Aabb, TriangleMesh};
@@ -19,14 +20,15 @@ use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Show the contents of a file: counts, bounds, memory, mesh health, required kernel tier
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Examples:
   hitscope info bunny.obj
-  gunzip -c bunny.obj.gz | hitscope info - --json")]
+  gunzip -c bunny.obj.gz | hitscope info - --json
+  hitscope info bunny.obj --xml > scene.xml")]
 pub struct InfoArgs {
     /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
@@ -39,6 +41,9 @@ pub struct InfoArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+    /// Print a scene file with the same contents instead; its first sensor is the file's, or the window's first view
+    #[arg(long, conflicts_with_all = ["json", "check"])]
+    pub xml: bool,
 }
 
 #[derive(Serialize)]
@@ -136,7 +141,14 @@ impl InfoArgs {
             let message = "--check reads the file twice, which isn't possible with standard input";
             return Err(CommandError::Usage(message.to_owned()));
         }
+        if self.xml && is_stdin(&self.file) {
+            let message = "--xml names the file, which isn't possible with standard input";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        if self.xml {
+            return self.print_xml(&loaded, out);
+        }
         let scene = &loaded.scene;
         let intersector = scene.intersector(default_triangle_kernel());
         self.mesh.memory.require(
@@ -157,6 +169,17 @@ impl InfoArgs {
             info.print(out)?;
         }
         Ok(())
+    }
+
+    fn print_xml(&self, loaded: &LoadedScene, out: &mut dyn Write) -> Result<(), CommandError> {
+        let scene = &loaded.scene;
+        let first = || StartView::of_camera(&default_camera(scene), scene.mesh().origin());
+        let view = loaded.view.unwrap_or_else(first);
+        let description = loaded.description.as_deref();
+        // File names become relative to the current directory.
+        let text = scene_text(description, &self.file, &view, Path::new(""));
+        let text = text.map_err(|error| CommandError::Other(error.to_string()))?;
+        Ok(out.write_all(text.as_bytes())?)
     }
 }
 

@@ -58,9 +58,10 @@ pub fn lines(scene: &Scene, ray: &Ray, primitive: u32) -> Vec<String> {
     } else {
         of_equations(shape.equations, &equations)
     });
-    if let Some([t, ..]) = scene.exact_answer(ray, primitive) {
-        lines.push(line.hit(t));
-    }
+    lines.push(match scene.exact_answer(ray, primitive) {
+        Some([t, ..]) => line.hit(t),
+        None => "In exact arithmetic the ray misses this primitive.".to_owned(),
+    });
     lines
 }
 

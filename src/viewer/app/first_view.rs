@@ -7,8 +7,16 @@ impl App {
     /// Shows the view of the file's sensor, or the scene from the default direction.
     pub(super) fn use_first_view(&mut self) {
         self.settings.file_up_axis = None;
+        let turntable = &mut self.turntable;
+        if let Some(own) = self.own_projection.take() {
+            (turntable.fov_y_radians, turntable.is_orthographic) = own;
+        }
+        let own = (turntable.fov_y_radians, turntable.is_orthographic);
         match self.view_of_file() {
-            Some(view) => self.use_view(view),
+            Some(view) => {
+                self.own_projection = Some(own);
+                self.use_view(view);
+            }
             None => self.use_default_view(),
         }
     }

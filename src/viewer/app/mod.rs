@@ -114,6 +114,8 @@ pub struct App {
     save_dialog: FileDialog,
     saving: Option<Saving>,
     turntable: Turntable,
+    /// Field of view and projection before a file's view replaced them; the next file gets them back.
+    own_projection: Option<(f64, bool)>,
     tracer: Tracer,
     picture: Picture,
     overlay: OverlayLayer,
@@ -171,6 +173,7 @@ impl App {
             .map(|file| Loading::start(file, start.load_options, &settings, &cc.egui_ctx));
         Ok(Self {
             turntable: Turntable::framing(document.loaded.scene.bounds(), UVec2::new(16, 9)),
+            own_projection: None,
             document,
             loading,
             load_options: start.load_options,
