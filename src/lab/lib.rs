@@ -5,6 +5,7 @@
 //! |---|---|
 //! | [`oracle`] | the exact answer for a ray and a triangle |
 //! | [`inspection`] | one ray: every kernel and the exact answer |
+//! | [`formula`] | the derivation of a hit, in the notation of the lecture |
 //! | [`frames`] | rays of f64 in the file's coordinates, as the f32 rays that kernels trace |
 //! | [`json`] | JSON whose numbers read back as doubles |
 //! | [`measure`] | measurements of speed and accuracy |
@@ -14,6 +15,7 @@
 //! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `lab` and `bench` |
 
 pub mod commands;
+pub mod formula;
 pub mod frames;
 pub mod inspection;
 pub mod json;

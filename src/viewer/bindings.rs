@@ -9,10 +9,14 @@ use hitscope_core::mesh::Flaw;
 pub enum Action {
     /// Show the dialog that opens a file.
     Open,
+    /// Show the dialog that saves a scene file.
+    Save,
     /// Reload the open file.
     Reload,
-    /// Frame the mesh.
+    /// Show the scene file's view, or frame the mesh.
     Frame,
+    /// Mark the next (1) or the previous (-1) crossing of the picked ray.
+    StepCrossing(i8),
     /// Mark the flaws of a kind and show one of them, counted from 0; or mark none.
     ShowFlaw(Option<(Flaw, usize)>),
     /// Turn auto-reload on or off.
@@ -59,6 +63,10 @@ const fn ctrl(key: Key) -> KeyboardShortcut {
     KeyboardShortcut::new(Modifiers::COMMAND, key)
 }
 
+const fn ctrl_shift(key: Key) -> KeyboardShortcut {
+    KeyboardShortcut::new(Modifiers::COMMAND.plus(Modifiers::SHIFT), key)
+}
+
 const fn binding(
     keys: &'static [KeyboardShortcut],
     action: Action,
@@ -74,8 +82,27 @@ const fn binding(
 /// All key bindings. A binding with Ctrl comes before the one of the same key without it.
 pub static KEYS: &[Binding] = &[
     binding(&[ctrl(Key::O)], Action::Open, "Open a file"),
+    binding(
+        &[ctrl_shift(Key::S)],
+        Action::Save,
+        "Save what is open as a scene file",
+    ),
     binding(&[key(Key::F5)], Action::Reload, "Reload the file"),
-    binding(&[key(Key::Home)], Action::Frame, "Frame the mesh"),
+    binding(
+        &[key(Key::Home)],
+        Action::Frame,
+        "Show the scene file's view, or frame the mesh",
+    ),
+    binding(
+        &[key(Key::OpenBracket)],
+        Action::StepCrossing(-1),
+        "Mark the previous crossing of the picked ray",
+    ),
+    binding(
+        &[key(Key::CloseBracket)],
+        Action::StepCrossing(1),
+        "Mark the next crossing of the picked ray",
+    ),
     binding(
         &[ctrl(Key::Num1)],
         Action::LookFrom(StandardView::Back),

@@ -318,7 +318,8 @@ fn render_instead(cli: &Cli) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
     let PictureDefaults { mut picture } = PictureDefaults::parse_from(["hitscope"]);
     picture.mesh.memory = cli.memory;
-    picture.check()?;
+    let file = cli.file.as_deref().unwrap_or(Path::new(""));
+    picture.check(file)?;
     let output = Output::create(Path::new(OUTPUT))?;
     let (input, loaded) = match &cli.file {
         Some(path) => (shown(path), picture.mesh.load(path, Recentre::Auto)?),

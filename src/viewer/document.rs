@@ -1,7 +1,7 @@
 //! The open document: a scene, its file, and the intersectors that trace it.
 
 use crate::task::{KeyedTask, Task, TaskPanicked};
-use hitscope_core::kernel::TriangleKernel;
+use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions, LoadReport};
@@ -76,7 +76,7 @@ impl Document {
     /// See [`LoadError`].
     pub fn load(
         path: &Path,
-        kernel: &'static TriangleKernel,
+        kernel: KernelChoice,
         load_options: LoadOptions,
         options: SceneOptions,
         progress: &Progress,
@@ -89,25 +89,26 @@ impl Document {
     }
 
     /// The built-in scene.
-    pub fn embedded(kernel: &'static TriangleKernel) -> Self {
+    pub fn embedded(kernel: KernelChoice) -> Self {
         Self::new(None, embedded_scene(), kernel)
     }
 
     /// An empty scene, shown until the first file is loaded.
-    pub fn blank(kernel: &'static TriangleKernel) -> Self {
+    pub fn blank(kernel: KernelChoice) -> Self {
         let mesh = TriangleMesh::default();
         let scene = Scene::new(mesh, &Progress::default()).expect("never cancelled");
         let loaded = LoadedScene {
             scene: Arc::new(scene),
             report: LoadReport::default(),
             view: None,
+            description: None,
         };
         let mut document = Self::new(None, loaded, kernel);
         document.is_blank = true;
         document
     }
 
-    fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: &'static TriangleKernel) -> Self {
+    fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: KernelChoice) -> Self {
         Self {
             path,
             is_blank: false,
@@ -188,7 +189,7 @@ impl Document {
     /// [`TaskPanicked`] if packing failed; the previous kernel stays.
     pub fn use_kernel(
         &mut self,
-        kernel: &'static TriangleKernel,
+        kernel: KernelChoice,
         ctx: &egui::Context,
     ) -> Result<(), TaskPanicked> {
         if self.intersector.kernel().name == kernel.info.name {
@@ -212,7 +213,7 @@ impl Document {
     /// [`TaskPanicked`] if packing failed.
     pub fn use_second(
         &mut self,
-        kernel: Option<&'static TriangleKernel>,
+        kernel: Option<KernelChoice>,
         ctx: &egui::Context,
     ) -> Result<(), TaskPanicked> {
         let Some(kernel) = kernel else {
@@ -277,7 +278,7 @@ type PackingTask = KeyedTask<&'static str, Box<dyn Intersector>>;
 fn packed(
     packing: &mut PackingTask,
     scene: &Arc<Scene>,
-    kernel: &'static TriangleKernel,
+    kernel: KernelChoice,
     ctx: &egui::Context,
 ) -> Result<Option<Arc<dyn Intersector>>, TaskPanicked> {
     let scene = Arc::clone(scene);

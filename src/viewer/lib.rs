@@ -8,6 +8,7 @@
 //! | [`bindings`] | key and pointer bindings |
 //! | [`display`] | the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
+//! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
 //! | [`tracer`] | tracing of the window's picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
@@ -21,6 +22,7 @@
 pub mod app;
 pub mod bindings;
 pub mod cli;
+pub mod dialog;
 pub mod display;
 pub mod document;
 pub mod face_lookup;
@@ -31,6 +33,7 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
+pub mod saving;
 pub mod screenshot;
 pub mod settings;
 pub mod storage;

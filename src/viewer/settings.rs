@@ -2,11 +2,10 @@
 
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
+use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
-use hitscope_core::kernel::{
-    TriangleKernel, default_triangle_kernel, exact_triangle_kernel, triangle_kernel,
-};
+use hitscope_core::kernel::{KernelChoice, default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use serde::{Deserialize, Serialize};
@@ -60,6 +59,9 @@ pub struct Settings {
     pub samples: u32,
     /// Whether the mesh's z axis points up.
     pub is_z_up: bool,
+    /// The axis that points up in the open file's view, which is used instead.
+    #[serde(skip)]
+    pub file_up_axis: Option<UpAxis>,
     /// Whether a crease angle replaces the file's normals and smoothing groups.
     pub has_crease: bool,
     /// The crease angle.
@@ -96,6 +98,7 @@ impl Default for Settings {
             normal_length: 0.03,
             samples: 64,
             is_z_up: false,
+            file_up_axis: None,
             has_crease: false,
             // The default of modelling programs.
             crease_degrees: 30.0,
@@ -117,9 +120,9 @@ impl Settings {
     }
 
     /// The kernel.
-    pub fn kernel(&self) -> &'static TriangleKernel {
+    pub fn kernel(&self) -> KernelChoice {
         let name = self.session_kernel.as_ref().unwrap_or(&self.kernel);
-        triangle_kernel(name).unwrap_or_else(default_triangle_kernel)
+        kernel_named(name).unwrap_or_else(|| default_triangle_kernel().into())
     }
 
     /// Uses a kernel for this session, without replacing the one that is kept between runs.
@@ -145,10 +148,14 @@ impl Settings {
         }
     }
 
-    /// The kernel that a comparing view compares the selected kernel with.
-    pub fn second_kernel(&self) -> Option<&'static TriangleKernel> {
-        let chosen = triangle_kernel(&self.against).unwrap_or_else(exact_triangle_kernel);
-        self.view().against.kernel(chosen)
+    /// The kernel that the view *Disagreement* compares the selected kernel with.
+    pub fn against(&self) -> KernelChoice {
+        kernel_named(&self.against).unwrap_or_else(|| exact_triangle_kernel().into())
+    }
+
+    /// The kernel that the current view compares the selected kernel with.
+    pub fn second_kernel(&self) -> Option<KernelChoice> {
+        self.view().against.kernel(self.against())
     }
 
     /// How normals vary over a triangle.
@@ -171,7 +178,14 @@ impl Settings {
 
     /// The axis that points up.
     pub fn up_axis(&self) -> UpAxis {
-        if self.is_z_up { UpAxis::Z } else { UpAxis::Y }
+        let kept = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
+        self.file_up_axis.unwrap_or(kept)
+    }
+
+    /// Uses an axis as the one that points up and keeps it between runs.
+    pub fn keep_up_axis(&mut self, axis: UpAxis) {
+        self.file_up_axis = None;
+        self.is_z_up = axis == UpAxis::Z;
     }
 }
 
@@ -195,11 +209,11 @@ mod tests {
     }
 
     #[test]
-    fn the_up_axis_is_stored() {
-        let settings = Settings {
-            is_z_up: true,
-            ..Settings::default()
-        };
+    fn the_up_axis_is_stored_but_not_that_of_a_files_view() {
+        let mut settings = Settings::default();
+        settings.keep_up_axis(UpAxis::Z);
+        settings.file_up_axis = Some(UpAxis::Y);
+        assert_eq!(settings.up_axis(), UpAxis::Y);
         let stored = serde_json::to_string(&settings).expect("plain data");
         let later: Settings = serde_json::from_str(&stored).expect("what was stored");
         assert_eq!(later.up_axis(), UpAxis::Z);

@@ -4,8 +4,8 @@
 //! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
 use crate::settings::{PANEL_WIDTHS, Settings};
+use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
-use hitscope_core::kernel::triangle_kernel;
 use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -89,7 +89,7 @@ fn usable(settings: Settings) -> Settings {
         }
     };
     let kernel = |name: String, default: String| {
-        if triangle_kernel(&name).is_some() {
+        if kernel_named(&name).is_some() {
             name
         } else {
             default

@@ -1,7 +1,8 @@
 //! Background measurement of the kernels' speed and accuracy in the open scene.
 
 use crate::task::Task;
-use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::group::ShapeKernels;
+use hitscope_core::kernel::KernelChoice;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::{Camera, Scene};
 use hitscope_lab::measure::scene::{SceneRow, SceneSizes, measure};
@@ -53,6 +54,8 @@ pub struct Trade {
     progress: Progress,
     task: Task<Result<(), Cancelled>>,
     state: TradeState,
+    /// The scene's shapes with their kernels.
+    shapes: Vec<ShapeKernels>,
     /// The vertical axis of the plot.
     pub axis: Axis,
 }
@@ -79,18 +82,32 @@ impl Trade {
             progress,
             task: Task::spawn("trade", ctx, work),
             state: TradeState::Measuring,
+            shapes: scene.kernels(),
             axis,
         }
     }
 
-    /// The rows so far, in the order of the kernel table.
+    /// The rows so far: shape by shape, in the order of the kernel tables.
     pub fn rows(&self) -> Arc<[SceneRow]> {
         Arc::clone(&self.rows.lock().unwrap_or_else(PoisonError::into_inner))
     }
 
     /// The final number of rows.
     pub fn kernel_count(&self) -> usize {
-        TRIANGLE_KERNELS.len()
+        self.shapes.iter().map(|shape| shape.kernels.len()).sum()
+    }
+
+    /// The scene's shapes with their kernels.
+    pub fn shapes(&self) -> &[ShapeKernels] {
+        &self.shapes
+    }
+
+    /// Whether a choice uses a row's kernel for the row's shape.
+    pub fn is_used(&self, choice: KernelChoice, row: &SceneRow) -> bool {
+        let mut shapes = self.shapes.iter();
+        let shape = shapes.find(|shape| shape.shape.name == row.shape);
+        let used = shape.and_then(|shape| choice.among(&shape.kernels));
+        used.is_some_and(|used| used.name == row.kernel)
     }
 
     /// Updates the state from the thread.

@@ -38,7 +38,7 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
     let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, projection, plan.size());
     Job {
         context: Context {
-            second: view.second(&scene, &intersector, exact_triangle_kernel()),
+            second: view.second(&scene, &intersector, exact_triangle_kernel().into()),
             scene,
             intersector,
             camera: camera.expect("a camera"),

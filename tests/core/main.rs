@@ -44,6 +44,9 @@ mod scene_file;
 // Scene files become scenes.
 mod loading;
 
+// Saved scenes are the same when they are loaded again.
+mod saving;
+
 // Shapes other than triangles.
 mod shapes;
 

@@ -60,6 +60,32 @@ fn barycentric_coordinates_are_in_the_order_of_the_corners() {
 }
 
 #[test]
+fn the_formula_of_a_triangle_has_t_and_the_ratios_of_areas() {
+    let found = inspect(DVec3::new(1.5, 0.5, 0.0));
+    let lines = found.hit.expect("inside").formula;
+    for line in [
+        "n = (0, 0, 1)",
+        "0 = p·n − D, D = A·n = 0",
+        "t = (D − o·n) / (d·n) = (0 − 4) / (-1) = 4",
+        "P = r(t) = (1.5, 0.5, 0)",
+        "Δ(ABC) = 2",
+        "λ1 = Δ(BCP) / Δ(ABC) = 0.5 / 2 = 0.25",
+        "λ2 = Δ(CAP) / Δ(ABC) = 1 / 2 = 0.5",
+        "λ3 = Δ(ABP) / Δ(ABC) = 0.5 / 2 = 0.25",
+    ] {
+        assert!(
+            lines.iter().any(|found| found == line),
+            "{line} in {lines:#?}"
+        );
+    }
+    let crossing = &found.crossings[..];
+    assert_eq!(
+        (crossing.len(), crossing[0].primitive, crossing[0].t),
+        (1, 0, 4.0)
+    );
+}
+
+#[test]
 fn a_hit_on_a_shared_edge_reports_the_lower_triangle_and_lists_the_other() {
     let found = inspect(DVec3::new(1.0, 1.0, 0.0));
     let exact = found.exact.expect("on the diagonal");

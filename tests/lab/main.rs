@@ -19,6 +19,9 @@ mod inspection;
 // The exact, accurate and watertight kernels against the oracle.
 mod exact;
 
+// The commands on scene files with other shapes than triangles.
+mod scene_files;
+
 // The table in docs/accuracy.md matches a new measurement.
 mod accuracy;
 

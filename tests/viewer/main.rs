@@ -30,6 +30,8 @@ mod pointer;
 mod program;
 // The pixels of `render --wireframe` and `--normals`.
 mod render_lines;
+// Scene files: views, crossings, saving, kernels by shape.
+mod scene_files;
 // Validation of the shaders without a GPU.
 mod shaders;
 // `trace` on a pipe.

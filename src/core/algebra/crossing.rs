@@ -346,10 +346,10 @@ pub fn is_between(t: &Algebraic, [start, end]: [f64; 2]) -> bool {
 }
 
 /// A piece of a shape in exact numbers.
-struct ExactPiece {
-    part: u8,
-    surface: Polynomial<Dyadic>,
-    conditions: Vec<Polynomial<Dyadic>>,
+pub(super) struct ExactPiece {
+    pub part: u8,
+    pub surface: Polynomial<Dyadic>,
+    pub conditions: Vec<Polynomial<Dyadic>>,
 }
 
 impl ExactPiece {
@@ -379,12 +379,12 @@ impl ExactPiece {
         result
     }
 
-    fn roots(&self) -> Vec<Root> {
+    pub fn roots(&self) -> Vec<Root> {
         Root::all(&self.surface)
     }
 
     /// Whether no condition is negative at `t`, which is within the bounds.
-    fn contains(&self, t: &Algebraic, bounds: Interval) -> bool {
+    pub fn contains(&self, t: &Algebraic, bounds: Interval) -> bool {
         let sign = |condition: &Polynomial<Dyadic>| {
             // The exact sign costs a sequence of remainders.
             let value = condition.enclosure().at(&bounds);

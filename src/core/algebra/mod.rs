@@ -14,8 +14,10 @@
 //! | [`isolation`] | intervals that contain one root of an integer polynomial each |
 //! | [`algebraic`] | exact roots: comparison, signs of polynomials, rounding |
 //! | [`crossing`] | crossings of a ray with a shape |
+//! | [`along_line`] | a shape's equations along a line, for display |
 
 mod algebraic;
+mod along_line;
 mod crossing;
 mod dyadic;
 mod interval;
@@ -26,6 +28,7 @@ mod remainders;
 mod ring;
 
 pub use algebraic::Algebraic;
+pub use along_line::{LineEquation, LineRoot, line_equations};
 pub use crossing::{Crossing, CrossingSolver, Piece, Pieces, RayIn, is_between};
 pub use dyadic::Dyadic;
 pub use polynomial::Polynomial;

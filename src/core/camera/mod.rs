@@ -249,6 +249,11 @@ impl Camera {
         self.eye
     }
 
+    /// The same before it was rounded to f32.
+    pub fn exact_eye(&self) -> DVec3 {
+        self.exact_eye
+    }
+
     /// Unit vector to the right of the picture.
     pub fn right(&self) -> DVec3 {
         self.world_from_camera.x_axis

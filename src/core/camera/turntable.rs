@@ -1,6 +1,6 @@
 //! Turntable navigation: orbit, pan and zoom.
 
-use super::{Camera, Projection};
+use super::{Camera, CameraError, Projection};
 use crate::aabb::Aabb;
 use glam::{DMat3, DVec2, DVec3, UVec2};
 use std::f64::consts::{FRAC_PI_2, PI, TAU};
@@ -32,7 +32,7 @@ pub enum StandardView {
     Bottom,
 }
 
-/// A camera on a sphere around a pivot, with a level horizon.
+/// A camera on a sphere around a pivot, with a level horizon unless a file's view is tilted.
 ///
 /// Lengths are in the scene's units; nothing depends on the scene's size.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -45,6 +45,8 @@ pub struct Turntable {
     pub yaw_radians: f64,
     /// Angle above the horizon, from −π/2 to π/2.
     pub pitch_radians: f64,
+    /// Rotation of the camera about the viewing direction, counterclockwise; 0 unless a file's view is tilted.
+    pub roll_radians: f64,
     /// Vertical field of view in radians; in an orthographic picture it defines the height at the pivot.
     pub fov_y_radians: f64,
     /// Whether the projection is orthographic.
@@ -73,6 +75,7 @@ impl Turntable {
             distance: 1.0,
             yaw_radians: 30f64.to_radians(),
             pitch_radians: 20f64.to_radians(),
+            roll_radians: 0.0,
             fov_y_radians: Self::FOV_Y_RADIANS,
             is_orthographic: false,
             up_axis: UpAxis::Y,
@@ -81,6 +84,48 @@ impl Turntable {
         };
         turntable.frame(bounds, resolution);
         turntable
+    }
+
+    /// The turntable that shows a given view, with the pivot on its axis at the depth of the scene's centre.
+    ///
+    /// `up` needn't be perpendicular to `forward`. The eye of an orthographic view moves along its axis.
+    ///
+    /// # Errors
+    /// See [`CameraError`].
+    pub fn looking(
+        [eye, forward, up]: [DVec3; 3],
+        projection: Projection,
+        up_axis: UpAxis,
+        bounds: Aabb,
+    ) -> Result<Self, CameraError> {
+        // Refuses what no camera can show.
+        let camera = Camera::look_at(eye, eye + forward, up, projection, UVec2::ONE)?;
+        let mut turntable = Self::framing(bounds, UVec2::ONE);
+        turntable.up_axis = up_axis;
+        let level = |v: DVec3| match up_axis {
+            UpAxis::Y => v,
+            UpAxis::Z => DVec3::new(v.x, v.z, -v.y),
+        };
+        let back = level(camera.back());
+        turntable.yaw_radians = back.x.atan2(back.z).rem_euclid(TAU);
+        turntable.pitch_radians = back.y.atan2(back.x.hypot(back.z));
+        let axes = turntable.level_axes();
+        let right = camera.right();
+        turntable.roll_radians = right.dot(axes.y_axis).atan2(right.dot(axes.x_axis));
+        let depth = camera.depth_of(turntable.centre);
+        let ahead = if depth > 0.0 { depth } else { turntable.radius };
+        turntable.distance = match projection {
+            Projection::Perspective { fov_y_radians } => {
+                turntable.fov_y_radians = fov_y_radians;
+                ahead
+            }
+            Projection::Orthographic { height } => {
+                turntable.is_orthographic = true;
+                0.5 * height / (0.5 * turntable.fov_y_radians).tan()
+            }
+        };
+        turntable.pivot = eye - ahead * camera.back();
+        Ok(turntable)
     }
 
     /// Moves along the viewing direction until the scene's box fits the picture.
@@ -110,6 +155,12 @@ impl Turntable {
 
     /// Rotates by a drag, in pixels to the right and down.
     pub fn orbit(&mut self, drag_px: DVec2, resolution: UVec2) {
+        // The drag relative to the level horizon.
+        let (sin, cos) = self.roll_radians.sin_cos();
+        let drag_px = DVec2::new(
+            cos * drag_px.x + sin * drag_px.y,
+            cos * drag_px.y - sin * drag_px.x,
+        );
         let angle = drag_px * Self::RADIANS_PER_HEIGHT / f64::from(resolution.y.max(1));
         self.turn(-angle.x);
         self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
@@ -153,6 +204,7 @@ impl Turntable {
 
     /// Looks along an axis.
     pub fn look_from(&mut self, view: StandardView) {
+        self.roll_radians = 0.0;
         (self.yaw_radians, self.pitch_radians) = match view {
             StandardView::Front => (0.0, 0.0),
             StandardView::Back => (PI, 0.0),
@@ -187,8 +239,19 @@ impl Turntable {
             .expect("the eye is finite, the projection within its limits")
     }
 
-    /// Right, up and back, with a level horizon; well defined from straight above, too.
+    /// Right, up and back.
     fn world_from_camera(&self) -> DMat3 {
+        let level = self.level_axes();
+        let (sin, cos) = self.roll_radians.sin_cos();
+        DMat3::from_cols(
+            cos * level.x_axis + sin * level.y_axis,
+            cos * level.y_axis - sin * level.x_axis,
+            level.z_axis,
+        )
+    }
+
+    /// Right, up and back with a level horizon; well defined from straight above, too.
+    fn level_axes(&self) -> DMat3 {
         let (sin_yaw, cos_yaw) = self.yaw_radians.sin_cos();
         let (sin_pitch, cos_pitch) = self.pitch_radians.sin_cos();
         let right = DVec3::new(cos_yaw, 0.0, -sin_yaw);

@@ -12,7 +12,9 @@ pub use tree::{FirstTree, SceneOptions};
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::GroupIntersector;
-use crate::kernel::{KernelChoice, KernelInfo, KernelList, exact_answer};
+use crate::kernel::{
+    KernelChoice, KernelInfo, KernelList, LineEquation, equations_along, exact_answer,
+};
 use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
@@ -64,10 +66,15 @@ pub trait Group: Debug + Send + Sync {
     /// t, u and v of a ray's first hit of a primitive, or `None` for a miss; see [`exact_answer`].
     fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]>;
 
+    /// The equations of a primitive with a ray's line substituted; see [`equations_along`]. None by default.
+    fn equations(&self, _ray: &Ray, _index: u32) -> Vec<LineEquation> {
+        Vec::new()
+    }
+
     /// The material of a primitive, as an index into the mesh's materials.
     fn material(&self, index: u32) -> u32;
 
-    /// The parameters of a primitive in a group's order, for display.
+    /// The parameters of a primitive in the order of [`ShapeInfo::parameters`], for display.
     fn numbers(&self, index: u32) -> Vec<f32>;
 
     /// A group of some of the primitives.
@@ -161,6 +168,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
 
     fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]> {
         exact_answer(ray, &self.primitives.primitive(index))
+    }
+
+    fn equations(&self, ray: &Ray, index: u32) -> Vec<LineEquation> {
+        equations_along(ray, &self.primitives.primitive(index))
     }
 
     fn material(&self, index: u32) -> u32 {

@@ -37,7 +37,7 @@ pub struct ShapeKernels {
 /// The kernel with this name or of the tier with this name, in any shape's table.
 pub fn kernel_named(name: &str) -> Option<KernelChoice> {
     let kernels = all_kernels().into_iter().flat_map(|shape| shape.kernels);
-    let mut kernels = kernels.filter(|kernel| kernel.name == name || kernel.short_name() == name);
+    let mut kernels = kernels.filter(|kernel| kernel.answers_to(name));
     kernels.next().map(|info| KernelChoice { info })
 }
 

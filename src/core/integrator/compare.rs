@@ -1,7 +1,7 @@
 //! Views that compare the chosen kernel with another one, usually the exact kernel.
 
 use super::Context;
-use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, error_ramp};
+use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, UNDEFINED, error_ramp};
 use crate::interaction::SurfaceInteraction;
 use crate::ray::{Hit, Ray, ulp_at};
 use glam::Vec3;
@@ -19,10 +19,14 @@ pub(super) fn error_t(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     })
 }
 
-/// The largest error of a barycentric coordinate.
+/// The largest error of a barycentric coordinate; [`UNDEFINED`] on shapes other than triangles.
 pub(super) fn error_barycentric(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     error(context, ray, hit, |hit, [_, u, v]| {
-        log_colour(hit.weight_error([1.0 - u - v, u, v]), WEIGHT_RANGE)
+        if context.scene.is_triangle(hit.primitive) {
+            log_colour(hit.weight_error([1.0 - u - v, u, v]), WEIGHT_RANGE)
+        } else {
+            UNDEFINED
+        }
     })
 }
 

@@ -11,7 +11,7 @@ mod views;
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
-use crate::kernel::{TriangleKernel, exact_triangle_kernel};
+use crate::kernel::{KernelChoice, exact_triangle_kernel};
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use glam::Vec3;
@@ -64,10 +64,10 @@ pub enum Comparison {
 
 impl Comparison {
     /// The kernel to compare with, where the user's second kernel is `chosen`.
-    pub fn kernel(self, chosen: &'static TriangleKernel) -> Option<&'static TriangleKernel> {
+    pub fn kernel(self, chosen: KernelChoice) -> Option<KernelChoice> {
         match self {
             Self::Nothing => None,
-            Self::Exact => Some(exact_triangle_kernel()),
+            Self::Exact => Some(exact_triangle_kernel().into()),
             Self::Second => Some(chosen),
         }
     }
@@ -82,7 +82,7 @@ impl Integrator {
         &self,
         scene: &Scene,
         first: &Arc<dyn Intersector>,
-        chosen: &'static TriangleKernel,
+        chosen: KernelChoice,
     ) -> Arc<dyn Intersector> {
         let second = self.against.kernel(chosen);
         second.map_or_else(
@@ -120,9 +120,9 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "barycentric",
         title: "Barycentric",
-        about: "The barycentric coordinates of the three corners as red, green, blue.",
+        about: "The barycentric coordinates of a triangle's corners as red, green, blue. On other shapes, the surface coordinates u and v, modulo 1, as red and green.",
         against: Comparison::Nothing,
-        legend: legend::none,
+        legend: legend::barycentric,
         depends_on_tree: false,
         colour: views::barycentric,
     },
@@ -138,7 +138,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "triangle",
         title: "Triangle",
-        about: "A colour for each triangle.",
+        about: "A colour for each triangle or other primitive.",
         against: Comparison::Nothing,
         legend: legend::none,
         depends_on_tree: false,
@@ -147,7 +147,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "cost",
         title: "Cost",
-        about: "Boxes and triangles tested for the ray, on a logarithmic scale.",
+        about: "Boxes and primitives tested for the ray, on a logarithmic scale.",
         against: Comparison::Nothing,
         legend: legend::cost,
         depends_on_tree: true,
@@ -165,7 +165,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "error-barycentric",
         title: "Barycentric error",
-        about: "Largest error of a barycentric coordinate of the chosen kernel, on a logarithmic scale.",
+        about: "Largest error of a barycentric coordinate of the chosen kernel, on a logarithmic scale. Shapes other than triangles have no barycentric coordinates and are grey.",
         against: Comparison::Exact,
         legend: legend::error_barycentric,
         depends_on_tree: false,
@@ -183,7 +183,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "disagreement",
         title: "Disagreement",
-        about: "Where the chosen kernel and a second one hit different triangles, or only one of them hits.",
+        about: "Where the chosen kernel and a second one hit different primitives, or only one of them hits.",
         against: Comparison::Second,
         legend: legend::decisions,
         depends_on_tree: false,

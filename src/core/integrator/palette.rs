@@ -60,6 +60,8 @@ pub const MISSED: Vec3 = Vec3::new(0.0, 0.80, 0.90);
 pub const FALSE_HIT: Vec3 = Vec3::new(0.20, 0.90, 0.05);
 /// Both hit, but different triangles.
 pub const OTHER_TRIANGLE: Vec3 = Vec3::new(0.90, 0.02, 0.75);
+/// The view isn't defined for this shape. Grey, which neither the ramps nor the colours above contain.
+pub const UNDEFINED: Vec3 = Vec3::new(0.3, 0.3, 0.3);
 
 #[cfg(test)]
 mod tests {

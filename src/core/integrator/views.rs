@@ -15,9 +15,16 @@ pub(super) fn normal(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     })
 }
 
-pub(super) fn barycentric(context: &Context, _: &Ray, hit: Option<Hit>) -> Vec3 {
+/// Barycentric coordinates on triangles, u and v modulo 1 on other shapes.
+pub(super) fn barycentric(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     hit.map_or(context.background, |hit| {
-        from_display(Vec3::from_array(hit.barycentric()))
+        from_display(if context.scene.is_triangle(hit.primitive) {
+            Vec3::from_array(hit.barycentric())
+        } else {
+            let uv = context.scene.surface(ray, &hit).uv;
+            let [u, v] = uv.to_array().map(|x| x.rem_euclid(1.0) as f32);
+            Vec3::new(u, v, 0.0)
+        })
     })
 }
 

@@ -15,6 +15,16 @@ impl KernelChoice {
         S::kernel(self.info.name).unwrap_or_else(|| S::kernel_of(self.tier()))
     }
 
+    /// The kernel of a shape, from the list of the shape's kernels.
+    pub fn among(self, kernels: &[&'static KernelInfo]) -> Option<&'static KernelInfo> {
+        let tier = self.tier();
+        let find = |name: &str| {
+            let mut kernels = kernels.iter();
+            kernels.find(|kernel| kernel.answers_to(name)).copied()
+        };
+        find(self.info.name).or_else(|| find(tier.name()))
+    }
+
     /// The tier that it serves; for a kernel without one, the tier of its precision.
     pub fn tier(self) -> Tier {
         self.info.tier.unwrap_or(match self.info.precision {
@@ -48,6 +58,9 @@ mod tests {
         for row in TRIANGLE_KERNELS.iter() {
             let choice = KernelChoice::from(row);
             assert!(std::ptr::eq(choice.row::<Triangle>(), row));
+            let infos: Vec<_> = TRIANGLE_KERNELS.iter().map(|row| row.info).collect();
+            let found = choice.among(&infos).expect("in the list");
+            assert!(std::ptr::eq(found, row.info));
         }
     }
 }

@@ -92,6 +92,11 @@ pub struct KernelInfo {
 }
 
 impl KernelInfo {
+    /// Whether this is its name or the name of the tier that it serves.
+    pub fn answers_to(&self, name: &str) -> bool {
+        self.name == name || self.tier.is_some_and(|tier| tier.name() == name)
+    }
+
     /// The name of its tier if it serves one, else its own name.
     pub fn short_name(&self) -> &'static str {
         self.tier.map_or(self.name, Tier::name)

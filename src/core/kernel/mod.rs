@@ -24,13 +24,14 @@ mod table;
 mod torus;
 mod triangle;
 
+pub use crate::algebra::{LineEquation, LineRoot};
 pub(crate) use algorithm::{Kernel, LaneHit, MAX_VALUES};
 pub use choice::KernelChoice;
 pub use info::{KernelInfo, Precision, Promises, Tier};
 pub(crate) use ray_lanes::{RayLanes, axes_of};
 pub use sphere::SPHERE_KERNELS;
 pub(crate) use table::{KernelList, KernelVisitor};
-pub use table::{KernelRow, KernelTable, exact_answer};
+pub use table::{KernelRow, KernelTable, equations_along, exact_answer};
 pub(crate) use triangle::{ShearedRay, exact};
 pub use triangle::{
     TRIANGLE_KERNELS, TriangleKernel, default_triangle_kernel, exact_triangle_kernel,

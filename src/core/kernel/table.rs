@@ -1,7 +1,7 @@
 //! Tables of kernels: one per shape.
 
 use super::{Kernel, KernelInfo, MAX_VALUES, RayLanes, Tier};
-use crate::algebra::Pieces;
+use crate::algebra::{LineEquation, Pieces, line_equations};
 use crate::lane::Number;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, Triangle};
@@ -13,6 +13,8 @@ pub struct KernelRow<S> {
     one: fn(&Ray, &S) -> Option<Hit>,
     /// t, u and v before they are rounded to f32, if the kernel is exact.
     answer: fn(&Ray, &S) -> Option<[f64; 3]>,
+    /// The shape's equations along the ray, if the kernel is exact and solves them.
+    equations: fn(&Ray, &S) -> Vec<LineEquation>,
 }
 
 impl<S: Shape> KernelRow<S> {
@@ -21,11 +23,6 @@ impl<S: Shape> KernelRow<S> {
     /// The hit's `primitive` is 0. The ray's `exclude` and the primitive's box are ignored.
     pub fn intersect(&self, ray: &Ray, shape: impl Into<S>) -> Option<Hit> {
         (self.one)(ray, &shape.into())
-    }
-
-    /// Whether this is its name or the name of the tier that it serves.
-    fn answers_to(&self, name: &str) -> bool {
-        self.info.name == name || self.info.tier.is_some_and(|tier| tier.name() == name)
     }
 }
 
@@ -36,7 +33,7 @@ pub trait KernelTable: KernelList {
 
     /// The kernel with this name, or the one that serves the tier with this name.
     fn kernel(name: &str) -> Option<&'static KernelRow<Self>> {
-        Self::kernels().iter().find(|row| row.answers_to(name))
+        Self::kernels().iter().find(|row| row.info.answers_to(name))
     }
 
     /// The kernel that serves a tier.
@@ -91,6 +88,7 @@ impl<S: Shape> KernelVisitor<S> for Vec<KernelRow<S>> {
             info: K::info::<N>(),
             one: intersect_one::<K, N>,
             answer: |ray, shape| intersect_one::<K, N>(ray, shape).map(widened),
+            equations: |_, _| Vec::new(),
         });
     }
 
@@ -102,6 +100,7 @@ impl<S: Shape> KernelVisitor<S> for Vec<KernelRow<S>> {
             info: &super::exact::INFO,
             one: |ray, triangle| super::exact::intersect_one(ray, triangle.clone().into().0),
             answer: |ray, triangle| super::exact::answer_for::<f64>(ray, triangle.clone().into().0),
+            equations: |_, _| Vec::new(),
         });
     }
 
@@ -113,6 +112,7 @@ impl<S: Shape> KernelVisitor<S> for Vec<KernelRow<S>> {
             info: &super::algebraic::INFO,
             one: super::algebraic::intersect_one,
             answer: super::algebraic::answer,
+            equations: line_equations,
         });
     }
 }
@@ -124,6 +124,11 @@ impl<S: Shape> KernelVisitor<S> for Vec<KernelRow<S>> {
 /// is a miss.
 pub fn exact_answer<S: KernelTable>(ray: &Ray, shape: &S) -> Option<[f64; 3]> {
     (S::kernel_of(Tier::Exact).answer)(ray, shape)
+}
+
+/// The equations of a shape with a ray's line substituted, part by part; none for a triangle.
+pub fn equations_along<S: KernelTable>(ray: &Ray, shape: &S) -> Vec<LineEquation> {
+    (S::kernel_of(Tier::Exact).equations)(ray, shape)
 }
 
 /// t, u and v of a hit.
@@ -164,7 +169,7 @@ mod tests {
                 for name in [Some(kernel.info.name), tier].into_iter().flatten() {
                     let found = S::kernel(name).expect("in the table");
                     assert!(std::ptr::eq(found, kernel), "{name}");
-                    let answers = S::kernels().iter().filter(|row| row.answers_to(name));
+                    let answers = S::kernels().iter().filter(|row| row.info.answers_to(name));
                     assert_eq!(answers.count(), 1, "{name}");
                 }
             }

@@ -37,6 +37,7 @@ pub(super) fn load(
         scene: Arc::new(scene),
         report,
         view: file.sensors.first().map(StartView::new),
+        description: Some(Arc::new(file)),
     })
 }
 

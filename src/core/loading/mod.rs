@@ -6,14 +6,17 @@
 //! | the shapes of the core that a transformed shape becomes | `placed` |
 //! | all meshes as one | `merge` |
 //! | the sensor as a view | `view` |
+//! | what was loaded, as the text of a scene file | `saving` |
 //!
 //! Transforms are applied in f64 once; the results are rounded to f32 relative to one origin of the scene.
 
 mod assemble;
 mod merge;
 mod placed;
+mod saving;
 mod view;
 
+pub use saving::scene_text;
 pub use view::StartView;
 
 use crate::aabb::Aabb;
@@ -21,6 +24,7 @@ use crate::mesh::SAFE_SIZE;
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
 use crate::progress::{BackgroundError, Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
+use crate::scene_file::SceneFile;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -33,6 +37,8 @@ pub struct LoadedScene {
     pub report: LoadReport,
     /// The view that the file asks for, if it has one.
     pub view: Option<StartView>,
+    /// The contents of the file if it is a scene file.
+    pub description: Option<Arc<SceneFile>>,
 }
 
 impl LoadedScene {
@@ -87,6 +93,7 @@ impl LoadedScene {
             scene,
             report,
             view: None,
+            description: None,
         })
     }
 }

@@ -1,7 +1,8 @@
-//! The view of a scene file's sensor.
+//! Views of scene files' sensors, and sensors of views.
 
-use crate::scene_file::{FieldOfView, Film, FovAxis, Sensor, SensorKind};
-use glam::{DVec3, UVec2};
+use crate::camera::{Camera, Projection};
+use crate::scene_file::{FieldOfView, Film, FovAxis, Place, Sensor, SensorKind};
+use glam::{DMat4, DVec3, UVec2};
 
 /// The view that a scene file asks for, in the world's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -43,7 +44,70 @@ impl StartView {
             size: UVec2::new(width, height),
         }
     }
+
+    /// The view of a camera in a scene with this origin.
+    pub fn of_camera(camera: &Camera, origin: DVec3) -> Self {
+        let (fov_y_radians, height) = match camera.projection() {
+            Projection::Perspective { fov_y_radians } => (Some(fov_y_radians), 0.0),
+            Projection::Orthographic { height } => (None, height),
+        };
+        Self {
+            eye: camera.exact_eye() + origin,
+            forward: -camera.back(),
+            up: camera.up(),
+            fov_y_radians,
+            height,
+            size: camera.resolution(),
+        }
+    }
+
+    /// The projection.
+    pub fn projection(&self) -> Projection {
+        match self.fov_y_radians {
+            Some(fov_y_radians) => Projection::Perspective { fov_y_radians },
+            None => Projection::Orthographic {
+                height: self.height,
+            },
+        }
+    }
+
+    /// A sensor with this view.
+    pub fn sensor(&self) -> Sensor {
+        let [width, height] = self.size.to_array();
+        let (kind, scale) = match self.fov_y_radians {
+            Some(fov_y_radians) => {
+                let degrees = fov_y_radians.to_degrees();
+                let axis = FovAxis::Y;
+                (SensorKind::Perspective(FieldOfView { degrees, axis }), 1.0)
+            }
+            None => {
+                let width = self.height * f64::from(width) / f64::from(height);
+                (SensorKind::Orthographic, 0.5 * width)
+            }
+        };
+        let left = self.up.cross(self.forward);
+        Sensor {
+            place: Place::default(),
+            id: None,
+            kind,
+            to_world: DMat4::from_cols(
+                (scale * left).extend(0.0),
+                (scale * self.up).extend(0.0),
+                self.forward.extend(0.0),
+                self.eye.extend(1.0),
+            ),
+            film: Film {
+                width,
+                height,
+                crop: None,
+            },
+            sample_count: DEFAULT_SAMPLE_COUNT,
+        }
+    }
 }
+
+/// Mitsuba's default.
+const DEFAULT_SAMPLE_COUNT: u32 = 4;
 
 /// The angle between the upper and the lower edge.
 fn fov_y(fov: FieldOfView, film: Film) -> f64 {
@@ -63,6 +127,27 @@ fn fov_y(fov: FieldOfView, film: Film) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_sensor_of_a_view_has_this_view() {
+        for fov_y_radians in [Some(0.7), None] {
+            let view = StartView {
+                eye: DVec3::new(1.0, -2.0, 1e6),
+                forward: DVec3::new(0.6, 0.0, -0.8),
+                up: DVec3::Y,
+                fov_y_radians,
+                height: if fov_y_radians.is_some() { 0.0 } else { 2.5 },
+                size: UVec2::new(640, 360),
+            };
+            let again = StartView::new(&view.sensor());
+            assert_eq!((again.eye, again.size), (view.eye, view.size));
+            assert!((again.forward - view.forward).length() < 1e-15);
+            assert!((again.up - view.up).length() < 1e-15);
+            assert!((again.height - view.height).abs() < 1e-15);
+            let angle = |view: StartView| view.fov_y_radians.unwrap_or(0.0);
+            assert!((angle(again) - angle(view)).abs() < 1e-15);
+        }
+    }
 
     #[test]
     fn the_vertical_angle_follows_from_the_axis_and_the_shape_of_the_film() {

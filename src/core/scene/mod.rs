@@ -3,7 +3,7 @@
 pub use crate::group::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
-use crate::group::{CsgGroup, Group, Grouped, ShapeGroup, Solid};
+use crate::group::{CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
 use crate::intersector::{Intersector, Packing, several};
 use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, Runs, TriangleMesh, VertexNormals};
@@ -182,6 +182,19 @@ impl Scene {
     /// The groups, in the order of their primitives' numbers.
     pub fn groups(&self) -> &[Arc<dyn Group>] {
         &self.groups
+    }
+
+    /// The shapes of the groups with their kernels, each shape once.
+    pub fn kernels(&self) -> Vec<ShapeKernels> {
+        let mut shapes: Vec<ShapeKernels> = Vec::new();
+        for group in &self.groups {
+            let shape = *group.shape();
+            if !shapes.iter().any(|listed| listed.shape == shape) {
+                let kernels = group.kernels();
+                shapes.push(ShapeKernels { shape, kernels });
+            }
+        }
+        shapes
     }
 
     /// Whether a primitive is a triangle. Its number is then its index in the mesh.

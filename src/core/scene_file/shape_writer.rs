@@ -147,11 +147,13 @@ fn operation_name(operation: CsgOperation) -> &'static str {
 
 /// The name by which a scene file in `folder` refers to a file.
 fn name_of(file: &Path, folder: &Path) -> Result<String, WriteError> {
-    let path = match file.strip_prefix(folder) {
-        Ok(inside) => inside.to_owned(),
-        // Fails only for an empty path.
-        Err(_) => std::path::absolute(file).unwrap_or_else(|_| file.to_owned()),
-    };
+    // Fails only for an empty path.
+    let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let folder = absolute(&folder.join("."));
+    let path = absolute(file);
+    let path = path
+        .strip_prefix(folder)
+        .map_or(path.clone(), Path::to_owned);
     let error = || WriteError::new(&path.to_string_lossy(), "it isn't valid Unicode");
     path.to_str().map(str::to_owned).ok_or_else(error)
 }

@@ -2,7 +2,7 @@
 
 use super::compact::Slots;
 use super::lines::box_grid;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
+use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -29,6 +29,18 @@ impl Shape for AxisBox {
     const INFO: ShapeInfo = ShapeInfo {
         name: "axis-aligned box",
         plural: "axis-aligned boxes",
+        parameters: &[
+            Parameter::point("min", "min"),
+            Parameter::point("max", "max"),
+        ],
+        equations: &[
+            "0 = x − min.x, where min ≤ p ≤ max in y and z",
+            "0 = x − max.x, where min ≤ p ≤ max in y and z",
+            "0 = y − min.y, where min ≤ p ≤ max in x and z",
+            "0 = y − max.y, where min ≤ p ≤ max in x and z",
+            "0 = z − min.z, where min ≤ p ≤ max in x and y",
+            "0 = z − max.z, where min ≤ p ≤ max in x and y",
+        ],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 6;

@@ -3,7 +3,7 @@
 use super::compact::Slots;
 use super::interior::unbounded;
 use super::lines::plane_grid;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
+use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -37,6 +37,12 @@ impl Shape for AxisPlane {
     const INFO: ShapeInfo = ShapeInfo {
         name: "axis-aligned plane",
         plural: "axis-aligned planes",
+        parameters: &[
+            Parameter::number("axis", "k"),
+            Parameter::number("coordinate", "D"),
+            Parameter::flag("faces_up"),
+        ],
+        equations: &["0 = p_k − D, hence t = (D − o_k)/d_k"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 3;

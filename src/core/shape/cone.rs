@@ -3,7 +3,7 @@
 use super::compact::Slots;
 use super::cylinder::{Along, AxialRay, BASE, SIDE, around_spheres, error, part_of};
 use super::lines::{disk_lines, side_lines};
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -35,6 +35,16 @@ impl Shape for Cone {
     const INFO: ShapeInfo = ShapeInfo {
         name: "cone",
         plural: "cones",
+        parameters: &[
+            Parameter::point("p0", "p0"),
+            Parameter::point("p1", "p1"),
+            Parameter::number("radius", "r"),
+            Parameter::flag("capped"),
+        ],
+        equations: &[
+            "0 = |f × w|²(w·w) − r²(f·w)², where 0 ≤ f·w ≤ w·w, f = p − p1, w = p0 − p1",
+            "0 = w·w − f·w, where |f × w|² ≤ r²(w·w), f = p − p1, w = p0 − p1",
+        ],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 8;

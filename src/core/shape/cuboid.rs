@@ -2,7 +2,9 @@
 
 use super::compact::Slots;
 use super::lines::box_grid;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{
+    AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, vector};
 use crate::lane::{Lane, Values};
@@ -57,6 +59,20 @@ impl Shape for Cuboid {
     const INFO: ShapeInfo = ShapeInfo {
         name: "box",
         plural: "boxes",
+        parameters: &[
+            Parameter::point("centre", "c"),
+            Parameter::vector("axis_x", "a1"),
+            Parameter::vector("axis_y", "a2"),
+            Parameter::vector("axis_z", "a3"),
+        ],
+        equations: &[
+            "0 = D(x + 1), where |y| ≤ 1 and |z| ≤ 1, p = c + x a1 + y a2 + z a3, D = a1·(a2 × a3)",
+            "0 = D(x − 1), where |y| ≤ 1 and |z| ≤ 1, p = c + x a1 + y a2 + z a3, D = a1·(a2 × a3)",
+            "0 = D(y + 1), where |x| ≤ 1 and |z| ≤ 1, p = c + x a1 + y a2 + z a3, D = a1·(a2 × a3)",
+            "0 = D(y − 1), where |x| ≤ 1 and |z| ≤ 1, p = c + x a1 + y a2 + z a3, D = a1·(a2 × a3)",
+            "0 = D(z + 1), where |x| ≤ 1 and |y| ≤ 1, p = c + x a1 + y a2 + z a3, D = a1·(a2 × a3)",
+            "0 = D(z − 1), where |x| ≤ 1 and |y| ≤ 1, p = c + x a1 + y a2 + z a3, D = a1·(a2 × a3)",
+        ],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 12;

@@ -2,7 +2,9 @@
 
 use super::compact::Slots;
 use super::lines::{disk_lines, side_lines};
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{
+    AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, squared_length, vector,
@@ -43,6 +45,17 @@ impl Shape for Cylinder {
     const INFO: ShapeInfo = ShapeInfo {
         name: "cylinder",
         plural: "cylinders",
+        parameters: &[
+            Parameter::point("p0", "p0"),
+            Parameter::point("p1", "p1"),
+            Parameter::number("radius", "r"),
+            Parameter::flag("capped"),
+        ],
+        equations: &[
+            "0 = |f × w|² − r²(w·w), where 0 ≤ f·w ≤ w·w, f = p − p0, w = p1 − p0",
+            "0 = f·w, where |f × w|² ≤ r²(w·w), f = p − p0, w = p1 − p0",
+            "0 = w·w − f·w, where |f × w|² ≤ r²(w·w), f = p − p0, w = p1 − p0",
+        ],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 8;

@@ -19,6 +19,8 @@ impl Shape for Disk {
     const INFO: ShapeInfo = ShapeInfo {
         name: "disk",
         plural: "disks",
+        parameters: Span::PARAMETERS,
+        equations: &["0 = (p − c)·(u × v), where p = c + αu + βv with α² + β² ≤ 1"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = Span::NUMBERS;

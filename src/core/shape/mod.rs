@@ -9,6 +9,7 @@ mod cylinder;
 mod disk;
 mod interior;
 mod lines;
+mod parameter;
 mod plane;
 mod plane_form;
 mod quadric;
@@ -31,6 +32,7 @@ pub(crate) use cylinder::{BASE, SIDE, TOP};
 pub use disk::Disk;
 pub use interior::Interior;
 pub use lines::{AddLine, LineDetail, LinePoint};
+pub use parameter::{Parameter, ParameterKind};
 pub use plane::Plane;
 pub use plane_form::PlaneForm;
 pub use quadric::Quadric;
@@ -46,13 +48,17 @@ use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
 use std::fmt::Debug;
 
-/// A shape's names.
+/// A shape's names and equations.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct ShapeInfo {
     /// One primitive, as in “1 sphere”.
     pub name: &'static str,
     /// Several primitives.
     pub plural: &'static str,
+    /// The names of its parameters, in the order of [`Shape::write`].
+    pub parameters: &'static [Parameter],
+    /// The equation of each part of its surface for a point p.
+    pub equations: &'static [&'static str],
 }
 
 /// The parameters of a primitive, in f32. They are the question that kernels answer.

@@ -3,7 +3,7 @@
 use super::compact::Slots;
 use super::interior::unbounded;
 use super::lines::plane_grid;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
+use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, vector};
 use crate::lane::{Lane, Values};
@@ -30,6 +30,11 @@ impl Shape for Plane {
     const INFO: ShapeInfo = ShapeInfo {
         name: "plane",
         plural: "planes",
+        parameters: &[
+            Parameter::point("point", "a"),
+            Parameter::vector("normal", "n"),
+        ],
+        equations: &["0 = (p − a)·n"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 6;

@@ -3,7 +3,9 @@
 use super::compact::Slots;
 use super::interior::unbounded;
 use super::quadric_lines::quadric_lines;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{
+    AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -54,6 +56,23 @@ impl Shape for Quadric {
     const INFO: ShapeInfo = ShapeInfo {
         name: "quadric",
         plural: "quadrics",
+        parameters: &[
+            Parameter::number("a", "a"),
+            Parameter::number("b", "b"),
+            Parameter::number("c", "c"),
+            Parameter::number("d", "d"),
+            Parameter::number("e", "e"),
+            Parameter::number("f", "f"),
+            Parameter::number("g", "g"),
+            Parameter::number("h", "h"),
+            Parameter::number("i", "i"),
+            Parameter::number("j", "j"),
+            Parameter::point("centre", "m"),
+            Parameter::vector("half_size", "s"),
+        ],
+        equations: &[
+            "0 = ax² + by² + cz² + 2dxy + 2eyz + 2fxz + 2gx + 2hy + 2iz + j, where (x, y, z) = p − m is in the box ±s",
+        ],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 16;

@@ -19,6 +19,8 @@ impl Shape for Rectangle {
     const INFO: ShapeInfo = ShapeInfo {
         name: "rectangle",
         plural: "rectangles",
+        parameters: Span::PARAMETERS,
+        equations: &["0 = (p − c)·(u × v), where p = c + αu + βv with |α| ≤ 1 and |β| ≤ 1"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = Span::NUMBERS;

@@ -1,6 +1,6 @@
 //! A centre and two half axes: what disks and rectangles have in common.
 
-use super::{SurfacePoint, U};
+use super::{Parameter, SurfacePoint, U};
 use crate::aabb::Planes;
 use crate::algebra::{Polynomial, RayIn, Ring, cross, difference, dot, vector};
 use crate::lane::{Lane, Values};
@@ -21,6 +21,12 @@ pub struct Span {
 impl Span {
     /// The number of its parameters.
     pub(super) const NUMBERS: usize = 9;
+    /// Their names.
+    pub(super) const PARAMETERS: &'static [Parameter] = &[
+        Parameter::point("centre", "c"),
+        Parameter::vector("axis_u", "u"),
+        Parameter::vector("axis_v", "v"),
+    ];
     /// No plane.
     pub(super) const NOWHERE: Self = Self {
         centre: Vec3::NAN,

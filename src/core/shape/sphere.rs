@@ -1,7 +1,7 @@
 //! Spheres.
 
 use super::compact::Slots;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
@@ -37,6 +37,11 @@ impl Shape for Sphere {
     const INFO: ShapeInfo = ShapeInfo {
         name: "sphere",
         plural: "spheres",
+        parameters: &[
+            Parameter::point("centre", "c"),
+            Parameter::number("radius", "r"),
+        ],
+        equations: &["0 = (p − c)·(p − c) − r²"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 4;

@@ -2,7 +2,9 @@
 
 use super::compact::Slots;
 use super::cylinder::around_spheres;
-use super::{AddLine, Interior, LineDetail, Shape, ShapeInfo, SurfacePoint, U, numbers_of};
+use super::{
+    AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
@@ -39,6 +41,13 @@ impl Shape for Torus {
     const INFO: ShapeInfo = ShapeInfo {
         name: "torus",
         plural: "tori",
+        parameters: &[
+            Parameter::point("centre", "c"),
+            Parameter::vector("axis", "w"),
+            Parameter::number("major", "R"),
+            Parameter::number("minor", "r"),
+        ],
+        equations: &["0 = (q·q + R² − r²)²(w·w) − 4R²|q × w|², where q = p − c"],
     };
     type Compact = Slots<Self>;
     const NUMBERS: usize = 8;

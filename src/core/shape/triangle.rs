@@ -2,7 +2,7 @@
 
 use super::lines::straight;
 use super::shared_corners::SharedCorners;
-use super::{AddLine, LineDetail, Shape, ShapeInfo, SurfacePoint, U};
+use super::{AddLine, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
@@ -22,6 +22,12 @@ impl Shape for Triangle {
     const INFO: ShapeInfo = ShapeInfo {
         name: "triangle",
         plural: "triangles",
+        parameters: &[
+            Parameter::point("a", "A"),
+            Parameter::point("b", "B"),
+            Parameter::point("c", "C"),
+        ],
+        equations: &["0 = (p − A)·n, where n = (B − A) × (C − A) and p is in the triangle"],
     };
     type Compact = SharedCorners;
 

@@ -6,123 +6,17 @@ use super::picture::ShadingArg;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
-use glam::{DVec3, UVec2};
-use hitscope_core::camera::{CameraError, Projection, Turntable};
+use hitscope_core::Scene;
 use hitscope_core::group::{all_kernels, kernel_named};
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::KernelChoice;
-use hitscope_core::loading::{LoadedScene, StartView};
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::Crease;
 use hitscope_core::obj::{FaultPolicy, LoadOptions, Recentre};
 use hitscope_core::scene::SceneOptions;
-use hitscope_core::{Camera, Scene};
 use std::path::Path;
 use std::sync::Arc;
-
-/// The camera. Positions are in the file's coordinates.
-#[derive(Args, Clone, Debug)]
-pub struct CameraArgs {
-    /// Width and height of the picture in pixels, each at most 16384
-    #[arg(long, value_name = "WIDTHxHEIGHT", default_value = "1280x720", value_parser = parse_size)]
-    pub size: UVec2,
-    /// Position of the camera [default: the sensor of a scene file, else the window's starting view of the whole mesh]
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
-    pub eye: Option<DVec3>,
-    /// Point in the centre of the picture; requires --eye [default: the centre of the mesh]
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
-    pub target: Option<DVec3>,
-    /// Direction that points up in the picture; requires --eye [default: 0,1,0]
-    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
-    pub up: Option<DVec3>,
-    /// Vertical field of view, at least 0.000001 and less than 180 [default: 40]
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "ortho", value_parser = parse_fov)]
-    pub fov: Option<f64>,
-    /// Orthographic projection; the picture is HEIGHT units of the file high
-    #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true, value_parser = parse_height)]
-    pub ortho: Option<f64>,
-}
-
-impl CameraArgs {
-    /// Checks the arguments without a mesh. Call this before loading one.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
-    pub fn check(&self) -> Result<(), CommandError> {
-        let (Some(eye), Some(target)) = (self.eye, self.target) else {
-            return match self.up {
-                Some(DVec3::ZERO) => Err(usage(CameraError::NoUp)),
-                _ => Ok(()),
-            };
-        };
-        // Checks directions only: whether positions fit in f32 depends on the mesh's origin.
-        match self.look_at(DVec3::ZERO, target - eye) {
-            Err(error) if error != CameraError::NotFinite => Err(usage(error)),
-            _ => Ok(()),
-        }
-    }
-
-    /// The camera for a scene whose file asks for a view, if it does.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if no camera can show
-    /// the mesh.
-    pub fn camera(&self, scene: &Scene, view: Option<&StartView>) -> Result<Camera, CommandError> {
-        let Some(eye) = self.eye else {
-            return Ok(match view {
-                Some(view) => self.given(scene, view)?,
-                None => self.framing(scene)?,
-            });
-        };
-        let origin = scene.mesh().origin();
-        let centre = scene.bounds().centre().as_dvec3();
-        let target = self.target.map_or(centre, |target| target - origin);
-        self.look_at(eye - origin, target).map_err(usage)
-    }
-
-    /// The camera of the file's sensor, with this size and, if given, angle or height.
-    fn given(&self, scene: &Scene, view: &StartView) -> Result<Camera, CameraError> {
-        let eye = view.eye - scene.mesh().origin();
-        let projection = match (self.fov, self.ortho, view.fov_y_radians) {
-            (None, None, Some(fov_y_radians)) => Projection::Perspective { fov_y_radians },
-            (None, None, None) => Projection::Orthographic {
-                height: view.height,
-            },
-            _ => self.projection(),
-        };
-        Camera::look_at(eye, eye + view.forward, view.up, projection, self.size)
-    }
-
-    /// The camera that shows the whole mesh.
-    fn framing(&self, scene: &Scene) -> Result<Camera, CameraError> {
-        let mut start = Turntable::framing(scene.bounds(), self.size);
-        if let Some(degrees) = self.fov {
-            start.fov_y_radians = degrees.to_radians();
-            start.frame(scene.bounds(), self.size);
-        }
-        let from = start.camera(self.size);
-        let eye = start.pivot + start.distance * from.back();
-        Camera::look_at(eye, start.pivot, from.up(), self.projection(), self.size)
-    }
-
-    fn look_at(&self, eye: DVec3, target: DVec3) -> Result<Camera, CameraError> {
-        let up = self.up.unwrap_or(DVec3::Y);
-        Camera::look_at(eye, target, up, self.projection(), self.size)
-    }
-
-    fn projection(&self) -> Projection {
-        match self.ortho {
-            Some(height) => Projection::Orthographic { height },
-            None => Projection::Perspective {
-                fov_y_radians: self.fov.map_or(Turntable::FOV_Y_RADIANS, f64::to_radians),
-            },
-        }
-    }
-}
-
-fn usage(error: CameraError) -> CommandError {
-    CommandError::Usage(error.to_string())
-}
 
 /// The kernel that traces the rays.
 #[derive(Args, Clone, Debug)]
@@ -285,45 +179,6 @@ fn view_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(INTEGRATORS.iter().map(|view| view.name)).map(|name| name)
 }
 
-/// `1280x720`.
-fn parse_size(text: &str) -> Result<UVec2, String> {
-    /// Largest side of a picture, the usual limit of GPU textures.
-    const LARGEST: u32 = 16384;
-    let sides = text.split_once(['x', 'X', '×']);
-    let [width, height] = sides
-        .map(|(w, h)| [w.trim().parse::<u32>(), h.trim().parse::<u32>()])
-        .ok_or("expected WIDTHxHEIGHT, as in 1280x720")?;
-    match (width, height) {
-        (Ok(width @ 1..=LARGEST), Ok(height @ 1..=LARGEST)) => Ok(UVec2::new(width, height)),
-        _ => Err(format!(
-            "width and height must be integers from 1 to {LARGEST}"
-        )),
-    }
-}
-
-/// `40`.
-fn parse_fov(text: &str) -> Result<f64, String> {
-    /// A camera that shows the whole mesh at this angle is about 1e8 times the mesh's size away.
-    const LEAST_FOV: f64 = 1e-6;
-    match text.parse() {
-        Ok(degrees) if (LEAST_FOV..180.0).contains(&degrees) => Ok(degrees),
-        _ => Err(format!(
-            "expected an angle in degrees, at least {LEAST_FOV} and less than 180"
-        )),
-    }
-}
-
-/// `2.5`.
-fn parse_height(text: &str) -> Result<f64, String> {
-    match text.parse() {
-        Ok(height) if height > 0.0 && height <= f64::from(f32::MAX) => Ok(height),
-        _ => Err(format!(
-            "expected a height above 0, at most {:e}, in the file's units",
-            f32::MAX
-        )),
-    }
-}
-
 /// `4096`.
 fn parse_megabytes(text: &str) -> Result<u64, String> {
     /// More bytes than this don't fit in 64 bits.
@@ -342,46 +197,15 @@ fn parse_crease(text: &str) -> Result<f32, String> {
     }
 }
 
-/// `1,-2.5,3e4`.
-fn parse_vector(text: &str) -> Result<DVec3, String> {
-    let expected = || "expected three numbers separated by commas, as in 1,-2.5,3".to_owned();
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|word| word.trim().parse())
-        .collect::<Result<_, _>>()
-        .map_err(|_| expected())?;
-    match numbers[..] {
-        [x, y, z] if numbers.iter().all(|x| x.is_finite()) => Ok(DVec3::new(x, y, z)),
-        [_, _, _] => Err("the numbers must be finite".to_owned()),
-        _ => Err(expected()),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
 
     #[test]
-    fn sizes_angles_and_vectors_are_read_or_refused_with_a_reason() {
-        assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
-        for bad in ["640", "0x5", "5x99999", "ax5", ""] {
-            assert!(parse_size(bad).is_err(), "{bad}");
-        }
-        assert_eq!(parse_fov("40"), Ok(40.0));
-        for bad in ["0", "1e-7", "180", "200", "nan", "-1", ""] {
-            assert!(parse_fov(bad).is_err(), "{bad}");
-        }
+    fn memory_limits_are_read_or_refused_with_a_reason() {
         assert_eq!(parse_megabytes("4096"), Ok(4096));
         for bad in ["0", "-5", "17592186044416", "x", ""] {
             assert!(parse_megabytes(bad).is_err(), "{bad}");
-        }
-        assert_eq!(parse_height("1e-9"), Ok(1e-9));
-        for bad in ["0", "-1", "inf", "nan", "1e39", ""] {
-            assert!(parse_height(bad).is_err(), "{bad}");
-        }
-        assert_eq!(parse_vector("1,-2.5,3e4"), Ok(DVec3::new(1.0, -2.5, 3e4)));
-        for bad in ["1,2", "1,2,3,4", "1,2,x", "1,2,nan", ""] {
-            assert!(parse_vector(bad).is_err(), "{bad}");
         }
     }
 }

@@ -1,6 +1,7 @@
 //! `hitscope bench`: measures the speed of loading a mesh, building its tree and tracing rays.
 
-use super::args::{CameraArgs, MeshArgs, kernel_names};
+use super::args::{MeshArgs, kernel_names};
+use super::camera::CameraArgs;
 use super::{CommandError, ThreadsArg, default_thread_count};
 use crate::json;
 use crate::measure::speed::{RAYS_AT_ONCE, median};

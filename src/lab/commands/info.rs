@@ -5,26 +5,30 @@ use super::input::is_stdin;
 use super::inspect::at_most;
 use super::{CommandError, file_error};
 use crate::json;
+use crate::measure::speed::default_camera;
 use crate::requirement::{Requirement, required_tier};
 use crate::second_opinion::{SecondOpinion, compare};
 use clap::Args;
-use hitscope_core::counts::counted;
+use hitscope_core::counts::{counted, counted_as};
+use hitscope_core::group::Group;
 use hitscope_core::kernel::default_triangle_kernel;
-use hitscope_core::loading::LoadedScene;
+use hitscope_core::loading::{LoadedScene, StartView, scene_text};
 use hitscope_core::mesh::{FLAWS, Health, bytes_as};
 use hitscope_core::obj::{self, Recentre};
+use hitscope_core::{Aabb, TriangleMesh};
 use serde::Serialize;
 use std::collections::BTreeMap;
 use std::fs::File;
 use std::io::Write;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 /// Show the contents of a file: counts, bounds, memory, mesh health, required kernel tier
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Examples:
   hitscope info bunny.obj
-  gunzip -c bunny.obj.gz | hitscope info - --json")]
+  gunzip -c bunny.obj.gz | hitscope info - --json
+  hitscope info bunny.obj --xml > scene.xml")]
 pub struct InfoArgs {
     /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
@@ -37,6 +41,9 @@ pub struct InfoArgs {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+    /// Print a scene file with the same contents instead; its first sensor is the file's, or the window's first view
+    #[arg(long, conflicts_with_all = ["json", "check"])]
+    pub xml: bool,
 }
 
 #[derive(Serialize)]
@@ -49,6 +56,8 @@ struct Info {
     /// Segments of the file's polylines.
     lines: usize,
     points: usize,
+    /// The groups of primitives, one per shape.
+    shapes: Vec<ShapeGroup>,
     bounds: Bounds,
     origin: [f64; 3],
     /// Largest difference per coordinate between the file's decimals and the traced mesh.
@@ -74,6 +83,43 @@ struct Bounds {
     max: [f64; 3],
 }
 
+impl Bounds {
+    fn of(bounds: Aabb, mesh: &TriangleMesh) -> Self {
+        let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
+        Self {
+            min: in_file(bounds.min),
+            max: in_file(bounds.max),
+        }
+    }
+}
+
+/// The primitives of one shape with their tree.
+#[derive(Serialize)]
+struct ShapeGroup {
+    shape: &'static str,
+    count: usize,
+    tree_bytes: usize,
+    build_ms: f64,
+    /// Null if there is none, as for planes, which are infinite.
+    bounds: Option<Bounds>,
+    #[serde(skip)]
+    text: String,
+}
+
+impl ShapeGroup {
+    fn of(group: &dyn Group, mesh: &TriangleMesh) -> Self {
+        let (shape, bounds) = (group.shape(), group.bounds());
+        Self {
+            shape: shape.name,
+            count: group.count(),
+            tree_bytes: group.bvh().bytes(),
+            build_ms: group.build_time().as_secs_f64() * 1e3,
+            bounds: (!bounds.is_empty()).then(|| Bounds::of(bounds, mesh)),
+            text: counted_as(group.count(), shape.name, shape.plural),
+        }
+    }
+}
+
 #[derive(Serialize)]
 struct HealthReport {
     degenerate: usize,
@@ -95,7 +141,14 @@ impl InfoArgs {
             let message = "--check reads the file twice, which isn't possible with standard input";
             return Err(CommandError::Usage(message.to_owned()));
         }
+        if self.xml && is_stdin(&self.file) {
+            let message = "--xml names the file, which isn't possible with standard input";
+            return Err(CommandError::Usage(message.to_owned()));
+        }
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        if self.xml {
+            return self.print_xml(&loaded, out);
+        }
         let scene = &loaded.scene;
         let intersector = scene.intersector(default_triangle_kernel());
         self.mesh.memory.require(
@@ -117,6 +170,17 @@ impl InfoArgs {
         }
         Ok(())
     }
+
+    fn print_xml(&self, loaded: &LoadedScene, out: &mut dyn Write) -> Result<(), CommandError> {
+        let scene = &loaded.scene;
+        let first = || StartView::of_camera(&default_camera(scene), scene.mesh().origin());
+        let view = loaded.view.unwrap_or_else(first);
+        let description = loaded.description.as_deref();
+        // File names become relative to the current directory.
+        let text = scene_text(description, &self.file, &view, Path::new(""));
+        let text = text.map_err(|error| CommandError::Other(error.to_string()))?;
+        Ok(out.write_all(text.as_bytes())?)
+    }
 }
 
 impl Info {
@@ -124,7 +188,6 @@ impl Info {
         let scene = &loaded.scene;
         let mesh = scene.mesh();
         let bounds = scene.bounds_with_elements();
-        let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
         let mut bytes = BTreeMap::from(mesh.bytes());
         bytes.insert("tree", scene.tree_bytes());
         bytes.insert("packed triangles", packed_bytes);
@@ -137,10 +200,12 @@ impl Info {
             groups: mesh.named_group_count(),
             lines: mesh.attributes().lines.len(),
             points: mesh.attributes().points.len(),
-            bounds: Bounds {
-                min: in_file(bounds.min),
-                max: in_file(bounds.max),
-            },
+            shapes: scene
+                .groups()
+                .iter()
+                .map(|group| ShapeGroup::of(&**group, mesh))
+                .collect(),
+            bounds: Bounds::of(bounds, mesh),
             origin: mesh.origin().to_array(),
             max_rounding: loaded.report.max_rounding,
             bytes,
@@ -181,6 +246,20 @@ impl Info {
         writeln!(out, "materials           {}", self.materials)?;
         writeln!(out, "groups              {}", self.groups)?;
         writeln!(out, "lines, points       {}, {}", self.lines, self.points)?;
+        for group in &self.shapes {
+            writeln!(
+                out,
+                "shape               {}: tree of {} bytes in {:.1} ms",
+                group.text, group.tree_bytes, group.build_ms
+            )?;
+            match &group.bounds {
+                Some(bounds) => {
+                    writeln!(out, "                    {:?}", bounds.min)?;
+                    writeln!(out, "                    {:?}", bounds.max)?;
+                }
+                None => writeln!(out, "                    no bounds")?,
+            }
+        }
         writeln!(out, "bounds              {:?}", self.bounds.min)?;
         writeln!(out, "                    {:?}", self.bounds.max)?;
         writeln!(out, "origin              {:?}", self.origin)?;

@@ -1,9 +1,10 @@
 //! `hitscope inspect`: prints the inspection of one pixel's ray.
 
 use super::CommandError;
-use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs};
+use super::args::{CreaseArg, KernelArg, MeshArgs};
+use super::camera::CameraArgs;
 use super::picture::ShadingArg;
-use crate::inspection::{HitReport, Inspection};
+use crate::inspection::{CrossingReport, HitReport, Inspection};
 use clap::Args;
 use glam::UVec2;
 use hitscope_core::counts::{counted, counted_as};
@@ -13,7 +14,7 @@ use std::io::Write;
 use std::path::PathBuf;
 
 const ABOUT: &str = "\
-Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
+Show the ray of one pixel: its hit with the formula, all crossings, the exact answer, every kernel's answer
 
 The ray goes through the centre of the pixel, as in `render` with the same camera. The exact answer is
 computed with integers; the table compares every kernel with it.
@@ -26,6 +27,9 @@ Values, in the text and in JSON:
   line               line of the face in the file, counted from 1
   side               front if the corners run counterclockwise as seen from the ray's origin, else back
   position           in the file's coordinates
+  parameters         of a shape other than a triangle, by name; points in the file's coordinates
+  formula            derivation of t in f64 for the ray r(t) = o + t d
+  crossings          all points where the ray crosses a surface, by the chosen kernel, ordered by t
   t_error_ulps       error of t, in ulps of f32
   barycentric_error  largest error of a barycentric coordinate
   ray_rounding       largest distance per coordinate, in units of the file, between this ray and the
@@ -45,7 +49,7 @@ Exit status:
   1  the mesh can't be read; one line on stderr has the reason
   2  the command line is wrong, for example the pixel is outside the picture";
 
-/// Show the ray of one pixel: its hit, the exact answer, and the answer of every kernel
+/// Show the ray of one pixel: its hit with the formula, all crossings, the exact answer, every kernel's answer
 #[derive(Args, Clone, Debug)]
 #[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct InspectArgs {
@@ -80,7 +84,29 @@ impl InspectArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        let (pixel, size) = (self.pixel, self.camera.size);
+        if let Some(size) = self.camera.known_size(&self.file) {
+            self.check_pixel(size)?;
+        }
+        self.camera.check()?;
+        self.crease.check(self.shading)?;
+        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        let scene = self.crease.apply(loaded.scene);
+        let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
+        self.check_pixel(camera.resolution())?;
+        let intersector = scene.intersector(self.kernel.kernel());
+        let (shading, pixel) = (self.shading.into(), self.pixel);
+        let mut inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+        inspection.find_line(&loaded.report.face_lines);
+        if self.json {
+            writeln!(out, "{}", inspection.to_json())?;
+        } else {
+            print(&inspection, out)?;
+        }
+        Ok(())
+    }
+
+    fn check_pixel(&self, size: UVec2) -> Result<(), CommandError> {
+        let pixel = self.pixel;
         if pixel.cmpge(size).any() {
             return Err(CommandError::PixelOutside {
                 x: pixel.x,
@@ -88,20 +114,6 @@ impl InspectArgs {
                 width: size.x,
                 height: size.y,
             });
-        }
-        self.camera.check()?;
-        self.crease.check(self.shading)?;
-        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
-        let scene = self.crease.apply(loaded.scene);
-        let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
-        let intersector = scene.intersector(self.kernel.kernel());
-        let mut inspection =
-            Inspection::of_pixel(&scene, &*intersector, self.shading.into(), &camera, pixel);
-        inspection.find_line(&loaded.report.face_lines);
-        if self.json {
-            writeln!(out, "{}", inspection.to_json())?;
-        } else {
-            print(&inspection, out)?;
         }
         Ok(())
     }
@@ -113,6 +125,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         ray,
         kernel,
         hit,
+        crossings,
         exact,
         kernels,
         cost,
@@ -133,9 +146,10 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         out,
         "cost       {}, {}",
         counted_as(cost.boxes as usize, "box", "boxes"),
-        counted(cost.triangles as usize, "triangle")
+        counted(cost.triangles as usize, "primitive")
     )?;
     print_hit(kernel, hit.as_ref(), out)?;
+    print_crossings(crossings, out)?;
     match exact {
         None => writeln!(out, "exact: no hit")?,
         Some(exact) => match &exact.fractions {
@@ -198,7 +212,9 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
         let [a, b, c] = triangle.vertices.map(list);
         rows.extend([("vertices", a), ("", b), ("", c)]);
     } else {
-        rows.push(("parameters", format!("{:?}", hit.parameters)));
+        for parameter in hit.parameters.iter().flat_map(|parameters| &parameters.0) {
+            rows.push((parameter.name, parameter.value.to_string()));
+        }
     }
     if let Some(uv) = hit.surface_uv {
         rows.push(("u, v", format!("{uv:?}")));
@@ -209,6 +225,31 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
     ));
     for (name, value) in rows {
         writeln!(out, "  {name:<12} {value}")?;
+    }
+    writeln!(out, "formula")?;
+    hit.formula
+        .iter()
+        .try_for_each(|line| writeln!(out, "  {line}"))
+}
+
+fn print_crossings(crossings: &[CrossingReport], out: &mut dyn Write) -> std::io::Result<()> {
+    writeln!(out, "{}", counted(crossings.len(), "crossing"))?;
+    for (index, crossing) in (1..).zip(crossings) {
+        let CrossingReport {
+            t,
+            shape,
+            primitive,
+            side,
+            ..
+        } = crossing;
+        let also = match crossing.also.len() {
+            0 => String::new(),
+            count => format!(" and {count} more"),
+        };
+        writeln!(
+            out,
+            "  {index:>3}  t {t:<14} {side:<5} of {shape} {primitive}{also}"
+        )?;
     }
     Ok(())
 }

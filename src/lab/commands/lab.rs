@@ -1,6 +1,7 @@
 //! `hitscope lab`: measures accuracy and speed of every kernel on this machine.
 
-use super::args::{CameraArgs, MeshArgs};
+use super::args::MeshArgs;
+use super::camera::CameraArgs;
 use super::stderr::ProgressLine;
 use super::{CommandError, Output, default_thread_count, file_error};
 use crate::json;
@@ -9,7 +10,6 @@ use crate::measure::statistics::{rate_text, short};
 use crate::measure::{self, CaseInfo, Measurements, RunProgress, Sizes};
 use crate::report::{self, RunInfo};
 use clap::Args;
-use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::obj::Recentre;
 use hitscope_core::progress::Progress;
 use hitscope_core::simd::SimdLevel;
@@ -22,7 +22,8 @@ use std::time::{Duration, Instant, SystemTime};
 /// Measure accuracy and speed of every kernel against exact arithmetic
 ///
 /// Without --scene, the kernels are measured on built-in cases that cover extreme sizes, shapes and positions. With
-/// --scene, they are measured on the rays of a camera in your own mesh.
+/// --scene, they are measured on the rays of a camera in your own mesh or scene: the kernels of
+/// all its shapes.
 #[derive(Args, Clone, Debug)]
 #[command(
     mut_args(only_with_scene),
@@ -190,11 +191,12 @@ impl LabArgs {
         } else {
             SceneSizes::COMMAND
         };
+        let kernels = measure::scene::measured_kernels(&scene);
         let mut rows = Vec::new();
         let progress = ProgressLine::new();
         let never_cancelled = Progress::default();
         let measured = measure::scene::measure(&scene, &camera, sizes, &never_cancelled, |row| {
-            let (done, all) = (rows.len() + 1, TRIANGLE_KERNELS.len());
+            let (done, all) = (rows.len() + 1, kernels.len());
             progress.update(format_args!("{done} of {all} kernels"));
             rows.push(row);
         });
@@ -205,6 +207,7 @@ impl LabArgs {
                 "file": file.display().to_string(),
                 "machine": machine(),
                 "triangles": scene.mesh().triangles().len(),
+                "primitives": scene.primitive_count(),
                 "kernels": rows,
             });
             writeln!(out, "{}", json::to_pretty(&json))?;
@@ -262,7 +265,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     )?;
     writeln!(
         out,
-        "{:<22} {:>9} {:>9} {:>9} {:>10}   {:>10} {:>10} {:>10} {:>9} {:>9}",
+        "{:<24} {:>9} {:>9} {:>9} {:>10}   {:>10} {:>10} {:>10} {:>9} {:>9}",
         "kernel",
         "primary",
         "bounce",
@@ -274,13 +277,17 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         "t p99",
         "t max"
     )?;
-    for (row, kernel) in rows.iter().zip(TRIANGLE_KERNELS.iter()) {
+    let mut shape = "";
+    for row in rows {
+        if row.shape != std::mem::replace(&mut shape, row.shape) {
+            writeln!(out, "{}", row.shape)?;
+        }
         let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
         let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
         writeln!(
             out,
-            "{:<22} {:>9} {:>9} {:>9} {:>10.3}   {:>10} {:>10} {:>10} {:>9} {:>9}",
-            kernel.info.name,
+            "  {:<22} {:>9} {:>9} {:>9} {:>10.3}   {:>10} {:>10} {:>10} {:>9} {:>9}",
+            row.kernel,
             short(rates.primary),
             if rates.bounce > 0.0 {
                 short(rates.bounce)

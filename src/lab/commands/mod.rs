@@ -2,6 +2,7 @@
 
 mod args;
 mod bench;
+mod camera;
 mod draft;
 mod info;
 mod input;
@@ -14,8 +15,9 @@ mod stderr;
 mod threads;
 mod trace;
 
-pub use args::{CameraArgs, MemoryArg};
+pub use args::MemoryArg;
 pub use bench::BenchArgs;
+pub use camera::CameraArgs;
 pub use info::InfoArgs;
 pub use input::{is_stdin, print_warnings};
 pub use inspect::InspectArgs;

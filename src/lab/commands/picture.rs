@@ -1,18 +1,20 @@
 //! Options of a traced picture, and its tracing.
 
-use super::args::{CameraArgs, CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
+use super::args::{CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
+use super::camera::CameraArgs;
 use super::{CommandError, ThreadsArg};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
+use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{Comparison, Context};
-use hitscope_core::kernel::triangle_kernel;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Film, Intersector};
+use std::path::Path;
 use std::sync::Arc;
 
 /// Options of a traced picture
@@ -88,7 +90,7 @@ impl PictureArgs {
     ///
     /// # Errors
     /// [`CommandError::Usage`].
-    pub fn check(&self) -> Result<(), CommandError> {
+    pub fn check(&self, file: &Path) -> Result<(), CommandError> {
         let refuse = |message: String| Err(CommandError::Usage(message));
         self.camera.check()?;
         if self.against.is_some() && self.view.view().against != Comparison::Second {
@@ -98,9 +100,13 @@ impl PictureArgs {
             ));
         }
         self.crease.check(self.shading)?;
-        let (bytes, memory) = (self.picture_bytes(), self.mesh.memory);
+        // The size of a scene file's picture may be known only later.
+        let Some(size) = self.camera.known_size(file) else {
+            return Ok(());
+        };
+        let (bytes, memory) = (picture_bytes(size), self.mesh.memory);
         if bytes > memory.bytes() {
-            let UVec2 { x, y } = self.camera.size;
+            let UVec2 { x, y } = size;
             let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
             return refuse(format!(
                 "a picture of {x}x{y} pixels takes {megabytes} MB; the limit is {limit} MB (--max-memory)"
@@ -120,10 +126,10 @@ impl PictureArgs {
         let intersector: Arc<dyn Intersector> =
             Arc::from(loaded.scene.intersector(self.kernel.kernel()));
         let against = self.against.as_deref().unwrap_or("exact");
-        let chosen = triangle_kernel(against).expect("clap accepts only names in the table");
+        let chosen = kernel_named(against).expect("clap accepts only names in the tables");
         let view = self.view.view();
         let second = view.second(&loaded.scene, &intersector, chosen);
-        self.require_memory(&loaded, &[&intersector, &second])?;
+        self.require_memory(&loaded, camera.resolution(), &[&intersector, &second])?;
         let context = Context {
             second,
             intersector,
@@ -149,20 +155,21 @@ impl PictureArgs {
     fn require_memory(
         &self,
         loaded: &LoadedScene,
+        size: UVec2,
         [first, second]: &[&Arc<dyn Intersector>; 2],
     ) -> Result<(), CommandError> {
         let mut packed_bytes = first.bytes();
         if !Arc::ptr_eq(first, second) {
             packed_bytes += second.bytes();
         }
-        let UVec2 { x, y } = self.camera.size;
+        let UVec2 { x, y } = size;
         let what = format_args!("a picture of {x}x{y} pixels");
         let memory = self.mesh.memory;
-        memory.require(self.picture_bytes(), &loaded.scene, packed_bytes, what)
+        memory.require(picture_bytes(size), &loaded.scene, packed_bytes, what)
     }
+}
 
-    fn picture_bytes(&self) -> u64 {
-        let UVec2 { x, y } = self.camera.size;
-        u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
-    }
+fn picture_bytes(size: UVec2) -> u64 {
+    let UVec2 { x, y } = size;
+    u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
 }

@@ -39,7 +39,7 @@ impl RenderArgs {
     /// # Errors
     /// [`CommandError::Usage`].
     pub fn check(&self) -> Result<(), CommandError> {
-        self.picture.check()
+        self.picture.check(&self.file)
     }
 
     /// Traces the picture. Drawing the overlay is left to the caller, which may have a GPU.

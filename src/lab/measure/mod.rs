@@ -344,7 +344,7 @@ fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<S
     let bench = speed::Bench::new(&scene, name, &workloads, sizes.speed_rounds);
     let kernels = TRIANGLE_KERNELS.iter();
     kernels
-        .map(|kernel| bench.measure(kernel, &*scene.intersector(kernel), progress))
+        .map(|kernel| bench.measure(kernel.into(), &*scene.intersector(kernel), progress))
         .collect()
 }
 

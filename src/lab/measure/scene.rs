@@ -5,7 +5,8 @@ use super::statistics::{Quantiles, bound_per_million, per_million};
 use super::workloads::{Workloads, workloads};
 use crate::oracle;
 use hitscope_core::counts::counted_as;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, default_triangle_kernel, exact_triangle_kernel};
+use hitscope_core::group::ShapeKernels;
+use hitscope_core::kernel::{KernelChoice, Tier, default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::ray::ulp_at;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
@@ -40,6 +41,8 @@ impl SceneSizes {
 /// The result of one kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct SceneRow {
+    /// The shape that the kernel tests.
+    pub shape: &'static str,
     /// The kernel.
     pub kernel: &'static str,
     /// Camera and bounce rays compared with the oracle.
@@ -51,13 +54,13 @@ pub struct SceneRow {
     pub missed: u64,
     /// False hits.
     pub false_hits: u64,
-    /// Hits on a triangle other than the nearest with the lowest index.
+    /// Hits on a primitive other than the nearest with the lowest index.
     pub other_triangle: u64,
     /// All wrong decisions per million.
     pub wrong_per_million: f64,
     /// The upper bound per million, with 95 % confidence, if there are none.
     pub bound_per_million: f64,
-    /// Errors of t on the right triangle, in f32 ulps.
+    /// Errors of t on the right primitive, in f32 ulps.
     pub t_ulps: Option<Quantiles>,
     /// The kernel's speed in this scene.
     pub speed: Speed,
@@ -72,7 +75,20 @@ fn counted_primitives(scene: &Scene) -> String {
     counted.collect::<Vec<_>>().join(", ")
 }
 
-/// Measures every kernel in a scene seen by a camera. Passes each row to `each` as soon as it is measured.
+/// The kernels that [`measure`] measures: those of all shapes in the scene, shape by shape.
+pub fn measured_kernels(scene: &Scene) -> Vec<(&'static str, KernelChoice)> {
+    let of_shape = |shape: ShapeKernels| {
+        let name = shape.shape.name;
+        let kernels = shape.kernels.into_iter();
+        kernels.map(move |info| (name, KernelChoice { info }))
+    };
+    scene.kernels().into_iter().flat_map(of_shape).collect()
+}
+
+/// Measures every kernel of the scene's shapes, seen by a camera. Passes each row to `each` as soon as it is measured.
+///
+/// Each row is of the whole scene: the other shapes are tested by their kernels of the same tier, or of the tier of the
+/// same precision. So a tier has the same figures for every shape, and is measured once.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -88,11 +104,24 @@ pub fn measure(
     let answers = answers(scene, &checked, progress)?;
     let name = counted_primitives(scene);
     let bench = Bench::new(scene, name, &workloads, sizes.rounds);
-    for kernel in TRIANGLE_KERNELS.iter() {
+    let mut tiers: Vec<(Tier, SceneRow)> = Vec::new();
+    for (shape, kernel) in measured_kernels(scene) {
         progress.check()?;
+        let tier = kernel.info.tier;
+        let measured = tiers.iter().find(|(measured, _)| Some(*measured) == tier);
+        if let Some((_, row)) = measured {
+            each(SceneRow {
+                shape,
+                kernel: kernel.info.name,
+                ..row.clone()
+            });
+            continue;
+        }
         let intersector = scene.intersector(kernel);
         let speed = bench.measure(kernel, &*intersector, progress)?;
-        each(row(&*intersector, &answers, speed));
+        let row = row(shape, &*intersector, &answers, speed);
+        tiers.extend(tier.map(|tier| (tier, row.clone())));
+        each(row);
     }
     Ok(())
 }
@@ -144,7 +173,12 @@ fn answers(scene: &Scene, rays: &[Ray], progress: &Progress) -> Result<Vec<Answe
     Ok(answers)
 }
 
-fn row(intersector: &dyn Intersector, answers: &[Answer], speed: Speed) -> SceneRow {
+fn row(
+    shape: &'static str,
+    intersector: &dyn Intersector,
+    answers: &[Answer],
+    speed: Speed,
+) -> SceneRow {
     let [mut hits, mut missed, mut false_hits, mut other_triangle] = [0; 4];
     let mut t_ulps = Vec::new();
     for Answer { ray, nearest } in answers {
@@ -164,6 +198,7 @@ fn row(intersector: &dyn Intersector, answers: &[Answer], speed: Speed) -> Scene
     }
     let n = answers.len() as u64;
     SceneRow {
+        shape,
         kernel: intersector.kernel().name,
         n,
         hits,

@@ -5,7 +5,7 @@ use cpu_time::ThreadTime;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::Turntable;
 use hitscope_core::intersector::Cost;
-use hitscope_core::kernel::{TriangleKernel, triangle_kernel};
+use hitscope_core::kernel::{KernelChoice, Tier, TriangleKernel, triangle_kernel};
 use hitscope_core::mesh::shapes;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
@@ -25,9 +25,9 @@ pub struct Speed {
     pub mrays_per_s: Rates,
     /// Time per ray relative to `fast` in the same round; the mean over the workloads.
     pub time_relative_to_fast: f64,
-    /// Nanoseconds per triangle test, without the tree.
-    pub ns_per_test: f64,
-    /// Size of the packed triangles and the tree, in bytes per triangle.
+    /// Nanoseconds per triangle test, without the tree; `None` for kernels of other shapes.
+    pub ns_per_test: Option<f64>,
+    /// Size of the packed primitives and the tree, in bytes per primitive.
     pub bytes_per_triangle: f64,
     /// Triangles decided in f64, per million rays; `None` for kernels that aren't adaptive.
     pub in_f64_per_million: Option<f64>,
@@ -67,7 +67,7 @@ pub struct Bench<'a> {
 impl<'a> Bench<'a> {
     /// Packs the scene for `fast`. Results are medians over `rounds` rounds.
     pub fn new(scene: &'a Scene, name: String, workloads: &'a Workloads, rounds: usize) -> Self {
-        let fast = triangle_kernel("fast").expect("the fast tier is in the table");
+        let fast = triangle_kernel(Tier::Fast.name()).expect("the fast tier is in the table");
         Self {
             scene,
             name,
@@ -84,7 +84,7 @@ impl<'a> Bench<'a> {
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn measure(
         &self,
-        kernel: &'static TriangleKernel,
+        kernel: KernelChoice,
         intersector: &dyn Intersector,
         progress: &Progress,
     ) -> Result<Speed, Cancelled> {
@@ -108,9 +108,9 @@ impl<'a> Bench<'a> {
             ratios.push(median(ratio));
         }
         // `fast` relative to itself is 1 by definition; two measurements would differ.
-        let is_fast = kernel.info.name == self.fast.kernel().name;
+        let is_fast = kernel.info.tier == Some(Tier::Fast);
         let mean = ratios.iter().sum::<f64>() / ratios.len().max(1) as f64;
-        let triangles = self.scene.mesh().triangles().len().max(1) as f64;
+        let primitives = self.scene.primitive_count().max(1) as f64;
         let bytes = intersector.bytes() + self.scene.tree_bytes();
         let adaptive = adaptive(intersector, self.workloads);
         Ok(Speed {
@@ -122,8 +122,9 @@ impl<'a> Bench<'a> {
                 random: rates[2],
             },
             time_relative_to_fast: if is_fast { 1.0 } else { mean },
-            ns_per_test: self.alone.ns_per_test(kernel),
-            bytes_per_triangle: bytes as f64 / triangles,
+            ns_per_test: triangle_kernel(kernel.info.name)
+                .map(|kernel| self.alone.ns_per_test(kernel)),
+            bytes_per_triangle: bytes as f64 / primitives,
             in_f64_per_million: adaptive.map(|[in_f64, _]| in_f64),
             in_integers_per_million: adaptive.map(|[_, in_integers]| in_integers),
         })

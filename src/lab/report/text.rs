@@ -82,7 +82,7 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
             short(rates.bounce),
             short(rates.random),
             format!("{:.3}", speed.time_relative_to_fast),
-            short(speed.ns_per_test),
+            speed.ns_per_test.map_or("–".to_owned(), short),
             short(speed.bytes_per_triangle),
             rate(speed.in_f64_per_million),
             rate(speed.in_integers_per_million),

@@ -3,9 +3,8 @@
 use super::App;
 use crate::bindings::Action;
 use crate::flaw_place::FlawPlace;
-use hitscope_core::camera::UpAxis;
+use crate::saving::{NotSaved, suggested_path};
 use hitscope_core::mesh::Flaw;
-use std::path::Path;
 
 /// Distance of the camera from a flaw, relative to the distance that frames the triangles there.
 const FLAW_DISTANCE: f64 = 3.0;
@@ -14,21 +13,26 @@ impl App {
     pub(super) fn perform(&mut self, action: Action, ctx: &egui::Context, frame: &eframe::Frame) {
         match action {
             Action::Open => {
-                let folder = self.document.path.as_deref().and_then(Path::parent);
-                self.open_dialog.open(ctx, frame, folder);
+                let near = self.document.path.as_deref();
+                self.open_dialog.open(ctx, frame, near);
+            }
+            Action::Save if self.document.path.is_none() => self.error(NotSaved::BuiltIn),
+            Action::Save => {
+                let suggested = suggested_path(&self.document);
+                self.save_dialog.open(ctx, frame, suggested.as_deref());
             }
             Action::Reload => {
                 if let Some(path) = self.document.path.clone() {
                     self.load(path, ctx);
                 }
             }
-            // The mesh can't be seen from this direction, such as a flat mesh edge-on.
-            Action::Frame if self.shows_nothing() => self.use_default_view(),
-            Action::Frame => {
-                let bounds = self.document.loaded.scene.bounds_with_elements();
-                self.turntable.frame(bounds, self.resolution);
+            Action::Frame => self.frame(),
+            Action::StepCrossing(step) => {
+                if let Some(pick) = &mut self.pick {
+                    pick.step(step);
+                }
             }
-            Action::SetUpAxis(axis) => self.settings.is_z_up = axis == UpAxis::Z,
+            Action::SetUpAxis(axis) => self.settings.keep_up_axis(axis),
             Action::ShowFlaw(flaw) => self.show_flaw(flaw),
             Action::ToggleWatch => self.settings.watches = !self.settings.watches,
             Action::LookFrom(view) => self.turntable.look_from(view),
@@ -72,6 +76,7 @@ impl App {
         }
         let is_closed = std::mem::take(&mut self.shows_help)
             || self.open_dialog.dismiss()
+            || self.save_dialog.dismiss()
             || self.notice.take().is_some();
         if !is_closed && self.flaw.take().is_none() {
             (self.pick, self.picking, self.face_lookup) = (None, None, None);

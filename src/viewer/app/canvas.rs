@@ -1,6 +1,7 @@
 //! The picture with its overlay and marks.
 
 use super::App;
+use super::pick::Pick;
 use crate::overlay::Options;
 use crate::overlay::wireframe::WireframeEdges;
 use crate::theme;
@@ -162,7 +163,7 @@ impl App {
             self.error(error);
         }
         let marks = [
-            (self.pick.as_ref().and_then(|pick| pick.point), theme::PICK),
+            (self.marked_point(), theme::PICK),
             (self.flaw.as_ref().map(|place| place.point), theme::FLAW),
         ];
         for (point, colour) in marks {
@@ -179,10 +180,6 @@ impl App {
         } else {
             WireframeEdges::Polygons
         };
-        let hit = self
-            .pick
-            .as_ref()
-            .and_then(|pick| pick.inspection.hit.as_ref());
         Options {
             wireframe: settings.shows_wireframe.then_some(edges),
             wire_colour: settings.wire_colour,
@@ -190,7 +187,7 @@ impl App {
             normal_length: settings.normal_length,
             elements: self.document.loaded.scene.mesh().has_lines_or_points(),
             flaw: self.flaw.as_ref().map(|place| place.flaw),
-            picked: hit.map(|hit| hit.primitive),
+            picked: self.pick.as_ref().and_then(Pick::marked_triangle),
             line_width_px: pixels_per_point.max(1.0),
         }
     }

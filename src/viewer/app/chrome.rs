@@ -1,21 +1,14 @@
-//! The window around the picture: tool bar, side panel, status line, messages and help.
+//! The tool bar and the status line.
 
 use super::App;
-use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
-use crate::panels;
-use crate::settings::{PANEL_WIDTHS, Tab};
-use crate::trade::Trade;
+use crate::bindings::Action;
+use crate::panels::view::shown_kernel;
 use crate::watch::Watch;
-use egui::{Align, Layout, RichText};
-use glam::UVec2;
+use egui::RichText;
 use hitscope_core::Scene;
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_core::integrator::INTEGRATORS;
-
-/// Width in points that the panel leaves for the picture in a narrow window.
-const NARROWEST_PICTURE: f32 = 120.0;
-/// Width in points of the panel in the narrowest window.
-const MIN_PANEL_WIDTH: f32 = 160.0;
+use hitscope_core::kernel::KernelChoice;
 
 impl App {
     pub(super) fn toolbar_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
@@ -45,11 +38,21 @@ impl App {
         {
             actions.push(Action::Open);
         }
-        if ui
-            .button("Frame")
-            .on_hover_text("Frame the mesh (Home)")
+        let save = ui.add_enabled(self.document.path.is_some(), egui::Button::new("Save"));
+        if save
+            .on_hover_text("Save what is open as a scene file, with this camera (Ctrl+Shift+S)")
+            .on_disabled_hover_text(
+                "Only a document that is in a file can be saved as a scene file",
+            )
             .clicked()
         {
+            actions.push(Action::Save);
+        }
+        let frame = match self.document.loaded.view {
+            Some(_) => "Show the scene file's view, or the whole scene (Home)",
+            None => "Frame the mesh (Home)",
+        };
+        if ui.button("Frame").on_hover_text(frame).clicked() {
             actions.push(Action::Frame);
         }
         self.view_menu_ui(ui);
@@ -142,95 +145,6 @@ impl App {
         }
     }
 
-    pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
-        let mut is_expanded = self.settings.shows_panel;
-        let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
-        // In a narrow window, the panel leaves some room for the picture.
-        let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
-        let shown = egui::Panel::right("panel")
-            .default_size(self.settings.panel_width)
-            .size_range(narrowest.min(limit)..=limit)
-            .show_collapsible(ui, &mut is_expanded, |ui| {
-                ui.add_space(4.0);
-                ui.horizontal(|ui| {
-                    for (tab, label) in [
-                        (Tab::Inspect, "Inspect"),
-                        (Tab::Display, "Display"),
-                        (Tab::Mesh, "Mesh"),
-                        (Tab::Trade, "Trade"),
-                    ] {
-                        ui.selectable_value(&mut self.settings.tab, tab, label);
-                    }
-                });
-                ui.separator();
-                // In a narrow window the contents are wider than the panel.
-                egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-                    match self.settings.tab {
-                        Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
-                            ui.label("No file is open.");
-                        }
-                        Tab::Inspect => {
-                            let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
-                            let pick = self.pick.as_ref();
-                            let is_reading = self.face_lookup.is_some();
-                            let view = pick.map(|pick| pick.view(&self.document, is_reading));
-                            panels::inspect::inspect_ui(ui, view, is_busy);
-                        }
-                        Tab::Display => {
-                            panels::view::view_ui(
-                                ui,
-                                &mut self.settings,
-                                &mut self.turntable,
-                                actions,
-                            );
-                        }
-                        Tab::Mesh => {
-                            let (document, settings) = (&mut self.document, &mut self.settings);
-                            panels::mesh::mesh_ui(
-                                ui,
-                                document,
-                                settings,
-                                self.flaw.as_ref(),
-                                actions,
-                            );
-                        }
-                        Tab::Trade => self.trade_ui(ui),
-                    }
-                });
-            });
-        self.settings.shows_panel = is_expanded;
-        if let Some(shown) = shown {
-            // The width changes from frame to frame while the panel slides in or out.
-            let width = shown.response.rect.width();
-            let last = std::mem::replace(&mut self.panel_width, width);
-            if last == width && width < limit && PANEL_WIDTHS.contains(&width) {
-                self.settings.panel_width = width;
-            }
-        }
-    }
-
-    /// Measures the scene when the tab is first shown, and later only on request.
-    fn trade_ui(&mut self, ui: &mut egui::Ui) {
-        let is_wanted = match &mut self.trade {
-            Some(trade) => {
-                trade.poll();
-                panels::trade::trade_ui(ui, trade, &mut self.settings)
-            }
-            None if self.has_measured => panels::trade::measure_ui(ui),
-            None => true,
-        };
-        // Requires the picture's camera and the final tree.
-        let is_ready = self.resolution != UVec2::ZERO && !self.is_unframed;
-        if is_wanted && is_ready && self.document.has_last_tree() {
-            let camera = self.turntable.camera(self.resolution);
-            let axis = self.trade.take().map(|trade| trade.axis);
-            let scene = &self.document.loaded.scene;
-            let axis = axis.unwrap_or_default();
-            self.trade = Some(Trade::start(scene, camera, axis, ui.ctx()));
-            self.has_measured = true;
-        }
-    }
-
     pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {
         let parts = self.status_parts();
         let frame =
@@ -256,7 +170,10 @@ impl App {
         } else {
             "quick tree"
         };
-        let kernel = self.document.intersector().kernel().short_name();
+        let choice = KernelChoice {
+            info: self.document.intersector().kernel(),
+        };
+        let kernel = shown_kernel(choice, &scene.kernels()).short_name();
         let mut parts = vec![
             format!("{kernel} kernel"),
             primitives(scene),
@@ -290,118 +207,6 @@ impl App {
             parts = vec!["no file open".to_owned()];
         }
         parts
-    }
-
-    /// Shows the windows over the picture.
-    pub(super) fn windows_ui(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
-        if let Some(path) = self.open_dialog.field_ui(ctx) {
-            self.load(path, ctx);
-        }
-        let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
-        if let Some(file) = dropped {
-            self.load(file.path().to_owned(), ctx);
-        }
-        self.drop_hint_ui(ctx);
-        self.notices_ui(ctx);
-        self.help_ui(ctx, actions);
-    }
-
-    fn drop_hint_ui(&self, ctx: &egui::Context) {
-        if ctx.input(|input| input.raw.hovered_files.is_empty()) {
-            return;
-        }
-        egui::Area::new(egui::Id::unique("drop"))
-            .anchor(egui::Align2::CENTER_CENTER, egui::Vec2::ZERO)
-            .show(ctx, |ui| {
-                egui::Frame::popup(ui.style()).show(ui, |ui| ui.heading("Drop to open"));
-            });
-    }
-
-    /// Shows the loading progress and the notice.
-    fn notices_ui(&mut self, ctx: &egui::Context) {
-        // Without an open document, `hints_ui` shows the progress.
-        let loading = self.loading.as_ref().filter(|_| !self.document.is_blank);
-        if loading.is_none() && self.notice.is_none() {
-            return;
-        }
-        let (mut is_closed, mut is_cancelled) = (false, false);
-        egui::Area::new(egui::Id::unique("notices"))
-            .fixed_pos(self.canvas_rect.min + egui::vec2(10.0, 10.0))
-            .show(ctx, |ui| {
-                // Don't overlap the side panel.
-                ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(80.0, 560.0));
-                if let Some(loading) = loading {
-                    egui::Frame::popup(ui.style()).show(ui, |ui| {
-                        ui.label(format!("Loading {}", loading.name()));
-                        is_cancelled = loading.progress_ui(ui);
-                    });
-                }
-                if let Some(notice) = &self.notice {
-                    egui::Frame::popup(ui.style()).show(ui, |ui| {
-                        let visuals = ui.visuals();
-                        let (title, colour) = if notice.is_error {
-                            ("Error", visuals.error_fg_color)
-                        } else {
-                            ("Warning", visuals.warn_fg_color)
-                        };
-                        ui.horizontal(|ui| {
-                            ui.label(RichText::new(title).color(colour).strong());
-                            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                                is_closed = ui.small_button("Close").clicked();
-                            });
-                        });
-                        ui.label(&notice.text);
-                    });
-                }
-            });
-        if is_closed {
-            self.notice = None;
-        }
-        if is_cancelled {
-            self.cancel_loading();
-        }
-    }
-
-    fn help_ui(&self, ctx: &egui::Context, actions: &mut Vec<Action>) {
-        if !self.shows_help {
-            return;
-        }
-        let response = egui::Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
-            ui.heading("Keyboard and mouse");
-            ui.add_space(4.0);
-            let size = ui.ctx().content_rect().size() - egui::vec2(60.0, 120.0);
-            let height = size.y;
-            egui::ScrollArea::both()
-                .max_width(size.x)
-                .max_height(height)
-                .min_scrolled_height(height)
-                .show(ui, |ui| {
-                    let row = |ui: &mut egui::Ui, keys: &str, about: &str| {
-                        ui.label(RichText::new(keys).strong());
-                        ui.label(about);
-                        ui.end_row();
-                    };
-                    egui::Grid::new("keys")
-                        .num_columns(2)
-                        .spacing([16.0, 3.0])
-                        .show(ui, |ui| {
-                            for (pointer, about) in POINTER {
-                                row(ui, pointer, about);
-                            }
-                            for binding in KEYS {
-                                row(ui, &binding.key_text(ctx), binding.about);
-                            }
-                            for (keys, about) in SYSTEM {
-                                row(ui, keys, about);
-                            }
-                        });
-                });
-            ui.add_space(6.0);
-            ui.button("Close").clicked()
-        });
-        if response.inner || response.backdrop_response.clicked() {
-            actions.push(Action::ToggleHelp);
-        }
     }
 }
 

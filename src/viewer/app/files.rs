@@ -1,13 +1,13 @@
-//! Loading files, showing the result, and reloading changed files.
+//! Loading files, showing the result, reloading changed files, and saving scene files.
 
-use super::{App, Notice};
+use super::{App, Notice, NoticeKind};
 use crate::document::Document;
 use crate::opening::Loading;
+use crate::saving::Saving;
 use crate::watch::Watch;
-use hitscope_core::camera::Turntable;
-use hitscope_core::obj::LoadError;
+use hitscope_core::obj::{LoadError, shown};
 use hitscope_lab::commands::print_warnings;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 impl App {
     pub(super) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
@@ -72,7 +72,7 @@ impl App {
                 self.inspect_again(&pick, ctx);
             }
         } else {
-            self.use_default_view();
+            self.use_first_view();
         }
         // The next frame drops the old scene's picture without waiting for the first rays in the new scene.
         ctx.request_repaint();
@@ -89,21 +89,37 @@ impl App {
             };
             self.notice = Some(Notice {
                 text: format!("{}: {first}{more}", self.document.name()),
-                is_error: false,
+                kind: NoticeKind::Warning,
             });
         }
     }
 
-    /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up
-    /// axis, projection and field of view.
-    pub(super) fn use_default_view(&mut self) {
-        let bounds = self.document.loaded.scene.bounds_with_elements();
-        let mut turntable = Turntable::framing(bounds, self.resolution);
-        turntable.fov_y_radians = self.turntable.fov_y_radians;
-        turntable.is_orthographic = self.turntable.is_orthographic;
-        turntable.up_axis = self.turntable.up_axis;
-        self.turntable = turntable;
-        self.is_unframed = true;
+    /// Writes what is open, with the current camera, to a scene file.
+    pub(super) fn save_as(&mut self, path: &Path, ctx: &egui::Context) {
+        let camera = self.turntable.camera(self.resolution);
+        match Saving::start(&self.document, &camera, path, ctx) {
+            Ok(saving) => self.saving = Some(saving),
+            Err(error) => self.error(error),
+        }
+    }
+
+    /// Starts to save to the chosen path, and tells when it is done.
+    pub(super) fn poll_saving(&mut self, ctx: &egui::Context) {
+        if let Some(path) = self.save_dialog.poll() {
+            self.save_as(&path, ctx);
+        }
+        let Some(result) = self.saving.as_ref().and_then(Saving::poll) else {
+            return;
+        };
+        let result = result.map(shown);
+        self.saving = None;
+        match result {
+            Ok(text) => {
+                let kind = NoticeKind::Saved;
+                self.notice = Some(Notice { text, kind });
+            }
+            Err(error) => self.error(error),
+        }
     }
 
     /// Reloads the file if it has changed and auto-reload is on.

@@ -3,33 +3,42 @@
 //! | file | part |
 //! |---|---|
 //! | this file | state and the order of work in a frame |
+//! | `state` | what others may read of the state |
 //! | `actions` | effects of keys and buttons |
 //! | `canvas` | the picture with its overlay and marks |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
-//! | `files` | loading and reloading |
+//! | `files` | loading, reloading and saving |
+//! | `first_view` | the view in which a document opens |
 //! | `hints` | the message in the middle of an empty picture |
-//! | `chrome` | tool bar, status line, messages, help |
+//! | `chrome` | tool bar and status line |
+//! | `side_panel`, `messages` | the side panel; path fields, messages, help |
 
 mod actions;
 mod canvas;
 mod chrome;
 mod files;
+mod first_view;
 mod hints;
+mod messages;
 mod pick;
 mod pointer;
+mod side_panel;
+mod state;
 
+use crate::dialog::{FileDialog, Purpose};
 use crate::document::Document;
 use crate::face_lookup::FaceLookup;
 use crate::flaw_place::FlawPlace;
 use crate::gpu::picture::Picture;
-use crate::opening::{Loading, OpenDialog};
+use crate::opening::Loading;
 use crate::overlay::OverlayLayer;
+use crate::saving::Saving;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::storage;
 use crate::task::Task;
 use crate::times::Times;
-use crate::tracer::{Request, Tracer};
+use crate::tracer::Tracer;
 use crate::trade::Trade;
 use crate::watch::Watch;
 use crate::window::FitToScreen;
@@ -38,9 +47,8 @@ use egui_wgpu::RenderState;
 use glam::UVec2;
 use hitscope_core::camera::Turntable;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
-use hitscope_core::{Camera, Film, Scene};
+use hitscope_core::{Camera, Scene};
 use hitscope_lab::commands::{default_thread_count, print_line};
-use hitscope_lab::inspection::Inspection;
 use pick::Pick;
 use pointer::Clicks;
 use std::path::PathBuf;
@@ -83,7 +91,16 @@ pub struct NoWgpu;
 /// A message that stays until the user closes it.
 struct Notice {
     text: String,
-    is_error: bool,
+    kind: NoticeKind,
+}
+
+/// The kind of a message.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum NoticeKind {
+    Error,
+    Warning,
+    /// A file was written.
+    Saved,
 }
 
 /// The viewer.
@@ -93,8 +110,12 @@ pub struct App {
     loading: Option<Loading>,
     load_options: LoadOptions,
     watch: Option<Watch>,
-    open_dialog: OpenDialog,
+    open_dialog: FileDialog,
+    save_dialog: FileDialog,
+    saving: Option<Saving>,
     turntable: Turntable,
+    /// Field of view and projection before a file's view replaced them; the next file gets them back.
+    own_projection: Option<(f64, bool)>,
     tracer: Tracer,
     picture: Picture,
     overlay: OverlayLayer,
@@ -152,11 +173,14 @@ impl App {
             .map(|file| Loading::start(file, start.load_options, &settings, &cc.egui_ctx));
         Ok(Self {
             turntable: Turntable::framing(document.loaded.scene.bounds(), UVec2::new(16, 9)),
+            own_projection: None,
             document,
             loading,
             load_options: start.load_options,
             watch: None,
-            open_dialog: OpenDialog::default(),
+            open_dialog: FileDialog::new(Purpose::Open),
+            save_dialog: FileDialog::new(Purpose::Save),
+            saving: None,
             tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
             picture: Picture::new(&render_state),
@@ -184,84 +208,10 @@ impl App {
         })
     }
 
-    /// The film of the picture being traced.
-    pub fn film(&self) -> &Film {
-        self.tracer.film()
-    }
-
-    /// Whether the picture has all samples, the overlay has all lines, and nothing is being loaded.
-    pub fn is_settled(&self) -> bool {
-        let is_wanted = |request: &Request| {
-            Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
-                && request.shows_last_tree == self.shows_last_tree()
-        };
-        self.loading.is_none()
-            && self.document.has_last_tree()
-            && self.tracer.posted().is_some_and(is_wanted)
-            && self.tracer.film().is_complete()
-            && self.overlay.is_complete()
-    }
-
-    /// Whether the view shows the cost of rays in the final tree.
-    fn shows_last_tree(&self) -> bool {
-        self.settings.view().depends_on_tree && self.document.has_last_tree()
-    }
-
-    /// The scene of the picture.
-    pub fn traced_scene(&self) -> Option<&Scene> {
-        let posted = self.tracer.posted()?;
-        Some(&posted.context.scene)
-    }
-
-    /// Whether auto-rotation is on.
-    pub fn is_rotating(&self) -> bool {
-        self.is_rotating
-    }
-
-    /// Whether the user has paused refinement.
-    pub fn is_paused(&self) -> bool {
-        self.tracer.is_paused()
-    }
-
-    /// The settings.
-    pub fn settings(&self) -> &Settings {
-        &self.settings
-    }
-
-    /// The open document.
-    pub fn document(&self) -> &Document {
-        &self.document
-    }
-
-    /// The camera.
-    pub fn turntable(&self) -> &Turntable {
-        &self.turntable
-    }
-
-    /// The inspection of the picked pixel.
-    pub fn inspection(&self) -> Option<&Inspection> {
-        self.pick.as_ref().map(|pick| &pick.inspection)
-    }
-
-    /// The flaw that is shown; all of its kind are marked.
-    pub fn flaw(&self) -> Option<&FlawPlace> {
-        self.flaw.as_ref()
-    }
-
-    /// The measurement of this scene, if it was started.
-    pub fn trade(&self) -> Option<&Trade> {
-        self.trade.as_ref()
-    }
-
-    /// The text of the message that is shown.
-    pub fn notice(&self) -> Option<&str> {
-        self.notice.as_ref().map(|notice| notice.text.as_str())
-    }
-
     fn error(&mut self, text: impl ToString) {
         self.notice = Some(Notice {
             text: text.to_string(),
-            is_error: true,
+            kind: NoticeKind::Error,
         });
     }
 
@@ -299,6 +249,7 @@ impl eframe::App for App {
             self.stop_work();
         }
         self.poll_loading(ctx);
+        self.poll_saving(ctx);
         self.poll_watch(ctx);
         self.poll_gpu_errors();
         self.poll_picking(ctx);

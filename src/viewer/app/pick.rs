@@ -10,8 +10,9 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::loading::is_scene_file;
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
+use hitscope_core::shape::{Shape as _, Triangle};
 use hitscope_core::{Camera, TriangleMesh};
-use hitscope_lab::inspection::{Inspection, TriangleReport};
+use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
 
 /// A clicked pixel and its inspection.
@@ -19,8 +20,10 @@ pub(super) struct Pick {
     pub inspection: Inspection,
     /// The camera of the picture that was clicked.
     pub camera: Camera,
-    /// The hit point, in the scene's coordinates.
-    pub point: Option<DVec3>,
+    /// The scene's origin in the file's coordinates.
+    origin: DVec3,
+    /// The crossing that is marked instead of the hit.
+    crossing: Option<usize>,
     /// The face that was hit, once it has been read from the file.
     face: Option<FaceInFile>,
     basis: InspectionBasis,
@@ -43,6 +46,60 @@ impl Pick {
         hit.and_then(|hit| hit.triangle.as_ref())
     }
 
+    /// The crossing that is marked, counted from 0: the hit unless another one was selected.
+    pub fn selected(&self) -> Option<usize> {
+        let crossings = &self.inspection.crossings;
+        let last = crossings.len().checked_sub(1)?;
+        let of_hit = || {
+            let hit = self.inspection.hit.as_ref()?;
+            crossings.iter().position(|crossing| {
+                crossing.primitive == hit.primitive || crossing.also.contains(&hit.primitive)
+            })
+        };
+        let selected = self.crossing.or_else(of_hit).unwrap_or(0);
+        Some(selected.min(last))
+    }
+
+    /// Marks a crossing.
+    pub fn select(&mut self, crossing: usize) {
+        self.crossing = Some(crossing);
+    }
+
+    /// Marks the crossing so many further along the ray, or the first or last one.
+    pub fn step(&mut self, step: i8) {
+        if let Some(selected) = self.selected() {
+            let last = self.inspection.crossings.len() - 1;
+            let next = selected.saturating_add_signed(step.into());
+            self.select(next.min(last));
+        }
+    }
+
+    fn marked(&self) -> Option<&CrossingReport> {
+        self.inspection.crossings.get(self.selected()?)
+    }
+
+    /// The point that is marked, in the scene's coordinates.
+    pub fn point(&self) -> Option<DVec3> {
+        let of_hit = || Some(self.inspection.hit.as_ref()?.position);
+        let position = match self.marked() {
+            // The hit's position, unless another crossing was selected.
+            Some(crossing) if self.crossing.is_some() => Some(crossing.position),
+            _ => of_hit(),
+        };
+        position.map(|position| DVec3::from_array(position) - self.origin)
+    }
+
+    /// The triangle at the point that is marked.
+    pub fn marked_triangle(&self) -> Option<u32> {
+        match self.marked() {
+            Some(crossing) if self.crossing.is_some() => {
+                let is_triangle = crossing.shape == Triangle::INFO.name;
+                is_triangle.then_some(crossing.primitive)
+            }
+            _ => self.triangle().map(|triangle| triangle.index),
+        }
+    }
+
     /// The contents of the Inspect tab.
     pub fn view(&self, document: &Document, is_reading_face: bool) -> PickView<'_> {
         let triangle = self.triangle();
@@ -50,6 +107,7 @@ impl Pick {
         let coordinates = &mesh.attributes().texture_coordinates;
         PickView {
             inspection: &self.inspection,
+            crossing: self.selected(),
             kernel: panels::kernel_name(self.basis.kernel),
             face: self.face.as_ref(),
             is_reading_face,
@@ -72,6 +130,9 @@ fn colour_at(mesh: &TriangleMesh, hit: &TriangleReport) -> Option<[f32; 3]> {
 impl App {
     /// Inspects a pixel and opens the Inspect tab.
     pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
+        if let Some(pick) = &mut self.pick {
+            pick.crossing = None;
+        }
         self.start_picking(camera, pixel, ctx);
         self.settings.tab = Tab::Inspect;
     }
@@ -112,12 +173,11 @@ impl App {
             let shading = basis.shading;
             let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
             let origin = scene.mesh().origin();
-            let hit = inspection.hit.as_ref();
-            let point = hit.map(|hit| DVec3::from_array(hit.position) - origin);
             Pick {
                 inspection,
                 camera,
-                point,
+                origin,
+                crossing: None,
                 face: None,
                 basis,
             }
@@ -162,6 +222,13 @@ impl App {
             Ok(mut pick) => {
                 pick.inspection
                     .find_line(&self.document.loaded.report.face_lines);
+                // The same ray, inspected again.
+                if let Some(old) = &self.pick
+                    && old.inspection.pixel == pick.inspection.pixel
+                    && old.camera == pick.camera
+                {
+                    pick.crossing = old.crossing;
+                }
                 let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);
                 let is_same = |old: &Pick| index(old) == index(&pick) && old.face.is_some();
                 match self.pick.take().filter(is_same) {

@@ -7,13 +7,16 @@ use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_lab::inspection::{
-    ExactReport, ExactTriangle, HitReport, Inspection, KernelRow, TriangleReport,
+    CrossingReport, ExactReport, ExactTriangle, HitReport, Inspection, KernelRow, ParameterReport,
+    ParameterValue, TriangleReport,
 };
 
 /// The contents of the tab for a pick.
 pub struct PickView<'p> {
     /// The ray, its hit and the kernels' answers.
     pub inspection: &'p Inspection,
+    /// The marked crossing, counted from 0.
+    pub crossing: Option<usize>,
     /// Name of the kernel, as shown in menus.
     pub kernel: &'p str,
     /// The face in the file, once it has been read.
@@ -26,31 +29,19 @@ pub struct PickView<'p> {
     pub colour: Option<[f32; 3]>,
 }
 
-/// Shows a pick, or how to pick a pixel; `is_busy` while a pixel is being inspected.
-pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) {
+/// Shows a pick, or how to pick a pixel; `is_busy` while a pixel is being inspected. Returns the crossing that the user
+/// selects.
+pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) -> Option<usize> {
     let Some(pick) = pick else {
         if is_busy {
             ui.spinner();
         } else {
             ui.label("Click a pixel to inspect its ray.");
         }
-        return;
+        return None;
     };
     let inspection = pick.inspection;
-    ui.horizontal(|ui| {
-        let [x, y] = inspection.pixel;
-        ui.label(RichText::new(format!("Pixel {x}, {y}")).strong());
-        let copy = ui.button("Copy as JSON");
-        if copy
-            .on_hover_text("The output of `hitscope inspect --json`; indices start at 0")
-            .clicked()
-        {
-            ui.ctx().copy_text(inspection.to_json());
-        }
-        if is_busy {
-            ui.spinner();
-        }
-    });
+    title_ui(ui, inspection, is_busy);
     match &inspection.hit {
         Some(hit) => {
             hit_ui(ui, &pick, hit);
@@ -58,9 +49,11 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
                 Some(triangle) => triangle_ui(ui, &pick, triangle),
                 None => shape_ui(ui, hit),
             }
+            formula_ui(ui, hit);
         }
         None => _ = ui.label(format!("No hit ({})", pick.kernel)),
     }
+    let selected = crossings_ui(ui, &inspection.crossings, pick.crossing);
     kernels_ui(ui, inspection);
     if let Some(hit) = &inspection.hit {
         section_ui(ui, "Normals", |ui| {
@@ -75,6 +68,24 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
         row_ui(ui, "tested", format!("{boxes}\n{primitives}"));
         row_ui(ui, "origin", lines(inspection.ray.origin));
         row_ui(ui, "direction", lines(inspection.ray.direction));
+    });
+    selected
+}
+
+fn title_ui(ui: &mut egui::Ui, inspection: &Inspection, is_busy: bool) {
+    ui.horizontal(|ui| {
+        let [x, y] = inspection.pixel;
+        ui.label(RichText::new(format!("Pixel {x}, {y}")).strong());
+        let copy = ui.button("Copy as JSON");
+        if copy
+            .on_hover_text("The output of `hitscope inspect --json`; indices start at 0")
+            .clicked()
+        {
+            ui.ctx().copy_text(inspection.to_json());
+        }
+        if is_busy {
+            ui.spinner();
+        }
     });
 }
 
@@ -109,9 +120,72 @@ fn shape_ui(ui: &mut egui::Ui, hit: &HitReport) {
     section_ui(ui, "Shape", |ui| {
         row_ui(ui, "shape", hit.shape);
         row_ui(ui, "primitive", format!("{} (0-based)", hit.primitive));
-        let numbers = hit.parameters.iter().copied().map(number);
-        row_ui(ui, "parameters", numbers.collect::<Vec<_>>().join("\n"));
+        for parameter in hit.parameters.iter().flat_map(|parameters| &parameters.0) {
+            let ParameterReport { name, symbol, .. } = parameter;
+            let name = name.replace('_', " ");
+            let name = if name == *symbol {
+                name
+            } else {
+                format!("{name} {symbol}")
+            };
+            let value = match parameter.value {
+                ParameterValue::Point(p) => lines(p),
+                ParameterValue::Vector(v) => lines(v),
+                ParameterValue::Number(x) => number(x),
+                ParameterValue::Flag(_) => parameter.value.to_string(),
+            };
+            row_ui(ui, &name, value);
+        }
     });
+}
+
+/// Shows the derivation of t.
+fn formula_ui(ui: &mut egui::Ui, hit: &HitReport) {
+    CollapsingHeader::new("Formula")
+        .id_salt("formula")
+        .show_unindented(ui, |ui| {
+            let text = hit.formula.join("\n");
+            let copy = ui.small_button("Copy formula");
+            if copy.on_hover_text("Copy these lines as text").clicked() {
+                ui.ctx().copy_text(text.clone());
+            }
+            let text = RichText::new(text).monospace().size(10.5);
+            ui.add(egui::Label::new(text).wrap());
+        });
+    ui.add_space(4.0);
+}
+
+/// Shows the marked crossing of the ray, and a slider over all of them. Returns the crossing that the user selects.
+fn crossings_ui(
+    ui: &mut egui::Ui,
+    crossings: &[CrossingReport],
+    marked: Option<usize>,
+) -> Option<usize> {
+    let marked = marked?;
+    let crossing = crossings.get(marked)?;
+    let mut selected = None;
+    section_ui(ui, "Crossings", |ui| {
+        let count = crossings.len();
+        if count > 1 {
+            let mut number = marked + 1;
+            ui.horizontal(|ui| {
+                let slider = egui::Slider::new(&mut number, 1..=count).show_value(false);
+                let name = ui.label("crossing");
+                ui.add(slider)
+                    .labelled_by(name.id)
+                    .on_hover_text("Moves the mark along the ray ([ and ])");
+            });
+            selected = (number != marked + 1).then_some(number - 1);
+        }
+        row_ui(ui, "number", format!("{} of {count}", marked + 1));
+        row_ui(ui, "t", number(crossing.t));
+        let primitive = format!("{} {}", crossing.shape, crossing.primitive);
+        let also = crossing.also.iter().map(|also| format!(", {also}"));
+        row_ui(ui, "primitive", primitive + &also.collect::<String>());
+        row_ui(ui, "side", crossing.side);
+        row_ui(ui, "position", lines(crossing.position));
+    });
+    selected
 }
 
 /// Shows the triangle and its face in the file.

@@ -28,6 +28,7 @@ pub fn mesh_ui(
         ui.label(RichText::new(path).weak().size(11.0));
     }
     contents_ui(ui, loaded);
+    shapes_ui(ui, loaded);
     if !loaded.report.warnings.is_empty() {
         ui.label(RichText::new("Warnings").strong());
         for warning in &loaded.report.warnings {
@@ -79,6 +80,30 @@ fn contents_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
         if mesh.has_lines_or_points() {
             row_ui(ui, "lines", grouped(mesh.attributes().lines.len()));
             row_ui(ui, "points", grouped(mesh.attributes().points.len()));
+        }
+    });
+}
+
+/// Shows the groups of primitives, one per shape.
+fn shapes_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
+    let (scene, mesh) = (&loaded.scene, loaded.scene.mesh());
+    section_ui(ui, "Shapes", |ui| {
+        for group in scene.groups() {
+            let (shape, bounds) = (group.shape(), group.bounds());
+            let corner = |p: glam::Vec3| on_one_line(mesh.vertex_in_file(p));
+            let place = if bounds.is_empty() {
+                "no bounds".to_owned()
+            } else {
+                format!("{}\n{}", corner(bounds.min), corner(bounds.max))
+            };
+            let kb = group.bvh().bytes().div_ceil(1000);
+            let time = duration(group.build_time());
+            let count = grouped(group.count());
+            row_ui(
+                ui,
+                shape.plural,
+                format!("{count}\ntree {} kB in {time}\n{place}", grouped(kb)),
+            );
         }
     });
 }
@@ -138,7 +163,7 @@ fn cost_ui(ui: &mut egui::Ui, document: &Document, findings: Option<&MeshReport>
             row_ui(ui, part, kb(bytes));
         }
         row_ui(ui, "tree", kb(scene.tree_bytes()));
-        row_ui(ui, "packed triangles", kb(document.intersector().bytes()));
+        row_ui(ui, "packed primitives", kb(document.intersector().bytes()));
     });
     if let Some(findings) = findings {
         section_ui(ui, "Memory of the surface by format", |ui| {

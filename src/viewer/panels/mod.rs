@@ -11,7 +11,7 @@ pub mod view;
 
 use crate::numbers::number;
 use egui::RichText;
-use hitscope_core::kernel::triangle_kernel;
+use hitscope_core::group::kernel_named;
 use std::fmt::{Display, LowerExp};
 
 /// Width of the column of names, in points. It is fixed so that rows are aligned in the first frame.
@@ -43,7 +43,7 @@ fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) 
 
 /// The name of a kernel in the window: its tier if it has one, else its name. `--kernel` takes both.
 pub fn kernel_name(name: &'static str) -> &'static str {
-    triangle_kernel(name).map_or(name, |kernel| kernel.info.short_name())
+    kernel_named(name).map_or(name, |kernel| kernel.info.short_name())
 }
 
 /// Three numbers, one per line.

@@ -2,13 +2,15 @@
 
 use super::labels;
 use super::table::{aligned, dash, widths};
+use super::view::heading;
 use crate::settings::Settings;
 use crate::theme::kernel_colour;
 use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, FontId, Pos2, RichText, Theme};
 use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 use hitscope_core::counts::grouped;
-use hitscope_core::kernel::{KernelInfo, triangle_kernel};
+use hitscope_core::group::kernel_named;
+use hitscope_core::kernel::KernelInfo;
 use hitscope_lab::measure::scene::SceneRow;
 use hitscope_lab::measure::statistics::{rate_text, short};
 
@@ -67,8 +69,8 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
         ui.selectable_value(&mut trade.axis, Axis::Wrong, "Wrong decisions");
     });
     kernel_ui(ui, settings);
-    plot_ui(ui, trade.axis, &rows, settings);
-    table_ui(ui, &rows, settings);
+    plot_ui(ui, trade, &rows, settings);
+    table_ui(ui, trade, &rows, settings);
     is_wanted_again
 }
 
@@ -104,7 +106,8 @@ fn mrays_per_s(row: &SceneRow) -> f64 {
     (rates.primary + rates.bounce + rates.random) / 3.0
 }
 
-fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Settings) {
+fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut Settings) {
+    let axis = trade.axis;
     let height = |row: &SceneRow| axis.value(row).max(axis.floor()).log10();
     let label = match axis {
         Axis::ErrorOfT => "p99 error of t, ulps",
@@ -140,9 +143,12 @@ fn plot_ui(ui: &mut egui::Ui, axis: Axis, rows: &[SceneRow], settings: &mut Sett
     let response = plot.show(ui, |plot| {
         plot.hline(HLine::new("zero", floor).color(Color32::GRAY.gamma_multiply(0.5)));
         for row in rows {
-            let is_current = settings.kernel().info.name == row.kernel;
+            let is_current = trade.is_used(settings.kernel(), row);
             draw_point(plot, row, [speed(row), height(row)], is_current, theme);
-            if info(row).tier.is_some() || is_current {
+            // A tier has the same place for every shape.
+            let name = info(row).short_name();
+            let is_labelled = labelled.iter().any(|(info, _)| info.short_name() == name);
+            if (info(row).tier.is_some() || is_current) && !is_labelled {
                 let at = PlotPoint::new(speed(row), height(row));
                 labelled.push((info(row), plot.screen_from_plot(at)));
             }
@@ -207,8 +213,8 @@ fn draw_labels(
     }
 }
 
-/// Shows a row for each kernel; a click selects it.
-fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
+/// Shows a row for each kernel, shape by shape; a click selects it.
+fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut Settings) {
     const COLUMNS: [&str; 5] = ["kernel", "speed", "Mrays/s", "wrong/M", "t ulps"];
     let cells: Vec<[String; 5]> = std::iter::once(COLUMNS.map(str::to_owned))
         .chain(rows.iter().map(cells))
@@ -232,9 +238,16 @@ fn table_ui(ui: &mut egui::Ui, rows: &[SceneRow], settings: &mut Settings) {
                 .wrap_mode(egui::TextWrapMode::Extend);
             ui.add(header.sense(egui::Sense::hover()))
                 .on_hover_text(COLUMNS_ABOUT);
+            let mut headings = trade.shapes().iter().filter(|_| trade.shapes().len() > 1);
+            let mut shape = "";
             for (row, cells) in rows.iter().zip(&cells[1..]) {
+                if row.shape != std::mem::replace(&mut shape, row.shape)
+                    && let Some(shape) = headings.next()
+                {
+                    ui.label(RichText::new(heading(shape)).size(11.0));
+                }
                 let info = info(row);
-                let is_current = settings.kernel().info.name == row.kernel;
+                let is_current = trade.is_used(settings.kernel(), row);
                 let mut text = text(cells);
                 // The selection has its own text colour.
                 if !is_current {
@@ -266,7 +279,7 @@ fn cells(row: &SceneRow) -> [String; 5] {
 fn figures(row: &SceneRow) -> String {
     let rates = row.speed.mrays_per_s;
     format!(
-        "Mrays/s: camera {}, bounce {}, random {}\nlargest error of t: {} ulps\nof {} rays: {} missed, {} false hits, {} other triangles",
+        "Mrays/s: camera {}, bounce {}, random {}\nlargest error of t: {} ulps\nof {} rays: {} missed, {} false hits, {} other primitives",
         short(rates.primary),
         short(rates.bounce),
         short(rates.random),
@@ -279,8 +292,8 @@ fn figures(row: &SceneRow) -> String {
 }
 
 fn info(row: &SceneRow) -> &'static KernelInfo {
-    let kernel = triangle_kernel(row.kernel);
-    kernel.expect("rows are of kernels in the table").info
+    let kernel = kernel_named(row.kernel);
+    kernel.expect("rows are of kernels in the tables").info
 }
 
 /// The label of a mark on the logarithmic axis: `0`, `0.1`, `10`, `1e5`; empty between powers of ten.

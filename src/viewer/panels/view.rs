@@ -3,21 +3,23 @@
 use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
-use hitscope_core::camera::{StandardView, Turntable};
+use hitscope_core::camera::{StandardView, Turntable, UpAxis};
+use hitscope_core::group::ShapeKernels;
 use hitscope_core::integrator::{Comparison, INTEGRATORS, Legend};
-use hitscope_core::kernel::{KernelInfo, TRIANGLE_KERNELS, exact_triangle_kernel, triangle_kernel};
+use hitscope_core::kernel::{KernelChoice, KernelInfo};
 use hitscope_core::srgb::to_display;
 
-/// Shows the tab.
+/// Shows the tab; `shapes` are the kernels of the scene's shapes.
 pub fn view_ui(
     ui: &mut egui::Ui,
     settings: &mut Settings,
     turntable: &mut Turntable,
+    shapes: &[ShapeKernels],
     actions: &mut Vec<Action>,
 ) {
-    chosen_view_ui(ui, settings);
+    chosen_view_ui(ui, settings, shapes);
     ui.separator();
-    kernel_ui(ui, settings);
+    kernel_ui(ui, settings, shapes);
     ui.separator();
     overlay_ui(ui, settings);
     ui.separator();
@@ -39,7 +41,7 @@ pub fn view_ui(
     }
 }
 
-fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings, shapes: &[ShapeKernels]) {
     ui.label(RichText::new("View").strong());
     ui.horizontal_wrapped(|ui| {
         for choice in INTEGRATORS {
@@ -51,8 +53,7 @@ fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     if settings.view().against == Comparison::Second {
         ui.horizontal(|ui| {
             let label = ui.label("compared with");
-            let against = triangle_kernel(&settings.against).unwrap_or_else(exact_triangle_kernel);
-            let (response, chosen) = kernel_combo_ui(ui, "against", against.info);
+            let (response, chosen) = kernel_combo_ui(ui, "against", settings.against(), shapes);
             response.labelled_by(label.id);
             if let Some(kernel) = chosen {
                 settings.against = kernel.to_owned();
@@ -114,10 +115,10 @@ fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
     }
 }
 
-fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings, shapes: &[ShapeKernels]) {
     let heading = ui.label(RichText::new("Kernel").strong());
-    let info = settings.kernel().info;
-    let (response, chosen) = kernel_combo_ui(ui, "kernel", info);
+    let (response, chosen) = kernel_combo_ui(ui, "kernel", settings.kernel(), shapes);
+    let info = shown_kernel(settings.kernel(), shapes);
     response.labelled_by(heading.id);
     if let Some(kernel) = chosen {
         settings.keep_kernel(kernel);
@@ -129,31 +130,53 @@ fn kernel_ui(ui: &mut egui::Ui, settings: &mut Settings) {
         .on_hover_text(info.source);
 }
 
-/// Shows a menu of all kernels with their algorithms. Returns the kernel selected in this frame.
+/// The description of the chosen kernel; in a scene of one shape, of the kernel that the shape uses instead if its table
+/// lacks the chosen one.
+pub fn shown_kernel(choice: KernelChoice, shapes: &[ShapeKernels]) -> &'static KernelInfo {
+    match shapes {
+        [shape] => choice.among(&shape.kernels).unwrap_or(choice.info),
+        _ => choice.info,
+    }
+}
+
+/// Shows a menu of the kernels of the scene's shapes, by shape. Returns the kernel selected in this frame.
 fn kernel_combo_ui(
     ui: &mut egui::Ui,
     id: &str,
-    current: &KernelInfo,
+    current: KernelChoice,
+    shapes: &[ShapeKernels],
 ) -> (egui::Response, Option<&'static str>) {
     let title = |info: &KernelInfo| format!("{} – {}", info.short_name(), info.title);
     let mut chosen = None;
     let response = egui::ComboBox::from_id_salt(id)
-        .selected_text(title(current))
+        .selected_text(title(shown_kernel(current, shapes)))
         .width(220.0)
         .height(320.0)
         .show_ui(ui, |ui| {
-            for kernel in TRIANGLE_KERNELS.iter() {
-                let is_current = kernel.info.name == current.name;
-                if ui
-                    .selectable_label(is_current, title(kernel.info))
-                    .clicked()
-                {
-                    chosen = Some(kernel.info.name);
+            for shape in shapes {
+                if shapes.len() > 1 {
+                    ui.label(RichText::new(heading(shape)).weak());
+                }
+                let used = current.among(&shape.kernels);
+                for kernel in &shape.kernels {
+                    let is_current = used.is_some_and(|used| used.name == kernel.name);
+                    if ui.selectable_label(is_current, title(kernel)).clicked() {
+                        chosen = Some(kernel.name);
+                    }
                 }
             }
         })
         .response;
     (response, chosen)
+}
+
+/// The plural of a shape's name with a capital.
+pub(super) fn heading(shape: &ShapeKernels) -> String {
+    let plural = shape.shape.plural;
+    let mut letters = plural.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().chain(letters).collect()
+    })
 }
 
 fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
@@ -179,7 +202,7 @@ fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
 
 fn camera_ui(
     ui: &mut egui::Ui,
-    settings: &mut Settings,
+    settings: &Settings,
     turntable: &mut Turntable,
     actions: &mut Vec<Action>,
 ) {
@@ -214,7 +237,11 @@ fn camera_ui(
     });
     ui.horizontal(|ui| {
         ui.label("Up axis");
-        ui.selectable_value(&mut settings.is_z_up, false, "Y");
-        ui.selectable_value(&mut settings.is_z_up, true, "Z");
+        for (axis, label) in [(UpAxis::Y, "Y"), (UpAxis::Z, "Z")] {
+            let is_current = settings.up_axis() == axis;
+            if ui.selectable_label(is_current, label).clicked() {
+                actions.push(Action::SetUpAxis(axis));
+            }
+        }
     });
 }

@@ -3,7 +3,7 @@
 use super::{Sample, ray_near};
 use glam::Vec3;
 use hitscope_core::Ray;
-use hitscope_core::kernel::{KernelTable, Precision, Tier, exact_answer};
+use hitscope_core::kernel::{KernelTable, Precision, Tier, equations_along, exact_answer};
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
     AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
@@ -203,4 +203,61 @@ fn normals_of_closed_shapes_face_outwards() {
     check::<AxisBox>(|_| true);
     check::<Cylinder>(|cylinder| cylinder.is_capped);
     check::<Cone>(|cone| cone.is_capped);
+}
+
+/// The parameters have names, and the equations along a ray have the crossings as their roots.
+fn describes_itself<S: Sample>(seed: u64) {
+    let name = S::INFO.name;
+    let width: usize = S::INFO.parameters.iter().map(|p| p.width()).sum();
+    assert_eq!(width, S::NUMBERS, "{name}");
+    let mut random = Random::new(seed);
+    let mut hits = 0;
+    for _ in 0..200 {
+        let shape = S::sample(&mut random, Vec3::ZERO, 1.0);
+        let ray = ray_near(&mut random, Vec3::ZERO, 1.0, 3.0);
+        let equations = equations_along(&ray, &shape);
+        assert!(!equations.is_empty(), "{name}");
+        for equation in &equations {
+            assert!(
+                usize::from(equation.part) < S::INFO.equations.len(),
+                "{name}"
+            );
+        }
+        let roots = equations.iter().flat_map(|equation| &equation.roots);
+        let ahead = roots.filter(|root| root.is_on_shape && root.t > 0.0);
+        let first = ahead.map(|root| root.t).reduce(f64::min);
+        let exact = exact_answer(&ray, &shape).map(|[t, ..]| t);
+        assert_eq!(first, exact, "{name} {shape:?} {ray:?}");
+        hits += u32::from(exact.is_some());
+    }
+    assert!(hits > 10, "{name}: {hits}");
+}
+
+#[test]
+fn every_shape_has_named_parameters_and_equations_whose_roots_are_its_crossings() {
+    describes_itself::<Sphere>(1);
+    describes_itself::<Plane>(2);
+    describes_itself::<Disk>(3);
+    describes_itself::<Rectangle>(4);
+    describes_itself::<Cuboid>(5);
+    describes_itself::<Cylinder>(6);
+    describes_itself::<Cone>(7);
+    describes_itself::<Torus>(8);
+    describes_itself::<Quadric>(9);
+}
+
+#[test]
+fn the_equation_of_a_sphere_has_the_textbooks_coefficients() {
+    let sphere = Sphere {
+        centre: Vec3::new(1.0, 2.0, 3.0),
+        radius: 2.0,
+    };
+    let equations = equations_along(&ray([1.0, 2.0, -4.0], [0.0, 0.0, 1.0]), &sphere);
+    let [equation] = &equations[..] else {
+        panic!("{equations:?}")
+    };
+    // f = (0, 0, −7): f·f − r², 2 f·d, d·d.
+    assert_eq!(equation.coefficients, [45.0, -14.0, 1.0]);
+    let roots: Vec<f64> = equation.roots.iter().map(|root| root.t).collect();
+    assert_eq!(roots, [5.0, 9.0]);
 }

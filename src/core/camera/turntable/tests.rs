@@ -188,3 +188,64 @@ fn an_empty_scene_or_a_single_point_has_a_valid_camera() {
         turntable.camera(UVec2::ZERO);
     }
 }
+
+#[test]
+fn a_turntable_shows_any_given_view_and_turns_with_the_drag() {
+    let bounds = Aabb::around([Vec3::splat(-1.0), Vec3::splat(2.0)]);
+    let size = UVec2::new(64, 48);
+    let views = [
+        [
+            DVec3::new(3.0, 2.0, 5.0),
+            DVec3::new(-0.4, -0.2, -1.0),
+            DVec3::Y,
+        ],
+        [
+            DVec3::new(3.0, 2.0, 5.0),
+            DVec3::new(-0.4, -0.2, -1.0),
+            DVec3::new(1.0, 2.0, 0.3),
+        ],
+        [
+            DVec3::new(0.0, 9.0, 0.0),
+            DVec3::NEG_Y,
+            DVec3::new(1.0, 0.0, -1.0),
+        ],
+        [DVec3::new(0.0, 9.0, 0.0), DVec3::Y, DVec3::NEG_X],
+    ];
+    for (view, up_axis) in views
+        .into_iter()
+        .zip([UpAxis::Y, UpAxis::Z, UpAxis::Y, UpAxis::Z])
+    {
+        let [eye, forward, up] = view;
+        for projection in [
+            Projection::Perspective { fov_y_radians: 0.8 },
+            Projection::Orthographic { height: 3.0 },
+        ] {
+            let wanted = Camera::look_at(eye, eye + forward, up, projection, size).expect("good");
+            let mut turntable =
+                Turntable::looking(view, projection, up_axis, bounds).expect("a view");
+            let camera = turntable.camera(size);
+            // Each angle is rounded once.
+            for (a, b) in [
+                (camera.right(), wanted.right()),
+                (camera.up(), wanted.up()),
+                (camera.back(), wanted.back()),
+            ] {
+                assert!((a - b).length() < 1e-14, "{view:?} {a} {b}");
+            }
+            let from_axis = (camera.exact_eye() - eye).cross(wanted.back()).length();
+            assert!(from_axis < 1e-13, "{view:?}");
+            if let Projection::Perspective { .. } = projection {
+                assert!((camera.exact_eye() - eye).length() < 1e-13, "{view:?}");
+            }
+            // A drag to the right moves the eye to the left, whatever the roll.
+            turntable.orbit(DVec2::new(0.01, 0.0), size);
+            let moved = turntable.camera(size).exact_eye() - camera.exact_eye();
+            let [along, across] = [camera.right(), camera.up()].map(|axis| moved.dot(axis));
+            let is_steep = turntable.pitch_radians.abs() > 1.0;
+            assert!(
+                is_steep || along < -across.abs(),
+                "{view:?}: {along} {across}"
+            );
+        }
+    }
+}

@@ -39,6 +39,8 @@ use std::time::{Duration, Instant};
 pub(crate) static INFO: ShapeInfo = ShapeInfo {
     name: "solid",
     plural: "solids",
+    parameters: &[],
+    equations: &[],
 };
 
 /// A group of combined solids.

@@ -1,0 +1,217 @@
+//! The camera's arguments, which several commands share.
+
+use super::CommandError;
+use clap::Args;
+use glam::{DVec3, UVec2};
+use hitscope_core::camera::{CameraError, Projection, Turntable};
+use hitscope_core::loading::{StartView, is_scene_file};
+use hitscope_core::{Camera, Scene};
+use std::path::Path;
+
+/// The camera. Positions are in the file's coordinates.
+#[derive(Args, Clone, Debug)]
+pub struct CameraArgs {
+    /// Width and height of the picture in pixels, each at most 16384 [default: the film of a scene file's first sensor, else 1280x720]
+    #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
+    pub size: Option<UVec2>,
+    /// Position of the camera [default: the first sensor of a scene file, else the window's starting view of the whole mesh]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector)]
+    pub eye: Option<DVec3>,
+    /// Point in the centre of the picture; requires --eye [default: the centre of the mesh]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
+    pub target: Option<DVec3>,
+    /// Direction that points up in the picture; requires --eye [default: 0,1,0]
+    #[arg(long, value_name = "X,Y,Z", allow_hyphen_values = true, value_parser = parse_vector, requires = "eye")]
+    pub up: Option<DVec3>,
+    /// Vertical field of view, at least 0.000001 and less than 180 [default: 40]
+    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, conflicts_with = "ortho", value_parser = parse_fov)]
+    pub fov: Option<f64>,
+    /// Orthographic projection; the picture is HEIGHT units of the file high
+    #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true, value_parser = parse_height)]
+    pub ortho: Option<f64>,
+}
+
+/// The size of pictures without `--size` and without a sensor.
+const DEFAULT_SIZE: UVec2 = UVec2::new(1280, 720);
+/// Largest side of a picture, the usual limit of GPU textures.
+const LARGEST_SIDE: u32 = 16384;
+
+impl CameraArgs {
+    /// The size of the picture if it is known before the file is loaded: a scene file may have a sensor.
+    pub fn known_size(&self, file: &Path) -> Option<UVec2> {
+        self.size
+            .or_else(|| (!is_scene_file(file)).then_some(DEFAULT_SIZE))
+    }
+
+    /// The size of the picture, for a file that asks for a view, if it does.
+    ///
+    /// # Errors
+    /// [`CommandError::Other`] if the file's film is too large.
+    fn size_for(&self, view: Option<&StartView>) -> Result<UVec2, CommandError> {
+        let size = self.size.or(view.map(|view| view.size));
+        let size = size.unwrap_or(DEFAULT_SIZE);
+        if size.max_element() > LARGEST_SIDE {
+            return Err(CommandError::Other(format!(
+                "the sensor's film of {}x{} pixels is too large: at most {LARGEST_SIDE} per side; give --size",
+                size.x, size.y
+            )));
+        }
+        Ok(size)
+    }
+
+    /// Checks the arguments without a mesh. Call this before loading one.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(&self) -> Result<(), CommandError> {
+        let (Some(eye), Some(target)) = (self.eye, self.target) else {
+            return match self.up {
+                Some(DVec3::ZERO) => Err(usage(CameraError::NoUp)),
+                _ => Ok(()),
+            };
+        };
+        // Checks directions only: whether positions fit in f32 depends on the mesh's origin.
+        match self.look_at(DVec3::ZERO, target - eye, UVec2::ONE) {
+            Err(error) if error != CameraError::NotFinite => Err(usage(error)),
+            _ => Ok(()),
+        }
+    }
+
+    /// The camera for a scene whose file asks for a view, if it does.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if no camera can show
+    /// the mesh, [`CommandError::Other`] if the file's film is too large.
+    pub fn camera(&self, scene: &Scene, view: Option<&StartView>) -> Result<Camera, CommandError> {
+        let size = self.size_for(view)?;
+        let Some(eye) = self.eye else {
+            return Ok(match view {
+                Some(view) => self.given(scene, view, size)?,
+                None => self.framing(scene, size)?,
+            });
+        };
+        let origin = scene.mesh().origin();
+        let centre = scene.bounds().centre().as_dvec3();
+        let target = self.target.map_or(centre, |target| target - origin);
+        self.look_at(eye - origin, target, size).map_err(usage)
+    }
+
+    /// The camera of the file's sensor, with this size and, if given, angle or height.
+    fn given(&self, scene: &Scene, view: &StartView, size: UVec2) -> Result<Camera, CameraError> {
+        let eye = view.eye - scene.mesh().origin();
+        let projection = match (self.fov, self.ortho) {
+            (None, None) => view.projection(),
+            _ => self.projection(),
+        };
+        Camera::look_at(eye, eye + view.forward, view.up, projection, size)
+    }
+
+    /// The camera that shows the whole mesh.
+    fn framing(&self, scene: &Scene, size: UVec2) -> Result<Camera, CameraError> {
+        let mut start = Turntable::framing(scene.bounds(), size);
+        if let Some(degrees) = self.fov {
+            start.fov_y_radians = degrees.to_radians();
+            start.frame(scene.bounds(), size);
+        }
+        let from = start.camera(size);
+        let eye = start.pivot + start.distance * from.back();
+        Camera::look_at(eye, start.pivot, from.up(), self.projection(), size)
+    }
+
+    fn look_at(&self, eye: DVec3, target: DVec3, size: UVec2) -> Result<Camera, CameraError> {
+        let up = self.up.unwrap_or(DVec3::Y);
+        Camera::look_at(eye, target, up, self.projection(), size)
+    }
+
+    fn projection(&self) -> Projection {
+        match self.ortho {
+            Some(height) => Projection::Orthographic { height },
+            None => Projection::Perspective {
+                fov_y_radians: self.fov.map_or(Turntable::FOV_Y_RADIANS, f64::to_radians),
+            },
+        }
+    }
+}
+
+fn usage(error: CameraError) -> CommandError {
+    CommandError::Usage(error.to_string())
+}
+
+/// `1280x720`.
+fn parse_size(text: &str) -> Result<UVec2, String> {
+    let sides = text.split_once(['x', 'X', '×']);
+    let [width, height] = sides
+        .map(|(w, h)| [w.trim().parse::<u32>(), h.trim().parse::<u32>()])
+        .ok_or("expected WIDTHxHEIGHT, as in 1280x720")?;
+    match (width, height) {
+        (Ok(width @ 1..=LARGEST_SIDE), Ok(height @ 1..=LARGEST_SIDE)) => {
+            Ok(UVec2::new(width, height))
+        }
+        _ => Err(format!(
+            "width and height must be integers from 1 to {LARGEST_SIDE}"
+        )),
+    }
+}
+
+/// `40`.
+fn parse_fov(text: &str) -> Result<f64, String> {
+    /// A camera that shows the whole mesh at this angle is about 1e8 times the mesh's size away.
+    const LEAST_FOV: f64 = 1e-6;
+    match text.parse() {
+        Ok(degrees) if (LEAST_FOV..180.0).contains(&degrees) => Ok(degrees),
+        _ => Err(format!(
+            "expected an angle in degrees, at least {LEAST_FOV} and less than 180"
+        )),
+    }
+}
+
+/// `2.5`.
+fn parse_height(text: &str) -> Result<f64, String> {
+    match text.parse() {
+        Ok(height) if height > 0.0 && height <= f64::from(f32::MAX) => Ok(height),
+        _ => Err(format!(
+            "expected a height above 0, at most {:e}, in the file's units",
+            f32::MAX
+        )),
+    }
+}
+
+/// `1,-2.5,3e4`.
+fn parse_vector(text: &str) -> Result<DVec3, String> {
+    let expected = || "expected three numbers separated by commas, as in 1,-2.5,3".to_owned();
+    let numbers: Vec<f64> = text
+        .split(',')
+        .map(|word| word.trim().parse())
+        .collect::<Result<_, _>>()
+        .map_err(|_| expected())?;
+    match numbers[..] {
+        [x, y, z] if numbers.iter().all(|x| x.is_finite()) => Ok(DVec3::new(x, y, z)),
+        [_, _, _] => Err("the numbers must be finite".to_owned()),
+        _ => Err(expected()),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn sizes_angles_and_vectors_are_read_or_refused_with_a_reason() {
+        assert_eq!(parse_size("640x480"), Ok(UVec2::new(640, 480)));
+        for bad in ["640", "0x5", "5x99999", "ax5", ""] {
+            assert!(parse_size(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_fov("40"), Ok(40.0));
+        for bad in ["0", "1e-7", "180", "200", "nan", "-1", ""] {
+            assert!(parse_fov(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_height("1e-9"), Ok(1e-9));
+        for bad in ["0", "-1", "inf", "nan", "1e39", ""] {
+            assert!(parse_height(bad).is_err(), "{bad}");
+        }
+        assert_eq!(parse_vector("1,-2.5,3e4"), Ok(DVec3::new(1.0, -2.5, 3e4)));
+        for bad in ["1,2", "1,2,3,4", "1,2,x", "1,2,nan", ""] {
+            assert!(parse_vector(bad).is_err(), "{bad}");
+        }
+    }
+}

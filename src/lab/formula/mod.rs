@@ -1,0 +1,147 @@
+//! The derivation of a ray's hit with its numbers, as lines of text.
+//!
+//! The ray is r(t) = o + t·d, as in the lecture. Numbers are computed in f64 from the f32 numbers of ray and primitive,
+//! and shown with ten digits.
+//!
+//! | file | derivation |
+//! |---|---|
+//! | this file | the ray, the parameters, and for every shape its equations along the ray |
+//! | `triangle` | plane equation and signed areas |
+//! | `sphere`, `plane`, `cuboid` | the lecture's formulas for these shapes |
+//! | `number` | numbers, vectors and polynomials as text |
+
+mod cuboid;
+mod number;
+mod plane;
+mod sphere;
+mod triangle;
+
+use glam::{DVec3, Vec3};
+use hitscope_core::group::Group;
+use hitscope_core::kernel::LineEquation;
+use hitscope_core::shape::{AxisBox, Cuboid, Plane, Shape, Sphere};
+use hitscope_core::{Ray, Scene};
+use number::{point, polynomial, text};
+
+/// The derivation of a ray's first hit of a primitive.
+///
+/// # Panics
+/// If the scene has no such primitive.
+pub fn lines(scene: &Scene, ray: &Ray, primitive: u32) -> Vec<String> {
+    let line = Line::of(ray);
+    let mut lines = vec!["r(t) = o + t d".to_owned()];
+    let origin = scene.mesh().origin();
+    if origin != DVec3::ZERO {
+        let origin = point(origin);
+        lines.push(format!(
+            "Points are relative to the scene's origin {origin}."
+        ));
+    }
+    lines.push(format!("o = {}", point(line.origin)));
+    lines.push(format!("d = {}", point(line.dir)));
+    if scene.is_triangle(primitive) {
+        let corners = scene.mesh().corners(primitive).map(Vec3::as_dvec3);
+        lines.extend(triangle::lines(&line, corners));
+        return lines;
+    }
+    let (group, index) = scene.group_of(primitive);
+    lines.extend(parameters(group, index));
+    let equations = group.equations(ray, index);
+    let numbers = group.numbers(index);
+    let (shape, numbers) = (group.shape(), &numbers[..]);
+    lines.extend(if *shape == Sphere::INFO {
+        sphere::lines(&line, &Sphere::read(&numbers), &equations)
+    } else if *shape == Plane::INFO {
+        plane::lines(&line, &Plane::read(&numbers))
+    } else if [Cuboid::INFO, AxisBox::INFO].contains(shape) {
+        cuboid::lines(&equations)
+    } else {
+        of_equations(shape.equations, &equations)
+    });
+    lines.push(match scene.exact_answer(ray, primitive) {
+        Some([t, ..]) => line.hit(t),
+        None => "In exact arithmetic the ray misses this primitive.".to_owned(),
+    });
+    lines
+}
+
+/// The line of a ray in f64.
+struct Line {
+    origin: DVec3,
+    dir: DVec3,
+}
+
+impl Line {
+    fn of(ray: &Ray) -> Self {
+        Self {
+            origin: ray.origin.as_dvec3(),
+            dir: ray.dir.as_dvec3(),
+        }
+    }
+
+    fn at(&self, t: f64) -> DVec3 {
+        self.origin + t * self.dir
+    }
+
+    /// The point of a hit.
+    fn hit(&self, t: f64) -> String {
+        format!("r({}) = {}", text(t), point(self.at(t)))
+    }
+}
+
+/// The parameters of a primitive.
+fn parameters(group: &dyn Group, index: u32) -> Vec<String> {
+    let numbers = group.numbers(index);
+    let mut rest = &numbers[..];
+    let parameters = group.shape().parameters.iter();
+    let line = |parameter: &hitscope_core::shape::Parameter| {
+        let (own, others) = rest.split_at(parameter.width());
+        rest = others;
+        let value = match own {
+            &[x, y, z] => point(Vec3::new(x, y, z).as_dvec3()),
+            own => text(own.iter().copied().map(f64::from).sum()),
+        };
+        format!("{} = {value}", parameter.symbol)
+    };
+    parameters.map(line).collect()
+}
+
+/// Every equation of a shape, with the ray substituted, and its roots.
+fn of_equations(texts: &[&str], equations: &[LineEquation]) -> Vec<String> {
+    let mut lines = Vec::new();
+    for equation in equations {
+        let text = texts.get(usize::from(equation.part));
+        lines.extend(text.map(|&text| text.to_owned()));
+        lines.push(format!(
+            "p = r(t): 0 = {}",
+            polynomial(&equation.coefficients)
+        ));
+        lines.push(roots(equation));
+    }
+    lines
+}
+
+/// The roots of an equation.
+fn roots(equation: &LineEquation) -> String {
+    if equation.coefficients.iter().all(|&c| c == 0.0) {
+        return "true for all t: the ray lies in the surface and misses it".to_owned();
+    }
+    let root = |root: &hitscope_core::kernel::LineRoot| {
+        let note = if root.is_on_shape {
+            ""
+        } else {
+            " (not on the shape)"
+        };
+        text(root.t) + note
+    };
+    let roots: Vec<String> = equation.roots.iter().map(root).collect();
+    match &roots[..] {
+        [] => "no real root".to_owned(),
+        [t] => format!("t = {t}"),
+        several => (1..)
+            .zip(several)
+            .map(|(k, t)| format!("t{k} = {t}"))
+            .collect::<Vec<_>>()
+            .join(", "),
+    }
+}

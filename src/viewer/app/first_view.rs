@@ -1,0 +1,79 @@
+//! The view in which a document opens: that of its sensor, or one that frames the scene.
+
+use super::App;
+use hitscope_core::camera::{Turntable, UpAxis};
+
+impl App {
+    /// Shows the view of the file's sensor, or the scene from the default direction.
+    pub(super) fn use_first_view(&mut self) {
+        self.settings.file_up_axis = None;
+        let turntable = &mut self.turntable;
+        if let Some(own) = self.own_projection.take() {
+            (turntable.fov_y_radians, turntable.is_orthographic) = own;
+        }
+        let own = (turntable.fov_y_radians, turntable.is_orthographic);
+        match self.view_of_file() {
+            Some(view) => {
+                self.own_projection = Some(own);
+                self.use_view(view);
+            }
+            None => self.use_default_view(),
+        }
+    }
+
+    /// Shows the view of the file's sensor. If it is already shown or the file has none, frames the scene; from the
+    /// default direction if the picture shows nothing.
+    pub(super) fn frame(&mut self) {
+        match self.view_of_file() {
+            Some(view) if view != self.turntable => self.use_view(view),
+            _ if self.shows_nothing() => self.use_default_view(),
+            _ => {
+                let bounds = self.document.loaded.scene.bounds_with_elements();
+                self.turntable.frame(bounds, self.resolution);
+            }
+        }
+    }
+
+    fn use_view(&mut self, view: Turntable) {
+        self.settings.file_up_axis = Some(view.up_axis);
+        self.turntable = view;
+        self.is_unframed = false;
+    }
+
+    /// The view of the file's sensor, about the axis for which the horizon is less tilted.
+    fn view_of_file(&self) -> Option<Turntable> {
+        /// More than the rounding of angles.
+        const SAME_TILT: f64 = 1e-9;
+        let loaded = &self.document.loaded;
+        let view = loaded.view.as_ref()?;
+        let bounds = loaded.scene.bounds_with_elements();
+        let eye = view.eye - loaded.scene.mesh().origin();
+        let about = |axis| {
+            let axes = [eye, view.forward, view.up];
+            Turntable::looking(axes, view.projection(), axis, bounds).ok()
+        };
+        let tilt = |turntable: &Turntable| turntable.roll_radians.abs();
+        let kept = about(self.settings.up_axis())?;
+        let other = about(match self.settings.up_axis() {
+            UpAxis::Y => UpAxis::Z,
+            UpAxis::Z => UpAxis::Y,
+        })?;
+        Some(if tilt(&other) + SAME_TILT < tilt(&kept) {
+            other
+        } else {
+            kept
+        })
+    }
+
+    /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up
+    /// axis, projection and field of view.
+    pub(super) fn use_default_view(&mut self) {
+        let bounds = self.document.loaded.scene.bounds_with_elements();
+        let mut turntable = Turntable::framing(bounds, self.resolution);
+        turntable.fov_y_radians = self.turntable.fov_y_radians;
+        turntable.is_orthographic = self.turntable.is_orthographic;
+        turntable.up_axis = self.turntable.up_axis;
+        self.turntable = turntable;
+        self.is_unframed = true;
+    }
+}

@@ -1,0 +1,108 @@
+//! The side panel with its tabs.
+
+use super::App;
+use crate::bindings::Action;
+use crate::panels;
+use crate::settings::{PANEL_WIDTHS, Tab};
+use crate::trade::Trade;
+use glam::UVec2;
+
+/// Width in points that the panel leaves for the picture in a narrow window.
+const NARROWEST_PICTURE: f32 = 120.0;
+/// Width in points of the panel in the narrowest window.
+const MIN_PANEL_WIDTH: f32 = 160.0;
+
+impl App {
+    pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        let mut is_expanded = self.settings.shows_panel;
+        let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
+        // In a narrow window, the panel leaves some room for the picture.
+        let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
+        let shown = egui::Panel::right("panel")
+            .default_size(self.settings.panel_width)
+            .size_range(narrowest.min(limit)..=limit)
+            .show_collapsible(ui, &mut is_expanded, |ui| {
+                ui.add_space(4.0);
+                ui.horizontal(|ui| {
+                    for (tab, label) in [
+                        (Tab::Inspect, "Inspect"),
+                        (Tab::Display, "Display"),
+                        (Tab::Mesh, "Mesh"),
+                        (Tab::Trade, "Trade"),
+                    ] {
+                        ui.selectable_value(&mut self.settings.tab, tab, label);
+                    }
+                });
+                ui.separator();
+                // In a narrow window the contents are wider than the panel.
+                egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
+                    match self.settings.tab {
+                        Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
+                            ui.label("No file is open.");
+                        }
+                        Tab::Inspect => {
+                            let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
+                            let pick = self.pick.as_ref();
+                            let is_reading = self.face_lookup.is_some();
+                            let view = pick.map(|pick| pick.view(&self.document, is_reading));
+                            let selected = panels::inspect::inspect_ui(ui, view, is_busy);
+                            if let Some((pick, crossing)) = self.pick.as_mut().zip(selected) {
+                                pick.select(crossing);
+                            }
+                        }
+                        Tab::Display => {
+                            panels::view::view_ui(
+                                ui,
+                                &mut self.settings,
+                                &mut self.turntable,
+                                &self.document.loaded.scene.kernels(),
+                                actions,
+                            );
+                        }
+                        Tab::Mesh => {
+                            let (document, settings) = (&mut self.document, &mut self.settings);
+                            panels::mesh::mesh_ui(
+                                ui,
+                                document,
+                                settings,
+                                self.flaw.as_ref(),
+                                actions,
+                            );
+                        }
+                        Tab::Trade => self.trade_ui(ui),
+                    }
+                });
+            });
+        self.settings.shows_panel = is_expanded;
+        if let Some(shown) = shown {
+            // The width changes from frame to frame while the panel slides in or out.
+            let width = shown.response.rect.width();
+            let last = std::mem::replace(&mut self.panel_width, width);
+            if last == width && width < limit && PANEL_WIDTHS.contains(&width) {
+                self.settings.panel_width = width;
+            }
+        }
+    }
+
+    /// Measures the scene when the tab is first shown, and later only on request.
+    fn trade_ui(&mut self, ui: &mut egui::Ui) {
+        let is_wanted = match &mut self.trade {
+            Some(trade) => {
+                trade.poll();
+                panels::trade::trade_ui(ui, trade, &mut self.settings)
+            }
+            None if self.has_measured => panels::trade::measure_ui(ui),
+            None => true,
+        };
+        // Requires the picture's camera and the final tree.
+        let is_ready = self.resolution != UVec2::ZERO && !self.is_unframed;
+        if is_wanted && is_ready && self.document.has_last_tree() {
+            let camera = self.turntable.camera(self.resolution);
+            let axis = self.trade.take().map(|trade| trade.axis);
+            let scene = &self.document.loaded.scene;
+            let axis = axis.unwrap_or_default();
+            self.trade = Some(Trade::start(scene, camera, axis, ui.ctx()));
+            self.has_measured = true;
+        }
+    }
+}

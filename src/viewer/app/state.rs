@@ -1,0 +1,99 @@
+//! The parts of the state that other modules and tests read.
+
+use super::App;
+use crate::document::Document;
+use crate::flaw_place::FlawPlace;
+use crate::settings::Settings;
+use crate::tracer::Request;
+use crate::trade::Trade;
+use glam::DVec3;
+use hitscope_core::camera::Turntable;
+use hitscope_core::{Film, Scene};
+use hitscope_lab::inspection::Inspection;
+use std::sync::Arc;
+
+impl App {
+    /// The film of the picture being traced.
+    pub fn film(&self) -> &Film {
+        self.tracer.film()
+    }
+
+    /// Whether the picture has all samples, the overlay has all lines, and nothing is being loaded.
+    pub fn is_settled(&self) -> bool {
+        let is_wanted = |request: &Request| {
+            Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
+                && request.shows_last_tree == self.shows_last_tree()
+        };
+        self.loading.is_none()
+            && self.document.has_last_tree()
+            && self.tracer.posted().is_some_and(is_wanted)
+            && self.tracer.film().is_complete()
+            && self.overlay.is_complete()
+    }
+
+    /// Whether the view shows the cost of rays in the final tree.
+    pub(super) fn shows_last_tree(&self) -> bool {
+        self.settings.view().depends_on_tree && self.document.has_last_tree()
+    }
+
+    /// The scene of the picture.
+    pub fn traced_scene(&self) -> Option<&Scene> {
+        let posted = self.tracer.posted()?;
+        Some(&posted.context.scene)
+    }
+
+    /// Whether auto-rotation is on.
+    pub fn is_rotating(&self) -> bool {
+        self.is_rotating
+    }
+
+    /// Whether the user has paused refinement.
+    pub fn is_paused(&self) -> bool {
+        self.tracer.is_paused()
+    }
+
+    /// The settings.
+    pub fn settings(&self) -> &Settings {
+        &self.settings
+    }
+
+    /// The open document.
+    pub fn document(&self) -> &Document {
+        &self.document
+    }
+
+    /// The camera.
+    pub fn turntable(&self) -> &Turntable {
+        &self.turntable
+    }
+
+    /// The inspection of the picked pixel.
+    pub fn inspection(&self) -> Option<&Inspection> {
+        self.pick.as_ref().map(|pick| &pick.inspection)
+    }
+
+    /// The crossing of the picked ray that is marked, counted from 0.
+    pub fn crossing(&self) -> Option<usize> {
+        self.pick.as_ref()?.selected()
+    }
+
+    /// Where the picked ray is marked, in the scene's coordinates.
+    pub fn marked_point(&self) -> Option<DVec3> {
+        self.pick.as_ref()?.point()
+    }
+
+    /// The flaw that is shown; all of its kind are marked.
+    pub fn flaw(&self) -> Option<&FlawPlace> {
+        self.flaw.as_ref()
+    }
+
+    /// The measurement of this scene, if it was started.
+    pub fn trade(&self) -> Option<&Trade> {
+        self.trade.as_ref()
+    }
+
+    /// The text of the message that is shown.
+    pub fn notice(&self) -> Option<&str> {
+        self.notice.as_ref().map(|notice| notice.text.as_str())
+    }
+}
