@@ -26,10 +26,11 @@ fn mesh() -> String {
     text + "f 1 2 3 4\nf 5 6 7\n"
 }
 
-/// Renders the picture with these options.
-fn render(folder: &tempfile::TempDir, overlay: &[&str]) -> RgbaImage {
-    let line = "render mesh.obj -o out.png --size 200x200 --samples 1 --eye 0,0,5 --target 0,0,0 --ortho 4";
+/// Renders a file with these options.
+fn render(folder: &tempfile::TempDir, file: &str, overlay: &[&str]) -> RgbaImage {
+    let line = "-o out.png --size 200x200 --samples 1 --eye 0,0,5 --target 0,0,0 --ortho 4";
     let output = Command::new(env!("CARGO_BIN_EXE_hitscope"))
+        .args(["render", file])
         .args(line.split(' '))
         .args(overlay)
         .current_dir(folder.path())
@@ -98,7 +99,7 @@ fn edges_and_normals_are_drawn_over_the_picture_and_nothing_else_changes() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     std::fs::write(folder.path().join("mesh.obj"), mesh()).expect("written");
-    let plain = render(&folder, &[]);
+    let plain = render(&folder, "mesh.obj", &[]);
     let at = |x: f64, y: f64| DVec2::new(x, y);
     let corners = [
         at(50.5, 150.5),
@@ -112,15 +113,87 @@ fn edges_and_normals_are_drawn_over_the_picture_and_nothing_else_changes() {
     let edges: Vec<Segment> = square.chain([edge_on, edge_on]).collect();
     let settings = Settings::default();
     let wire = settings.wire_colour.map(|c| f32::from(c) / 255.0);
-    let drawn = render(&folder, &["--wireframe"]);
+    let drawn = render(&folder, "mesh.obj", &["--wireframe"]);
     assert_lines(&plain, &drawn, &edges, Some((wire, 0.85)));
 
     // The normals' length is a fraction of the radius of the bounds.
     let radius = 0.5 * DVec2::new(2.4, 2.0).extend(1.0).length();
     let length_px = 50.0 * radius * f64::from(settings.normal_length);
     let normal = [at(170.5, 100.5), at(170.5 + length_px, 100.5)];
-    let drawn = render(&folder, &["--normals"]);
+    let drawn = render(&folder, "mesh.obj", &["--normals"]);
     assert!((2.0..20.0).contains(&length_px), "{length_px} of 29 pixels");
     // Such a short line fades.
     assert_lines(&plain, &drawn, &[normal], None);
+}
+
+/// The pixels that an overlay changes.
+fn changed(shapes: &str, overlay: &str) -> Vec<DVec2> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let xml = format!("<scene version=\"3.0.0\">{shapes}</scene>");
+    std::fs::write(folder.path().join("mesh.obj"), mesh()).expect("written");
+    std::fs::write(folder.path().join("scene.xml"), xml).expect("written");
+    let plain = render(&folder, "scene.xml", &[]);
+    let drawn = render(&folder, "scene.xml", &[overlay]);
+    let pairs = plain.enumerate_pixels().zip(drawn.pixels());
+    let differing = pairs.filter(|((_, _, before), after)| before != after);
+    differing
+        .map(|((x, y, _), _)| DVec2::new(f64::from(x) + 0.5, f64::from(y) + 0.5))
+        .collect()
+}
+
+const BALL: &str = r#"<shape type="sphere"/>"#;
+
+#[test]
+fn a_sphere_has_an_outline_and_no_lines_beyond_it() {
+    let Some(_) = gpu() else { return };
+    let pixels = changed(BALL, "--wireframe");
+    let from_centre = |p: &DVec2| (*p - DVec2::splat(100.0)).length();
+    assert!(pixels.iter().all(|p| from_centre(p) < 51.0));
+    // Pixels of the outline in every direction.
+    for degrees in 0..360 {
+        let (sin, cos) = f64::from(degrees).to_radians().sin_cos();
+        let at = DVec2::splat(100.0) + 49.5 * DVec2::new(cos, sin);
+        assert!(pixels.iter().any(|p| (*p - at).length() < 1.5), "{degrees}");
+    }
+}
+
+#[test]
+fn a_flat_shape_hides_the_lines_behind_it() {
+    let Some(_) = gpu() else { return };
+    let flat = r#"<shape type="rectangle"><transform name="to_world"><scale value="1.5"/><translate z="2"/></transform></shape>"#;
+    let both = changed(&format!("{BALL}{flat}"), "--wireframe");
+    assert_eq!(both, changed(flat, "--wireframe"));
+}
+
+#[test]
+fn a_mesh_hides_the_lines_of_shapes_and_shapes_those_of_a_mesh() {
+    let Some(_) = gpu() else { return };
+    let mesh = r#"<shape type="obj"><string name="filename" value="mesh.obj"/></shape>"#;
+    let ball = |z: f64| {
+        format!(
+            r#"<shape type="sphere"><float name="radius" value="0.5"/><point name="center" x="0" y="0" z="{z}"/></shape>"#
+        )
+    };
+    let alone = changed(mesh, "--wireframe");
+    // Behind the square nothing of the ball is drawn.
+    assert_eq!(
+        changed(&format!("{mesh}{}", ball(-2.0)), "--wireframe"),
+        alone
+    );
+    let in_front = changed(&format!("{mesh}{}", ball(2.0)), "--wireframe");
+    assert!(in_front.len() > alone.len() + 200);
+    // A wide ball hides the whole mesh.
+    let wide = r#"<shape type="sphere"><float name="radius" value="1.9"/><point name="center" x="0" y="0" z="2.5"/></shape>"#;
+    let both = changed(&format!("{mesh}{wide}"), "--wireframe");
+    assert_eq!(both, changed(wide, "--wireframe"));
+}
+
+#[test]
+fn normals_of_shapes_point_outwards() {
+    let Some(_) = gpu() else { return };
+    let pixels = changed(BALL, "--normals");
+    let beyond = pixels
+        .iter()
+        .filter(|p| (**p - DVec2::splat(100.0)).length() > 50.5);
+    assert!(beyond.count() > 20);
 }

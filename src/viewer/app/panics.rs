@@ -37,7 +37,7 @@ fn a_panic_in_the_overlay_is_reported_and_lines_are_turned_off_and_can_be_turned
         sabotage::next(task);
         press(&mut window, Key::W);
         // The overlay is drawn in the background only on a software GPU.
-        if task == "overlay" && !window.state().overlay.rests_while_moving() {
+        if task == "overlay" && !window.state().overlay.is_software() {
             continue;
         }
         wait_for_message(&mut window);

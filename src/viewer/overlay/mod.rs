@@ -201,7 +201,14 @@ impl OverlayLayer {
     }
 
     /// Whether lines are omitted while the camera moves, so that the picture can keep up.
-    pub fn rests_while_moving(&self) -> bool {
+    pub fn rests_while_moving(&self, scene: &Scene) -> bool {
+        // Each view of shapes takes one traced ray per pixel.
+        self.is_software || scene.has_other_shapes()
+    }
+
+    /// Whether lines are drawn by software, in the background.
+    #[cfg(test)]
+    pub(crate) fn is_software(&self) -> bool {
         self.is_software
     }
 
