@@ -7,7 +7,8 @@ struct Style {
     half_width_px: f32,
     // The end is moved to this many times its distance from the start.
     stretch: f32,
-    // 1: lines fade where the gap between them would be less than a few pixels. 0: they don't.
+    // 1: lines fade where they or the gap between them would be less than a few pixels long. 2: the gap alone counts, as
+    // lines are pieces of curves. 0: they don't fade.
     fade: f32,
 };
 
@@ -76,7 +77,7 @@ fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
         let beside = clip_from_position(middle + line.gap);
         if min(here.w, beside.w) > view.near_w {
             let gap_px = length(pixel_from_clip(beside) - pixel_from_clip(here));
-            alpha = visible_part(min(gap_px, length_px));
+            alpha = visible_part(select(min(gap_px, length_px), gap_px, style.fade > 1.0));
         }
     }
 

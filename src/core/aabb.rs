@@ -47,10 +47,11 @@ impl Aabb {
     /// The points in both boxes.
     #[must_use]
     pub fn intersection(self, other: Self) -> Self {
-        Self {
+        let both = Self {
             min: self.min.max(other.min),
             max: self.max.min(other.max),
-        }
+        };
+        if both.is_empty() { Self::EMPTY } else { both }
     }
 
     /// The smallest box around both.

@@ -5,7 +5,7 @@
 use glam::{DVec3, Vec3};
 
 /// The weights of a triangle's corners at a point of its plane, as ratios of signed areas: λ₁ = Δ(BCP)/Δ(ABC) and so
-/// on. A weight is negative beyond the opposite edge. NaN for a triangle without area.
+/// on. A weight is negative beyond the opposite edge. Not finite for a triangle without area.
 pub fn weights_by_areas([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
     let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(normal);
@@ -13,7 +13,7 @@ pub fn weights_by_areas([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     [[b, c, p], [c, a, p], [a, b, p]].map(|part| area(part) / whole)
 }
 
-/// The same weights in the coordinate plane in which the triangle looks largest: with b = C − A, c = B − A and
+/// The same weights in the coordinate plane onto which the triangle's projection is largest: with b = C − A, c = B − A and
 /// p = P − A, λ₂ = (b×p)/(b×c), λ₃ = (p×c)/(b×c) and λ₁ = 1 − λ₂ − λ₃, where × is the cross product in the plane.
 pub fn weights_in_2d([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a).abs();
@@ -38,14 +38,14 @@ pub fn weighted([l1, l2, l3]: [f32; 3], [a, b, c]: [Vec3; 3]) -> Vec3 {
 }
 
 /// The weighted mean of unit vectors on the unit sphere: the point from which the arcs to them, times their weights,
-/// add up to 0. `None` if two of them are opposite or the linear mean is 0.
+/// add up to 0. `None` if the linear mean is 0 or a number isn't finite.
 ///
 /// Source: Buss, Fillmore, "Spherical Averages and Applications to Spherical Splines and Interpolation", TOG 20(2),
-/// 2001 (algorithm A1).
+/// 2001 (the algorithm that converges linearly).
 pub fn spherical_mean(weights: [f32; 3], normals: [Vec3; 3]) -> Option<Vec3> {
-    /// The algorithm converges quadratically or nearly; normals of a triangle take 2 to 5 steps.
+    /// Of 20 000 random triples up to 80° apart none took more than 9 steps (2026-11).
     const STEPS: usize = 20;
-    /// Steps shorter than f32 resolves.
+    /// Well below the resolution of f32, 6·10⁻⁸.
     const LEAST: f64 = 1e-9;
     let normals = normals.map(Vec3::as_dvec3);
     let terms = || weights.map(f64::from).into_iter().zip(normals);

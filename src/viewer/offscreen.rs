@@ -9,7 +9,7 @@ use crate::gpu::traced::TracedLayer;
 use crate::gpu::view::ViewUniform;
 use crate::overlay::traced::Shapes;
 use crate::overlay::wireframe::{self, WireframeEdges};
-use crate::overlay::{Options, marks, normals};
+use crate::overlay::{Options, marks, normals, shapes};
 use glam::UVec2;
 use hitscope_core::scene::Shading;
 use hitscope_lab::commands::Rendered;
@@ -39,8 +39,9 @@ pub fn draw_over(
     };
     let mut wanted: Vec<(Vec<Line>, StyleUniform)> = Vec::new();
     if let Some(edges) = options.wireframe {
-        let lines = wireframe::all_lines(scene, edges);
+        let lines = wireframe::lines(scene.mesh(), edges);
         wanted.push((lines, options.wire_style()));
+        wanted.push((shapes::lines(scene), options.shape_style()));
     }
     if let Some(shading) = options.normals {
         wanted.push((normals::lines(scene, shading), options.normal_style()));

@@ -141,6 +141,7 @@ fn changed(shapes: &str, overlay: &str) -> Vec<DVec2> {
         .collect()
 }
 
+/// A ball of which no line lies on its silhouette.
 const BALL: &str = r#"<shape type="sphere"/>"#;
 
 #[test]
@@ -162,6 +163,7 @@ fn a_flat_shape_hides_the_lines_behind_it() {
     let Some(_) = gpu() else { return };
     let flat = r#"<shape type="rectangle"><transform name="to_world"><scale value="1.5"/><translate z="2"/></transform></shape>"#;
     let both = changed(&format!("{BALL}{flat}"), "--wireframe");
+    assert!(!both.is_empty());
     assert_eq!(both, changed(flat, "--wireframe"));
 }
 
@@ -185,6 +187,7 @@ fn a_mesh_hides_the_lines_of_shapes_and_shapes_those_of_a_mesh() {
     // A wide ball hides the whole mesh.
     let wide = r#"<shape type="sphere"><float name="radius" value="1.9"/><point name="center" x="0" y="0" z="2.5"/></shape>"#;
     let both = changed(&format!("{mesh}{wide}"), "--wireframe");
+    assert!(!both.is_empty());
     assert_eq!(both, changed(wide, "--wireframe"));
 }
 

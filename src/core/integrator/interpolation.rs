@@ -8,10 +8,10 @@ use crate::ray::{Hit, Ray};
 use crate::scene::Shading;
 use glam::Vec3;
 
-/// Range of the scale in degrees: from an angle that no picture shows to one at which highlights move visibly.
+/// Range of the scale in degrees: from invisible, yet above rounding to f32, to a visible shift of highlights.
 const RANGE: [f64; 2] = [0.001, 10.0];
 
-/// The angle between the linearly and the spherically interpolated normal; clay where there is nothing to interpolate.
+/// The angle between the linearly and the spherically interpolated normal; grey below the scale.
 pub(super) fn angle(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     let Some(hit) = hit else {
         return context.background;
@@ -21,12 +21,12 @@ pub(super) fn angle(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
         surface.shading_normal.as_dvec3()
     };
     let (linear, spherical) = (normal(Shading::Smooth), normal(Shading::Spherical));
-    if linear == spherical {
+    // Accurate for small angles, unlike the inverse cosine.
+    let angle = 2.0 * (0.5 * (linear - spherical).length()).min(1.0).asin();
+    if angle.to_degrees() < RANGE[0] {
         let facing = linear.dot(ray.dir.as_dvec3().normalize_or_zero());
         return Vec3::splat(0.02 + 0.10 * facing.abs() as f32);
     }
-    // Accurate for small angles, unlike the inverse cosine.
-    let angle = 2.0 * (0.5 * (linear - spherical).length()).asin();
     log_colour(angle.to_degrees(), RANGE)
 }
 

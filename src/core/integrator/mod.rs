@@ -174,7 +174,7 @@ pub static INTEGRATORS: &[Integrator] = &[
     Integrator {
         name: "interpolation",
         title: "Interpolation",
-        about: "Angle between the linearly and the spherically interpolated vertex normal, on a logarithmic scale; grey if they are equal.",
+        about: "Angle between the linearly and the spherically interpolated vertex normal, on a logarithmic scale; grey below 0.001°.",
         against: Comparison::Nothing,
         legend: interpolation::legend,
         depends_on_tree: false,

@@ -12,7 +12,7 @@ use std::cmp::Ordering;
 pub struct RankedHit {
     /// The hit, rounded.
     pub hit: Hit,
-    /// Bounds of t; equal if t counts as computed.
+    /// Bounds of t; equal if the kernel isn't exact.
     pub(super) t: [f64; 2],
     /// t, if the kernel is exact.
     pub(super) exact: Option<ExactT>,
@@ -141,7 +141,7 @@ impl RankedHit {
         }
     }
 
-    /// A t behind which no hit precedes this one.
+    /// An upper bound of t for hits that could precede this one.
     pub(crate) fn t_bound(&self, ray: &Ray) -> f32 {
         self.hit.t.next_up().min(ray.t_max)
     }

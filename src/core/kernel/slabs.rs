@@ -29,13 +29,17 @@ impl<L: Lane> SlabInterval<L> {
         }
     }
 
-    /// The part that is also between the planes of a pair, which the ray crosses at `low` and `high`.
+    /// The part that is also between the planes of a pair, which the ray crosses at `low` and `high`. `slope` has the
+    /// sign of the direction across the planes, also of a zero.
     ///
-    /// A parallel ray between the planes gives −∞ and ∞; one outside gives two equal infinities.
+    /// A parallel ray between the planes gives −∞ and ∞; one outside gives two equal infinities; one in a plane gives
+    /// NaN there, which no comparison lets through.
     #[inline(always)]
-    pub fn clip(&mut self, pair: u8, low: L, high: L) {
-        let is_forward = low.lt(high);
-        let (first, last) = (low.lesser(high), low.greater(high));
+    pub fn clip(&mut self, pair: u8, low: L, high: L, slope: L) {
+        let (zero, one) = (L::of(low.token(), 0.0), L::of(low.token(), 1.0));
+        let is_forward = zero.lt(one.flip(slope));
+        let first = L::select(is_forward, low, high);
+        let last = L::select(is_forward, high, low);
         let faces = [2 * pair, 2 * pair + 1].map(|face| L::of(low.token(), face.into()));
         let near_face = L::select(is_forward, faces[0], faces[1]);
         let far_face = L::select(is_forward, faces[1], faces[0]);
@@ -46,7 +50,7 @@ impl<L: Lane> SlabInterval<L> {
         self.exit = L::select(is_sooner, far_face, self.exit);
     }
 
-    /// The first end in an interval, if there is a part; its far end counts as farther by the factor `slack`.
+    /// The first end in the interval, if the slabs overlap; the exit is moved back by `slack`, relatively.
     #[inline(always)]
     pub fn hit(self, t_min: L, t_max: L, slack: L::Number) -> Option<LaneHit<L>> {
         let grown = self.leave + self.leave.abs() * L::splat(t_min.token(), slack);

@@ -41,7 +41,7 @@ pub(super) fn load(
     })
 }
 
-/// What a scene file contains, in the world's coordinates.
+/// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
     /// Shapes other than meshes and their materials.

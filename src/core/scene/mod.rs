@@ -210,11 +210,21 @@ impl Scene {
     /// The groups of shapes other than triangles, as a scene of their own.
     pub fn without_triangles(&self) -> Self {
         let mut rest = scene(TriangleMesh::default());
-        let is_mesh = !self.mesh.triangles().is_empty();
-        for group in self.groups.iter().skip(usize::from(is_mesh)) {
+        for group in self.other_groups() {
             rest.push(Arc::clone(group));
         }
         rest
+    }
+
+    /// The groups of shapes other than triangles.
+    pub fn other_groups(&self) -> &[Arc<dyn Group>] {
+        let is_mesh = !self.mesh.triangles().is_empty();
+        let others = self.has_other_shapes();
+        if others {
+            &self.groups[usize::from(is_mesh)..]
+        } else {
+            &[]
+        }
     }
 
     /// The group of a primitive, and its index there.

@@ -9,11 +9,11 @@ use glam::DVec3;
 /// A plane by a point and a normal, by a point and two vectors, by three points, or by an equation.
 ///
 /// # Errors
-/// The description describes no plane.
+/// The parameters define no plane.
 pub(super) fn plane(parameters: &mut Parameters) -> Result<ShapeKind, Problem> {
     let form = form(parameters)?;
     let normal = form.normal();
-    if normal == DVec3::ZERO {
+    if is_degenerate(&form) {
         return Err(parameters.problem(match form {
             PlaneForm::PointAndVectors { .. } => "“v” and “w” are parallel",
             PlaneForm::ThreePoints(_) => "“p0”, “p1” and “p2” are collinear",
@@ -25,6 +25,23 @@ pub(super) fn plane(parameters: &mut Parameters) -> Result<ShapeKind, Problem> {
         point: form.point(),
         normal,
     })
+}
+
+/// Whether a description describes no plane, up to rounding: each component of a cross product errs by 2u of two products
+/// of components, which are at most |v||w|.
+fn is_degenerate(form: &PlaneForm) -> bool {
+    let size = match form.to_point_and_vectors() {
+        PlaneForm::PointAndVectors {
+            vectors: [v, w], ..
+        } => v.length() * w.length(),
+        _ => 0.0,
+    };
+    match form {
+        PlaneForm::PointAndVectors { .. } | PlaneForm::ThreePoints(_) => {
+            form.normal().length() <= 4.0 * f64::EPSILON * size
+        }
+        _ => form.normal() == DVec3::ZERO,
+    }
 }
 
 fn form(parameters: &mut Parameters) -> Result<PlaneForm, Problem> {

@@ -1,4 +1,4 @@
-//! Boxes with edges along the axes.
+//! Axis-aligned boxes.
 
 use super::compact::Slots;
 use super::lines::box_grid;
@@ -83,7 +83,7 @@ impl Shape for AxisBox {
         }
     }
 
-    /// u and v are the two other coordinates on the face, from −1 to 1.
+    /// u and v are the two other coordinates on the face, from −1 to 1; NaN along an edge of length 0.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
         let mut position = ray.at(hit.t).clamp(min, max);
@@ -122,7 +122,7 @@ impl Pieces for AxisBox {
         0.5 * self.min + 0.5 * self.max
     }
 
-    /// The parts are x = min, x = max, y = min and so on, each where the others are between min and max.
+    /// The parts are x = min, x = max, y = min and so on, each limited to the box's extent along the other axes.
     fn pieces<R: Ring>(&self, ray: &RayIn<R>, emit: &mut impl FnMut(Piece<'_, R>)) {
         if !self.can_be_hit() {
             return;

@@ -1,7 +1,7 @@
 //! Infinite planes that are perpendicular to an axis.
 
 use super::compact::Slots;
-use super::interior::unbounded;
+use super::interior::negative_side;
 use super::lines::plane_grid;
 use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
@@ -10,10 +10,10 @@ use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 
-/// The plane of the points with one coordinate given. No ray hits it if that isn't finite.
+/// A plane perpendicular to an axis. No ray hits it if that isn't finite.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct AxisPlane {
-    /// The axis that is perpendicular to the plane: 0, 1 or 2.
+    /// The axis that is perpendicular to the plane: 0, 1 or 2; higher numbers count as 2.
     pub axis: u8,
     /// The points' coordinate along the axis.
     pub coordinate: f32,
@@ -100,7 +100,7 @@ impl Shape for AxisPlane {
 
     /// The half-space behind the normal.
     fn interior(&self, ray: &Ray) -> Interior {
-        unbounded(self, ray)
+        negative_side(self, ray)
     }
 
     /// A grid near the region of interest.

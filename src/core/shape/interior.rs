@@ -1,36 +1,43 @@
-//! The points that a primitive's surface encloses.
+//! How crossings divide a line into parts inside and outside a primitive.
 
 use crate::algebra::{Dyadic, Piece, Pieces, RayIn, vector};
 use crate::ray::Ray;
 use std::cmp::Ordering;
 
-/// The points that a primitive's surface encloses, as far as a line's crossings with the surface need it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// The largest coordinate of a point that counts as inside or outside an unbounded primitive: far beyond every scene,
+/// yet far below the largest f32.
+pub(crate) const UNBOUNDED: f32 = 1e30;
+
+/// How crossings divide a line into parts inside and outside a primitive.
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Interior {
-    /// None: the surface isn't closed.
+    /// None is inside: the surface isn't closed.
     Open,
-    /// Convex and bounded: those between the first and the last crossing.
+    /// Convex and bounded: the part between the first and the last crossing is inside.
     Convex,
-    /// Bounded: the line enters and leaves it in turn.
+    /// Bounded: crossings alternate between entering and leaving. A tube that meets itself is hollow there.
     Bounded,
-    /// Unbounded: whether the line's start and its end lie inside.
-    Unbounded([bool; 2]),
+    /// Unbounded: whether the points at t = −`reach` and t = `reach` are inside. Crossings beyond them don't count.
+    Unbounded {
+        /// The bound of t.
+        reach: f64,
+        /// Whether the line is inside at either end.
+        ends: [bool; 2],
+    },
 }
 
 /// The interior of a surface of one piece, on the side where its polynomial is negative.
-pub(super) fn unbounded<S: Pieces>(shape: &S, ray: &Ray) -> Interior {
-    let ray = RayIn::<Dyadic> {
+pub(super) fn negative_side<S: Pieces>(shape: &S, ray: &Ray) -> Interior {
+    let line = RayIn::<Dyadic> {
         origin: vector(ray.origin),
         dir: vector(ray.dir),
     };
+    let reach = f64::from(UNBOUNDED) / f64::from(ray.dir.abs().max_element());
+    let reach = reach.min(f64::from(f32::MAX));
     let mut ends = [false; 2];
-    shape.pieces(&ray, &mut |piece: Piece<'_, Dyadic>| {
-        // Far away the leading term decides.
-        let coefficients = piece.surface.significant();
-        let leading = coefficients[coefficients.len() - 1].sign();
-        let is_even = coefficients.len() % 2 == 1;
-        let at_start = if is_even { leading } else { leading.reverse() };
-        ends = [at_start, leading].map(|sign| sign == Ordering::Less);
+    shape.pieces(&line, &mut |piece: Piece<'_, Dyadic>| {
+        let is_inside = |t: f64| piece.surface.at(&Dyadic::from(t)).sign() == Ordering::Less;
+        ends = [-reach, reach].map(is_inside);
     });
-    Interior::Unbounded(ends)
+    Interior::Unbounded { reach, ends }
 }

@@ -1,7 +1,7 @@
-//! Lines on surfaces, by which wireframes show shapes: those of constant surface coordinates.
+//! Wireframe lines of shapes: lines of constant surface coordinates.
 
 use crate::aabb::Aabb;
-use glam::{DMat3, DVec3};
+use glam::DVec3;
 use std::f64::consts::TAU;
 
 /// A point of a line on a surface.
@@ -18,7 +18,7 @@ pub struct LinePoint {
 pub struct LineDetail {
     /// The number of straight pieces of a full circle.
     pub segments: u32,
-    /// The region that infinite surfaces cover.
+    /// The region in which infinite surfaces are drawn.
     pub around: Aabb,
 }
 
@@ -26,15 +26,7 @@ pub struct LineDetail {
 pub type AddLine<'a> = &'a mut dyn FnMut(&[LinePoint]);
 
 impl LineDetail {
-    /// A part of a line from 0 to 1, given by its points; `turns` is the part of a full circle that it is.
-    pub(super) fn curve(&self, turns: f64, add: AddLine<'_>, point: impl Fn(f64) -> LinePoint) {
-        let count = (turns * f64::from(self.segments)).ceil().max(1.0) as u32;
-        let at = |k: u32| point(f64::from(k) / f64::from(count));
-        add(&(0..=count).map(at).collect::<Vec<_>>());
-    }
-
-    /// A full circle in the plane of two perpendicular vectors of its radius; `normal` is that at an outward unit
-    /// vector.
+    /// The ellipse with two half axes; `normal` is that at an outward unit vector.
     pub(super) fn circle(
         &self,
         centre: DVec3,
@@ -42,14 +34,15 @@ impl LineDetail {
         add: AddLine<'_>,
         normal: impl Fn(DVec3) -> DVec3,
     ) {
-        self.curve(1.0, add, |turn| {
-            let (sin, cos) = (TAU * turn).sin_cos();
+        let point = |k: u32| {
+            let (sin, cos) = (TAU * f64::from(k) / f64::from(self.segments)).sin_cos();
             let outwards = cos * x + sin * y;
             LinePoint {
                 position: centre + outwards,
                 normal: normal(outwards.normalize_or_zero()),
             }
-        });
+        };
+        add(&(0..=self.segments).map(point).collect::<Vec<_>>());
     }
 }
 
@@ -58,7 +51,7 @@ pub(super) fn straight(from: DVec3, to: DVec3, normal: DVec3, add: AddLine<'_>) 
     add(&[from, to].map(|position| LinePoint { position, normal }));
 }
 
-/// A grid over the points c + a·u + b·v with |a|, |b| ≤ 1, of `count` spaces along each side.
+/// A grid over the points c + a·u + b·v with |a|, |b| ≤ 1, with `count` cells along each side.
 pub(super) fn grid(centre: DVec3, [u, v]: [DVec3; 2], count: u32, normal: DVec3, add: AddLine<'_>) {
     for k in 0..=count {
         let at = 2.0 * f64::from(k) / f64::from(count) - 1.0;
@@ -87,19 +80,17 @@ pub(super) fn plane_grid(point: DVec3, normal: DVec3, detail: &LineDetail, add: 
 pub(super) fn box_grid(centre: DVec3, axes: [DVec3; 3], add: AddLine<'_>) {
     /// Spaces along each edge.
     const COUNT: u32 = 4;
-    let outwards = DMat3::from_cols(axes[0], axes[1], axes[2])
-        .inverse()
-        .transpose();
+    let turn = axes[0].cross(axes[1]).dot(axes[2]).signum();
     for axis in 0..3 {
         let (u, v) = (axes[(axis + 1) % 3], axes[(axis + 2) % 3]);
         for side in [-1.0, 1.0] {
-            let normal = (side * outwards.col(axis)).normalize_or_zero();
+            let normal = (side * turn * u.cross(v)).normalize_or_zero();
             grid(centre + side * axes[axis], [u, v], COUNT, normal, add);
         }
     }
 }
 
-/// Circles and radii of a flat disk with perpendicular or other half axes, facing along a normal.
+/// Circles and diameters of a disk with this normal, or of an ellipse with these half axes.
 pub(super) fn disk_lines(
     centre: DVec3,
     axes: [DVec3; 2],
@@ -107,7 +98,7 @@ pub(super) fn disk_lines(
     detail: &LineDetail,
     add: AddLine<'_>,
 ) {
-    /// Lines through the centre, as those of a cylinder's side.
+    /// Diameters; they meet the lines of a cylinder's side.
     const DIAMETERS: u32 = 6;
     for part in [0.5, 1.0] {
         detail.circle(centre, axes.map(|axis| part * axis), add, |_| normal);

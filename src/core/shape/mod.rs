@@ -31,6 +31,7 @@ pub use cylinder::Cylinder;
 pub(crate) use cylinder::{BASE, SIDE, TOP};
 pub use disk::Disk;
 pub use interior::Interior;
+pub(crate) use interior::UNBOUNDED;
 pub use lines::{AddLine, LineDetail, LinePoint};
 pub use parameter::{Parameter, ParameterKind};
 pub use plane::Plane;
@@ -97,7 +98,7 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
     /// Passes lines on the surface to `add`, for display.
     fn lines(&self, detail: &LineDetail, add: AddLine<'_>);
 
-    /// The points that the surface encloses, along the ray's whole line.
+    /// How crossings divide the ray's whole line into parts inside and outside the primitive.
     fn interior(&self, _ray: &Ray) -> Interior {
         Interior::Open
     }

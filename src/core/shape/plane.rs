@@ -1,7 +1,7 @@
 //! Infinite planes.
 
 use super::compact::Slots;
-use super::interior::unbounded;
+use super::interior::negative_side;
 use super::lines::plane_grid;
 use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
@@ -93,7 +93,7 @@ impl Shape for Plane {
 
     /// The half-space behind the normal.
     fn interior(&self, ray: &Ray) -> Interior {
-        unbounded(self, ray)
+        negative_side(self, ray)
     }
 
     /// A grid near the region of interest.

@@ -4,7 +4,7 @@
 
 use glam::DVec3;
 
-/// A description of an infinite plane. The normal is on the side from which the vectors, or the points, run
+/// A description of an infinite plane. Seen from the side of the normal, v to w and the three points run
 /// counterclockwise. Descriptions with parallel vectors, collinear points or a normal of 0 describe none; conversions
 /// of them give a normal of 0.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -46,7 +46,7 @@ impl PlaneForm {
         }
     }
 
-    /// A point of the plane: the one given, or the one nearest to (0, 0, 0).
+    /// A point of the plane: the one given, or the one nearest to (0, 0, 0); NaN for an equation with a normal of 0.
     pub fn point(&self) -> DVec3 {
         match *self {
             Self::PointAndVectors { point, .. } | Self::PointAndNormal { point, .. } => point,
@@ -55,15 +55,18 @@ impl PlaneForm {
         }
     }
 
-    /// By a point and two perpendicular unit vectors.
+    /// By a point and two vectors: those given, or else perpendicular unit vectors.
     #[must_use]
     pub fn to_point_and_vectors(&self) -> Self {
         let vectors = match *self {
             Self::PointAndVectors { vectors, .. } => vectors,
             Self::ThreePoints([a, b, c]) => [b - a, c - a],
             _ => {
-                let (v, w) = self.normal().normalize_or(DVec3::Z).any_orthonormal_pair();
-                [v, w]
+                let pair = self
+                    .normal()
+                    .try_normalize()
+                    .map(|n| n.any_orthonormal_pair());
+                pair.map_or([DVec3::ZERO; 2], |(v, w)| [v, w])
             }
         };
         Self::PointAndVectors {
@@ -177,6 +180,11 @@ mod tests {
             plane.to_point_and_vectors(),
             PlaneForm::PointAndVectors { point, vectors }
         );
+        let nothing = PlaneForm::PointAndNormal {
+            point,
+            normal: DVec3::ZERO,
+        };
+        assert_eq!(nothing.to_three_points().to_hesse(), None);
         let none = PlaneForm::ThreePoints([DVec3::ZERO, DVec3::X, 2.0 * DVec3::X]);
         assert_eq!(none.to_hesse(), None);
     }

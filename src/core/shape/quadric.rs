@@ -1,7 +1,7 @@
 //! General quadrics, cut by a box.
 
 use super::compact::Slots;
-use super::interior::unbounded;
+use super::interior::negative_side;
 use super::quadric_lines::quadric_lines;
 use super::{
     AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
@@ -146,7 +146,7 @@ impl Shape for Quadric {
 
     /// The points inside the surface without its box: those where the left side is negative.
     fn interior(&self, ray: &Ray) -> Interior {
-        unbounded(self, ray)
+        negative_side(self, ray)
     }
 
     /// Curves in planes across each axis.

@@ -1,4 +1,4 @@
-//! Lines on quadrics: the curves in planes across each axis.
+//! Wireframe lines of quadrics: intersections with planes perpendicular to each axis.
 //!
 //! Source: Lorensen, Cline, "Marching Cubes", SIGGRAPH 1987, in the plane: the curve crosses a cell of a grid between
 //! the edges at whose ends the left side has opposite signs.
@@ -8,7 +8,7 @@ use super::lines::{AddLine, LineDetail, LinePoint};
 use super::quadric::Quadric;
 use glam::DVec3;
 
-/// Positions of the planes in the box, as parts of half its edge.
+/// Positions of the planes, relative to half the box's edge.
 const PLANES: [f64; 5] = [-0.8, -0.4, 0.0, 0.4, 0.8];
 
 /// Passes the curves to `add`, piece by piece.

@@ -53,8 +53,10 @@ pub fn lines(scene: &Scene, ray: &Ray, primitive: u32) -> Vec<String> {
         sphere::lines(&line, &Sphere::read(&numbers), &equations)
     } else if *shape == Plane::INFO {
         plane::lines(&line, &Plane::read(&numbers))
-    } else if [Cuboid::INFO, AxisBox::INFO].contains(shape) {
-        cuboid::lines(&equations)
+    } else if *shape == Cuboid::INFO {
+        cuboid::lines(&cuboid::CUBOID, &equations)
+    } else if *shape == AxisBox::INFO {
+        cuboid::lines(&cuboid::AXIS_BOX, &equations)
     } else {
         of_equations(shape.equations, &equations)
     });

@@ -32,7 +32,7 @@ pub struct StyleUniform {
     pub half_width_px: f32,
     /// Factor of the line's length; the start stays in place.
     pub stretch: f32,
-    /// 1 if lines fade where they are dense, else 0.
+    /// 1 if lines fade where they are short or dense, 2 if only where they are dense, else 0.
     pub fade: f32,
     /// Pads the struct to the size that WGSL requires.
     pub padding: f32,

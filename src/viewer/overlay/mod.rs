@@ -63,6 +63,7 @@ pub struct OverlayLayer {
     shapes: Shapes,
     traced: Uploaded<ViewUniform, TracedLayer>,
     wireframe: Uploaded<WireframeEdges, LineSet>,
+    shape_lines: Uploaded<(), LineSet>,
     normals: Uploaded<Shading, LineSet>,
     elements: Uploaded<(), LineSet>,
     flaws: Uploaded<Flaw, LineSet>,
@@ -112,6 +113,7 @@ impl OverlayLayer {
             shapes: Shapes::default(),
             traced: Uploaded::default(),
             wireframe: Uploaded::default(),
+            shape_lines: Uploaded::default(),
             normals: Uploaded::default(),
             elements: Uploaded::default(),
             flaws: Uploaded::default(),
@@ -229,6 +231,7 @@ impl OverlayLayer {
             self.shapes = Shapes::default();
             self.traced = Uploaded::default();
             self.wireframe = Uploaded::default();
+            self.shape_lines = Uploaded::default();
             self.elements = Uploaded::default();
             self.flaws = Uploaded::default();
             self.picked = Uploaded::default();
@@ -242,6 +245,8 @@ impl OverlayLayer {
         let turns_on_normals = options.normals.is_some() && before.normals.is_none();
         if turns_on_wireframe || turns_on_normals {
             self.mesh.forget_failure();
+            self.traced.forget_failure();
+            self.shape_lines.forget_failure();
             self.wireframe.forget_failure();
             self.normals.forget_failure();
         }
@@ -258,9 +263,15 @@ impl OverlayLayer {
         let hidden = |style| [(LineOcclusion::Hidden, style)];
         if let Some(edges) = options.wireframe {
             let shared = Arc::clone(scene);
-            let gather = uploader(move || wireframe::all_lines(&shared, edges));
+            let gather = uploader(move || wireframe::lines(shared.mesh(), edges));
             let lines = self.wireframe.get(edges, &self.overlay, ctx, gather)?;
             ready.add(lines, &hidden(options.wire_style()));
+            if scene.has_other_shapes() {
+                let shared = Arc::clone(scene);
+                let gather = uploader(move || shapes::lines(&shared));
+                let lines = self.shape_lines.get((), &self.overlay, ctx, gather)?;
+                ready.add(lines, &hidden(options.shape_style()));
+            }
         }
         if let Some(shading) = options.normals {
             let shared = Arc::clone(scene);

@@ -52,6 +52,14 @@ impl Options {
         style([r, g, b, 0.85], self.line_width_px, 1.0)
     }
 
+    /// The style of other shapes' lines, which consist of short pieces.
+    pub(crate) fn shape_style(&self) -> StyleUniform {
+        StyleUniform {
+            fade: 2.0,
+            ..self.wire_style()
+        }
+    }
+
     pub(crate) fn normal_style(&self) -> StyleUniform {
         StyleUniform {
             stretch: self.normal_length,

@@ -3,13 +3,12 @@
 use crate::gpu::lines::Line;
 use glam::DVec3;
 use hitscope_core::Scene;
-use hitscope_core::group::Group;
 use hitscope_core::shape::{LineDetail, LinePoint};
 
-/// Shapes of a group beyond this number have outlines alone.
-const MOST_SHAPES: usize = 20_000;
-/// Straight pieces of all circles of a group, about.
-const PIECES: usize = 2_000_000;
+/// The number of shapes per group with lines; others have only outlines.
+const MAX_SHAPES: usize = 20_000;
+/// Approximate number of line segments per group.
+const SEGMENTS: usize = 2_000_000;
 /// Lines per shape, about.
 const LINES_PER_SHAPE: usize = 16;
 
@@ -35,7 +34,7 @@ pub fn lines_of(scene: &Scene, primitive: u32) -> Vec<Line> {
 
 /// Normals at points of the same lines. Their length is the scene's radius; the style shortens them.
 pub fn normals(scene: &Scene) -> Vec<Line> {
-    /// Normals per full circle of 64 pieces.
+    /// One normal for this many points of a line.
     const EVERY: usize = 4;
     let length = scene.bounds().radius();
     let mut lines = Vec::new();
@@ -55,29 +54,21 @@ pub fn normals(scene: &Scene) -> Vec<Line> {
 
 /// Passes the lines of all primitives, each with the expected distance to the next line.
 fn each_line(scene: &Scene, line: &mut dyn FnMut(&[LinePoint], f64)) {
-    for group in shape_groups(scene) {
-        let count = group.count().min(MOST_SHAPES);
+    for group in scene.other_groups() {
+        let count = group.count().min(MAX_SHAPES);
         let detail = detail(scene, count);
         for index in 0..count as u32 {
-            let mut size = None;
-            group.lines(index, &detail, &mut |points: &[LinePoint]| {
-                // Lines divide a shape into some eight parts.
-                let size = *size.get_or_insert_with(|| extent(points));
-                line(points, size / 8.0);
-            });
+            let mut lines: Vec<Vec<LinePoint>> = Vec::new();
+            group.lines(index, &detail, &mut |points| lines.push(points.to_vec()));
+            // Roughly eight lines cross a shape.
+            let gap = extent(&lines) / 8.0;
+            lines.iter().for_each(|points| line(points, gap));
         }
     }
 }
 
-/// The groups that aren't the mesh.
-fn shape_groups(scene: &Scene) -> impl Iterator<Item = &dyn Group> {
-    let is_mesh = !scene.mesh().triangles().is_empty();
-    let groups = scene.groups().iter().skip(usize::from(is_mesh));
-    groups.map(|group| &**group)
-}
-
 fn detail(scene: &Scene, count: usize) -> LineDetail {
-    let segments = PIECES / (LINES_PER_SHAPE * count.max(1));
+    let segments = SEGMENTS / (LINES_PER_SHAPE * count.max(1));
     LineDetail {
         segments: segments.clamp(8, 64) as u32,
         around: scene.bounds(),
@@ -95,10 +86,11 @@ fn piece(points: &[LinePoint], gap: f64) -> Line {
     }
 }
 
-/// The longest edge of the box around points.
-fn extent(points: &[LinePoint]) -> f64 {
+/// The longest edge of the box around lines.
+fn extent(lines: &[Vec<LinePoint>]) -> f64 {
     let none = (DVec3::INFINITY, DVec3::NEG_INFINITY);
-    let (min, max) = points.iter().fold(none, |(min, max), point| {
+    let points = lines.iter().flatten();
+    let (min, max) = points.fold(none, |(min, max), point| {
         (min.min(point.position), max.max(point.position))
     });
     (max - min).max_element()

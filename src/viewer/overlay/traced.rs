@@ -1,4 +1,4 @@
-//! Depth and outlines of shapes that aren't meshes: one ray per pixel, so that lines are hidden by what is traced.
+//! Depth and outlines of shapes that aren't meshes: one traced ray per pixel, to hide lines behind these shapes.
 
 use crate::gpu::traced::TracedPixel;
 use crate::gpu::view::ViewUniform;
@@ -8,15 +8,15 @@ use hitscope_core::{Camera, Intersector, Ray, Scene};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
 
-/// Lines this many pixels from a nearer surface are still visible: half a line's width, half a pixel of soft edge, and
-/// a margin, as a line lies on the surface that mustn't hide it.
+/// Within this many pixels of its border a surface doesn't hide lines behind it: half a line's width, half a pixel of soft
+/// edge, and a margin, so that it doesn't hide the lines on it.
 const REACH_PX: usize = 2;
 
 /// The shapes of a scene other than triangles, packed on first use.
 #[derive(Clone, Default)]
 pub struct Shapes(Arc<OnceLock<Box<dyn Intersector>>>);
 
-/// What a pixel's ray hits: the reversed depth and an identifier of the surface, or 0 and nothing.
+/// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss.
 #[derive(Clone, Copy, PartialEq)]
 struct Seen {
     depth: f32,
@@ -98,7 +98,7 @@ fn farthest_around(seen: &[Seen], size: UVec2) -> Vec<f32> {
 }
 
 /// The depth of the outline in a pixel, or −1 if there is none: the nearer of two neighbouring pixels that show different
-/// surfaces has it.
+/// surfaces has it; both do if they are equally near.
 fn outline(seen: &[Seen], size: UVec2, index: usize) -> f32 {
     let width = size.x as usize;
     let (x, y) = (index % width, index / width);

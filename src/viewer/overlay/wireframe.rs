@@ -42,13 +42,6 @@ pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
     same_edge.filter_map(line).collect()
 }
 
-/// The edges of the mesh and the lines of other shapes.
-pub fn all_lines(scene: &Scene, edges: WireframeEdges) -> Vec<Line> {
-    let mut all = lines(scene.mesh(), edges);
-    all.extend(shapes::lines(scene));
-    all
-}
-
 /// The outline of a triangle, or the lines of another shape.
 pub fn primitive_lines(scene: &Scene, primitive: u32) -> Vec<Line> {
     if scene.is_triangle(primitive) {

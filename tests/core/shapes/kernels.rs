@@ -261,3 +261,30 @@ fn the_equation_of_a_sphere_has_the_textbooks_coefficients() {
     let roots: Vec<f64> = equation.roots.iter().map(|root| root.t).collect();
     assert_eq!(roots, [5.0, 9.0]);
 }
+
+/// A ray in the plane of a face meets the faces beside it, whichever face it is and whatever the sign of its zero.
+#[test]
+fn slabs_hit_a_box_along_each_of_its_faces() {
+    let aligned = AxisBox {
+        min: Vec3::NEG_ONE,
+        max: Vec3::ONE,
+    };
+    let cuboid = Cuboid {
+        centre: Vec3::ZERO,
+        axes: [Vec3::X, Vec3::Y, Vec3::Z],
+    };
+    for side in [-1.0, 1.0] {
+        for zero in [0.0, -0.0] {
+            let (origin, dir) = (Vec3::new(-3.0, side, 0.25), Vec3::new(1.0, zero, zero));
+            let ray = Ray::new(origin, dir).expect("a ray");
+            for row in AxisBox::kernels() {
+                let hit = row.intersect(&ray, aligned).map(|hit| hit.t);
+                assert_eq!(hit, Some(2.0), "{} {side} {zero}", row.info.name);
+            }
+            for row in Cuboid::kernels() {
+                let hit = row.intersect(&ray, cuboid).map(|hit| hit.t);
+                assert_eq!(hit, Some(2.0), "{} {side} {zero}", row.info.name);
+            }
+        }
+    }
+}

@@ -8,7 +8,7 @@ use hitscope_core::mesh::{Runs, TriangleMesh};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
-use hitscope_core::shape::{Cuboid, Cylinder, Plane, Quadric, Sphere, Torus};
+use hitscope_core::shape::{Cone, Cuboid, Cylinder, Plane, Quadric, Sphere, Torus};
 use hitscope_core::{Intersector, Ray, Scene};
 
 const OPERATIONS: [CsgOperation; 3] = [
@@ -230,6 +230,60 @@ fn half_spaces_and_quadrics_are_solids_and_subtracted_normals_point_outwards() {
             }
         }
     }
+}
+
+#[test]
+fn a_ray_through_the_apex_of_a_cone_crosses_it() {
+    let cone = Cone {
+        p0: Vec3::ZERO,
+        p1: Vec3::Z,
+        radius: 1.0,
+        is_capped: true,
+    };
+    let scene = scene_of(vec![Solid::of(cone)]);
+    let exact = intersector(&scene, Tier::Exact);
+    assert_eq!(
+        crossings(&*exact, [0.0, 0.0, 3.0], [0.0, 0.0, -1.0]),
+        [2.0, 3.0]
+    );
+}
+
+#[test]
+fn a_crossing_far_beyond_the_scene_changes_nothing_near_it() {
+    let mut bowl = [0.0; 10];
+    (bowl[0], bowl[1], bowl[8]) = (1.0, 1.0, -0.5);
+    let bowl = Quadric {
+        coefficients: bowl,
+        centre: Vec3::ZERO,
+        half: Vec3::ONE,
+    };
+    // The ray also crosses the unbounded surface at 10³².
+    let nearly_down = [6.1e-17, 0.0, -1.0];
+    for tier in [Tier::Precise, Tier::Exact] {
+        let scene = scene_of(vec![Solid::of_quadric(bowl)]);
+        let found = crossings(&*intersector(&scene, tier), [0.5, 0.0, 2.0], nearly_down);
+        assert_eq!(found, [1.0, 1.75], "{tier:?}");
+    }
+}
+
+#[test]
+fn where_surfaces_coincide_the_one_that_faces_the_ray_counts() {
+    // The ray goes down a hole that ends where another cube begins.
+    let whole = cube(Vec3::new(-1.0, -1.0, 0.0), Vec3::ONE);
+    let hole = cube(Vec3::new(-0.5, -0.5, -1.0), Vec3::new(0.5, 0.5, 2.0));
+    let below = cube(Vec3::new(-1.0, -1.0, -1.0), Vec3::new(1.0, 1.0, 0.0));
+    let [whole, hole, below] = [whole, hole, below].map(Solid::of);
+    let drilled = Solid::combined(CsgOperation::Difference, vec![whole, hole]);
+    let scene = scene_of(vec![Solid::combined(
+        CsgOperation::Union,
+        vec![drilled, below],
+    )]);
+    let ray = Ray::new(Vec3::new(0.0, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
+    let hit = intersector(&scene, Tier::Exact)
+        .closest_hit(&ray)
+        .expect("the bottom");
+    assert_eq!(hit.t, 3.0);
+    assert_eq!(scene.surface(&ray, &hit).normal, DVec3::Z);
 }
 
 #[test]

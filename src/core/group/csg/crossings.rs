@@ -72,8 +72,8 @@ impl PackedSolid {
     /// The solid's crossings in the ray's interval, in ascending order. A hit's `v` is the index of the operand; its
     /// `primitive` is 0.
     ///
-    /// Along the ray's whole line each operand is a sequence of intervals. Between two neighbouring ends of any of
-    /// them, nothing changes; at an end the solid has a surface if the points before and behind it differ.
+    /// Along the ray's whole line each operand is a sequence of intervals. Between consecutive endpoints the state is
+    /// constant; an endpoint is a crossing if the states before and after it differ.
     pub fn crossings(&self, ray: &Ray) -> Vec<RankedHit> {
         let line = line_of(ray);
         let (mut events, mut inside) = (Vec::new(), Vec::new());
@@ -90,15 +90,25 @@ impl PackedSolid {
         let mut was_inside = self.solid.is_inside(&inside);
         let mut crossings = Vec::new();
         let mut events = events.into_iter().peekable();
-        while let Some(Event { crossing, operand }) = events.next() {
-            inside[operand] ^= true;
+        while let Some(first) = events.next() {
+            let mut equal = vec![first];
             while let Some(other) =
-                events.next_if(|other| other.crossing.compare(&crossing).is_eq())
+                events.next_if(|other| other.crossing.compare(&equal[0].crossing).is_eq())
             {
-                inside[other.operand] ^= true;
+                equal.push(other);
+            }
+            for event in &equal {
+                inside[event.operand] ^= true;
             }
             let is_inside = self.solid.is_inside(&inside);
-            if is_inside != was_inside && crossing.is_in_interval(ray) {
+            if is_inside != was_inside && equal[0].crossing.is_in_interval(ray) {
+                // The surface faces the ray if the solid is entered: so does that of an operand that changes likewise.
+                let changes_likewise = |event: &Event| {
+                    let operand = &self.solid.operands()[event.operand];
+                    (inside[event.operand] != operand.is_subtracted) == is_inside
+                };
+                let index = equal.iter().position(changes_likewise).unwrap_or(0);
+                let Event { crossing, operand } = equal.swap_remove(index);
                 let v = operand as f32;
                 crossings.push(crossing.with_hit(|hit| Hit { v, ..hit }));
             }
@@ -125,9 +135,13 @@ fn ends(
     line: &Ray,
 ) -> (Vec<RankedHit>, bool) {
     let mut hits = intersector.every_hit(line);
-    hits.retain(|hit| !hit.is_tangent);
     hits.sort_by(RankedHit::compare);
-    match operand.boundary.interior(0, line) {
+    let interior = operand.boundary.interior(0, line);
+    // The apex of a cone is a double root, too, although the ray passes through the surface there.
+    if interior != Interior::Convex {
+        hits.retain(|hit| !hit.is_tangent);
+    }
+    match interior {
         Interior::Open => (Vec::new(), false),
         Interior::Convex => {
             // A ray that touches the shape at an edge or a corner has one crossing.
@@ -136,14 +150,25 @@ fn ends(
             hits.extend(last);
             (hits, false)
         }
-        Interior::Bounded => (turns(operand, line, hits, false), false),
-        Interior::Unbounded([start, end]) => (turns(operand, line, hits, start != end), start),
+        Interior::Bounded => (without_spurious_tangent(operand, line, hits, false), false),
+        Interior::Unbounded { reach, ends } => {
+            hits.retain(|ranked| f64::from(ranked.hit.t).abs() <= reach);
+            (
+                without_spurious_tangent(operand, line, hits, ends[0] != ends[1]),
+                ends[0],
+            )
+        }
     }
 }
 
-/// The crossings at which the line passes through the surface. If their number shows that a kernel reported one too many
-/// or too few, as rounding may near a tangent, the most grazing one is left out.
-fn turns(operand: &Operand, line: &Ray, mut hits: Vec<RankedHit>, is_odd: bool) -> Vec<RankedHit> {
+/// The crossings at which the line passes through the surface. If their parity is wrong, because rounding added or lost
+/// one near a tangent, the most grazing one is removed.
+fn without_spurious_tangent(
+    operand: &Operand,
+    line: &Ray,
+    mut hits: Vec<RankedHit>,
+    is_odd: bool,
+) -> Vec<RankedHit> {
     if (hits.len() % 2 == 1) == is_odd {
         return hits;
     }

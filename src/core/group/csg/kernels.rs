@@ -1,4 +1,4 @@
-//! Descriptions of the kernels of combined solids: each tier takes the kernels of that tier for the shapes.
+//! Descriptions of the kernels of combined solids: each tier uses the shapes' kernels of that tier.
 
 use crate::kernel::{KernelInfo, Precision, Promises, Tier, algebraic};
 
@@ -7,7 +7,7 @@ pub static CSG_KERNELS: [&KernelInfo; 4] = [&FAST, &WATERTIGHT, &PRECISE, &algeb
 
 static FAST: KernelInfo = KernelInfo {
     name: "solid-fast",
-    title: "Crossings of fast",
+    title: "Solids, fast",
     tier: Some(Tier::Fast),
     precision: Precision::F32,
     source: "Roth, Ray Casting for Modeling Solids, 1982",
@@ -22,7 +22,7 @@ static FAST: KernelInfo = KernelInfo {
 
 static WATERTIGHT: KernelInfo = KernelInfo {
     name: "solid-watertight",
-    title: "Crossings of watertight",
+    title: "Solids, watertight",
     tier: Some(Tier::Watertight),
     summary: "The shapes' watertight kernels; crossings ordered as computed.",
     ..FAST
@@ -30,7 +30,7 @@ static WATERTIGHT: KernelInfo = KernelInfo {
 
 static PRECISE: KernelInfo = KernelInfo {
     name: "solid-precise",
-    title: "Crossings of precise",
+    title: "Solids, precise",
     tier: Some(Tier::Precise),
     precision: Precision::F64,
     summary: "The shapes' precise kernels; crossings ordered as computed.",

@@ -8,7 +8,7 @@
 //! | [`crossings`] | the points at which a ray enters and leaves a solid |
 //! | [`intersector`] | intersector of several solids |
 //! | [`kernels`] | one description per tier |
-//! | `lines` | the lines by which wireframes show solids |
+//! | `lines` | wireframe lines |
 
 mod crossings;
 mod intersector;
@@ -134,6 +134,7 @@ impl Group for CsgGroup {
         self.exact(index).lines(detail, add);
     }
 
+    /// A solid isn't an operand of another: trees are flattened.
     fn interior(&self, _: u32, _: &Ray) -> Interior {
         Interior::Open
     }

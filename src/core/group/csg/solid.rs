@@ -5,7 +5,7 @@ use crate::group::{Group, Grouped, SceneOptions};
 use crate::mesh::Runs;
 use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
-use crate::shape::{Cuboid, Quadric, SurfacePoint};
+use crate::shape::{Cuboid, Quadric, SurfacePoint, UNBOUNDED};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -20,8 +20,8 @@ pub enum CsgOperation {
     Difference,
 }
 
-/// A solid: a shape's interior, or a combination of such solids. Where two surfaces coincide, only a wall between
-/// inside and outside counts as surface, so that a solid has no parts without thickness (“regularised” operations).
+/// A solid: a shape's interior, or a combination of such solids. A point is on the surface
+/// only if it separates inside from outside (“regularised” operations).
 #[derive(Clone, Debug)]
 pub struct Solid {
     operands: Vec<Operand>,
@@ -37,7 +37,7 @@ pub(super) struct Operand {
     pub boundary: Arc<dyn Group>,
     /// A group of the one shape that the surface belongs to.
     pub surface: Arc<dyn Group>,
-    /// Whether its outside is the solid's inside.
+    /// Whether it is subtracted, so that its normals are reversed.
     pub is_subtracted: bool,
 }
 
@@ -48,8 +48,8 @@ enum Node {
 }
 
 impl Solid {
-    /// The interior of a shape, empty if its surface isn't closed. A plane's interior is the half-space behind its
-    /// normal.
+    /// The interior of a shape, empty if its surface isn't closed or a number isn't finite. A plane's interior is the
+    /// half-space behind its normal. For a quadric use [`of_quadric`](Self::of_quadric).
     pub fn of<S: Grouped>(shape: S) -> Self {
         let bounds = S::IS_BOUNDED.then(|| shape.bounds());
         let group = group_of(shape);
@@ -58,10 +58,8 @@ impl Solid {
 
     /// The points in a quadric's box where the left side of its equation is negative.
     pub fn of_quadric(quadric: Quadric) -> Self {
-        /// Far beyond every other coordinate, yet far below the largest f32.
-        const UNBOUNDED: Vec3 = Vec3::splat(1e30);
         let boundary = group_of(Quadric {
-            half: UNBOUNDED,
+            half: Vec3::splat(UNBOUNDED),
             ..quadric
         });
         let Vec3 { x, y, z } = quadric.half;
@@ -133,7 +131,7 @@ impl Solid {
             } else {
                 point.normal
             },
-            // Two operands may share a plane, or one may cross it.
+            // A spawned ray may hit another operand.
             is_flat: false,
             ..point
         }

@@ -56,7 +56,8 @@ impl<L: Lane> InverseRay<L> {
         let mut inside = SlabInterval::whole(self.origin[0]);
         for axis in 0..3 {
             let t = |plane: L| (plane - self.origin[axis]) * self.inverse[axis];
-            inside.clip(axis as u8, t(min[axis]), t(max[axis]));
+            let slope = self.inverse[axis];
+            inside.clip(axis as u8, t(min[axis]), t(max[axis]), slope);
         }
         inside
     }

@@ -2,11 +2,12 @@
 //!
 //! Source: Ize, "Robust BVH Ray Traversal", JCGT 2(2), 2013.
 //! Differs from it: t is reported, not only whether there is a hit.
-//! Promises: a hit wherever exact arithmetic finds one.
-//! Doesn't promise: a miss of a ray that passes an edge within 2⁻²¹ of t.
+//! Promises: a hit wherever exact arithmetic finds one at a t inside the interval by more than 3u, relatively, if
+//!   distances and inverses are normal numbers; u is 2⁻²⁴, in f64 2⁻⁵³.
+//! Doesn't promise: a miss of a ray that passes an edge within 8u·|t|.
 //!
-//! An inverse, a difference and a product are rounded to 2⁻²⁴ each, so that either end errs by 3·2⁻²⁴ of itself; the
-//! exit counts as 2·(3 + 1)·2⁻²⁴ farther.
+//! An inverse, a difference and a product are each rounded by u, so that either end errs by 3u, and so does the sum that
+//! moves the exit by u: 7u is less than 8u.
 
 use super::InverseRay;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
@@ -24,7 +25,7 @@ impl Kernel for Padded {
         tier: Some(Tier::Watertight),
         precision: Precision::F32,
         source: "Ize, Robust BVH Ray Traversal, JCGT 2013",
-        summary: "As slabs, with the exit moved back: thin boxes and edges are hit.",
+        summary: "As slabs, with a padded exit, so that thin boxes and edges aren't missed.",
         promises: Promises::PLAIN,
     };
     const IN_F64: KernelInfo = KernelInfo {
@@ -32,7 +33,7 @@ impl Kernel for Padded {
         title: "Padded slabs, f64",
         tier: Some(Tier::Precise),
         precision: Precision::F64,
-        summary: "As slabs in f64, with the exit moved back; t correct to the last place of f32.",
+        summary: "As slabs in f64, with a padded exit; t correct to the last place of f32.",
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;

@@ -30,7 +30,7 @@ impl Kernel for Slabs {
         title: "Slabs, f64",
         tier: None,
         precision: Precision::F64,
-        summary: "Correct to the last place of f32 but at edges.",
+        summary: "Correct to the last place of f32 except at edges.",
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;

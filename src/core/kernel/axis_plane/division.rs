@@ -22,7 +22,7 @@ impl Kernel for Division {
         tier: Some(Tier::Watertight),
         precision: Precision::F32,
         source: "Lensch, Basic Geometry, lecture, 2022",
-        summary: "One subtraction and one division; the decision is right.",
+        summary: "One subtraction and one division; the sign of t is right.",
         promises: Promises::PLAIN,
     };
     const IN_F64: KernelInfo = KernelInfo {
@@ -30,7 +30,7 @@ impl Kernel for Division {
         title: "Division, f64",
         tier: Some(Tier::Precise),
         precision: Precision::F64,
-        summary: "One subtraction, which is exact, and one division; t correct to the last place of f32.",
+        summary: "One subtraction, exact unless the coordinates differ by a factor above 2²⁹, and one division; t correct to the last place of f32.",
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
@@ -56,6 +56,7 @@ impl Kernel for Division {
         let distance = planes.value(1) - along(axis, ray.origin);
         let t = distance / along(axis, ray.dir);
         let mut nearest = Nearest::new(t_min, t_max);
+        // Not if t is NaN: the ray lies in the plane.
         nearest.offer(t.le(t), t, 0);
         nearest.hit()
     }

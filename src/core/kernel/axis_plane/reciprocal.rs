@@ -60,6 +60,7 @@ impl Kernel for Reciprocal {
         let distance = planes.value(1) - along(axis, ray.origin);
         let t = distance * along(axis, ray.dir);
         let mut nearest = Nearest::new(t_min, t_max);
+        // Not if t is NaN: the ray lies in the plane.
         nearest.offer(t.le(t), t, 0);
         nearest.hit()
     }

@@ -32,7 +32,7 @@ impl Kernel for Slabs {
         title: "Slabs, f64",
         tier: Some(Tier::Precise),
         precision: Precision::F64,
-        summary: "Correct to the last place of f32 but at edges.",
+        summary: "Correct to the last place of f32 except at edges.",
         ..Self::IN_F32
     };
     const VALUES: usize = VALUES;
@@ -66,7 +66,7 @@ impl Kernel for Slabs {
         for pair in 0..3 {
             let row = cuboids.three(3 + 3 * pair);
             let (at, step) = (dot(&row, &f), dot(&row, &ray.dir));
-            inside.clip(pair as u8, (-one - at) / step, (one - at) / step);
+            inside.clip(pair as u8, (-one - at) / step, (one - at) / step, step);
         }
         inside.hit(t_min, t_max, L::Number::from(0.0))
     }

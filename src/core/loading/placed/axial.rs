@@ -27,7 +27,7 @@ impl Axial {
             ends: ends.map(|end| to_world.transform_point3(end)),
             radius: radius
                 * scale.ok_or(
-                    "the transform makes the shape elliptic or oblique: there is no such shape",
+                    "the transform makes the shape elliptic or oblique, which isn't supported",
                 )?,
             is_capped,
         })

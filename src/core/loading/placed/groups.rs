@@ -6,7 +6,7 @@ use crate::progress::{Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
 use std::any::Any;
 
-/// Groups of shapes, each of one kind, in the order in which the kinds were first added.
+/// Groups of shapes, each of one kind, in the order in which the kinds were first added; solids come last.
 #[derive(Default)]
 pub struct Groups {
     lists: Vec<Box<dyn PendingGroup>>,

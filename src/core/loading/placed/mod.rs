@@ -18,7 +18,7 @@ use crate::scene_file::{Place, Shape, ShapeKind};
 use glam::{DMat3, DMat4, DVec3};
 use std::fmt::Debug;
 
-/// Why a shape can't be placed, and where it stands in the file.
+/// Why a shape can't be placed, and its place in the file.
 #[derive(Debug)]
 pub(super) struct Refusal {
     pub place: Place,
@@ -89,7 +89,7 @@ fn axis_of(vector: DVec3) -> Option<usize> {
 /// A shape transformed by an affine map. `None` for meshes.
 ///
 /// # Errors
-/// The transform makes it a shape that there isn't.
+/// The transformed shape isn't supported.
 pub(super) fn placed(shape: &Shape, to_world: &DMat4) -> Result<Option<Box<dyn Placed>>, Refusal> {
     let linear = DMat3::from_mat4(*to_world);
     let refused = |message: &str| Refusal {

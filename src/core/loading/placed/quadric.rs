@@ -60,7 +60,7 @@ impl PlacedQuadric {
         Self {
             coefficients: coefficients(inverse.transpose() * inverse, DVec3::ZERO, -1.0),
             centre,
-            // A little more, so that the box cuts nothing.
+            // Slightly larger, so that rounding can't cut the ellipsoid: 10⁻⁵ is 84 ulps of f32.
             half: half * (1.0 + 1e-5),
         }
     }

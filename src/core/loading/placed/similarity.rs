@@ -1,9 +1,9 @@
-//! Maps that keep circles round.
+//! Similarities, and maps that keep circles about an axis round.
 
 use glam::{DMat3, DVec3};
 
-/// Deviation from a right angle or from equal lengths, relatively, that counts as rounding of a matrix's entries: some
-/// compositions of rotations in f64.
+/// Relative deviation from a right angle or from equal lengths that is attributed to rounding: composing some rotations
+/// in f64. A matrix typed with few digits scales unequally.
 const ROUNDING: f64 = 1e-12;
 
 /// The factor of a map that scales all directions equally; `None` for others.

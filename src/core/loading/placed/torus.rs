@@ -24,7 +24,7 @@ impl PlacedTorus {
     ) -> Result<Self, &'static str> {
         let linear = DMat3::from_mat4(*to_world);
         let scale = scale_of(linear)
-            .ok_or("the transform scales the torus unequally: there is no such shape")?;
+            .ok_or("the transform scales the torus unequally, which isn't supported")?;
         let [major, minor] = radii.map(|radius| scale * radius);
         Ok(Self {
             centre: to_world.transform_point3(centre),
