@@ -3,6 +3,7 @@
 use crate::frames;
 use crate::json;
 use crate::oracle::{self, ExactHit, Fraction};
+use crate::surface::SurfacePoint;
 use glam::{UVec2, Vec3};
 use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Cost;
@@ -251,7 +252,7 @@ impl HitReport {
             },
             surface_uv: (!is_triangle).then(|| scene.surface(ray, &hit).uv.to_array()),
             side: if is_back { "back" } else { "front" },
-            position: position_in_file(scene, ray, &hit),
+            position: SurfacePoint::in_file(scene, ray, &hit).position,
             geometric_normal: surface.geometric_normal.to_array(),
             shading_normal: surface.shading_normal.to_array(),
             material: material.map_or_else(String::new, |material| material.name.clone()),
@@ -367,17 +368,6 @@ pub fn weights(hit: &Hit) -> [f32; 3] {
 /// A point of the mesh in the file's coordinates.
 fn in_file(mesh: &TriangleMesh, p: Vec3) -> [f64; 3] {
     mesh.in_file(p.as_dvec3()).to_array()
-}
-
-/// The position of a hit in the file's coordinates. For a triangle, computed in f64 from its barycentric coordinates.
-pub fn position_in_file(scene: &Scene, ray: &Ray, hit: &Hit) -> [f64; 3] {
-    let mesh = scene.mesh();
-    if !scene.is_triangle(hit.primitive) {
-        return in_file(mesh, scene.surface(ray, hit).position);
-    }
-    let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
-    let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-    mesh.in_file(a + u * (b - a) + v * (c - a)).to_array()
 }
 
 #[cfg(test)]
