@@ -19,13 +19,23 @@ pub fn to_pretty(value: &impl Serialize) -> String {
     written(value, PrettyFormatter::new())
 }
 
+/// Appends a value as JSON on one line, with the line's end.
+pub fn append_line(text: &mut Vec<u8>, value: &impl Serialize) {
+    write(text, value, CompactFormatter);
+    text.push(b'\n');
+}
+
 fn written(value: &impl Serialize, layout: impl Formatter) -> String {
     let mut text = Vec::new();
-    let mut serializer = Serializer::with_formatter(&mut text, ExactNumbers(layout));
+    write(&mut text, value, layout);
+    String::from_utf8(text).expect("JSON is UTF-8")
+}
+
+fn write(text: &mut Vec<u8>, value: &impl Serialize, layout: impl Formatter) {
+    let mut serializer = Serializer::with_formatter(text, ExactNumbers(layout));
     value
         .serialize(&mut serializer)
         .expect("results are plain data, and writing to memory can't fail");
-    String::from_utf8(text).expect("JSON is UTF-8")
 }
 
 /// A formatter that writes numbers as described in the [module](self).

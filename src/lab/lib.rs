@@ -6,6 +6,7 @@
 //! | [`oracle`] | the exact answer for a ray and a triangle |
 //! | [`inspection`] | one ray: every kernel and the exact answer |
 //! | [`formula`] | the derivation of a hit, in the notation of the lecture |
+//! | [`surface`] | the surface at a hit |
 //! | [`frames`] | rays of f64 in the file's coordinates, as the f32 rays that kernels trace |
 //! | [`json`] | JSON whose numbers read back as doubles |
 //! | [`measure`] | measurements of speed and accuracy |
@@ -24,3 +25,4 @@ pub mod oracle;
 pub mod report;
 pub mod requirement;
 pub mod second_opinion;
+pub mod surface;

@@ -321,3 +321,55 @@ fn what_is_left_of_rounding_is_told() {
         );
     }
 }
+
+/// A component of the normal as computed in f64 from f32 numbers errs by a few ulps.
+fn assert_normal(answer: &Value, expected: [f64; 3]) {
+    for (axis, expected) in expected.iter().enumerate() {
+        let found = answer["normal"][axis].as_f64().expect("a number");
+        assert!((found - expected).abs() < 1e-15, "{answer}");
+    }
+}
+
+#[test]
+fn normals_have_unit_length_and_do_not_depend_on_the_side_of_the_ray() {
+    let rays = "0 0 2 0 0 -2\n0 0 -1 0 0 1\n";
+    for (mesh, z) in [(PLANE, 1.0), (&PLANE.replace("1 2 3", "1 3 2"), -1.0)] {
+        for answer in answers(mesh, "", rays) {
+            assert_normal(&answer, [0.0, 0.0, z]);
+        }
+        for answer in answers(mesh, "--all", rays) {
+            assert_normal(&answer["hits"][0], [0.0, 0.0, z]);
+        }
+    }
+    // Far from (0, 0, 0), on a slope of 3 : 4.
+    let sloped = "v 4000000 0 0\nv 4000000 1 0\nv 4000004 0 3\nf 1 3 2\n";
+    let found = &answers(sloped, "", "4000001 0.25 9 0 0 -1\n")[0];
+    assert_normal(found, [-0.6, 0.0, 0.8]);
+}
+
+#[test]
+fn normals_of_closed_shapes_point_outwards() {
+    let scene = r#"<scene version="3.0.0">
+        <shape type="sphere"><point name="center" x="4" y="0" z="0"/><float name="radius" value="2"/></shape>
+        <shape type="cube"><transform name="to_world"><translate x="10"/></transform></shape>
+        <shape type="rectangle"><transform name="to_world"><translate x="20"/></transform></shape>
+    </scene>"#;
+    // Towards each shape from −z, and from its inside if it has one.
+    let rays = "4 0 -9 0 0 1\n4 0 0 0 0 1\n10.5 0 -9 0 0 1\n10 0 0 1 0 0\n20.5 0 -9 0 0 1\n";
+    let folder = Folder::new();
+    folder.write("scene.xml", scene);
+    folder.write("rays.txt", rays);
+    let line = "@scene.xml --rays @rays.txt";
+    let text = folder.text(|folder, out| folder.args::<TraceArgs>(line).run(out));
+    let expected = [
+        [0.0, 0.0, -1.0],
+        [0.0, 0.0, 1.0],
+        [0.0, 0.0, -1.0],
+        [1.0, 0.0, 0.0],
+        [0.0, 0.0, 1.0],
+    ];
+    assert_eq!(text.lines().count(), expected.len());
+    for (line, expected) in text.lines().zip(expected) {
+        assert_normal(&serde_json::from_str(line).expect("JSON"), expected);
+    }
+}

@@ -1,7 +1,7 @@
 //! The points where a ray crosses surfaces.
 
 use super::hit::side;
-use super::position_in_file;
+use crate::surface::SurfacePoint;
 use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::intersector::Crossing;
 use hitscope_core::scene::Shading;
@@ -36,7 +36,7 @@ impl CrossingReport {
             primitive: hit.primitive,
             also,
             side: side(ray, surface.geometric_normal),
-            position: position_in_file(scene, ray, &hit),
+            position: SurfacePoint::in_file(scene, ray, &hit).position,
         }
     }
 }

@@ -1,7 +1,8 @@
 //! A hit, and the surface at its point.
 
-use super::{Parameters, in_file};
+use super::Parameters;
 use crate::formula;
+use crate::surface::SurfacePoint;
 use glam::Vec3;
 use hitscope_core::interaction::SurfaceInteraction;
 use hitscope_core::scene::{Scene, Shading};
@@ -85,7 +86,7 @@ impl HitReport {
             parameters: (!is_triangle).then(|| Parameters::of(group, index, mesh)),
             surface_uv: (!is_triangle).then(|| scene.surface(ray, &hit).uv.to_array()),
             side: side(ray, surface.geometric_normal),
-            position: position_in_file(scene, ray, &hit),
+            position: SurfacePoint::in_file(scene, ray, &hit).position,
             geometric_normal: surface.geometric_normal.to_array(),
             shading_normal: surface.shading_normal.to_array(),
             material: material.map_or_else(String::new, |material| material.name.clone()),
@@ -106,15 +107,4 @@ pub(super) fn side(ray: &Ray, geometric_normal: Vec3) -> &'static str {
 pub fn weights(hit: &Hit) -> [f32; 3] {
     hit.barycentric()
         .map(|weight| if weight < 0.0 { 0.0 } else { weight })
-}
-
-/// The position of a hit in the file's coordinates. For a triangle, computed in f64 from its barycentric coordinates.
-pub fn position_in_file(scene: &Scene, ray: &Ray, hit: &Hit) -> [f64; 3] {
-    let mesh = scene.mesh();
-    if !scene.is_triangle(hit.primitive) {
-        return in_file(mesh, scene.surface(ray, hit).position);
-    }
-    let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
-    let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-    mesh.in_file(a + u * (b - a) + v * (c - a)).to_array()
 }

@@ -8,7 +8,7 @@ mod parameters;
 
 pub use crossing::CrossingReport;
 pub use exact::{ExactReport, ExactTriangle};
-pub use hit::{HitReport, TriangleReport, position_in_file, weights};
+pub use hit::{HitReport, TriangleReport, weights};
 pub use kernel_row::KernelRow;
 pub use parameters::{ParameterReport, ParameterValue, Parameters};
 

@@ -2,8 +2,9 @@
 
 use super::lines::{LONGEST_LINE, Line};
 use crate::frames::{Frames, GivenRay, PlacedRay};
-use crate::inspection::{position_in_file, weights};
+use crate::inspection::weights;
 use crate::json;
+use crate::surface::SurfacePoint;
 use glam::DVec3;
 use hitscope_core::{Hit, Scene};
 use serde::Serialize;
@@ -55,6 +56,7 @@ struct HitEntry {
     #[serde(flatten)]
     shape: Option<ShapeEntry>,
     position: [f64; 3],
+    normal: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<Vec<u32>>,
 }
@@ -144,24 +146,26 @@ impl RayAnswerer<'_> {
         }
     }
 
-    /// A line of JSON, and whether the ray hits anything.
-    pub(super) fn answer(&self, request: &Request) -> (String, bool) {
+    /// Appends a line of JSON; returns whether the ray hits anything.
+    pub(super) fn answer(&self, request: &Request, text: &mut Vec<u8>) -> bool {
         let placed = match &request.ray {
             Ok(placed) => placed,
             Err(error) => {
                 let line = request.line;
-                return (json::to_line(&ErrorAnswer { error, line }), false);
+                json::append_line(text, &ErrorAnswer { error, line });
+                return false;
             }
         };
         let (intersector, ray) = (self.frames.intersector(placed), &placed.ray);
-        let closest = |hit: bool, found: Option<HitEntry>| {
+        let mut closest = |hit: bool, found: Option<HitEntry>| {
             let answer = ClosestAnswer {
                 hit,
                 found,
                 line: request.line,
                 ray_rounding: placed.rounding,
             };
-            (json::to_line(&answer), hit)
+            json::append_line(text, &answer);
+            hit
         };
         match self.query {
             RayQuery::Any => closest(intersector.any_hit(ray), None),
@@ -179,7 +183,8 @@ impl RayAnswerer<'_> {
                     line: request.line,
                     ray_rounding: placed.rounding,
                 };
-                (json::to_line(&answer), !answer.hits.is_empty())
+                json::append_line(text, &answer);
+                !answer.hits.is_empty()
             }
         }
     }
@@ -187,6 +192,7 @@ impl RayAnswerer<'_> {
     fn entry(&self, placed: &PlacedRay, hit: &Hit, also: Option<Vec<u32>>) -> HitEntry {
         let (scene, primitive) = (self.scene, hit.primitive);
         let is_triangle = scene.is_triangle(primitive);
+        let surface = SurfacePoint::in_file(scene, &placed.ray, hit);
         HitEntry {
             t: placed.t_as_given(hit.t),
             triangle: is_triangle.then(|| TriangleEntry {
@@ -198,7 +204,8 @@ impl RayAnswerer<'_> {
                 shape: scene.group_of(primitive).0.shape().name,
                 primitive,
             }),
-            position: position_in_file(scene, &placed.ray, hit),
+            position: surface.position,
+            normal: surface.normal,
             also,
         }
     }

@@ -38,7 +38,7 @@ input is available, all lines read so far are answered.
 Output: one JSON object per ray, in the order of the input. Blank lines and comments produce no output.
 
   {\"hit\":true,\"t\":2.0,\"barycentric\":[0.25,0.5,0.25],\"triangle\":10,\"face\":5,
-   \"position\":[0.25,0.5,1.0],\"line\":1,\"ray_rounding\":0.0}
+   \"position\":[0.25,0.5,1.0],\"normal\":[0.0,0.0,1.0],\"line\":1,\"ray_rounding\":0.0}
   {\"hit\":false,\"line\":2,\"ray_rounding\":0.0}
   {\"error\":\"expected 6 or 8 numbers, found 5\",\"line\":3}
 
@@ -51,6 +51,8 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
   face          index of the face in the file, counted from 0
   position      in the file's coordinates, from the barycentric coordinates; in large triangles less
                 accurate than o + t*d
+  normal        geometric normal of unit length, the same for rays from either side: by the right-hand
+                rule over A, B and C for a triangle, outwards for a closed shape
   line          number of the line in the input, counted from 1
   ray_rounding  in units of the file, see below
 
@@ -262,23 +264,20 @@ impl Tracing<'_> {
         }
         for (text, hits) in parts {
             totals.hits += hits;
-            out.write_all(text.as_bytes())?;
+            out.write_all(&text)?;
         }
         Ok(())
     }
 
     /// The answers as lines, empty for a summary, and the number of hits.
-    fn answer_all(&self, requests: &[Request]) -> (String, u64) {
-        let (mut text, mut hits) = (String::new(), 0);
+    fn answer_all(&self, requests: &[Request]) -> (Vec<u8>, u64) {
+        let (mut text, mut hits) = (Vec::new(), 0);
         for request in requests {
             let is_hit = if self.is_summary {
                 let placed = request.ray.as_ref();
                 placed.is_ok_and(|placed| self.answerer.is_hit(placed))
             } else {
-                let (answer, is_hit) = self.answerer.answer(request);
-                text += &answer;
-                text.push('\n');
-                is_hit
+                self.answerer.answer(request, &mut text)
             };
             hits += u64::from(is_hit);
         }

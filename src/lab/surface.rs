@@ -1,0 +1,35 @@
+//! The surface at a hit, in the file's coordinates.
+
+use glam::Vec3;
+use hitscope_core::mesh::unit_normal;
+use hitscope_core::{Hit, Ray, Scene};
+
+/// A point of the surface, in f64.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SurfacePoint {
+    /// The position; for a triangle, computed from the barycentric coordinates.
+    pub position: [f64; 3],
+    /// Unit normal, independent of the side that the ray hits: by the right-hand rule for a triangle, outwards for a
+    /// closed shape.
+    pub normal: [f64; 3],
+}
+
+impl SurfacePoint {
+    /// The point at a hit. The ray is in the scene's coordinates; for a triangle, it may be in any others.
+    pub fn in_file(scene: &Scene, ray: &Ray, hit: &Hit) -> Self {
+        let mesh = scene.mesh();
+        let (position, normal) = if scene.is_triangle(hit.primitive) {
+            let corners = mesh.corners(hit.primitive);
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
+            let (u, v) = (f64::from(hit.u), f64::from(hit.v));
+            (a + u * (b - a) + v * (c - a), unit_normal(corners))
+        } else {
+            let surface = scene.surface(ray, hit);
+            (surface.position.as_dvec3(), surface.normal)
+        };
+        Self {
+            position: mesh.in_file(position).to_array(),
+            normal: normal.to_array(),
+        }
+    }
+}
