@@ -1,6 +1,6 @@
 //! A hit, and the surface at its point.
 
-use super::{Parameters, in_file};
+use super::Parameters;
 use crate::formula;
 use glam::Vec3;
 use hitscope_core::interaction::SurfaceInteraction;
@@ -112,7 +112,9 @@ pub fn weights(hit: &Hit) -> [f32; 3] {
 pub fn position_in_file(scene: &Scene, ray: &Ray, hit: &Hit) -> [f64; 3] {
     let mesh = scene.mesh();
     if !scene.is_triangle(hit.primitive) {
-        return in_file(mesh, scene.surface(ray, hit).position);
+        // An f32 point, with no more digits than it has.
+        let position = scene.surface(ray, hit).position;
+        return mesh.vertex_in_file(position).to_array();
     }
     let [a, b, c] = mesh.corners(hit.primitive).map(Vec3::as_dvec3);
     let (u, v) = (f64::from(hit.u), f64::from(hit.v));
