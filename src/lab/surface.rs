@@ -22,13 +22,15 @@ impl SurfacePoint {
             let corners = mesh.corners(hit.primitive);
             let [a, b, c] = corners.map(Vec3::as_dvec3);
             let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-            (a + u * (b - a) + v * (c - a), unit_normal(corners))
+            let position = a + u * (b - a) + v * (c - a);
+            (mesh.in_file(position), unit_normal(corners))
         } else {
             let surface = scene.surface(ray, hit);
-            (surface.position.as_dvec3(), surface.normal)
+            // An f32 point, with no more digits than it has.
+            (mesh.vertex_in_file(surface.position), surface.normal)
         };
         Self {
-            position: mesh.in_file(position).to_array(),
+            position: position.to_array(),
             normal: normal.to_array(),
         }
     }

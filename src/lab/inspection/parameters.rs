@@ -49,7 +49,7 @@ impl Parameters {
                 symbol: parameter.symbol,
                 value: match parameter.kind {
                     ParameterKind::Point => {
-                        let in_file = mesh.in_file(glam::Vec3::from(three()).as_dvec3());
+                        let in_file = mesh.vertex_in_file(three().into());
                         ParameterValue::Point(in_file.to_array())
                     }
                     ParameterKind::Vector => ParameterValue::Vector(three()),

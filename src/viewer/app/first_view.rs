@@ -40,7 +40,8 @@ impl App {
         self.is_unframed = false;
     }
 
-    /// The view of the file's sensor, about the axis for which the horizon is less tilted.
+    /// The view of the file's sensor, about the axis for which the horizon is less tilted; of two, the one for which the
+    /// view is more level.
     fn view_of_file(&self) -> Option<Turntable> {
         /// More than the rounding of angles.
         const SAME_TILT: f64 = 1e-9;
@@ -53,16 +54,19 @@ impl App {
             Turntable::looking(axes, view.projection(), axis, bounds).ok()
         };
         let tilt = |turntable: &Turntable| turntable.roll_radians.abs();
+        let slope = |turntable: &Turntable| turntable.pitch_radians.abs();
         let kept = about(self.settings.up_axis())?;
         let other = about(match self.settings.up_axis() {
             UpAxis::Y => UpAxis::Z,
             UpAxis::Z => UpAxis::Y,
         })?;
-        Some(if tilt(&other) + SAME_TILT < tilt(&kept) {
-            other
+        let difference = tilt(&other) - tilt(&kept);
+        let is_better = if difference.abs() < SAME_TILT {
+            slope(&other) < slope(&kept)
         } else {
-            kept
-        })
+            difference < 0.0
+        };
+        Some(if is_better { other } else { kept })
     }
 
     /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up

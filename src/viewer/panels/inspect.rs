@@ -1,7 +1,7 @@
 //! The Inspect tab: the hit of the picked pixel's ray and the answers of all kernels.
 
 use super::table::{dash, table_ui};
-use super::{kernel_name, lines, row_ui, section_ui};
+use super::{kernel_name, lines, row_ui, rows_ui, section_ui};
 use crate::face_lookup::FaceInFile;
 use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
@@ -163,20 +163,19 @@ fn crossings_ui(
 ) -> Option<usize> {
     let marked = marked?;
     let crossing = crossings.get(marked)?;
-    let mut selected = None;
-    section_ui(ui, "Crossings", |ui| {
-        let count = crossings.len();
+    let count = crossings.len();
+    let mut selected = marked;
+    ui.add_space(2.0);
+    ui.horizontal(|ui| {
+        let name = ui.label(RichText::new("Crossings").strong());
         if count > 1 {
-            let mut number = marked + 1;
-            ui.horizontal(|ui| {
-                let slider = egui::Slider::new(&mut number, 1..=count).show_value(false);
-                let name = ui.label("crossing");
-                ui.add(slider)
-                    .labelled_by(name.id)
-                    .on_hover_text("Moves the mark along the ray ([ and ])");
-            });
-            selected = (number != marked + 1).then_some(number - 1);
+            let slider = egui::Slider::new(&mut selected, 0..=count - 1).show_value(false);
+            ui.add(slider)
+                .labelled_by(name.id)
+                .on_hover_text("Moves the mark along the ray ([ and ])");
         }
+    });
+    rows_ui(ui, |ui| {
         row_ui(ui, "number", format!("{} of {count}", marked + 1));
         row_ui(ui, "t", number(crossing.t));
         let primitive = format!("{} {}", crossing.shape, crossing.primitive);
@@ -185,7 +184,7 @@ fn crossings_ui(
         row_ui(ui, "side", crossing.side);
         row_ui(ui, "position", lines(crossing.position));
     });
-    selected
+    (selected != marked).then_some(selected)
 }
 
 /// Shows the triangle and its face in the file.

@@ -33,6 +33,11 @@ fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) {
 fn section_ui(ui: &mut egui::Ui, title: &str, rows: impl FnOnce(&mut egui::Ui)) {
     ui.add_space(2.0);
     ui.label(RichText::new(title).strong());
+    rows_ui(ui, rows);
+}
+
+/// Shows rows of [`row_ui`] close to each other.
+fn rows_ui(ui: &mut egui::Ui, rows: impl FnOnce(&mut egui::Ui)) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 0.0;
         ui.spacing_mut().item_spacing.y = 2.0;
