@@ -241,8 +241,11 @@ impl ReportFiles {
             .write(|out| writeln!(out, "{}", json::to_pretty(json)))?;
         self.page
             .write(|out| out.write_all(report::to_page(json).as_bytes()))?;
-        self.table
-            .write(|out| out.write_all(report::accuracy_table(all).as_bytes()))
+        self.table.write(|out| {
+            out.write_all(report::accuracy_table(all).as_bytes())?;
+            writeln!(out)?;
+            out.write_all(report::shape_table(all).as_bytes())
+        })
     }
 }
 

@@ -7,6 +7,7 @@
 //! | [`order`] | wrong nearest triangles |
 //! | [`boxes`] | hits lost by the tree's boxes |
 //! | [`spawning`] | self-hits of spawned rays |
+//! | [`shapes`] | errors of kernels and self-hits of spawned rays for single primitives of all shapes |
 //! | [`speed`], [`workloads`] | rays per second |
 //! | [`scene`] | kernels in the user's scene |
 //! | [`lecture`] | the lecture's programs as printed |
@@ -21,6 +22,7 @@ pub mod meshes;
 pub mod order;
 pub mod scene;
 pub mod shapes;
+mod sizes;
 pub mod spawning;
 pub mod speed;
 pub mod statistics;
@@ -36,79 +38,13 @@ use hitscope_core::sampler::mix;
 use meshes::{MeshCell, mesh_cases};
 use order::{ORDER_CASES, OrderCell};
 use rayon::prelude::*;
+use shapes::{ShapeCase, ShapeCell, ShapeSpawnCell, shape_cases, shape_spawn_cases};
+pub use sizes::Sizes;
 use spawning::{SpawnCell, spawn_cases};
 use speed::Speed;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 use triangles::TriangleCell;
-
-/// Sizes of the measurements.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Sizes {
-    /// Rays per case of single triangles.
-    pub triangle_rays: u64,
-    /// Rays per closed mesh for each kernel that promises to be watertight.
-    pub watertight_rays: u64,
-    /// Rays per closed mesh for each other kernel.
-    pub leaking_rays: u64,
-    /// Rays per case of the order of hits.
-    pub order_rays: u64,
-    /// Hits per case of boxes.
-    pub box_hits: u64,
-    /// Rays per spawning case for each tier's kernel; a tenth for other kernels.
-    pub spawn_rays: u64,
-    /// Rays per workload; 0 skips measuring speed.
-    pub speed_rays: usize,
-    /// Rounds per workload, of which the median counts.
-    pub speed_rounds: usize,
-    /// Resolution of the sphere for measuring speed: quads along an edge of the cube that it is made from.
-    pub speed_cells: u32,
-}
-
-impl Sizes {
-    /// Takes 30 to 60 seconds on two cores.
-    pub const QUICK: Self = Self {
-        triangle_rays: 4_000,
-        watertight_rays: 40_000,
-        leaking_rays: 10_000,
-        order_rays: 2_000,
-        box_hits: 4_000,
-        spawn_rays: 20_000,
-        speed_rays: 100_000,
-        speed_rounds: 3,
-        speed_cells: 83,
-    };
-
-    /// 10⁷ rays for single triangles, 10⁸ rays from inside closed meshes per watertight kernel, 10⁶ rays per
-    /// spawning case.
-    pub const FULL: Self = Self {
-        triangle_rays: 100_000,
-        watertight_rays: 4_200_000,
-        leaking_rays: 400_000,
-        order_rays: 100_000,
-        box_hits: 200_000,
-        spawn_rays: 1_000_000,
-        speed_rays: 500_000,
-        speed_rounds: 5,
-        speed_cells: 300,
-    };
-
-    fn mesh_rays(&self, kernel: &TriangleKernel) -> u64 {
-        if kernel.info.promises.is_watertight {
-            self.watertight_rays
-        } else {
-            self.leaking_rays
-        }
-    }
-
-    /// Kernels without a tier are traced with fewer rays.
-    fn leaving_rays(&self, kernel: &TriangleKernel) -> u64 {
-        match kernel.info.tier {
-            Some(_) => self.spawn_rays,
-            None => self.spawn_rays / 10,
-        }
-    }
-}
 
 /// Results of all measurements.
 #[derive(Clone, Debug, Default, PartialEq)]
@@ -123,6 +59,10 @@ pub struct Measurements {
     pub boxes: Vec<BoxCell>,
     /// Spawned rays.
     pub spawning: Vec<SpawnCell>,
+    /// Single primitives of shapes other than triangles.
+    pub shapes: Vec<ShapeCell>,
+    /// Rays spawned on single primitives of all shapes.
+    pub shape_spawning: Vec<ShapeSpawnCell>,
     /// One row per kernel.
     pub speed: Vec<Speed>,
 }
@@ -166,11 +106,21 @@ pub fn all_cases() -> Vec<CaseInfo> {
     let spawning = spawning
         .iter()
         .map(|c| info("spawning", &c.name, &c.title, c.about));
+    let shapes = shape_cases();
+    let shapes = shapes
+        .iter()
+        .map(|c| info("shapes", &c.name, &c.title, c.about));
+    let shape_spawning = shape_spawn_cases();
+    let shape_spawning = shape_spawning
+        .iter()
+        .map(|c| info("shape_spawning", &c.name, &c.title, c.about));
     triangles
         .chain(meshes)
         .chain(order)
         .chain(boxes)
         .chain(spawning)
+        .chain(shapes)
+        .chain(shape_spawning)
         .collect()
 }
 
@@ -262,6 +212,8 @@ impl Measurements {
         self.order.extend(other.order);
         self.boxes.extend(other.boxes);
         self.spawning.extend(other.spawning);
+        self.shapes.extend(other.shapes);
+        self.shape_spawning.extend(other.shape_spawning);
     }
 }
 
@@ -329,10 +281,34 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
         .chain(meshes)
         .chain(order)
         .chain(boxes)
-        .chain(spawning);
+        .chain(spawning)
+        .chain(shape_tasks(sizes, seed));
     all.filter(|(name, _)| is_wanted(name))
         .flat_map(|(_, tasks)| tasks)
         .collect()
+}
+
+/// The tasks of each case of single primitives.
+fn shape_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = (String, Vec<Task>)> {
+    let hits = shape_cases().into_iter().map(move |case: ShapeCase<_>| {
+        let (name, seed) = (case.name.clone(), seed_of(seed, &case.name));
+        let run = move |n| Measurements {
+            shapes: case.measure(n, seed),
+            ..Measurements::default()
+        };
+        (name, vec![Task::new(sizes.shape_rays, 40e-6, run)])
+    });
+    let spawned = shape_spawn_cases()
+        .into_iter()
+        .map(move |case: ShapeCase<_>| {
+            let (name, seed) = (case.name.clone(), seed_of(seed, &case.name));
+            let run = move |n| Measurements {
+                shape_spawning: case.measure(n, seed),
+                ..Measurements::default()
+            };
+            (name, vec![Task::new(sizes.shape_spawn_rays, 20e-6, run)])
+        });
+    hits.chain(spawned)
 }
 
 fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {

@@ -1,7 +1,9 @@
 //! Reports of measurements: JSON, an HTML page and text tables.
 
+mod shapes;
 mod text;
 
+pub use shapes::{is_in_shape_table, shape_table, summary_table};
 pub use text::{accuracy_table, is_in_accuracy_table, print};
 
 use crate::json;
@@ -71,6 +73,9 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
         "boxes": all.boxes,
         "policies": policies,
         "spawning": all.spawning,
+        "shape_kernels": shapes::kernels_json(),
+        "shapes": all.shapes,
+        "shape_spawning": all.shape_spawning,
     })
 }
 
@@ -88,6 +93,8 @@ fn has_case(all: &Measurements, name: &str) -> bool {
         || all.order.iter().any(|cell| cell.case == name)
         || all.boxes.iter().any(|cell| cell.case == name)
         || all.spawning.iter().any(|cell| cell.case == name)
+        || all.shapes.iter().any(|cell| cell.case == name)
+        || all.shape_spawning.iter().any(|cell| cell.case == name)
 }
 
 fn kernel_json(contestant: Contestant, all: &Measurements) -> Value {

@@ -18,11 +18,12 @@ pub fn print(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_meshes(all, out)?;
     print_order(all, out)?;
     print_boxes(all, out)?;
-    print_spawning(all, out)
+    print_spawning(all, out)?;
+    super::shapes::print(all, out)
 }
 
 /// Prints columns as wide as their widest cell, the first two left-aligned.
-fn print_table(out: &mut dyn Write, rows: &[Vec<String>]) -> io::Result<()> {
+pub(super) fn print_table(out: &mut dyn Write, rows: &[Vec<String>]) -> io::Result<()> {
     let columns = rows.first().map_or(0, Vec::len);
     let width = |k: usize| {
         rows.iter()
@@ -47,7 +48,7 @@ fn print_table(out: &mut dyn Write, rows: &[Vec<String>]) -> io::Result<()> {
     writeln!(out)
 }
 
-fn header(titles: &[&str]) -> Vec<Vec<String>> {
+pub(super) fn header(titles: &[&str]) -> Vec<Vec<String>> {
     vec![titles.iter().map(|&title| title.to_owned()).collect()]
 }
 

@@ -10,6 +10,8 @@ mod constructed;
 mod frame;
 // The nearest of primitives of several shapes that touch or coincide.
 mod order;
+// Rays that leave a primitive.
+mod spawned;
 // Spheres of extreme size.
 mod spheres;
 // Tori that are thin or far away.

@@ -6,7 +6,8 @@
 //! Doesn't promise: right decisions about rays that pass close to the apex.
 //!
 //! With F = f×w, D = d×w, k = f·w, m = d·w and the length |w|, Lagrange's identity turns b² − ac into
-//! |w|²·(r²·|m·F − k·D|² − |w|²·|F×D|²). F×D is parallel to w and grows with the distance between ray and axis alone.
+//! |w|²·(r²·|m·F − k·D|² − |w|²·|F×D|²). All are divided by powers of |w|², as the discriminant would over- or underflow
+//! at sizes of 10⁴ and 10⁻⁴ in f32. F×D is parallel to w and grows with the distance between ray and axis alone.
 
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::cylinder::{offer_cap, offer_side};
@@ -62,13 +63,16 @@ impl Kernel for Stable {
         let along = [dot(&f, &w), dot(&ray.dir, &w)];
         let (length_squared, r) = (dot(&w, &w), shapes.value(6));
         let r_squared = r * r;
-        let a = length_squared * dot(&step, &step) - r_squared * along[1] * along[1];
-        let b = length_squared * dot(&from, &step) - r_squared * along[0] * along[1];
-        let c = length_squared * dot(&from, &from) - r_squared * along[0] * along[0];
+        // a, b and c divided by |w|⁴, the discriminant by |w|⁸.
+        let per_length = L::of(r.token(), 1.0) / length_squared;
+        let slope = r_squared * per_length;
+        let a = per_length * (dot(&step, &step) - slope * along[1] * along[1]);
+        let b = per_length * (dot(&from, &step) - slope * along[0] * along[1]);
+        let c = per_length * (dot(&from, &from) - slope * along[0] * along[0]);
         let turned = minus(&times(along[1], &from), &times(along[0], &step));
-        let wound = cross(&from, &step);
-        let discriminant = length_squared
-            * (r_squared * dot(&turned, &turned) - length_squared * dot(&wound, &wound));
+        let turned = times(per_length, &turned);
+        let wound = times(per_length, &cross(&from, &step));
+        let discriminant = slope * dot(&turned, &turned) - dot(&wound, &wound);
         let roots = Roots::press(a, b, c, discriminant);
         let mut nearest = Nearest::new(t_min, t_max);
         offer_side(&mut nearest, &roots, along, length_squared);

@@ -1,7 +1,25 @@
 //! Errors of kernels of all shapes for single primitives.
+//!
+//! | module | content |
+//! |---|---|
+//! | [`samples`], [`flat`] | random primitives |
+//! | [`rays`] | rays at them |
+//! | [`cases`], [`special`] | the cases of every shape, and those of one shape alone |
+//! | [`cells`] | wrong decisions and errors of t |
+//! | [`spawning`] | self-hits of spawned rays |
+//!
+//! To measure another shape, implement its oracle and [`Sampled`], and add a row to each table in [`cases`].
 
+mod cases;
+mod cells;
+mod flat;
 mod rays;
 mod samples;
+mod spawning;
+mod special;
 
+pub use cases::{ShapeCase, shape_cases, shape_spawn_cases};
+pub use cells::ShapeCell;
 pub use rays::{Aim, aimed};
 pub use samples::Sampled;
+pub use spawning::{ShapeSpawnCell, SpawnPlace, measure_spawning, spawn_places};

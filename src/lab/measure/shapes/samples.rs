@@ -1,12 +1,11 @@
-//! Random primitives of every shape.
+//! Random primitives of every shape. Those with flat surfaces are in [`flat`](super::flat).
 
 use crate::oracle::Oracle;
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec3, Vec3};
+use hitscope_core::Hit;
 use hitscope_core::group::Grouped;
 use hitscope_core::random::Random;
-use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Span, Sphere, Torus, Triangle,
-};
+use hitscope_core::shape::{Cone, Cylinder, Quadric, Sphere, Torus};
 
 /// A shape that is measured.
 pub trait Sampled: Grouped + Oracle {
@@ -23,24 +22,21 @@ pub trait Sampled: Grouped + Oracle {
 
     /// The direction of an axis, or of a normal.
     fn axis(&self) -> Vec3;
-}
 
-impl Sampled for Triangle {
-    const HAS_EDGES: bool = true;
-    const IS_CONVEX: bool = true;
-
-    fn sample(random: &mut Random, near: DVec3, size: f64) -> Self {
-        Self([(); 3].map(|()| (near + size * random.in_cube()).as_vec3()))
+    /// The size, in which errors are measured: half the longest edge of the box, a sphere's radius, the radius of a
+    /// tube. 1 for planes.
+    fn size(&self) -> f64 {
+        0.5 * self.bounds().extent().max_element()
     }
 
-    fn edge_point(&self, random: &mut Random) -> Option<DVec3> {
-        let first = random.index(3);
-        let [a, b] = [first, (first + 1) % 3].map(|k| self.0[k].as_dvec3());
-        Some(a.lerp(b, corner_or_unit(random)))
+    /// The corners of a triangle.
+    fn corners(&self) -> Option<[Vec3; 3]> {
+        None
     }
 
-    fn axis(&self) -> Vec3 {
-        self.unit_normal().as_vec3()
+    /// The part of the surface that a hit is on, for shapes with several.
+    fn part(_: &Hit) -> u32 {
+        0
     }
 }
 
@@ -62,100 +58,9 @@ impl Sampled for Sphere {
     fn axis(&self) -> Vec3 {
         Vec3::Z
     }
-}
 
-impl Sampled for Plane {
-    const HAS_EDGES: bool = false;
-    const IS_CONVEX: bool = true;
-
-    fn sample(random: &mut Random, near: DVec3, size: f64) -> Self {
-        Self {
-            point: (near + size * random.in_cube()).as_vec3(),
-            normal: random.direction().as_vec3(),
-        }
-    }
-
-    fn edge_point(&self, _: &mut Random) -> Option<DVec3> {
-        Some(self.point.as_dvec3())
-    }
-
-    fn axis(&self) -> Vec3 {
-        self.normal
-    }
-}
-
-impl Sampled for Disk {
-    const HAS_EDGES: bool = true;
-    const IS_CONVEX: bool = true;
-
-    fn sample(random: &mut Random, near: DVec3, size: f64) -> Self {
-        Self(span(random, near, size))
-    }
-
-    fn edge_point(&self, random: &mut Random) -> Option<DVec3> {
-        let rim = DVec2::from_angle(quarter_or_turn(random));
-        Some(in_span(&self.0, rim))
-    }
-
-    fn axis(&self) -> Vec3 {
-        self.0.u.cross(self.0.v)
-    }
-}
-
-impl Sampled for Rectangle {
-    const HAS_EDGES: bool = true;
-    const IS_CONVEX: bool = true;
-
-    fn sample(random: &mut Random, near: DVec3, size: f64) -> Self {
-        Self(span(random, near, size))
-    }
-
-    fn edge_point(&self, random: &mut Random) -> Option<DVec3> {
-        let mut p = DVec2::new(end_or_between(random), end_or_between(random));
-        p[random.index(2)] = end(random);
-        Some(in_span(&self.0, p))
-    }
-
-    fn axis(&self) -> Vec3 {
-        self.0.u.cross(self.0.v)
-    }
-}
-
-impl Sampled for Cuboid {
-    const HAS_EDGES: bool = true;
-    const IS_CONVEX: bool = true;
-
-    /// Half of the boxes are parallel to the coordinate axes.
-    fn sample(random: &mut Random, near: DVec3, size: f64) -> Self {
-        let centre = (near + 0.2 * size * random.in_cube()).as_vec3();
-        let lengths = [(); 3].map(|()| length(random, 0.6 * size));
-        let [x, y, z] = if random.index(2) == 0 {
-            [Vec3::X, Vec3::Y, Vec3::Z]
-        } else {
-            let x = random.direction().as_vec3();
-            let (y, z) = x.any_orthonormal_pair();
-            [x, y, z]
-        };
-        let [a, b, c] = lengths;
-        Self {
-            centre,
-            axes: [a * x, b * y, c * z],
-        }
-    }
-
-    fn edge_point(&self, random: &mut Random) -> Option<DVec3> {
-        let mut at = [(); 3].map(|()| end(random));
-        at[random.index(3)] = end_or_between(random);
-        let terms = self
-            .axes
-            .iter()
-            .zip(at)
-            .map(|(axis, x)| x * axis.as_dvec3());
-        Some(self.centre.as_dvec3() + terms.sum::<DVec3>())
-    }
-
-    fn axis(&self) -> Vec3 {
-        self.axes[0]
+    fn size(&self) -> f64 {
+        self.radius.into()
     }
 }
 
@@ -188,6 +93,10 @@ impl Sampled for Cylinder {
     fn axis(&self) -> Vec3 {
         self.p1 - self.p0
     }
+
+    fn part(hit: &Hit) -> u32 {
+        hit.u as u32
+    }
 }
 
 impl Sampled for Cone {
@@ -219,6 +128,10 @@ impl Sampled for Cone {
     fn axis(&self) -> Vec3 {
         self.p1 - self.p0
     }
+
+    fn part(hit: &Hit) -> u32 {
+        hit.u as u32
+    }
 }
 
 impl Sampled for Torus {
@@ -242,6 +155,10 @@ impl Sampled for Torus {
 
     fn axis(&self) -> Vec3 {
         self.axis
+    }
+
+    fn size(&self) -> f64 {
+        self.minor.into()
     }
 }
 
@@ -299,24 +216,8 @@ impl Sampled for Quadric {
 }
 
 /// A tenth to one of a size.
-fn length(random: &mut Random, size: f64) -> f32 {
+pub(super) fn length(random: &mut Random, size: f64) -> f32 {
     (size * (0.1 + 0.9 * random.unit())) as f32
-}
-
-/// A parallelogram that isn't narrow.
-fn span(random: &mut Random, near: DVec3, size: f64) -> Span {
-    let u = random.direction().as_vec3();
-    let side = u.any_orthonormal_vector() + 0.3 * u;
-    let (a, b) = (length(random, 0.7 * size), length(random, 0.7 * size));
-    Span {
-        centre: (near + 0.2 * size * random.in_cube()).as_vec3(),
-        u: a * u,
-        v: b * side,
-    }
-}
-
-fn in_span(span: &Span, p: DVec2) -> DVec3 {
-    span.centre.as_dvec3() + p.x * span.u.as_dvec3() + p.y * span.v.as_dvec3()
 }
 
 fn rim_point(random: &mut Random, centre: Vec3, axis: Vec3, radius: f32) -> DVec3 {
@@ -325,29 +226,12 @@ fn rim_point(random: &mut Random, centre: Vec3, axis: Vec3, radius: f32) -> DVec
     centre.as_dvec3() + f64::from(radius) * (cos * x + sin * y)
 }
 
-fn end(random: &mut Random) -> f64 {
+pub(super) fn end(random: &mut Random) -> f64 {
     [-1.0, 1.0][random.index(2)]
 }
 
-/// −1 or 1 once in four times, else a number between.
-fn end_or_between(random: &mut Random) -> f64 {
-    if random.index(4) == 0 {
-        end(random)
-    } else {
-        random.signed()
-    }
-}
-
-fn corner_or_unit(random: &mut Random) -> f64 {
-    if random.index(4) == 0 {
-        0.0
-    } else {
-        random.unit()
-    }
-}
-
 /// An angle: a multiple of a quarter once in four times.
-fn quarter_or_turn(random: &mut Random) -> f64 {
+pub(super) fn quarter_or_turn(random: &mut Random) -> f64 {
     let turns = if random.index(4) == 0 {
         0.25 * random.index(4) as f64
     } else {

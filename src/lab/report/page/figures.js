@@ -16,7 +16,7 @@ const section = id => document.getElementById(id);
 
 /** The report's JSON; missing arrays are treated as empty. */
 function readLab() {
-  const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [] };
+  const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [], shape_kernels: [], shapes: [], shape_spawning: [] };
   const read = JSON.parse(section('lab').textContent);
   const present = Object.entries(read).filter(([, value]) => value != null);
   return { about: {}, ...lists, ...Object.fromEntries(present) };
@@ -138,6 +138,25 @@ const spawningFigures = [
   column('n', row => row.n, { text: count }),
   column('self-hits', row => row.self_hits, { text: count }),
   column('self-hits /M', row => row.self_hits_per_million, { text: perMillion }),
+  column('p50', row => row.height_p50, { group: 'height / size' }),
+  column('max', row => row.height_max, { group: 'height / size' }),
+];
+const shapeFigures = [
+  words('shape', row => row.shape, { style: 'name' }),
+  column('n', row => row.n, { text: count }),
+  column('hits', row => row.hits, { text: count }),
+  column('missed', row => row.missed, { text: count }),
+  column('false', row => row.false_hits, { text: count }),
+  column('wrong /M', wrongPerMillion, { text: perMillion }),
+  ...spread('t error, ulps', 't_ulps'),
+  ...spread('error / size', 'error_in_sizes'),
+];
+const shapeSpawningFigures = [
+  words('shape', row => row.shape, { style: 'name' }),
+  column('n', row => row.n, { text: count }),
+  column('self-hits', row => row.self_hits, { text: count }),
+  column('self-hits /M', row => row.self_hits_per_million, { text: perMillion }),
+  column('beyond an edge', row => row.edge_hits, { text: count }),
   column('p50', row => row.height_p50, { group: 'height / size' }),
   column('max', row => row.height_max, { group: 'height / size' }),
 ];

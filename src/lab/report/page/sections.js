@@ -49,6 +49,23 @@ const spawningMap = {
   title: 'Spawned rays', section: 'spawning', across: 'policy',
   entries: lab.spawning, infos: lab.policies, measures: spawningMeasures, figures: spawningFigures,
 };
+const shapeMap = {
+  title: 'Other shapes', section: 'shapes', across: 'kernel',
+  entries: lab.shapes, infos: lab.shape_kernels, measures: shapeMeasures, figures: shapeFigures,
+};
+const shapeSpawningMap = {
+  title: 'Rays spawned on single primitives', section: 'shape_spawning', across: 'kernel',
+  entries: lab.shape_spawning, infos: lab.shape_kernels, measures: spawningMeasures, figures: shapeSpawningFigures,
+};
+
+/** A heat map of each shape, as every shape has its own kernels. */
+const mapsByShape = map => [...new Set(map.entries.map(entry => entry.shape))].flatMap(shape => [
+  element('h3', {}, shape),
+  ...heatMap({
+    ...map, title: `${map.title}: ${shape}`, entries: map.entries.filter(entry => entry.shape === shape),
+    infos: map.infos.filter(info => info.shape === shape),
+  }),
+]);
 
 /** All cells of a map as a long table with a filter. */
 function cellTable({ section: caseSection, title, entries: cells, across, infos, figures }) {
@@ -69,7 +86,7 @@ const noteList = items => element('dl', { class: 'notes' }, ...items.map(item =>
   element('dd', {}, item.summary ?? item.about ?? ''), item.source ? element('dd', { class: 'source' }, item.source) : null)));
 
 function showCases() {
-  const titles = { triangles: 'Triangle cases', meshes: 'Closed meshes', order: 'Order of hits', boxes: 'Boxes', spawning: 'Spawned rays' };
+  const titles = { triangles: 'Triangle cases', meshes: 'Closed meshes', order: 'Order of hits', boxes: 'Boxes', spawning: 'Spawned rays', shapes: 'Other shapes', shape_spawning: 'Rays spawned on single primitives' };
   for (const name of new Set(lab.cases.map(each => each.section))) {
     const own = lab.cases.filter(each => each.section === name);
     section('cases').append(element('details', {}, element('summary', {}, `${titles[name] ?? name}: ${own.length}`), noteList(own)));
@@ -86,6 +103,8 @@ const sections = {
   order: { needs: () => lab.order, show: () => section('order').append(...heatMap(orderMap), ...cellTable(orderMap)) },
   boxes: { needs: () => lab.boxes, show: showBoxes },
   spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap({ ...spawningMap, entries: lab.spawning.filter(row => row.kernel === 'watertight') }), ...cellTable(spawningMap)) },
+  shapes: { needs: () => lab.shapes, show: () => section('shapes').append(...mapsByShape(shapeMap), ...cellTable(shapeMap)) },
+  'shape-spawning': { needs: () => lab.shape_spawning, show: () => section('shape-spawning').append(...mapsByShape(shapeSpawningMap), ...cellTable(shapeSpawningMap)) },
   policies: { needs: () => lab.policies, show: () => section('policies').append(noteList(lab.policies)) },
   notes: { needs: () => lab.kernels, show: () => section('notes').append(noteList(lab.kernels)) },
   cases: { needs: () => lab.cases, show: showCases },

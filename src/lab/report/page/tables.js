@@ -118,6 +118,11 @@ const spawningMeasures = [
   rate('self-hits /M', row => row.self_hits_per_million),
   { title: 'largest height / size', value: row => row.height_max, firstExponent: -7 },
 ];
+const shapeMeasures = [
+  rate('wrong /M', wrongPerMillion),
+  { title: 't error p99, ulps', value: row => row.t_ulps?.p99, firstExponent: 0 },
+  { title: 'error / size, p99', value: row => row.error_in_sizes?.p99, firstExponent: -7 },
+];
 
 /** 0 for a zero, then one level per decade from 1 to 7; level 2 starts at 10^firstExponent. */
 function levelOf(value, firstExponent) {

@@ -1,0 +1,189 @@
+//! Tables of shapes other than triangles.
+
+use super::text::{header, print_table};
+use crate::measure::Measurements;
+use crate::measure::shapes::ShapeCell;
+use crate::measure::statistics::{Quantiles, per_million, rate_text, short};
+use hitscope_core::group::all_kernels;
+use hitscope_core::kernel::KernelInfo;
+use serde_json::{Value, json};
+use std::fmt::Write as _;
+use std::io::{self, Write};
+
+/// Prints the results for single primitives of all shapes.
+pub(super) fn print(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
+    print_hits(all, out)?;
+    print_spawning(all, out)
+}
+
+fn print_hits(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
+    if all.shapes.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "Single primitives compared with the oracle; rates per million rays, errors of t in f32 ulps and in sizes of the primitive"
+    )?;
+    let mut rows = header(&[
+        "case",
+        "kernel",
+        "n",
+        "hits",
+        "missed",
+        "false",
+        "t p50",
+        "t p99",
+        "t max",
+        "error/size p99",
+        "error/size max",
+    ]);
+    for cell in &all.shapes {
+        let text = |quantiles: Option<Quantiles>, pick: fn(&Quantiles) -> f64| {
+            quantiles.map_or("–".to_owned(), |q| short(pick(&q)))
+        };
+        rows.push(vec![
+            cell.case.clone(),
+            cell.kernel.to_owned(),
+            cell.n.to_string(),
+            cell.hits.to_string(),
+            rate_text(cell.missed, cell.n),
+            rate_text(cell.false_hits, cell.n),
+            text(cell.t_ulps, |q| q.p50),
+            text(cell.t_ulps, |q| q.p99),
+            text(cell.t_ulps, |q| q.max),
+            text(cell.error_in_sizes, |q| q.p99),
+            text(cell.error_in_sizes, |q| q.max),
+        ]);
+    }
+    print_table(out, &rows)
+}
+
+fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
+    if all.shape_spawning.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "Rays spawned on single primitives by the default policy; per million rays, heights in sizes of the primitive"
+    )?;
+    let mut rows = header(&[
+        "case",
+        "kernel",
+        "n",
+        "self-hits",
+        "beyond an edge",
+        "height p50",
+        "height max",
+    ]);
+    for cell in &all.shape_spawning {
+        rows.push(vec![
+            cell.case.clone(),
+            cell.kernel.to_owned(),
+            cell.n.to_string(),
+            rate_text(cell.self_hits, cell.n),
+            rate_text(cell.edge_hits, cell.n),
+            short(cell.height_p50),
+            short(cell.height_max),
+        ]);
+    }
+    print_table(out, &rows)
+}
+
+/// The kernels of all shapes, for the page.
+pub(super) fn kernels_json() -> Vec<Value> {
+    let shapes = all_kernels().into_iter();
+    let kernels = shapes.flat_map(|shape| {
+        let named = move |info: &KernelInfo| {
+            json!({
+                "name": info.name,
+                "shape": shape.shape.name,
+                "title": info.title,
+                "tier": info.tier.map(|tier| tier.name()),
+                "precision": info.precision.name(),
+                "source": info.source,
+                "summary": info.summary,
+            })
+        };
+        shape.kernels.into_iter().map(named)
+    });
+    kernels.collect()
+}
+
+/// Columns of the table in `docs/accuracy.md`: the end of the case's name, and the title.
+const SHOWN: [(&str, &str); 7] = [
+    ("around", "ordinary"),
+    ("far-1e3", "from 10³"),
+    ("far-1e6", "from 10⁶"),
+    ("silhouette", "silhouette"),
+    ("edges", "at edges"),
+    ("axes", "along axes"),
+    ("inside", "from inside"),
+];
+
+/// Columns of the table in the README.
+const SUMMARY: [(&str, &str); 4] = [SHOWN[0], SHOWN[1], SHOWN[2], SHOWN[3]];
+/// Shapes in the table in the README.
+const SUMMARY_SHAPES: [&str; 2] = ["sphere", "cylinder"];
+
+/// The end of the name of a shape's case.
+fn case_of(shape: &str, kind: &str) -> String {
+    format!("shape-{shape}-{kind}")
+}
+
+/// Whether the table in `docs/accuracy.md` includes this case.
+pub fn is_in_shape_table(case: &str) -> bool {
+    let mut shapes = all_kernels().into_iter();
+    shapes.any(|shape| {
+        let name = shape.shape.name;
+        SHOWN.iter().any(|(kind, _)| case_of(name, kind) == case)
+    })
+}
+
+/// The table in `docs/accuracy.md`: wrong decisions per million rays and the error of t, per shape, kernel and case.
+pub fn shape_table(all: &Measurements) -> String {
+    table(all, &SHOWN, |_| true)
+}
+
+/// The table in the README.
+pub fn summary_table(all: &Measurements) -> String {
+    table(all, &SUMMARY, |shape| SUMMARY_SHAPES.contains(&shape))
+}
+
+fn table(all: &Measurements, columns: &[(&str, &str)], is_shown: impl Fn(&str) -> bool) -> String {
+    let mut text = String::from("| shape | kernel |");
+    for (_, title) in columns {
+        _ = write!(text, " {title} |");
+    }
+    text += "\n|---|---|";
+    text += &"---|".repeat(columns.len());
+    text.push('\n');
+    for shape in all_kernels() {
+        let name = shape.shape.name;
+        let is_measured = all.shapes.iter().any(|cell| cell.shape == name);
+        if !is_measured || !is_shown(name) {
+            continue;
+        }
+        for info in shape.kernels {
+            let tier = info.tier.map(|tier| format!(" (**{}**)", tier.name()));
+            let tier = tier.unwrap_or_default();
+            _ = write!(text, "| {name} | `{}`{tier} |", info.name);
+            for (kind, _) in columns {
+                let case = case_of(name, kind);
+                let mut cells = all.shapes.iter();
+                let cell = cells.find(|cell| cell.case == case && cell.kernel == info.name);
+                _ = write!(text, " {} |", cell.map_or("–".to_owned(), cell_text));
+            }
+            text.push('\n');
+        }
+    }
+    text
+}
+
+/// A cell such as `250 · 14`: wrong decisions per million, and the 99th percentile of the error of t in ulps.
+fn cell_text(cell: &ShapeCell) -> String {
+    let wrong = short(per_million(cell.wrong(), cell.n));
+    match cell.t_ulps {
+        Some(t) => format!("{wrong} · {}", short(t.p99)),
+        None => format!("{wrong} · –"),
+    }
+}
