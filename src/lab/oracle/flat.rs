@@ -62,17 +62,21 @@ impl Oracle for Cuboid {
             let all = IntegerRay::new(ray, &[self.centre, a, b, c])?;
             let axes = [1, 2, 3].map(|k| all.places[k].clone());
             let ([at, step], one) = solve(&axes, [all.from(0), all.dir.clone()])?;
-            let ends = between_slabs(&at, &step, &one)?;
+            let ends = between_slabs(&at, &step, &[(); 3].map(|()| one.clone()))?;
             Some(all.positive(ends.into()))
         };
         crossings().unwrap_or_default()
     }
 }
 
-/// Where at + t·step, in units of 1/one, is between −1 and 1 in each coordinate: the first and the last t.
-fn between_slabs(at: &[IBig; 3], step: &[IBig; 3], one: &IBig) -> Option<[Surd; 2]> {
+/// Where at + t·step, in units of one, is between −1 and 1 in each coordinate: the first and the last t.
+pub(super) fn between_slabs(
+    at: &[IBig; 3],
+    step: &[IBig; 3],
+    one: &[IBig; 3],
+) -> Option<[Surd; 2]> {
     let mut inside: Option<[Surd; 2]> = None;
-    for (at, step) in at.iter().zip(step) {
+    for ((at, step), one) in at.iter().zip(step).zip(one) {
         let faces = [-one - at, one - at].map(|rest| Surd::rational(rest, step.clone()));
         let [Some(first), Some(second)] = faces else {
             // Parallel to the slab: in it everywhere or nowhere.

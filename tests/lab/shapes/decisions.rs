@@ -5,7 +5,8 @@ use hitscope_core::Ray;
 use hitscope_core::kernel::{Tier, exact_answer};
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus, Triangle,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
+    Triangle,
 };
 use hitscope_lab::measure::shapes::{Aim, Sampled, aimed};
 use hitscope_lab::oracle::ExactT;
@@ -95,6 +96,8 @@ shapes_agree!(
     the_exact_kernel_and_the_oracle_agree_about_disks: Disk,
     the_exact_kernel_and_the_oracle_agree_about_rectangles: Rectangle,
     the_exact_kernel_and_the_oracle_agree_about_boxes: Cuboid,
+    the_exact_kernel_and_the_oracle_agree_about_aligned_planes: AxisPlane,
+    the_exact_kernel_and_the_oracle_agree_about_aligned_boxes: AxisBox,
     the_exact_kernel_and_the_oracle_agree_about_cylinders: Cylinder,
     the_exact_kernel_and_the_oracle_agree_about_cones: Cone,
     the_exact_kernel_and_the_oracle_agree_about_quadrics: Quadric,

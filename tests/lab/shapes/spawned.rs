@@ -4,7 +4,8 @@
 
 use hitscope_core::kernel::{KernelRow, Tier};
 use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus, Triangle,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
+    Triangle,
 };
 use hitscope_lab::measure::shapes::{Sampled, measure_spawning, spawn_places};
 use rayon::prelude::*;
@@ -61,6 +62,8 @@ shapes_leave!(
     rays_that_leave_a_disk_miss_it: Disk,
     rays_that_leave_a_rectangle_miss_it: Rectangle,
     rays_that_leave_a_box_miss_its_surface: Cuboid,
+    rays_that_leave_an_aligned_plane_miss_it: AxisPlane,
+    rays_that_leave_an_aligned_box_miss_its_surface: AxisBox,
     rays_that_leave_a_cylinder_miss_its_surface: Cylinder,
     rays_that_leave_a_cone_miss_its_surface: Cone,
     rays_that_leave_a_quadric_miss_its_surface: Quadric,

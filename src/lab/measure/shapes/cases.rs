@@ -9,7 +9,8 @@ use hitscope_core::Ray;
 use hitscope_core::kernel::KernelRow;
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
-    Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus, Triangle,
+    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
+    Triangle,
 };
 use std::sync::Arc;
 
@@ -159,7 +160,9 @@ pub fn shape_cases() -> Vec<ShapeCase<ShapeCell>> {
         cases_of::<Plane>(&[]),
         cases_of::<Disk>(&[]),
         cases_of::<Rectangle>(&[]),
+        cases_of::<AxisPlane>(&[]),
         cases_of::<Cuboid>(&[]),
+        cases_of::<AxisBox>(&[]),
         cases_of::<Cylinder>(&[]),
         cases_of::<Cone>(&[]),
         cases_of::<Torus>(special::TORI),
@@ -176,7 +179,9 @@ pub fn shape_spawn_cases() -> Vec<ShapeCase<ShapeSpawnCell>> {
         spawn_cases_of::<Plane>(),
         spawn_cases_of::<Disk>(),
         spawn_cases_of::<Rectangle>(),
+        spawn_cases_of::<AxisPlane>(),
         spawn_cases_of::<Cuboid>(),
+        spawn_cases_of::<AxisBox>(),
         spawn_cases_of::<Cylinder>(),
         spawn_cases_of::<Cone>(),
         spawn_cases_of::<Torus>(),

@@ -149,7 +149,7 @@ fn in_span(span: &Span, p: DVec2) -> DVec3 {
 }
 
 /// −1 or 1 once in four times, else a number between.
-fn end_or_between(random: &mut Random) -> f64 {
+pub(super) fn end_or_between(random: &mut Random) -> f64 {
     if random.index(4) == 0 {
         end(random)
     } else {

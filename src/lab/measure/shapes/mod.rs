@@ -10,6 +10,7 @@
 //!
 //! To measure another shape, implement its oracle and [`Sampled`], and add a row to each table in [`cases`].
 
+mod aligned;
 mod cases;
 mod cells;
 mod flat;
