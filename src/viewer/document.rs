@@ -39,10 +39,12 @@ pub struct Document {
     /// Time when loading began; the document doesn't contain later changes of the file.
     pub began: SystemTime,
     intersector: Arc<dyn Intersector>,
+    /// The kernel that was chosen for it. A shape whose table lacks this kernel uses another one.
+    kernel: KernelChoice,
     /// The intersector for another kernel, while it is being built.
     packing: PackingTask,
     /// The second intersector of comparing views, and the next one while it is being built.
-    second: Option<Arc<dyn Intersector>>,
+    second: Option<(KernelChoice, Arc<dyn Intersector>)>,
     packing_second: PackingTask,
     health: HealthState,
     /// Cancelled when the document is dropped, which ends the work on a better tree.
@@ -113,6 +115,7 @@ impl Document {
             path,
             is_blank: false,
             intersector: Arc::from(loaded.scene.intersector(kernel)),
+            kernel,
             loaded,
             began: SystemTime::now(),
             packing: KeyedTask::default(),
@@ -192,19 +195,25 @@ impl Document {
         kernel: KernelChoice,
         ctx: &egui::Context,
     ) -> Result<(), TaskPanicked> {
-        if self.intersector.kernel().name == kernel.info.name {
+        if self.kernel == kernel {
             return Ok(());
         }
         let scene = &self.loaded.scene;
         if let Some(packed) = packed(&mut self.packing, scene, kernel, ctx)? {
-            self.intersector = packed;
+            (self.intersector, self.kernel) = (packed, kernel);
         }
         Ok(())
     }
 
+    /// The kernel that was chosen for the intersector.
+    pub fn kernel(&self) -> KernelChoice {
+        self.kernel
+    }
+
     /// The intersector to compare with; the first one if there is no second.
     pub fn second(&self) -> &Arc<dyn Intersector> {
-        self.second.as_ref().unwrap_or(&self.intersector)
+        let second = self.second.as_ref();
+        second.map_or(&self.intersector, |(_, second)| second)
     }
 
     /// Packs the scene for a second kernel; `None` drops the second intersector.
@@ -220,13 +229,12 @@ impl Document {
             self.second = None;
             return Ok(());
         };
-        let name = |intersector: &Arc<dyn Intersector>| intersector.kernel().name;
-        if self.second.as_ref().map(name) == Some(kernel.info.name) {
+        if self.second.as_ref().map(|(packed, _)| *packed) == Some(kernel) {
             return Ok(());
         }
         let scene = &self.loaded.scene;
         if let Some(packed) = packed(&mut self.packing_second, scene, kernel, ctx)? {
-            self.second = Some(packed);
+            self.second = Some((kernel, packed));
         }
         Ok(())
     }

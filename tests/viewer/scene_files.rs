@@ -9,6 +9,7 @@ use hitscope::trade::{Trade, TradeState};
 use hitscope_core::Camera;
 use hitscope_core::camera::{Turntable, UpAxis};
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 use tempfile::TempDir;
 
 /// A sphere in front of a box, and a sensor that looks at them along −z.
@@ -120,7 +121,7 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
         is_near(state(&window), expected);
     }
     window.get_by_label("4 of 4");
-    window.get_by_label("box 1");
+    window.get_by_label("box 1, back");
     press(&mut window, Key::OpenBracket);
     is_near(state(&window), (2, -4.0));
     window.get_by_role(egui::accesskit::Role::Slider);
@@ -129,6 +130,19 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
     click(&mut window, middle);
     wait(&mut window, "the hit", |app| app.crossing() == Some(0));
     window.get_by_label("radius r");
+}
+
+#[test]
+fn a_scene_of_one_shape_is_packed_once_for_a_kernel_that_its_table_lacks() {
+    let sphere = r#"<scene version="3.0.0"><shape type="sphere"/></scene>"#;
+    let Some((mut window, _folder)) = opened("sphere.xml", sphere) else {
+        return;
+    };
+    let intersector = Arc::clone(window.state().document().intersector());
+    assert_ne!(intersector.kernel().name, window.state().settings().kernel);
+    window.run_steps(20);
+    let after = window.state().document().intersector();
+    assert!(Arc::ptr_eq(after, &intersector));
 }
 
 /// Saves under the suggested name; `None` if this machine has a file dialog.

@@ -8,7 +8,6 @@ use egui::RichText;
 use hitscope_core::Scene;
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_core::integrator::INTEGRATORS;
-use hitscope_core::kernel::KernelChoice;
 
 impl App {
     pub(super) fn toolbar_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
@@ -170,10 +169,7 @@ impl App {
         } else {
             "quick tree"
         };
-        let choice = KernelChoice {
-            info: self.document.intersector().kernel(),
-        };
-        let kernel = shown_kernel(choice, &scene.kernels()).short_name();
+        let kernel = shown_kernel(self.document.kernel(), &scene.kernels()).short_name();
         let mut parts = vec![
             format!("{kernel} kernel"),
             primitives(scene),

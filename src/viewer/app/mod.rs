@@ -255,7 +255,7 @@ impl eframe::App for App {
         self.poll_picking(ctx);
         if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
             self.error(broken);
-            let packed = self.document.intersector().kernel().name;
+            let packed = self.document.kernel().info.name;
             self.settings.use_for_session(packed);
         }
         // Not while a slider is dragged: each step would recompute all normals.

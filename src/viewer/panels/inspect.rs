@@ -178,10 +178,19 @@ fn crossings_ui(
     rows_ui(ui, |ui| {
         row_ui(ui, "number", format!("{} of {count}", marked + 1));
         row_ui(ui, "t", number(crossing.t));
-        let primitive = format!("{} {}", crossing.shape, crossing.primitive);
-        let also = crossing.also.iter().map(|also| format!(", {also}"));
-        row_ui(ui, "primitive", primitive + &also.collect::<String>());
-        row_ui(ui, "side", crossing.side);
+        let CrossingReport {
+            shape,
+            primitive,
+            side,
+            ..
+        } = crossing;
+        let also = crossing.also.iter().map(|also| format!(", also {also}"));
+        let also: String = also.collect();
+        row_ui(
+            ui,
+            "primitive",
+            format!("{shape} {primitive}, {side}{also}"),
+        );
         row_ui(ui, "position", lines(crossing.position));
     });
     (selected != marked).then_some(selected)
