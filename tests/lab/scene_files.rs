@@ -64,8 +64,8 @@ fn inspect_lists_all_crossings_of_the_ray() {
     let expected = json!([
         ["sphere", 8.0, "front"],
         ["sphere", 12.0, "back"],
-        ["box", 14.0, "front"],
-        ["box", 16.0, "back"]
+        ["axis-aligned box", 14.0, "front"],
+        ["axis-aligned box", 16.0, "back"]
     ]);
     assert_eq!(json!(shown), expected);
     assert_eq!(crossings[3]["position"], json!([0.0, 0.0, -6.0]));
@@ -73,7 +73,7 @@ fn inspect_lists_all_crossings_of_the_ray() {
     let text = folder.text(|f, out| f.args::<InspectArgs>(line).run(out));
     for part in [
         "4 crossings",
-        "back  of box 1",
+        "back  of axis-aligned box 1",
         "centre       [0.0, 0.0, 0.0]",
     ] {
         assert!(text.contains(part), "{part} in {text}");
@@ -89,8 +89,8 @@ fn the_formula_of_a_box_has_the_planes_of_each_pair() {
     let found = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
     let lines = lines(&found);
     for line in [
-        "x = ±1: parallel to the ray",
-        "z = ±1: t_near = 4, t_far = 6",
+        "x = min.x, max.x: parallel to the ray, which is between",
+        "z = min.z, max.z: t_near = 4, t_far = 6",
         "t_near = max = 4",
         "t_far = min = 6",
     ] {
@@ -154,7 +154,7 @@ fn info_lists_the_groups() {
     let info = folder.json(|f, out| f.args::<InfoArgs>("@scene.xml --json").run(out));
     let shapes = info["shapes"].as_array().expect("a list");
     let names: Vec<_> = shapes.iter().map(|group| &group["shape"]).collect();
-    assert_eq!(names, ["sphere", "box", "cylinder"]);
+    assert_eq!(names, ["sphere", "axis-aligned box", "cylinder"]);
     for group in shapes {
         assert_eq!(group["count"], 1, "{group}");
         assert!(group["tree_bytes"].as_u64() > Some(0), "{group}");

@@ -215,6 +215,8 @@ fn every_tab_can_be_opened() {
         window.run_steps(3);
         window.get_by_label(sign);
     }
+    window.get_by_label("Light").scroll_to_me();
+    window.run_steps(10);
     window.get_by_label("Light").click();
     window.run_steps(3);
     assert_eq!(

@@ -108,7 +108,10 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
     };
     let crossings = &window.state().inspection().expect("picked").crossings;
     let shapes: Vec<_> = crossings.iter().map(|crossing| crossing.shape).collect();
-    assert_eq!(shapes, ["sphere", "sphere", "box", "box"]);
+    assert_eq!(
+        shapes,
+        ["sphere", "sphere", "axis-aligned box", "axis-aligned box"]
+    );
     // The picked pixel is within half a pixel of the middle.
     let is_near = |(index, z): (usize, f64), (expected, at): (usize, f64)| {
         assert!(index == expected && (z - at).abs() < 0.02, "{index} {z}");
@@ -277,11 +280,11 @@ fn the_trade_tab_and_the_menu_list_the_kernels_of_the_scenes_shapes() {
         "{shapes:?}"
     );
     let kernels: Vec<_> = rows.iter().map(|row| row.kernel).collect();
-    assert!(kernels.contains(&"sphere-geometric-f64") && kernels.contains(&"box-slabs-f64"));
+    assert!(kernels.contains(&"sphere-geometric-f64") && kernels.contains(&"axis-box-slabs-f64"));
     assert!(!kernels.contains(&"edge-planes"), "{kernels:?}");
     window.run_steps(2);
     window.get_by_label("Spheres");
-    window.get_by_label("Boxes");
+    window.get_by_label("Axis-aligned boxes");
     window
         .get_by_label_contains("sphere-algebraic-f64 ")
         .click();
@@ -292,7 +295,7 @@ fn the_trade_tab_and_the_menu_list_the_kernels_of_the_scenes_shapes() {
     window.get_by_label("Mesh").click();
     window.run_steps(3);
     window.get_by_label("spheres");
-    window.get_by_label("boxes");
+    window.get_by_label("axis-aligned boxes");
 }
 
 #[test]
