@@ -124,7 +124,7 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
         is_near(state(&window), expected);
     }
     window.get_by_label("4 of 4");
-    window.get_by_label("box 1, back");
+    window.get_by_label("axis-aligned box 1, back");
     press(&mut window, Key::OpenBracket);
     is_near(state(&window), (2, -4.0));
     window.get_by_role(egui::accesskit::Role::Slider);
