@@ -5,16 +5,16 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`ring`] | the numbers that a shape's formulas are generic over, and vectors of them |
-//! | [`interval`] | intervals of f64, rounded outwards |
-//! | [`dyadic`] | exact numbers: an integer times a power of two |
-//! | [`polynomial`] | polynomials of degree 4 at most over either kind of number |
-//! | [`interval_roots`] | roots of a polynomial with interval coefficients |
-//! | [`remainders`] | integer polynomials and their signed remainder sequences |
-//! | [`isolation`] | intervals that contain one root of an integer polynomial each |
-//! | [`algebraic`] | exact roots: comparison, signs of polynomials, rounding |
-//! | [`crossing`] | crossings of a ray with a shape |
-//! | [`along_line`] | a shape's equations along a line, for display |
+//! | `ring` | the numbers that a shape's formulas are generic over, and vectors of them |
+//! | `interval` | intervals of f64, rounded outwards |
+//! | `dyadic` | exact numbers: an integer times a power of two |
+//! | `polynomial` | polynomials of degree 4 at most over either kind of number |
+//! | `interval_roots` | roots of a polynomial with interval coefficients |
+//! | `remainders` | integer polynomials and their signed remainder sequences |
+//! | `isolation` | intervals that contain one root of an integer polynomial each |
+//! | `algebraic` | exact roots: comparison, signs of polynomials, rounding |
+//! | `crossing` | crossings of a ray with a shape |
+//! | `along_line` | a shape's equations along a line, for display |
 
 mod algebraic;
 mod along_line;

@@ -54,7 +54,7 @@ pub struct TriangleReport {
     pub index: u32,
     /// Index of the face in the file, counted from 0.
     pub face: u32,
-    /// The face's line in the file, counted from 1, once [`Inspection::find_line`] has found it.
+    /// The face's line in the file, counted from 1, once [`find_line`](super::Inspection::find_line) has found it.
     pub line: Option<usize>,
     /// The triangle's corners.
     pub vertices: [[f64; 3]; 3],

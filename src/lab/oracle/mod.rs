@@ -3,13 +3,13 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`triangle`] | triangles |
-//! | [`flat`], [`aligned`] | planes, disks, rectangles, boxes |
-//! | [`round`] | spheres, cylinders, cones, quadrics |
-//! | [`torus`] | tori |
-//! | [`shapes`], [`exact_t`] | the interface for all shapes, and exact values of t |
-//! | [`fraction`], [`surd`], [`isolated`] | rational numbers, roots of degree 2, roots of any degree |
-//! | [`quadratic`], [`polynomial`] | polynomials of degree 2, and of any degree |
+//! | `triangle` | triangles |
+//! | `flat`, `aligned` | planes, disks, rectangles, boxes |
+//! | `round` | spheres, cylinders, cones, quadrics |
+//! | `torus` | tori |
+//! | `shapes`, `exact_t` | the interface for all shapes, and exact values of t |
+//! | `fraction`, `surd`, `isolated` | rational numbers, roots of degree 2, roots of any degree |
+//! | `quadratic`, `polynomial` | polynomials of degree 2, and of any degree |
 
 mod aligned;
 mod exact_t;

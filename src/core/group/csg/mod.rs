@@ -4,10 +4,10 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`solid`] | solids as trees of operations over shapes |
-//! | [`crossings`] | the points at which a ray enters and leaves a solid |
-//! | [`intersector`] | intersector of several solids |
-//! | [`kernels`] | one description per tier |
+//! | `solid` | solids as trees of operations over shapes |
+//! | `crossings` | the points at which a ray enters and leaves a solid |
+//! | `intersector` | intersector of several solids |
+//! | `kernels` | one description per tier |
 //! | `lines` | wireframe lines |
 
 mod crossings;

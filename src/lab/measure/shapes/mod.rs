@@ -2,13 +2,13 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | [`samples`], [`flat`] | random primitives |
-//! | [`rays`] | rays at them |
-//! | [`cases`], [`special`] | the cases of every shape, and those of one shape alone |
-//! | [`cells`] | wrong decisions and errors of t |
-//! | [`spawning`] | self-hits of spawned rays |
+//! | `samples`, `flat` | random primitives |
+//! | `rays` | rays at them |
+//! | `cases`, `special` | the cases of every shape, and those of one shape alone |
+//! | `cells` | wrong decisions and errors of t |
+//! | `spawning` | self-hits of spawned rays |
 //!
-//! To measure another shape, implement its oracle and [`Sampled`], and add a row to each table in [`cases`].
+//! To measure another shape, implement its oracle and `Sampled`, and add a row to each table in `cases`.
 
 mod aligned;
 mod cases;
