@@ -187,7 +187,7 @@ impl App {
             normal_length: settings.normal_length,
             elements: self.document.loaded.scene.mesh().has_lines_or_points(),
             flaw: self.flaw.as_ref().map(|place| place.flaw),
-            picked: self.pick.as_ref().and_then(Pick::marked_triangle),
+            picked: self.pick.as_ref().and_then(Pick::marked_primitive),
             line_width_px: pixels_per_point.max(1.0),
         }
     }

@@ -10,7 +10,6 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::loading::is_scene_file;
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
-use hitscope_core::shape::{Shape as _, Triangle};
 use hitscope_core::{Camera, TriangleMesh};
 use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
@@ -89,14 +88,11 @@ impl Pick {
         position.map(|position| DVec3::from_array(position) - self.origin)
     }
 
-    /// The triangle at the point that is marked.
-    pub fn marked_triangle(&self) -> Option<u32> {
+    /// The primitive at the point that is marked.
+    pub fn marked_primitive(&self) -> Option<u32> {
         match self.marked() {
-            Some(crossing) if self.crossing.is_some() => {
-                let is_triangle = crossing.shape == Triangle::INFO.name;
-                is_triangle.then_some(crossing.primitive)
-            }
-            _ => self.triangle().map(|triangle| triangle.index),
+            Some(crossing) if self.crossing.is_some() => Some(crossing.primitive),
+            _ => self.inspection.hit.as_ref().map(|hit| hit.primitive),
         }
     }
 
