@@ -1,6 +1,6 @@
 //! Method for shapes that state their crossings as polynomials: hits are decided and ordered as in exact arithmetic.
 
-use super::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
+use super::blocks::{BlockValues, LaneOf, Row, Scratch, can_be_hit};
 use super::levels::BaselineLevel;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::precedes;
@@ -67,6 +67,18 @@ impl<T: Shape + Pieces> Method for Algebraic<T> {
     }
 }
 
+/// The order of two crossings by t.
+fn compared<T: Pieces>(
+    solver: &mut CrossingSolver<'_>,
+    first: &mut Found<T>,
+    second: &mut Found<T>,
+) -> Ordering {
+    solver.compare(
+        (&first.shape, &mut first.crossing),
+        (&second.shape, &mut second.crossing),
+    )
+}
+
 /// Tests one ray.
 pub(super) struct AlgebraicTester<'a, T: Shape + Pieces, S: Simd> {
     blocks: &'a BlocksOf<Algebraic<T>>,
@@ -76,25 +88,56 @@ pub(super) struct AlgebraicTester<'a, T: Shape + Pieces, S: Simd> {
     solver: CrossingSolver<'a>,
 }
 
-impl<T: Shape + Pieces, S: Simd> AlgebraicTester<'_, T, S> {
-    /// The primitives of a block whose boxes the ray enters before `limit`, or all if there is no limit.
+/// The primitives of a block that the ray may hit.
+struct Candidates<'a, T> {
+    rows: &'a [Row<f32>],
+    primitives: &'a [u32; BLOCK_SIZE],
+    /// A bit per lane.
+    lanes: u32,
+    shape: PhantomData<T>,
+}
+
+impl<T: Shape> Iterator for Candidates<'_, T> {
+    type Item = (u32, T);
+
+    #[inline(always)]
+    fn next(&mut self) -> Option<(u32, T)> {
+        if self.lanes == 0 {
+            return None;
+        }
+        let (rows, lane) = (self.rows, self.lanes.trailing_zeros() as usize % BLOCK_SIZE);
+        self.lanes &= self.lanes - 1;
+        Some((self.primitives[lane], T::read(&LaneOf { rows, lane })))
+    }
+}
+
+impl<'a, T: Shape + Pieces, S: Simd> AlgebraicTester<'a, T, S> {
+    /// The solver, and the primitives of a block whose boxes the ray enters before `limit`, or all if there is no
+    /// limit.
+    #[inline(always)]
     fn candidates<const IS_BEHIND: bool, const MAYBE_COMPACT: bool>(
         &mut self,
         block: usize,
         slabs: &SlabRay<S>,
         limit: f32,
-    ) -> [Option<(u32, T)>; BLOCK_SIZE] {
+    ) -> (&mut CrossingSolver<'a>, Candidates<'_, T>) {
         let rows = (self.blocks).rows::<MAYBE_COMPACT>(block, T::NUMBERS, self.scratch, T::write);
         let boxes = T::planes::<f32x8<S>>(&BlockValues::<f32, S, f32>::new(self.token, rows));
         let boxes = boxes.map(|plane| plane.to_array());
         let limit = Lane::splat(self.token, limit);
         let (_, met) = slabs.enter::<IS_BEHIND>(self.token, &boxes, limit);
         let primitives = self.blocks.bvh.lanes(block);
-        std::array::from_fn(|lane| {
-            let is_candidate =
-                met >> lane & 1 == 1 && can_be_hit(primitives[lane], self.ray.exclude);
-            is_candidate.then(|| (primitives[lane], T::read(&LaneOf { rows, lane })))
-        })
+        let mut lanes = met;
+        for (lane, &primitive) in primitives.iter().enumerate() {
+            lanes &= !(u32::from(!can_be_hit(primitive, self.ray.exclude)) << lane);
+        }
+        let candidates = Candidates {
+            rows,
+            primitives,
+            lanes,
+            shape: PhantomData,
+        };
+        (&mut self.solver, candidates)
     }
 }
 
@@ -114,9 +157,9 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
     ) {
         // Visited boxes have the same slack.
         let limit = end_slackened(self.farthest(nearest));
-        let found = self.candidates::<IS_BEHIND, MAYBE_COMPACT>(block, slabs, limit);
-        for (primitive, shape) in found.into_iter().flatten() {
-            let Some(crossing) = self.solver.crossings(&shape).into_iter().next() else {
+        let (solver, candidates) = self.candidates::<IS_BEHIND, MAYBE_COMPACT>(block, slabs, limit);
+        for (primitive, shape) in candidates {
+            let Some(crossing) = solver.crossings(&shape).into_iter().next() else {
                 continue;
             };
             let mut found = Found {
@@ -125,7 +168,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
                 crossing,
             };
             let is_before = nearest.as_mut().is_none_or(|nearest| {
-                let order = self.compare(&mut found, nearest).into();
+                let order = compared(solver, &mut found, nearest).into();
                 precedes(order, order, found.primitive < nearest.primitive)
             });
             if is_before {
@@ -146,15 +189,15 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
     }
 
     fn any<const MAYBE_COMPACT: bool>(&mut self, block: usize, slabs: &SlabRay<S>) -> bool {
-        let shapes = self.candidates::<false, MAYBE_COMPACT>(block, slabs, f32::INFINITY);
-        let mut shapes = shapes.iter().flatten();
-        shapes.any(|(_, shape)| !self.solver.crossings(shape).is_empty())
+        let (solver, mut candidates) =
+            self.candidates::<false, MAYBE_COMPACT>(block, slabs, f32::INFINITY);
+        candidates.any(|(_, shape)| !solver.crossings(&shape).is_empty())
     }
 
     fn all(&mut self, block: usize, slabs: &SlabRay<S>, found: &mut Vec<Found<T>>) {
-        let shapes = self.candidates::<true, true>(block, slabs, f32::INFINITY);
-        for (primitive, shape) in shapes.into_iter().flatten() {
-            for crossing in self.solver.crossings(&shape) {
+        let (solver, candidates) = self.candidates::<true, true>(block, slabs, f32::INFINITY);
+        for (primitive, shape) in candidates {
+            for crossing in solver.crossings(&shape) {
                 found.push(Found {
                     primitive,
                     shape: shape.clone(),
@@ -173,10 +216,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
     }
 
     fn compare(&mut self, first: &mut Found<T>, second: &mut Found<T>) -> Ordering {
-        self.solver.compare(
-            (&first.shape, &mut first.crossing),
-            (&second.shape, &mut second.crossing),
-        )
+        compared(&mut self.solver, first, second)
     }
 
     fn primitive(found: &Found<T>) -> u32 {
