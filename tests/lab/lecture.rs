@@ -1,11 +1,11 @@
 //! Tests that show errors of the lecture's printed programs, which the kernels don't have.
 
 use glam::Vec3;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, triangle_kernel};
+use hitscope_core::kernel::{KernelTable as _, TRIANGLE_KERNELS, triangle_kernel};
 use hitscope_core::mesh::shapes::soup;
 use hitscope_core::random::Random;
-use hitscope_core::scene::scene;
-use hitscope_core::{Aabb, Hit, Ray, TriangleMesh};
+use hitscope_core::shape::{AxisBox, Triangle};
+use hitscope_core::{Hit, Ray, TriangleMesh};
 use hitscope_lab::measure::cases::triangle_cases;
 use hitscope_lab::measure::contestants::contestants;
 use hitscope_lab::measure::lecture;
@@ -99,16 +99,22 @@ fn the_lectures_edge_planes_cull_one_side_and_yield_nan_on_an_edges_line_and_our
 
 #[test]
 fn the_lectures_box_test_of_single_pairs_never_misses_and_ours_does() {
-    let bounds = Aabb::around([Vec3::ZERO, Vec3::ONE]);
+    let bounds = AxisBox {
+        min: Vec3::ZERO,
+        max: Vec3::ONE,
+    };
     let passing = Ray::new(Vec3::new(-1.0, 3.0, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
     assert!(
-        lecture::meets_box(&passing, &bounds),
+        lecture::slabs(&passing, &bounds).is_some(),
         "each pair of planes alone has near ≤ far"
     );
-    let triangle = [Vec3::ZERO, Vec3::ONE, Vec3::new(0.0, 1.0, 1.0)];
-    let scene = scene(soup(&[triangle]));
-    let kernel = triangle_kernel("watertight").expect("in the table");
-    assert!(scene.intersector(kernel).candidates(&passing).is_empty());
+    for kernel in AxisBox::kernels() {
+        assert_eq!(kernel.intersect(&passing, bounds), None);
+    }
+    // Both find the same t where the ray meets the box.
+    let hitting = Ray::new(Vec3::new(-1.0, 0.5, 0.5), Vec3::new(1.0, 0.1, 0.1)).expect("a ray");
+    let printed = lecture::slabs(&hitting, &bounds).expect("a hit");
+    assert_eq!(printed.t, 1.0);
 }
 
 #[test]
@@ -130,7 +136,7 @@ fn a_plane_relative_to_the_worlds_origin_cancels_far_away_and_ours_relative_to_a
         .into_iter()
         .find(|case| case.name == "offset-1e5")
         .expect("in the matrix");
-    let cells = triangles::measure(&case, &contestants(), 2_000, 1);
+    let cells = triangles::measure(&case, &contestants::<Triangle>(), 2_000, 1);
     let p50 = |name: &str| {
         let cell = cells
             .iter()

@@ -1,40 +1,48 @@
 //! The tests that are measured: all kernels, and the lecture's programs as printed.
 
-use super::lecture;
-use glam::Vec3;
-use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
+use super::lecture::AsPrinted;
+use super::shapes::Sampled;
+use hitscope_core::kernel::KernelRow;
+use hitscope_core::shape::{Shape, Triangle};
 use hitscope_core::{Hit, Ray};
 
-/// A ray–triangle test to be measured.
-#[derive(Clone, Copy)]
-pub enum Contestant {
+/// A ray–primitive test to be measured.
+pub enum Contestant<S: Shape = Triangle> {
     /// A kernel of the table.
-    Kernel(&'static TriangleKernel),
+    Kernel(&'static KernelRow<S>),
     /// One of the lecture's programs, including its mistakes.
-    AsPrinted(&'static lecture::AsPrinted),
+    AsPrinted(&'static AsPrinted<S>),
 }
 
-impl Contestant {
+impl<S: Shape> Clone for Contestant<S> {
+    fn clone(&self) -> Self {
+        *self
+    }
+}
+
+impl<S: Shape> Copy for Contestant<S> {}
+
+impl<S: Shape> Contestant<S> {
     /// The name in tables.
     pub fn name(self) -> &'static str {
         match self {
             Self::Kernel(kernel) => kernel.info.name,
-            Self::AsPrinted(program) => program.name,
+            Self::AsPrinted(program) => program.info.name,
         }
     }
 
-    /// Tests a ray against a triangle. The lecture's programs may return non-finite numbers.
-    pub fn intersect(self, ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
+    /// Tests a ray against a primitive. The lecture's programs may return non-finite numbers.
+    pub fn intersect(self, ray: &Ray, shape: impl Into<S>) -> Option<Hit> {
         match self {
-            Self::Kernel(kernel) => kernel.intersect(ray, corners),
-            Self::AsPrinted(program) => (program.intersect)(ray, corners),
+            Self::Kernel(kernel) => kernel.intersect(ray, shape),
+            Self::AsPrinted(program) => (program.intersect)(ray, &shape.into()),
         }
     }
 }
 
 /// All contestants, kernels first.
-pub fn contestants() -> Vec<Contestant> {
-    let kernels = TRIANGLE_KERNELS.iter().map(Contestant::Kernel);
-    let programs = lecture::AS_PRINTED.iter().map(Contestant::AsPrinted);
+pub fn contestants<S: Sampled>() -> Vec<Contestant<S>> {
+    let kernels = S::kernels().iter().map(Contestant::Kernel);
+    let programs = S::as_printed().iter().map(Contestant::AsPrinted);
     kernels.chain(programs).collect()
 }

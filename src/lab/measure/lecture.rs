@@ -4,41 +4,67 @@
 //! names are corrected versions; the programs here are only measured.
 
 use glam::Vec3;
-use hitscope_core::{Aabb, Hit, Ray};
+use hitscope_core::shape::{AxisBox, Triangle};
+use hitscope_core::{Hit, Ray};
 
-/// A program of the lecture.
-pub struct AsPrinted {
-    /// The name in tables.
+/// The source, in tables.
+pub const LECTURE: &str = "Lensch, Basic Geometry, lecture, 2022";
+
+/// What tables state of a program.
+pub struct PrintedInfo {
+    /// The name.
     pub name: &'static str,
-    /// The title in tables.
+    /// The title.
     pub title: &'static str,
     /// Its mistakes.
     pub summary: &'static str,
-    /// The program's ray–triangle test.
-    pub intersect: fn(&Ray, [Vec3; 3]) -> Option<Hit>,
 }
 
-/// The three methods of the lecture.
-pub static AS_PRINTED: &[AsPrinted] = &[
+/// A program of the lecture.
+pub struct AsPrinted<S: 'static> {
+    /// What tables state of it.
+    pub info: PrintedInfo,
+    /// The program's ray–primitive test.
+    pub intersect: fn(&Ray, &S) -> Option<Hit>,
+}
+
+/// The lecture's three methods for triangles.
+pub static TRIANGLE_AS_PRINTED: &[AsPrinted<Triangle>] = &[
     AsPrinted {
-        name: "plane-projection as printed",
-        title: "Plane and projection, as printed",
-        summary: "Swaps the weights of B and C; rejects t < 1e-6; D = A·n cancels far from the origin.",
-        intersect: plane_projection,
+        info: PrintedInfo {
+            name: "plane-projection as printed",
+            title: "Plane and projection, as printed",
+            summary: "Swaps the weights of B and C; rejects t < 1e-6; D = A·n cancels far from the origin.",
+        },
+        intersect: |ray, triangle| plane_projection(ray, triangle.0),
     },
     AsPrinted {
-        name: "parametric as printed",
-        title: "Parametric, as printed",
-        summary: "P = α(B − A) + β(C − A) lacks A, so it is right only if A is the origin.",
-        intersect: parametric,
+        info: PrintedInfo {
+            name: "parametric as printed",
+            title: "Parametric, as printed",
+            summary: "P = α(B − A) + β(C − A) lacks A, so it is right only if A is the origin.",
+        },
+        intersect: |ray, triangle| parametric(ray, triangle.0),
     },
     AsPrinted {
-        name: "edge-planes as printed",
-        title: "Edge planes, as printed",
-        summary: "Culls back faces; normalising gives NaN if the ray's origin lies on the line of an edge.",
-        intersect: edge_planes,
+        info: PrintedInfo {
+            name: "edge-planes as printed",
+            title: "Edge planes, as printed",
+            summary: "Culls back faces; normalising gives NaN if the ray's origin lies on the line of an edge.",
+        },
+        intersect: |ray, triangle| edge_planes(ray, triangle.0),
     },
 ];
+
+/// The lecture's method for boxes.
+pub static BOX_AS_PRINTED: &[AsPrinted<AxisBox>] = &[AsPrinted {
+    info: PrintedInfo {
+        name: "slabs as printed",
+        title: "Slabs, as printed",
+        summary: "Compares t_near with t_far of single pairs of planes, where it is never greater, so no ray misses.",
+    },
+    intersect: slabs,
+}];
 
 /// The lecture's tolerance on t.
 const EPSILON: f32 = 0.000_001;
@@ -140,10 +166,25 @@ pub fn edge_planes(ray: &Ray, corners: [Vec3; 3]) -> Option<Hit> {
 }
 
 /// The box test of the slides: a miss if t_near > t_far for any single pair of planes.
-pub fn meets_box(ray: &Ray, bounds: &Aabb) -> bool {
-    (0..3).all(|axis| {
+///
+/// The slides don't state the hit's t. Here it is the last entry, or the first exit if that lies before the interval.
+pub fn slabs(ray: &Ray, bounds: &AxisBox) -> Option<Hit> {
+    let (mut enter, mut leave) = (f32::NEG_INFINITY, f32::INFINITY);
+    for axis in 0..3 {
         let to = |plane: Vec3| (plane[axis] - ray.origin[axis]) / ray.dir[axis];
         let (first, second) = (to(bounds.min), to(bounds.max));
-        first.min(second) <= first.max(second)
+        let (near, far) = (first.min(second), first.max(second));
+        if near > far {
+            return None;
+        }
+        enter = enter.max(near);
+        leave = leave.min(far);
+    }
+    let t = if enter > ray.t_min { enter } else { leave };
+    (ray.t_min < t && t < ray.t_max).then_some(Hit {
+        t,
+        u: 0.0,
+        v: 0.0,
+        primitive: 0,
     })
 }

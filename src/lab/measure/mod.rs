@@ -35,6 +35,7 @@ use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::sampler::mix;
+use hitscope_core::shape::Triangle;
 use meshes::{MeshCell, mesh_cases};
 use order::{ORDER_CASES, OrderCell};
 use rayon::prelude::*;
@@ -228,7 +229,7 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
     let triangles = cases::triangle_cases().into_iter().map(|case| {
         let (name, seed) = (case.name.clone(), seed_of(&case.name));
         let run = move |n| Measurements {
-            triangles: triangles::measure(&case, &contestants(), n, seed),
+            triangles: triangles::measure(&case, &contestants::<Triangle>(), n, seed),
             ..Measurements::default()
         };
         (name, vec![Task::new(sizes.triangle_rays, 12e-6, run)])

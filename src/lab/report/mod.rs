@@ -8,9 +8,11 @@ pub use text::{accuracy_table, is_in_accuracy_table, print};
 
 use crate::json;
 use crate::measure::contestants::{Contestant, contestants};
+use crate::measure::lecture::LECTURE;
 use crate::measure::statistics::{bound_per_million, per_million};
 use crate::measure::triangles::TriangleCell;
 use crate::measure::{CaseInfo, Measurements, all_cases, cells_of};
+use hitscope_core::shape::Triangle;
 use hitscope_core::spawn::SPAWN_POLICIES;
 use serde_json::{Value, json};
 
@@ -53,7 +55,7 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
         .into_iter()
         .filter(|case| has_case(all, &case.name))
         .collect();
-    let kernels: Vec<Value> = contestants()
+    let kernels: Vec<Value> = contestants::<Triangle>()
         .into_iter()
         .map(|contestant| kernel_json(contestant, all))
         .collect();
@@ -116,8 +118,8 @@ fn kernel_json(contestant: Contestant, all: &Measurements) -> Value {
             )
         }
         Contestant::AsPrinted(program) => {
-            let source = "Lensch, Basic Geometry, lecture, 2022";
-            (program.title, None, "f32", source, program.summary)
+            let info = &program.info;
+            (info.title, None, "f32", LECTURE, info.summary)
         }
     };
     json!({

@@ -2,10 +2,12 @@
 
 use super::text::{header, print_table};
 use crate::measure::Measurements;
+use crate::measure::lecture::{BOX_AS_PRINTED, LECTURE, PrintedInfo};
 use crate::measure::shapes::ShapeCell;
 use crate::measure::statistics::{Quantiles, per_million, rate_text, short};
 use hitscope_core::group::all_kernels;
 use hitscope_core::kernel::KernelInfo;
+use hitscope_core::shape::{AxisBox, Shape as _};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
 use std::io::{self, Write};
@@ -104,9 +106,27 @@ pub(super) fn kernels_json() -> Vec<Value> {
                 "summary": info.summary,
             })
         };
-        shape.kernels.into_iter().map(named)
+        let kernels: Vec<Value> = shape.kernels.into_iter().map(named).collect();
+        let printed = printed(shape.shape.name).map(move |info| {
+            json!({
+                "name": info.name,
+                "shape": shape.shape.name,
+                "title": info.title,
+                "tier": null,
+                "precision": "f32",
+                "source": LECTURE,
+                "summary": info.summary,
+            })
+        });
+        kernels.into_iter().chain(printed)
     });
     kernels.collect()
+}
+
+/// The lecture's programs for a shape other than triangles.
+fn printed(shape: &str) -> impl Iterator<Item = &'static PrintedInfo> {
+    let programs = BOX_AS_PRINTED.iter().map(|program| &program.info);
+    programs.filter(move |_| shape == AxisBox::INFO.name)
 }
 
 /// Columns of the table in `docs/accuracy.md`: the end of the case's name, and the title.
@@ -163,14 +183,20 @@ fn table(all: &Measurements, columns: &[(&str, &str)], is_shown: impl Fn(&str) -
         if !is_measured || !is_shown(name) {
             continue;
         }
-        for info in shape.kernels {
+        let kernels = shape.kernels.iter().map(|info| {
             let tier = info.tier.map(|tier| format!(" (**{}**)", tier.name()));
-            let tier = tier.unwrap_or_default();
-            _ = write!(text, "| {name} | `{}`{tier} |", info.name);
+            (
+                info.name,
+                format!("`{}`{}", info.name, tier.unwrap_or_default()),
+            )
+        });
+        let printed = printed(name).map(|info| (info.name, info.name.to_owned()));
+        for (kernel, title) in kernels.chain(printed) {
+            _ = write!(text, "| {name} | {title} |");
             for (kind, _) in columns {
                 let case = case_of(name, kind);
                 let mut cells = all.shapes.iter();
-                let cell = cells.find(|cell| cell.case == case && cell.kernel == info.name);
+                let cell = cells.find(|cell| cell.case == case && cell.kernel == kernel);
                 _ = write!(text, " {} |", cell.map_or("–".to_owned(), cell_text));
             }
             text.push('\n');

@@ -5,6 +5,7 @@ use crate::measure::statistics::{per_million, rate_text, short};
 use crate::measure::triangles::TriangleCell;
 use crate::measure::{Measurements, cells_of};
 use hitscope_core::kernel::TRIANGLE_KERNELS;
+use hitscope_core::shape::Triangle;
 use std::fmt::Write as _;
 use std::io::{self, Write};
 
@@ -305,7 +306,7 @@ pub fn accuracy_table(all: &Measurements) -> String {
     text += "\n|---|";
     text += &"---|".repeat(SHOWN.len());
     text.push('\n');
-    for contestant in contestants() {
+    for contestant in contestants::<Triangle>() {
         _ = write!(text, "| {} |", name(contestant));
         for (case, _) in SHOWN {
             let cell = cells_of(&all.triangles, contestant).find(|cell| cell.case == case);
@@ -322,7 +323,7 @@ fn name(contestant: Contestant) -> String {
             Some(tier) => format!("`{}` (**{}**)", kernel.info.name, tier.name()),
             None => format!("`{}`", kernel.info.name),
         },
-        Contestant::AsPrinted(program) => program.name.to_owned(),
+        Contestant::AsPrinted(program) => program.info.name.to_owned(),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use super::flat::end_or_between;
 use super::samples::{Sampled, end, length};
+use crate::measure::lecture::{AsPrinted, BOX_AS_PRINTED};
 use glam::{DVec3, Vec3};
 use hitscope_core::Hit;
 use hitscope_core::random::Random;
@@ -55,6 +56,10 @@ impl Sampled for AxisBox {
 
     fn axis(&self) -> Vec3 {
         Vec3::X
+    }
+
+    fn as_printed() -> &'static [AsPrinted<Self>] {
+        BOX_AS_PRINTED
     }
 
     fn part(hit: &Hit) -> u32 {

@@ -5,6 +5,7 @@ use super::rays::{Aim, aimed};
 use super::samples::Sampled;
 use super::spawning::{ShapeSpawnCell, SpawnPlace, measure_spawning, spawn_places};
 use super::special;
+use crate::measure::contestants::contestants;
 use hitscope_core::Ray;
 use hitscope_core::kernel::KernelRow;
 use hitscope_core::random::Random;
@@ -125,13 +126,13 @@ fn cases_of<S: Sampled>(special: &[Special<S>]) -> Vec<ShapeCase<ShapeCell>> {
         let name = format!("{}-{name}", prefix::<S>());
         let measured = name.clone();
         let rays = move |random: &mut Random| aimed::<S>(random, aim, distance);
-        let run = move |n, seed| measure(&measured, &kernels(), &rays, n, seed);
+        let run = move |n, seed| measure(&measured, &contestants(), &rays, n, seed);
         case(&name, title, about, Arc::new(run))
     });
     let special = special.iter().map(|&(name, title, about, rays)| {
         let name = format!("{}-{name}", prefix::<S>());
         let measured = name.clone();
-        let run = move |n, seed| measure(&measured, &kernels(), &rays, n, seed);
+        let run = move |n, seed| measure(&measured, &contestants(), &rays, n, seed);
         case(&name, title, about, Arc::new(run))
     });
     common.chain(special).collect()

@@ -1,9 +1,9 @@
 //! Errors of a shape's kernels in one case.
 
 use super::samples::Sampled;
+use crate::measure::contestants::Contestant;
 use crate::measure::statistics::{Quantiles, bound_per_million, per_million};
 use crate::oracle::ExactT;
-use hitscope_core::kernel::KernelRow;
 use hitscope_core::random::Random;
 use hitscope_core::ray::ulp_at;
 use hitscope_core::{Hit, Ray};
@@ -16,7 +16,7 @@ pub struct ShapeCell {
     pub case: String,
     /// The shape.
     pub shape: &'static str,
-    /// The kernel.
+    /// The kernel, or the lecture's program.
     pub kernel: &'static str,
     /// Number of rays.
     pub n: u64,
@@ -53,32 +53,32 @@ struct Counts {
     errors: Vec<f64>,
 }
 
-/// Measures all kernels with the same `n` rays.
+/// Measures all contestants with the same `n` rays.
 pub(super) fn measure<S: Sampled>(
     case: &str,
-    kernels: &[&KernelRow<S>],
+    contestants: &[Contestant<S>],
     sample: &dyn Fn(&mut Random) -> (Ray, S),
     n: u64,
     seed: u64,
 ) -> Vec<ShapeCell> {
     let mut random = Random::new(seed);
-    let mut counts: Vec<Counts> = kernels.iter().map(|_| Counts::default()).collect();
+    let mut counts: Vec<Counts> = contestants.iter().map(|_| Counts::default()).collect();
     let mut hits = 0;
     for _ in 0..n {
         let (ray, shape) = sample(&mut random);
         let t = shape.crossings(&ray).first_mut().map(ExactT::to_f64);
         hits += u64::from(t.is_some());
         let length = f64::from(ray.dir.length()) / shape.size();
-        for (kernel, counts) in kernels.iter().zip(&mut counts) {
-            counts.add(kernel.intersect(&ray, shape.clone()), t, length);
+        for (contestant, counts) in contestants.iter().zip(&mut counts) {
+            counts.add(contestant.intersect(&ray, shape.clone()), t, length);
         }
     }
-    let cells = kernels.iter().zip(counts);
+    let cells = contestants.iter().zip(counts);
     cells
-        .map(|(kernel, counts)| ShapeCell {
+        .map(|(contestant, counts)| ShapeCell {
             case: case.to_owned(),
             shape: S::INFO.name,
-            kernel: kernel.info.name,
+            kernel: contestant.name(),
             n,
             hits,
             missed: counts.missed,

@@ -1,6 +1,7 @@
 //! Random primitives with flat surfaces.
 
 use super::samples::{Sampled, end, length, quarter_or_turn};
+use crate::measure::lecture::{AsPrinted, TRIANGLE_AS_PRINTED};
 use glam::{DVec2, DVec3, Vec3};
 use hitscope_core::Hit;
 use hitscope_core::random::Random;
@@ -26,6 +27,10 @@ impl Sampled for Triangle {
 
     fn corners(&self) -> Option<[Vec3; 3]> {
         Some(self.0)
+    }
+
+    fn as_printed() -> &'static [AsPrinted<Self>] {
+        TRIANGLE_AS_PRINTED
     }
 }
 

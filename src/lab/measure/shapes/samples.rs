@@ -1,5 +1,6 @@
 //! Random primitives of every shape. Those with flat surfaces are in [`flat`](super::flat).
 
+use crate::measure::lecture::AsPrinted;
 use crate::oracle::Oracle;
 use glam::{DVec3, Vec3};
 use hitscope_core::Hit;
@@ -32,6 +33,11 @@ pub trait Sampled: Grouped + Oracle {
     /// The corners of a triangle.
     fn corners(&self) -> Option<[Vec3; 3]> {
         None
+    }
+
+    /// The lecture's programs for this shape.
+    fn as_printed() -> &'static [AsPrinted<Self>] {
+        &[]
     }
 
     /// The part of the surface that a hit is on, for shapes with several.
