@@ -1,28 +1,69 @@
 //! Film: accumulates samples and encodes them for display.
 //!
-//! Sums are integers, so the picture doesn't depend on the order in which tiles arrive. Pixels without a
+//! Sums are integers of 128 bits, so the picture doesn't depend on the order in which tiles arrive, and bright samples
+//! aren't clamped. Pixels without a
 //! sample show the colour of their block from a coarser pass.
 
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
-use crate::srgb::to_display;
+use crate::srgb::{luminance, to_display};
 use glam::{UVec2, Vec3};
 use std::collections::TryReserveError;
 use std::sync::LazyLock;
 
-/// A sum of samples in linear RGB, in units of 2⁻¹⁶, which is finer than 8-bit sRGB.
-pub type FixedRgb = [u32; 3];
+/// The sum of a pixel's samples. The order in which samples are added doesn't matter.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct SampleSum {
+    /// Linear RGB in units of 2⁻⁶⁴.
+    rgb: [u128; 3],
+    /// Squared luminance in the same units, for the variance.
+    square: u128,
+}
 
-/// The value 1 in [`FixedRgb`].
-const ONE: f32 = 65536.0;
-/// Samples are clamped to this radiance, so that the sum of 4096 of them stays below 2³².
-const BRIGHTEST: f32 = 15.0;
+/// The value 1 in [`SampleSum`].
+const ONE: f64 = 18_446_744_073_709_551_616.0;
 
-/// The radiance of a sample in fixed point; `None` if it isn't finite.
-pub fn fixed(radiance: Vec3) -> Option<FixedRgb> {
-    let channel = |x: f32| (x.clamp(0.0, BRIGHTEST) * ONE).round() as u32;
-    radiance
-        .is_finite()
-        .then(|| radiance.to_array().map(channel))
+impl SampleSum {
+    /// Adds a sample in linear RGB, and returns whether it was finite. One that isn't is left out, and a negative number
+    /// counts as 0.
+    ///
+    /// Digits below 2⁻⁶⁴ are dropped, and sums end at 2⁶⁴.
+    pub fn add(&mut self, radiance: Vec3) -> bool {
+        // A negative number becomes 0.
+        let fixed = |x: f64| (x * ONE) as u128;
+        if !radiance.is_finite() {
+            return false;
+        }
+        let brightness = f64::from(luminance(radiance));
+        self.merge(&Self {
+            rgb: radiance.to_array().map(|x| fixed(x.into())),
+            square: fixed(brightness * brightness),
+        });
+        true
+    }
+
+    fn merge(&mut self, other: &Self) {
+        for (sum, part) in self.rgb.iter_mut().zip(other.rgb) {
+            *sum = sum.saturating_add(part);
+        }
+        self.square = self.square.saturating_add(other.square);
+    }
+
+    /// The mean of `count` samples.
+    fn mean(&self, count: u32) -> Vec3 {
+        let unit = 1.0 / (ONE * f64::from(count));
+        Vec3::from_array(self.rgb.map(|sum| (sum as f64 * unit) as f32))
+    }
+
+    /// The variance of the luminance of a single sample, estimated from `count` samples; 0 for fewer than 2.
+    fn variance(&self, count: u32) -> f64 {
+        if count < 2 {
+            return 0.0;
+        }
+        let n = f64::from(count);
+        let mean = f64::from(luminance(self.mean(count)));
+        let square = self.square as f64 / (ONE * n);
+        (square - mean * mean).max(0.0) * n / (n - 1.0)
+    }
 }
 
 /// The samples of one tile in one pass, pixel by pixel in the pass's order.
@@ -31,15 +72,15 @@ pub struct TileSamples {
     /// Which pass and tile.
     pub unit: WorkUnit,
     /// Sums over the pass's samples.
-    pub sums: Vec<FixedRgb>,
+    pub sums: Vec<SampleSum>,
 }
 
 /// A picture that is being rendered.
 #[derive(Clone, Debug)]
 pub struct Film {
     plan: Plan,
-    sums: Vec<FixedRgb>,
-    counts: Vec<u16>,
+    sums: Vec<SampleSum>,
+    counts: Vec<u32>,
     /// Size in pixels of the block whose colour a pixel shows; 0 once the pixel has a sample of its own.
     shown_step: Vec<u8>,
     /// sRGB with alpha 255, row by row from the top.
@@ -50,7 +91,7 @@ pub struct Film {
 
 /// Memory of a film.
 pub const BYTES_PER_PIXEL: usize =
-    size_of::<FixedRgb>() + size_of::<u16>() + size_of::<u8>() + size_of::<[u8; 4]>();
+    size_of::<SampleSum>() + size_of::<u32>() + size_of::<u8>() + size_of::<[u8; 4]>();
 
 impl Film {
     /// An empty film; every pixel shows the background, a linear colour.
@@ -68,10 +109,10 @@ impl Film {
     pub fn try_new(plan: Plan, background: Vec3) -> Result<Self, TryReserveError> {
         let count = plan.size().element_product() as usize;
         Ok(Self {
-            sums: filled([0; 3], count)?,
+            sums: filled(SampleSum::default(), count)?,
             counts: filled(0, count)?,
             shown_step: filled(u8::MAX, count)?,
-            pixels: filled(encode(fixed(background).unwrap_or_default(), 1), count)?,
+            pixels: filled(encode(background), count)?,
             tiles_done: vec![0; plan.pass_count()],
             plan,
         })
@@ -84,7 +125,7 @@ impl Film {
             *self = Self::new(plan, background);
             return;
         }
-        self.sums.fill([0; 3]);
+        self.sums.fill(SampleSum::default());
         self.counts.fill(0);
         self.shown_step.fill(u8::MAX);
         self.tiles_done = vec![0; plan.pass_count()];
@@ -95,16 +136,14 @@ impl Film {
     pub fn add(&mut self, tile: &TileSamples) -> PixelRect {
         let pass = self.plan.pass(tile.unit.pass);
         let rect = self.plan.tile_rect(tile.unit.tile);
-        let samples = pass.samples_per_pixel() as u16;
+        let samples = pass.samples_per_pixel();
         let pixels: Vec<UVec2> = self.plan.pixels(tile.unit).collect();
         for (pixel, sum) in pixels.into_iter().zip(&tile.sums) {
             let i = self.index(pixel);
-            for (total, part) in self.sums[i].iter_mut().zip(sum) {
-                *total += part;
-            }
+            self.sums[i].merge(sum);
             self.counts[i] += samples;
             self.shown_step[i] = 0;
-            self.pixels[i] = encode(self.sums[i], u32::from(self.counts[i]));
+            self.pixels[i] = encode(self.sums[i].mean(self.counts[i]));
             if let Pass::Lattice { step } = pass {
                 self.fill_block(pixel, step);
             }
@@ -150,6 +189,35 @@ impl Film {
         self.plan.samples_after(self.passes_done())
     }
 
+    /// The mean of a pixel's samples in linear RGB; `None` while it has none.
+    ///
+    /// # Panics
+    /// If the pixel lies outside of the picture.
+    pub fn radiance(&self, pixel: UVec2) -> Option<Vec3> {
+        let i = self.index(pixel);
+        (self.counts[i] > 0).then(|| self.sums[i].mean(self.counts[i]))
+    }
+
+    /// The standard error of the luminance of a pixel; `None` for fewer than two samples.
+    ///
+    /// # Panics
+    /// If the pixel lies outside of the picture.
+    pub fn standard_error(&self, pixel: UVec2) -> Option<f64> {
+        let (sum, count) = (
+            &self.sums[self.index(pixel)],
+            self.counts[self.index(pixel)],
+        );
+        (count > 1).then(|| (sum.variance(count) / f64::from(count)).sqrt())
+    }
+
+    /// Number of samples of a pixel.
+    ///
+    /// # Panics
+    /// If the pixel lies outside of the picture.
+    pub fn sample_count(&self, pixel: UVec2) -> u32 {
+        self.counts[self.index(pixel)]
+    }
+
     /// The plan being rendered.
     pub fn plan(&self) -> &Plan {
         &self.plan
@@ -178,35 +246,77 @@ fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>, TryReserveError> {
     Ok(values)
 }
 
-/// The mean of a pixel's samples as 8-bit sRGB.
-fn encode(sum: FixedRgb, count: u32) -> [u8; 4] {
-    /// sRGB for each linear value in units of 2⁻¹⁶. A table, because `powf` per pixel is too slow for the UI thread.
+/// A linear colour as 8-bit sRGB.
+fn encode(colour: Vec3) -> [u8; 4] {
+    /// Steps of the table from 0 to 1, finer than 8-bit sRGB.
+    const STEPS: f32 = 65536.0;
+    /// sRGB for each step. A table, because `powf` per pixel is too slow for the UI thread.
     static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
-        let encoded = |i: u32| (255.0 * to_display(i as f32 / ONE)).round() as u8;
-        (0..=ONE as u32).map(encoded).collect()
+        let encoded = |i: u32| (255.0 * to_display(i as f32 / STEPS)).round() as u8;
+        (0..=STEPS as u32).map(encoded).collect()
     });
-    let [r, g, b] = sum.map(|s| SRGB[(s / count).min(ONE as u32) as usize]);
+    let encoded = |x: f32| SRGB[(x.clamp(0.0, 1.0) * STEPS).round() as usize];
+    let [r, g, b] = colour.to_array().map(encoded);
     [r, g, b, 255]
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::random::Random;
+
+    fn sum_of(samples: &[Vec3]) -> SampleSum {
+        let mut sum = SampleSum::default();
+        samples.iter().for_each(|&sample| _ = sum.add(sample));
+        sum
+    }
 
     #[test]
     fn a_mean_of_samples_is_encoded_as_srgb() {
         // 128/255 through the transfer function.
-        let grey = fixed(Vec3::splat(0.215_861)).expect("finite");
-        assert_eq!(encode(grey, 1), [128, 128, 128, 255]);
-        assert_eq!(encode(grey.map(|x| x * 4), 4), [128, 128, 128, 255]);
-        assert_eq!(encode([u32::MAX; 3], 4096), [255; 4]);
+        let grey = Vec3::splat(0.215_861);
+        assert_eq!(encode(grey), [128, 128, 128, 255]);
+        assert_eq!(sum_of(&[grey; 4]).mean(4), grey);
+        assert_eq!(encode(Vec3::splat(1e30)), [255; 4]);
     }
 
     #[test]
-    fn non_finite_samples_are_rejected_and_others_are_clamped() {
-        assert_eq!(fixed(Vec3::new(0.0, f32::NAN, 0.0)), None);
-        assert_eq!(fixed(Vec3::splat(-1.0)), Some([0; 3]));
-        assert_eq!(fixed(Vec3::splat(1e9)), fixed(Vec3::splat(BRIGHTEST)));
+    fn non_finite_samples_are_rejected_and_bright_ones_are_not_clamped() {
+        let mut sum = SampleSum::default();
+        assert!(!sum.add(Vec3::new(0.0, f32::NAN, 0.0)));
+        assert!(!sum.add(Vec3::new(0.0, f32::INFINITY, 0.0)));
+        assert!(sum.add(Vec3::splat(-1.0)));
+        assert_eq!(sum.mean(1), Vec3::ZERO);
+        assert!(sum.add(Vec3::new(1e9, 1e-9, 3.0)));
+        assert_eq!(sum.mean(1), Vec3::new(1e9, 1e-9, 3.0));
+        (0..3).for_each(|_| _ = sum.add(Vec3::splat(f32::MAX)));
+        // The end of the range, 2⁶⁴.
+        assert_eq!(sum.mean(1), Vec3::splat(ONE as f32));
+    }
+
+    #[test]
+    fn the_order_of_samples_of_any_brightness_does_not_change_their_sum() {
+        let mut random = Random::new(4);
+        let mut samples = [(); 100].map(|()| {
+            let exponent = random.index(60) as i32 - 40;
+            Vec3::from_array([(); 3].map(|()| random.unit() as f32 * 2f32.powi(exponent)))
+        });
+        let sum = sum_of(&samples);
+        samples.reverse();
+        assert_eq!(sum_of(&samples), sum);
+        samples.sort_by(|a, b| a.x.total_cmp(&b.x));
+        assert_eq!(sum_of(&samples), sum);
+    }
+
+    #[test]
+    fn the_variance_is_that_of_single_samples() {
+        let grey = |x: f32| Vec3::splat(x);
+        // Of 1, 2, 3, 6: deviations −2, −1, 0, 3, and 14/3.
+        let sum = sum_of(&[1.0, 2.0, 3.0, 6.0].map(grey));
+        // Luminances are rounded to f32.
+        assert!((sum.variance(4) - 14.0 / 3.0).abs() < 1e-5);
+        assert_eq!(sum_of(&[grey(0.25); 2]).variance(1), 0.0);
+        assert!(sum_of(&[grey(0.1); 9]).variance(9) < 1e-9);
     }
 
     #[test]
@@ -215,9 +325,9 @@ mod tests {
         let tiles: Vec<TileSamples> = (0..plan.unit_count())
             .map(|k| {
                 let unit = plan.unit(k);
-                let shade = |p: UVec2| [p.x * 500, p.y * 700, k as u32 * 90];
-                let samples = plan.pass(unit.pass).samples_per_pixel();
-                let sums = plan.pixels(unit).map(|p| shade(p).map(|x| x * samples));
+                let shade = |p: UVec2| Vec3::new(p.x as f32, p.y as f32, k as f32) / 90.0;
+                let samples = plan.pass(unit.pass).samples_per_pixel() as usize;
+                let sums = plan.pixels(unit).map(|p| sum_of(&vec![shade(p); samples]));
                 TileSamples {
                     unit,
                     sums: sums.collect(),
@@ -237,7 +347,7 @@ mod tests {
     fn a_pixel_without_a_sample_shows_the_colour_of_its_block() {
         // Of whole blocks: at the border a block's pixel may have been sampled for a larger one.
         let size = UVec2::new(144, 96);
-        let shade = |p: UVec2| [p.x * 600, p.y * 1200, 77];
+        let shade = |p: UVec2| Vec3::new(p.x as f32, 2.0 * p.y as f32, 1.0) / 192.0;
         for first_step in [16, 12, 6] {
             let plan = Plan::new(size, first_step, 1);
             let mut film = Film::new(plan.clone(), Vec3::ONE);
@@ -247,7 +357,7 @@ mod tests {
                     let unit = WorkUnit { pass, tile };
                     plan.pixels(unit)
                         .for_each(|p| has_sample[film.index(p)] = true);
-                    let sums = plan.pixels(unit).map(shade).collect();
+                    let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
                     film.add(&TileSamples { unit, sums });
                 }
                 let Pass::Lattice { step } = plan.pass(pass) else {
@@ -257,7 +367,7 @@ mod tests {
                     let p = UVec2::new(i % size.x, i / size.x);
                     let middle = p / step * step + step / 2;
                     let shown = if has_sample[i as usize] { p } else { middle };
-                    let expected = encode(shade(shown), 1);
+                    let expected = encode(shade(shown));
                     assert_eq!(film.pixels()[i as usize], expected, "{p} by {step}");
                 }
             }
@@ -271,7 +381,11 @@ mod tests {
         let white = |film: &mut Film| {
             for tile in 0..film.plan().tile_count() {
                 let unit = film.plan().unit(tile);
-                let sums = film.plan().pixels(unit).map(|_| [ONE as u32; 3]).collect();
+                let sums = film
+                    .plan()
+                    .pixels(unit)
+                    .map(|_| sum_of(&[Vec3::ONE]))
+                    .collect();
                 film.add(&TileSamples { unit, sums });
             }
         };
@@ -315,7 +429,7 @@ mod tests {
         let mut film = Film::new(plan.clone(), Vec3::ZERO);
         for tile in 0..plan.tile_count() {
             let unit = plan.unit(tile);
-            let sums = plan.pixels(unit).map(|_| [ONE as u32; 3]).collect();
+            let sums = plan.pixels(unit).map(|_| sum_of(&[Vec3::ONE])).collect();
             film.add(&TileSamples { unit, sums });
         }
         assert!(film.pixels().iter().all(|&p| p == [255; 4]));

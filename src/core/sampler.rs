@@ -1,10 +1,11 @@
-//! Sample positions within a pixel.
+//! Sample positions within a pixel, and the random numbers of a sample.
 //!
-//! The first sample is the pixel's centre, which is also the ray that a click inspects. The others follow
-//! the R2 sequence, shifted per pixel by a hash to decorrelate neighbours. A position depends only on pixel
-//! and sample index, never on threads or time.
+//! The first position is the pixel's centre, which is also the ray that a click inspects. The others follow
+//! the R2 sequence, shifted per pixel by a hash to decorrelate neighbours. Positions and random numbers depend only on
+//! pixel and sample index, never on threads or time.
 //!
-//! Source: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (R2).
+//! Sources: M. Roberts, "The Unreasonable Effectiveness of Quasirandom Sequences", 2018 (R2);
+//! B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
 
 use glam::{UVec2, Vec2};
 
@@ -24,6 +25,67 @@ pub fn sample_position(pixel: UVec2, sample: u32) -> Vec2 {
         (bits >> 40) as f32 / (1u32 << 24) as f32
     };
     Vec2::new(coordinate(0), coordinate(1))
+}
+
+/// The random numbers of one sample, four at a time. Each four are a point of an Owen-scrambled Sobol sequence in four
+/// dimensions, scrambled and shuffled anew for each pixel and each four.
+///
+/// The samples of a pixel are well spread in each dimension, and in the two that [`next_2d`](Self::next_2d) draws.
+/// Nothing is computed before a number is drawn.
+#[derive(Clone, Debug)]
+pub struct Sampler {
+    index: u32,
+    seed: u32,
+    /// The next four.
+    four: u32,
+    numbers: [f32; 4],
+    /// How many of `numbers` are drawn.
+    drawn: usize,
+}
+
+/// The number of points in one sequence; a pixel's further samples are of another sequence.
+const SEQUENCE: u32 = 1 << 16;
+
+impl Sampler {
+    /// The numbers of a sample of a pixel.
+    pub fn new(pixel: UVec2, sample: u32) -> Self {
+        let pixel = u64::from(pixel.x) << 32 | u64::from(pixel.y);
+        let seed = mix(mix(!pixel) ^ u64::from(sample / SEQUENCE));
+        Self {
+            index: sample % SEQUENCE,
+            seed: seed as u32,
+            four: 0,
+            numbers: [0.0; 4],
+            drawn: 4,
+        }
+    }
+
+    /// A number in [0, 1).
+    pub fn next_1d(&mut self) -> f32 {
+        if self.drawn == 4 {
+            self.fill();
+        }
+        let number = self.numbers[self.drawn];
+        self.drawn += 1;
+        number
+    }
+
+    /// A point in the unit square, without its right and upper edge.
+    pub fn next_2d(&mut self) -> Vec2 {
+        if self.drawn > 2 {
+            self.fill();
+        }
+        let point = Vec2::new(self.numbers[self.drawn], self.numbers[self.drawn + 1]);
+        self.drawn += 2;
+        point
+    }
+
+    fn fill(&mut self) {
+        let seed = mix(u64::from(self.seed) << 32 | u64::from(self.four)) as u32;
+        self.numbers = sobol_burley::sample_4d(self.index, 0, seed);
+        self.four += 1;
+        self.drawn = 0;
+    }
 }
 
 /// A bijective hash of 64-bit words (a finaliser).
@@ -54,6 +116,47 @@ mod tests {
             cells[(p.y * 4.0) as usize * 4 + (p.x * 4.0) as usize] += 1;
         }
         assert!(cells.iter().all(|&n| (2..=6).contains(&n)), "{cells:?}");
+    }
+
+    #[test]
+    fn the_points_of_256_samples_are_spread_over_the_square() {
+        for skipped in 0..8 {
+            let mut cells = [0; 64];
+            for sample in 0..256 {
+                let mut sampler = Sampler::new(UVec2::new(3, 5), sample);
+                (0..skipped).for_each(|_| _ = sampler.next_2d());
+                let p = sampler.next_2d();
+                assert!(p.min_element() >= 0.0 && p.max_element() < 1.0);
+                cells[(p.y * 8.0) as usize * 8 + (p.x * 8.0) as usize] += 1;
+            }
+            // The first two dimensions are a net, with exactly 4 in each cell. Of independent points, one cell in 40
+            // would have none or more than 8.
+            let is_even = |&n: &i32| {
+                if skipped % 2 == 0 {
+                    n == 4
+                } else {
+                    (1..=8).contains(&n)
+                }
+            };
+            assert!(cells.iter().all(is_even), "{skipped}: {cells:?}");
+        }
+    }
+
+    #[test]
+    fn each_pixel_and_each_sample_has_other_numbers() {
+        let first = |sample| Sampler::new(UVec2::ONE, sample).next_2d();
+        assert_ne!(first(0), first(1));
+        assert_ne!(first(0), first(SEQUENCE));
+        assert_ne!(first(0), Sampler::new(UVec2::X, 0).next_2d());
+        assert_eq!(first(0), first(0));
+        let mut sampler = Sampler::new(UVec2::ONE, 1);
+        let drawn: Vec<f32> = (0..1000).map(|_| sampler.next_1d()).collect();
+        let mean = drawn.iter().sum::<f32>() / 1000.0;
+        // Five standard errors of independent numbers.
+        assert!(
+            (mean - 0.5).abs() < 5.0 * (1.0f32 / 12_000.0).sqrt(),
+            "{mean}"
+        );
     }
 
     #[test]

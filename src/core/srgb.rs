@@ -36,6 +36,13 @@ pub fn from_texel(texel: [u8; 3]) -> Vec3 {
     Vec3::from_array(texel.map(|x| LINEAR[usize::from(x)]))
 }
 
+/// The luminance of linear RGB.
+///
+/// Source: ITU-R BT.709.
+pub fn luminance(rgb: Vec3) -> f32 {
+    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

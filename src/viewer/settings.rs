@@ -116,7 +116,7 @@ impl Default for Settings {
 impl Settings {
     /// The view.
     pub fn view(&self) -> &'static Integrator {
-        integrator(&self.view).unwrap_or(&INTEGRATORS[0])
+        integrator(&self.view).unwrap_or(INTEGRATORS[0])
     }
 
     /// The kernel.
@@ -155,7 +155,7 @@ impl Settings {
 
     /// The kernel that the current view compares the selected kernel with.
     pub fn second_kernel(&self) -> Option<KernelChoice> {
-        self.view().against.kernel(self.against())
+        self.view().needs.second.kernel(self.against())
     }
 
     /// How normals vary over a triangle.

@@ -57,7 +57,7 @@ fn light() -> Visuals {
 
 /// The background of a view's picture, in linear RGB. It is always dark for views that compare kernels.
 pub fn background(view: &Integrator, theme: Theme) -> Vec3 {
-    let is_dark = theme == Theme::Dark || view.against != Comparison::Nothing;
+    let is_dark = theme == Theme::Dark || view.needs.second != Comparison::Nothing;
     from_display(if is_dark {
         DARK_BACKGROUND
     } else {
@@ -177,7 +177,7 @@ mod tests {
     #[test]
     fn colours_of_comparing_views_differ_from_the_background() {
         for view in INTEGRATORS {
-            if view.against == Comparison::Nothing {
+            if view.needs.second == Comparison::Nothing {
                 continue;
             }
             for theme in [Theme::Dark, Theme::Light] {

@@ -1,18 +1,28 @@
 //! The view *Interpolation*: the angle between the two ways to interpolate vertex normals.
 
-use super::Context;
-use super::Legend;
-use super::compare::log_colour;
+use super::palette::log_colour;
+use super::{Context, Integrator, Legend, Needs};
 use crate::interaction::SurfaceInteraction;
 use crate::ray::{Hit, Ray};
+use crate::sampler::Sampler;
 use crate::scene::Shading;
 use glam::Vec3;
+
+/// The row of the view.
+pub(super) static INTERPOLATION: Integrator = Integrator {
+    name: "interpolation",
+    title: "Interpolation",
+    about: "Angle between the linearly and the spherically interpolated vertex normal, on a logarithmic scale; grey below 0.001°.",
+    needs: Needs::VERTEX_NORMALS,
+    legend,
+    radiance,
+};
 
 /// Range of the scale in degrees: from invisible, yet above rounding to f32, to a visible shift of highlights.
 const RANGE: [f64; 2] = [0.001, 10.0];
 
 /// The angle between the linearly and the spherically interpolated normal; grey below the scale.
-pub(super) fn angle(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {
     let Some(hit) = hit else {
         return context.background;
     };
@@ -30,7 +40,7 @@ pub(super) fn angle(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
     log_colour(angle.to_degrees(), RANGE)
 }
 
-pub(super) fn legend() -> Legend {
+fn legend() -> Legend {
     let degrees = [0.001, 0.01, 0.1, 1.0, 10.0];
     vec![
         degrees

@@ -1,18 +1,23 @@
 //! Views: functions from a ray to a colour.
 //!
-//! Each view is a row of [`INTEGRATORS`]. Colours are linear RGB.
+//! Each view is a file with its row of [`INTEGRATORS`]. Colours are linear RGB.
 
-mod compare;
+mod barycentric;
+mod cost;
+mod depth;
+mod disagreement;
+mod error;
 mod interpolation;
-mod legend;
+mod normal;
 pub mod palette;
 mod shaded;
-mod views;
+mod triangle;
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
 use crate::kernel::{KernelChoice, exact_triangle_kernel};
 use crate::ray::{Hit, Ray};
+use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading};
 use glam::Vec3;
 use std::sync::Arc;
@@ -42,13 +47,36 @@ pub struct Integrator {
     pub title: &'static str,
     /// The meaning of the colours, in one sentence.
     pub about: &'static str,
-    /// The kernel that the view compares the chosen one with.
-    pub against: Comparison,
-    /// The legend.
+    /// What the view needs besides the scene and the chosen kernel.
+    pub needs: Needs,
+    /// The legend; empty if there is none.
     pub legend: fn() -> Legend,
+    radiance: fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3,
+}
+
+/// What a view needs besides the scene and the chosen kernel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct Needs {
+    /// The kernel that the view compares the chosen one with.
+    pub second: Comparison,
+    /// Whether the view uses vertex normals, so that flat and smooth shading differ.
+    pub vertex_normals: bool,
     /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
-    pub depends_on_tree: bool,
-    colour: fn(&Context, &Ray, Option<Hit>) -> Vec3,
+    pub final_tree: bool,
+}
+
+impl Needs {
+    /// Nothing else.
+    const NOTHING: Self = Self {
+        second: Comparison::Nothing,
+        vertex_normals: false,
+        final_tree: false,
+    };
+    /// Vertex normals.
+    const VERTEX_NORMALS: Self = Self {
+        vertex_normals: true,
+        ..Self::NOTHING
+    };
 }
 
 /// The kernel that a view compares the chosen one with.
@@ -84,7 +112,7 @@ impl Integrator {
         first: &Arc<dyn Intersector>,
         chosen: KernelChoice,
     ) -> Arc<dyn Intersector> {
-        let second = self.against.kernel(chosen);
+        let second = self.needs.second.kernel(chosen);
         second.map_or_else(
             || Arc::clone(first),
             |kernel| Arc::from(scene.intersector(kernel)),
@@ -92,106 +120,32 @@ impl Integrator {
     }
 
     /// The colour of a ray in linear RGB, given the first hit of [`Context::intersector`].
-    pub fn radiance(&self, context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
-        (self.colour)(context, ray, hit)
+    pub fn radiance(
+        &self,
+        context: &Context,
+        ray: &Ray,
+        hit: Option<Hit>,
+        sampler: &mut Sampler,
+    ) -> Vec3 {
+        (self.radiance)(context, ray, hit, sampler)
     }
 }
 
 /// All views, in the order of the menu.
-pub static INTEGRATORS: &[Integrator] = &[
-    Integrator {
-        name: "shaded",
-        title: "Shaded",
-        about: "Lit by a studio light that moves with the camera.",
-        against: Comparison::Nothing,
-        legend: legend::none,
-        depends_on_tree: false,
-        colour: shaded::radiance,
-    },
-    Integrator {
-        name: "normal",
-        title: "Normal",
-        about: "The shading normal: x, y, z from −1 to 1 as red, green, blue.",
-        against: Comparison::Nothing,
-        legend: legend::none,
-        depends_on_tree: false,
-        colour: views::normal,
-    },
-    Integrator {
-        name: "barycentric",
-        title: "Barycentric",
-        about: "The barycentric coordinates of a triangle's corners as red, green, blue. On other shapes, the surface coordinates u and v, modulo 1, as red and green.",
-        against: Comparison::Nothing,
-        legend: legend::barycentric,
-        depends_on_tree: false,
-        colour: views::barycentric,
-    },
-    Integrator {
-        name: "depth",
-        title: "Depth",
-        about: "Distance from the eye: white at the near side of the scene's bounding sphere, dark at the far side.",
-        against: Comparison::Nothing,
-        legend: legend::none,
-        depends_on_tree: false,
-        colour: views::depth,
-    },
-    Integrator {
-        name: "triangle",
-        title: "Triangle",
-        about: "A colour for each triangle or other primitive.",
-        against: Comparison::Nothing,
-        legend: legend::none,
-        depends_on_tree: false,
-        colour: views::triangle,
-    },
-    Integrator {
-        name: "cost",
-        title: "Cost",
-        about: "Boxes and primitives tested for the ray, on a logarithmic scale.",
-        against: Comparison::Nothing,
-        legend: legend::cost,
-        depends_on_tree: true,
-        colour: views::cost,
-    },
-    Integrator {
-        name: "error-t",
-        title: "Error of t",
-        about: "Error of t of the chosen kernel, in f32 ulps, on a logarithmic scale.",
-        against: Comparison::Exact,
-        legend: legend::error_t,
-        depends_on_tree: false,
-        colour: compare::error_t,
-    },
-    Integrator {
-        name: "error-barycentric",
-        title: "Barycentric error",
-        about: "Largest error of a barycentric coordinate of the chosen kernel, on a logarithmic scale. Shapes other than triangles have no barycentric coordinates and are grey.",
-        against: Comparison::Exact,
-        legend: legend::error_barycentric,
-        depends_on_tree: false,
-        colour: compare::error_barycentric,
-    },
-    Integrator {
-        name: "interpolation",
-        title: "Interpolation",
-        about: "Angle between the linearly and the spherically interpolated vertex normal, on a logarithmic scale; grey below 0.001°.",
-        against: Comparison::Nothing,
-        legend: interpolation::legend,
-        depends_on_tree: false,
-        colour: interpolation::angle,
-    },
-    Integrator {
-        name: "disagreement",
-        title: "Disagreement",
-        about: "Where the chosen kernel and a second one hit different primitives, or only one of them hits.",
-        against: Comparison::Second,
-        legend: legend::decisions,
-        depends_on_tree: false,
-        colour: compare::disagreement,
-    },
+pub static INTEGRATORS: &[&Integrator] = &[
+    &shaded::SHADED,
+    &normal::NORMAL,
+    &barycentric::BARYCENTRIC,
+    &depth::DEPTH,
+    &triangle::TRIANGLE,
+    &cost::COST,
+    &error::ERROR_T,
+    &error::ERROR_BARYCENTRIC,
+    &interpolation::INTERPOLATION,
+    &disagreement::DISAGREEMENT,
 ];
 
 /// The view of this name.
 pub fn integrator(name: &str) -> Option<&'static Integrator> {
-    INTEGRATORS.iter().find(|view| view.name == name)
+    INTEGRATORS.iter().copied().find(|view| view.name == name)
 }

@@ -63,6 +63,23 @@ pub const OTHER_TRIANGLE: Vec3 = Vec3::new(0.90, 0.02, 0.75);
 /// The view isn't defined for this shape. Grey, which neither the ramps nor the colours above contain.
 pub const UNDEFINED: Vec3 = Vec3::new(0.3, 0.3, 0.3);
 
+/// The ramp's colour for a number, on a logarithmic scale over a range.
+pub fn log_colour(x: f64, [least, most]: [f64; 2]) -> Vec3 {
+    // 0 has no logarithm; it gets the colour of the lower end.
+    let part = (x.max(least) / least).ln() / (most / least).ln();
+    error_ramp(part as f32)
+}
+
+/// The legend of the colours of wrong decisions.
+pub(super) fn decisions() -> Vec<(Vec3, String)> {
+    let named = |colour, text: &str| (colour, text.to_owned());
+    vec![
+        named(MISSED, "missed"),
+        named(FALSE_HIT, "false hit"),
+        named(OTHER_TRIANGLE, "other primitive"),
+    ]
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

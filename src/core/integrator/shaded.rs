@@ -1,13 +1,24 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
-use super::Context;
+use super::{Context, Integrator, Needs};
 use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
 use crate::mesh::{Illumination, Material};
 use crate::ray::{Hit, Ray};
+use crate::sampler::Sampler;
 use crate::scene::Scene;
 use crate::spawn::{Departure, default_spawn_policy};
 use crate::srgb::from_display;
 use glam::Vec3;
+
+/// The row of the view.
+pub(super) static SHADED: Integrator = Integrator {
+    name: "shaded",
+    title: "Shaded",
+    about: "Lit by a studio light that moves with the camera.",
+    needs: Needs::VERTEX_NORMALS,
+    legend: Vec::new,
+    radiance,
+};
 
 /// Reflectance of faces without a material.
 const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
@@ -26,7 +37,7 @@ const INVISIBLE: f32 = 1.0 / 512.0;
 
 /// Light of the lamps reflected by both sides of surfaces, and emission; through transparent surfaces also what is
 /// behind them. The lamps cast no shadows.
-pub(super) fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>) -> Vec3 {
+fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {
     let (mut ray, mut hit) = (*ray, hit);
     let (mut light, mut left) = (Vec3::ZERO, 1.0);
     for _ in 0..MOST_LAYERS {
@@ -152,7 +163,9 @@ mod tests {
             background: BACKGROUND,
         };
         let ray = Ray::new(eye.as_vec3(), Vec3::NEG_Z).expect("a ray");
-        radiance(&context, &ray, context.intersector.closest_hit(&ray))
+        let mut sampler = Sampler::new(UVec2::ZERO, 0);
+        let hit = context.intersector.closest_hit(&ray);
+        radiance(&context, &ray, hit, &mut sampler)
     }
 
     fn constant(diffuse: Vec3, opacity: f32) -> Material {

@@ -2,11 +2,12 @@
 
 use super::worker::{Message, Renderer};
 use crate::camera::Projection;
-use crate::film::{Film, FixedRgb, TileSamples, fixed};
+use crate::film::{Film, SampleSum, TileSamples};
 use crate::integrator::{Context, Integrator};
 use crate::lane::PACKET;
 use crate::plan::{Plan, WorkUnit};
 use crate::ray::Ray;
+use crate::sampler::Sampler;
 use glam::{DVec3, UVec2};
 use std::any::Any;
 use std::cell::Cell;
@@ -98,7 +99,7 @@ impl Job {
         };
         let mut rays = 0;
         for pixel in self.plan.pixels(unit) {
-            batch.sums.push([0; 3]);
+            batch.sums.push(SampleSum::default());
             for sample in samples.clone() {
                 batch.add(pixel, sample);
                 rays += 1;
@@ -136,7 +137,7 @@ struct SampleBatch<'a> {
     rays: Vec<Ray>,
     /// Index of the pixel's sum, the pixel, and the index of the sample.
     places: Vec<(usize, UVec2, u32)>,
-    sums: Vec<FixedRgb>,
+    sums: Vec<SampleSum>,
     non_finite: u32,
     hits: u32,
 }
@@ -169,10 +170,9 @@ impl SampleBatch<'_> {
         for ((ray, (index, pixel, sample)), hit) in rays {
             self.at.set((pixel, sample));
             self.hits += u32::from(hit.is_some());
-            match fixed(integrator.radiance(context, &ray, *hit)) {
-                Some(colour) => (0..3).for_each(|k| self.sums[index][k] += colour[k]),
-                None => self.non_finite += 1,
-            }
+            let mut sampler = Sampler::new(pixel, sample);
+            let radiance = integrator.radiance(context, &ray, *hit, &mut sampler);
+            self.non_finite += u32::from(!self.sums[index].add(radiance));
         }
     }
 }

@@ -93,7 +93,7 @@ impl PictureArgs {
     pub fn check(&self, file: &Path) -> Result<(), CommandError> {
         let refuse = |message: String| Err(CommandError::Usage(message));
         self.camera.check()?;
-        if self.against.is_some() && self.view.view().against != Comparison::Second {
+        if self.against.is_some() && self.view.view().needs.second != Comparison::Second {
             let view = &self.view.view;
             return refuse(format!(
                 "--against has no effect on the view “{view}”: it needs --view disagreement"

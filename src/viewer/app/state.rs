@@ -33,7 +33,7 @@ impl App {
 
     /// Whether the view shows the cost of rays in the final tree.
     pub(super) fn shows_last_tree(&self) -> bool {
-        self.settings.view().depends_on_tree && self.document.has_last_tree()
+        self.settings.view().needs.final_tree && self.document.has_last_tree()
     }
 
     /// The scene of the picture.

@@ -50,7 +50,7 @@ fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings, shapes: &[ShapeKer
     });
     ui.label(RichText::new(settings.view().about).weak());
     legend_ui(ui, &(settings.view().legend)());
-    if settings.view().against == Comparison::Second {
+    if settings.view().needs.second == Comparison::Second {
         ui.horizontal(|ui| {
             let label = ui.label("compared with");
             let (response, chosen) = kernel_combo_ui(ui, "against", settings.against(), shapes);

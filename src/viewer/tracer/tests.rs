@@ -38,7 +38,7 @@ fn request(scene: &Arc<Scene>, x: f64, samples: u32) -> Request {
             shading: Shading::Flat,
             background: Vec3::ZERO,
         },
-        integrator: &INTEGRATORS[0],
+        integrator: INTEGRATORS[0],
         samples,
         shows_last_tree: true,
     }
