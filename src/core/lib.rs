@@ -19,6 +19,8 @@
 //! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
 //! | [`barycentric`] | barycentric coordinates and interpolation |
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
+//! | [`bsdf`] | how surfaces scatter light, one file a model |
+//! | [`light`] | lights, one file a kind |
 //! | [`integrator`] | the views: from a hit to a colour |
 //! | [`spawn`] | origins of rays that leave a surface |
 //! | [`plan`] | the order in which pixels and samples are traced |
@@ -32,6 +34,7 @@
 pub mod aabb;
 mod algebra;
 pub mod barycentric;
+pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 pub mod counts;
@@ -42,6 +45,7 @@ pub mod interaction;
 pub mod intersector;
 pub mod kernel;
 mod lane;
+pub mod light;
 pub mod loading;
 pub mod mesh;
 pub mod obj;

@@ -24,6 +24,22 @@ pub struct Departure<'a> {
     pub dir: Vec3,
 }
 
+/// Where a ray between two points ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Endpoint {
+    /// At a point in space.
+    InSpace(Vec3),
+    /// At a point of a primitive, which the ray mustn't hit.
+    OnSurface {
+        /// The hit of a ray at the point.
+        hit: Hit,
+        /// The surface there.
+        surface: SurfacePoint,
+        /// The corners of the triangle, if it is one.
+        corners: Option<[Vec3; 3]>,
+    },
+}
+
 /// A rule for the origin of a spawned ray.
 pub struct SpawnPolicy {
     /// The name in the lab's tables.
@@ -57,6 +73,43 @@ impl SpawnPolicy {
         } = (self.begin)(departure);
         let ray = Ray::with_interval(origin, departure.dir, t_min, f32::INFINITY)?;
         Ok(Ray { exclude, ..ray })
+    }
+
+    /// The ray from a departure to an endpoint. `departure.dir` points there. Both ends keep off their surfaces by this
+    /// policy, so that the ray hits neither; the last [`END_SLACK`] of the way isn't tested.
+    ///
+    /// # Errors
+    /// See [`RayError`]; also if both ends are the same point.
+    pub fn connect(&self, departure: &Departure<'_>, end: &Endpoint) -> Result<Ray, RayError> {
+        let start = (self.begin)(departure);
+        let target = match *end {
+            Endpoint::InSpace(point) => point,
+            Endpoint::OnSurface {
+                hit,
+                surface,
+                corners,
+            } => {
+                let way = surface.position - start.origin;
+                let arrived_by = Ray::new(start.origin, way)?;
+                let arrival = Departure {
+                    arrived_by: &arrived_by,
+                    hit: &Hit {
+                        t: 2f32.powi(-arrived_by.scale),
+                        ..hit
+                    },
+                    surface,
+                    corners,
+                    dir: -way,
+                };
+                (self.begin)(&arrival).origin
+            }
+        };
+        let (way, t_max) = (target - start.origin, 1.0 - END_SLACK);
+        let ray = Ray::with_interval(start.origin, way, start.t_min.min(0.5 * t_max), t_max)?;
+        Ok(Ray {
+            exclude: start.exclude,
+            ..ray
+        })
     }
 }
 
@@ -136,6 +189,10 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
 pub fn default_spawn_policy() -> &'static SpawnPolicy {
     SPAWN_POLICIES.last().expect("the table isn't empty")
 }
+
+/// The part of the way between two points that isn't tested, at its end: twice the largest relative error of t that the
+/// f32 kernels of the tiers promise, 513·2⁻²⁴, so that the surface at the end isn't found.
+pub const END_SLACK: f32 = 1.0 / 16384.0;
 
 /// The lecture's epsilon, in units of the direction's length.
 const LECTURE_EPSILON: f32 = 1e-6;

@@ -11,7 +11,7 @@
 
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::{Context, INTEGRATORS, integrator};
+use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, integrator};
 use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::mesh::shapes::{Placement, torus};
 use hitscope_core::plan::Plan;
@@ -44,6 +44,7 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
             camera: camera.expect("a camera"),
             shading,
             background: Vec3::new(0.05, 0.1, 0.2),
+            lighting: Lighting::default(),
         },
         integrator: view,
         plan,

@@ -50,6 +50,9 @@ mod saving;
 // Shapes other than triangles.
 mod shapes;
 
+// Light transport against closed forms.
+mod light;
+
 // 64×64 pictures, compared exactly.
 mod golden;
 

@@ -18,8 +18,11 @@ use crate::kernel::{
 use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
-use crate::shape::{AddLine, Interior, LineDetail, Primitives, Shape, ShapeInfo, SurfacePoint};
+use crate::shape::{
+    AddLine, Interior, LineDetail, Primitives, SampledPoint, Shape, ShapeInfo, SurfacePoint,
+};
 use crate::simd::SimdLevel;
+use glam::DVec2;
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 use std::time::Duration;
@@ -56,6 +59,16 @@ pub trait Group: Debug + Send + Sync {
 
     /// The surface where a ray hits a primitive; `hit.primitive` is its index in the group.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
+
+    /// The area of a primitive; see [`Shape::area`].
+    fn area(&self, _index: u32) -> f64 {
+        0.0
+    }
+
+    /// A point of a primitive; see [`Shape::sampled_point`].
+    fn sampled_point(&self, _index: u32, _at: DVec2) -> Option<SampledPoint> {
+        None
+    }
 
     /// Passes lines on a primitive's surface to `add`, for display.
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>);
@@ -156,6 +169,14 @@ impl<S: Grouped> Group for ShapeGroup<S> {
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.primitives.primitive(hit.primitive).surface(ray, hit)
+    }
+
+    fn area(&self, index: u32) -> f64 {
+        self.primitives.primitive(index).area()
+    }
+
+    fn sampled_point(&self, index: u32, at: DVec2) -> Option<SampledPoint> {
+        self.primitives.primitive(index).sampled_point(at)
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {

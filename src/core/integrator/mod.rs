@@ -2,23 +2,29 @@
 //!
 //! Each view is a file with its row of [`INTEGRATORS`]. Colours are linear RGB.
 
+mod ambient_occlusion;
 mod barycentric;
 mod cost;
 mod depth;
+mod direct;
 mod disagreement;
 mod error;
 mod interpolation;
 mod normal;
 pub mod palette;
+mod path;
 mod shaded;
+mod transport;
 mod triangle;
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
 use crate::kernel::{KernelChoice, exact_triangle_kernel};
+use crate::light::Lights;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading};
+use crate::spawn::{SpawnPolicy, default_spawn_policy};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -37,6 +43,33 @@ pub struct Context {
     pub shading: Shading,
     /// The colour of rays that hit nothing.
     pub background: Vec3,
+    /// Lights, for views that need them.
+    pub lighting: Lighting,
+}
+
+/// What light transport depends on besides the scene.
+#[derive(Clone)]
+pub struct Lighting {
+    /// The lights.
+    pub lights: Arc<Lights>,
+    /// How rays leave surfaces.
+    pub spawn: &'static SpawnPolicy,
+    /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene's bounding sphere.
+    pub ao_distance: f32,
+    /// The most surfaces on a path; `None` for no limit.
+    pub depth_limit: Option<u32>,
+}
+
+impl Default for Lighting {
+    /// No lights, and the default policy.
+    fn default() -> Self {
+        Self {
+            lights: Arc::default(),
+            spawn: default_spawn_policy(),
+            ao_distance: 1.0,
+            depth_limit: None,
+        }
+    }
 }
 
 /// A view: how a ray gets its colour.
@@ -61,6 +94,8 @@ pub struct Needs {
     pub second: Comparison,
     /// Whether the view uses vertex normals, so that flat and smooth shading differ.
     pub vertex_normals: bool,
+    /// Whether the view needs lights.
+    pub lights: bool,
     /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
     pub final_tree: bool,
 }
@@ -70,12 +105,18 @@ impl Needs {
     const NOTHING: Self = Self {
         second: Comparison::Nothing,
         vertex_normals: false,
+        lights: false,
         final_tree: false,
     };
     /// Vertex normals.
     const VERTEX_NORMALS: Self = Self {
         vertex_normals: true,
         ..Self::NOTHING
+    };
+    /// Vertex normals and lights.
+    const LIGHTS: Self = Self {
+        lights: true,
+        ..Self::VERTEX_NORMALS
     };
 }
 
@@ -134,6 +175,9 @@ impl Integrator {
 /// All views, in the order of the menu.
 pub static INTEGRATORS: &[&Integrator] = &[
     &shaded::SHADED,
+    &ambient_occlusion::AMBIENT_OCCLUSION,
+    &direct::DIRECT,
+    &path::PATH,
     &normal::NORMAL,
     &barycentric::BARYCENTRIC,
     &depth::DEPTH,

@@ -107,7 +107,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
 }
 
 /// The product of the colours of material, texture and vertices; clay if there are none.
-fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
+pub(super) fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
     let mesh = scene.mesh();
     let map = material.and_then(|material| material.diffuse_map.as_ref());
     // A face without texture coordinates shows no texture.
@@ -127,6 +127,7 @@ fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
 mod tests {
     use super::*;
     use crate::camera::{Camera, Projection};
+    use crate::integrator::Lighting;
     use crate::kernel::default_triangle_kernel;
     use crate::mesh::{Assigned, Attributes, CornerValues, Runs, Texture, TextureMap, shapes};
     use crate::scene::Shading;
@@ -161,6 +162,7 @@ mod tests {
             camera: camera.expect("a camera"),
             shading: Shading::Flat,
             background: BACKGROUND,
+            lighting: Lighting::default(),
         };
         let ray = Ray::new(eye.as_vec3(), Vec3::NEG_Z).expect("a ray");
         let mut sampler = Sampler::new(UVec2::ZERO, 0);

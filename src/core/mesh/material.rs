@@ -16,6 +16,10 @@ pub struct Material {
     pub shininess: f32,
     /// Emitted light (`Ke`).
     pub emission: Vec3,
+    /// Whether the back emits light, too.
+    pub emits_on_back: bool,
+    /// Whether the back reflects as the front does; if not, it is black.
+    pub is_two_sided: bool,
     /// Opacity (`d`, or 1 − `Tr`): 1 is opaque, 0 is invisible.
     pub opacity: f32,
     /// Shading terms in use (`illum`).
@@ -77,6 +81,8 @@ impl Default for Material {
             // Without highlights the value doesn't matter; 10 gives soft ones.
             shininess: 10.0,
             emission: Vec3::ZERO,
+            emits_on_back: true,
+            is_two_sided: true,
             opacity: 1.0,
             illumination: Illumination::default(),
             diffuse_map: None,

@@ -9,9 +9,9 @@ use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, Runs, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
-use crate::shape::SurfacePoint;
+use crate::shape::{SampledPoint, SurfacePoint};
 use crate::simd::SimdLevel;
-use glam::Vec3;
+use glam::{DVec2, Vec3};
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
@@ -246,6 +246,29 @@ impl Scene {
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let (group, primitive) = self.group_of(hit.primitive);
         group.surface(ray, &Hit { primitive, ..*hit })
+    }
+
+    /// The area of a primitive; 0 if its points can't be sampled.
+    pub fn area(&self, primitive: u32) -> f64 {
+        let (group, index) = self.group_of(primitive);
+        group.area(index)
+    }
+
+    /// A point of a primitive, uniform by area for uniform points `at` of the unit square: the ray from a point to it, and
+    /// its hit there at t = 1. `None` if the area is 0, or the point is `from` itself.
+    pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<(Ray, Hit)> {
+        let (group, index) = self.group_of(primitive);
+        let SampledPoint { position, u, v } = group.sampled_point(index, at)?;
+        let ray = Ray::new(from, (position - from.as_dvec3()).as_vec3()).ok()?;
+        // The length of the direction may have been scaled.
+        let t = 2f32.powi(-ray.scale);
+        Some((ray, Hit { t, u, v, primitive }))
+    }
+
+    /// The corners of a primitive, if it is a triangle.
+    pub fn corners(&self, primitive: u32) -> Option<[Vec3; 3]> {
+        self.is_triangle(primitive)
+            .then(|| self.mesh.corners(primitive))
     }
 
     /// t, u and v of a ray's first hit of a primitive, or `None` for a miss; see

@@ -2,7 +2,10 @@
 
 use super::compact::Slots;
 use super::lines::box_grid;
-use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
+use super::sample::part_by_area;
+use super::{
+    AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint, U,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
@@ -20,6 +23,12 @@ pub struct AxisBox {
 }
 
 impl AxisBox {
+    /// The areas of the faces, lower before upper along each axis.
+    fn face_areas(&self) -> [f64; 6] {
+        let DVec3 { x, y, z } = self.max.as_dvec3() - self.min.as_dvec3();
+        [y * z, y * z, z * x, z * x, x * y, x * y]
+    }
+
     fn can_be_hit(&self) -> bool {
         self.min.is_finite() && self.max.is_finite() && self.min.cmple(self.max).all()
     }
@@ -102,6 +111,25 @@ impl Shape for AxisBox {
             error: 4.0 * U * self.min.abs().max(self.max.abs()),
             is_flat: false,
         }
+    }
+
+    fn area(&self) -> f64 {
+        self.face_areas().iter().sum()
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        let (face, x) = part_by_area(&self.face_areas(), at.x)?;
+        let axis = face / 2;
+        let mut part = DVec3::ZERO;
+        part[axis] = (face % 2) as f64;
+        part[(axis + 1) % 3] = x;
+        part[(axis + 2) % 3] = at.y;
+        let (min, max) = (self.min.as_dvec3(), self.max.as_dvec3());
+        Some(SampledPoint {
+            position: min + part * (max - min),
+            u: face as f32,
+            v: 0.0,
+        })
     }
 
     fn interior(&self, _: &Ray) -> Interior {

@@ -2,8 +2,10 @@
 
 use super::compact::Slots;
 use super::lines::box_grid;
+use super::sample::part_by_area;
 use super::{
-    AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
+    AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint, U,
+    numbers_of,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, vector};
@@ -35,6 +37,13 @@ impl Cuboid {
 }
 
 impl Cuboid {
+    /// The areas of the faces, lower before upper along each half axis.
+    fn face_areas(&self) -> [f64; 6] {
+        let (rows, _) = self.cofactors();
+        let [x, y, z] = rows.map(|row| 4.0 * row.length());
+        [x, x, y, y, z, z]
+    }
+
     /// Half the edges of the bounding box.
     pub(crate) fn half_extent(&self) -> Vec3 {
         let [x, y, z] = self.axes.map(Vec3::abs);
@@ -140,6 +149,26 @@ impl Shape for Cuboid {
                 + Vec3::splat(16.0 * U * reach.max_element()),
             is_flat: false,
         }
+    }
+
+    fn area(&self) -> f64 {
+        self.face_areas().iter().sum()
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        let (face, x) = part_by_area(&self.face_areas(), at.x)?;
+        let axis = face / 2;
+        let mut point = [0.0; 3];
+        point[axis] = if face % 2 == 1 { 1.0 } else { -1.0 };
+        point[(axis + 1) % 3] = 2.0 * x - 1.0;
+        point[(axis + 2) % 3] = 2.0 * at.y - 1.0;
+        let axes = self.axes.map(Vec3::as_dvec3);
+        let offset: DVec3 = (0..3).map(|k| point[k] * axes[k]).sum();
+        Some(SampledPoint {
+            position: self.centre.as_dvec3() + offset,
+            u: face as f32,
+            v: 0.0,
+        })
     }
 
     fn interior(&self, _: &Ray) -> Interior {

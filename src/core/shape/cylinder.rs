@@ -2,8 +2,10 @@
 
 use super::compact::Slots;
 use super::lines::{disk_lines, side_lines};
+use super::sample::part_by_area;
 use super::{
-    AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
+    AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint, U,
+    in_disk, numbers_of,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
@@ -12,6 +14,7 @@ use crate::algebra::{
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
+use std::f64::consts::{PI, TAU};
 
 /// The points at a radius from the segment between two points, and two disks if it is capped. No ray hits it if the
 /// points are equal, the radius isn't positive, or a number isn't finite.
@@ -38,6 +41,18 @@ impl Cylinder {
     fn can_be_hit(&self) -> bool {
         let is_finite = self.p0.is_finite() && self.p1.is_finite() && self.radius.is_finite();
         is_finite && self.radius > 0.0 && self.p0 != self.p1
+    }
+
+    /// The areas of the side, the base and the top.
+    fn areas(&self) -> [f64; 3] {
+        let radius = f64::from(self.radius);
+        let length = (self.p1.as_dvec3() - self.p0.as_dvec3()).length();
+        let cap = if self.is_capped {
+            PI * radius * radius
+        } else {
+            0.0
+        };
+        [TAU * radius * length, cap, cap]
     }
 }
 
@@ -125,6 +140,33 @@ impl Shape for Cylinder {
             error: error(self.p0, self.p1, self.radius),
             is_flat: false,
         }
+    }
+
+    fn area(&self) -> f64 {
+        self.areas().iter().sum()
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        let (part, x) = part_by_area(&self.areas(), at.x)?;
+        let (ends, radius) = (
+            [self.p0, self.p1].map(Vec3::as_dvec3),
+            f64::from(self.radius),
+        );
+        let axis = (ends[1] - ends[0]).normalize_or(DVec3::Z);
+        let (across, along) = axis.any_orthonormal_pair();
+        let part = [SIDE, BASE, TOP][part];
+        let position = if part == SIDE {
+            let (sin, cos) = libm::sincos(TAU * at.y);
+            ends[0].lerp(ends[1], x) + radius * (cos * across + sin * along)
+        } else {
+            let on_cap = radius * in_disk(DVec2::new(x, at.y));
+            ends[usize::from(part == TOP)] + on_cap.x * across + on_cap.y * along
+        };
+        Some(SampledPoint {
+            position,
+            u: part.into(),
+            v: 0.0,
+        })
     }
 
     fn interior(&self, _: &Ray) -> Interior {
@@ -238,7 +280,7 @@ impl Along {
         let foot = p0 + part * (p1 - p0);
         let side = p - foot;
         let (x, y) = axis.any_orthonormal_pair();
-        let turn = side.dot(y).atan2(side.dot(x)) / std::f64::consts::TAU;
+        let turn = side.dot(y).atan2(side.dot(x)) / TAU;
         Self {
             axis,
             outwards: side.normalize_or(x),

@@ -3,12 +3,15 @@
 use super::compact::Slots;
 use super::lines::disk_lines;
 use super::span::{Span, SpannedRay};
-use super::{AddLine, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{
+    AddLine, LineDetail, SampledPoint, Shape, ShapeInfo, SurfacePoint, in_disk, numbers_of,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
-use glam::Vec3;
+use glam::{DVec2, Vec3};
+use std::f64::consts::PI;
 
 /// The points c + a·u + b·v with a² + b² ≤ 1: a disk if u and v are perpendicular and equally long, else an ellipse.
 /// No ray hits it if they are parallel or a number isn't finite.
@@ -55,6 +58,14 @@ impl Shape for Disk {
     /// u and v are a and b, each from −1 to 1.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.0.surface(ray, hit)
+    }
+
+    fn area(&self) -> f64 {
+        0.25 * PI * self.0.area()
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        Some(self.0.at(in_disk(at)))
     }
 
     /// Circles and diameters.

@@ -15,6 +15,7 @@ mod plane_form;
 mod quadric;
 mod quadric_lines;
 mod rectangle;
+mod sample;
 mod shared_corners;
 mod span;
 mod sphere;
@@ -38,6 +39,8 @@ pub use plane::Plane;
 pub use plane_form::PlaneForm;
 pub use quadric::Quadric;
 pub use rectangle::Rectangle;
+pub use sample::SampledPoint;
+pub(crate) use sample::{in_disk, on_sphere};
 pub use span::Span;
 pub use sphere::Sphere;
 pub use surface::SurfacePoint;
@@ -47,6 +50,7 @@ pub use triangle::Triangle;
 use crate::aabb::{Aabb, Planes};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
+use glam::DVec2;
 use std::fmt::Debug;
 
 /// A shape's names and equations.
@@ -97,6 +101,16 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
 
     /// Passes lines on the surface to `add`, for display.
     fn lines(&self, detail: &LineDetail, add: AddLine<'_>);
+
+    /// The area of the surface; 0 if its points can't be sampled.
+    fn area(&self) -> f64 {
+        0.0
+    }
+
+    /// A point of the surface, uniform by area for uniform points `at` of the unit square; `None` if the area is 0.
+    fn sampled_point(&self, _at: DVec2) -> Option<SampledPoint> {
+        None
+    }
 
     /// How crossings divide the ray's whole line into parts inside and outside the primitive.
     fn interior(&self, _ray: &Ray) -> Interior {

@@ -3,12 +3,12 @@
 use super::compact::Slots;
 use super::lines::grid;
 use super::span::{Span, SpannedRay};
-use super::{AddLine, LineDetail, Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{AddLine, LineDetail, SampledPoint, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
-use glam::Vec3;
+use glam::{DVec2, Vec3};
 
 /// The points c + a·u + b·v with |a| ≤ 1 and |b| ≤ 1: a rectangle if u and v are perpendicular, else a parallelogram.
 /// No ray hits it if they are parallel or a number isn't finite.
@@ -55,6 +55,14 @@ impl Shape for Rectangle {
     /// u and v are a and b, each from −1 to 1.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         self.0.surface(ray, hit)
+    }
+
+    fn area(&self) -> f64 {
+        self.0.area()
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        Some(self.0.at(2.0 * at - 1.0))
     }
 
     /// A grid.

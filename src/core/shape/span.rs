@@ -1,6 +1,6 @@
 //! A centre and two half axes: what disks and rectangles have in common.
 
-use super::{Parameter, SurfacePoint, U};
+use super::{Parameter, SampledPoint, SurfacePoint, U};
 use crate::aabb::Planes;
 use crate::algebra::{Polynomial, RayIn, Ring, cross, difference, dot, vector};
 use crate::lane::{Lane, Values};
@@ -71,6 +71,21 @@ impl Span {
         };
         let [[a, b], [c, d], [e, f]] = [side(0), side(1), side(2)];
         [a, b, c, d, e, f]
+    }
+
+    /// The area of the parallelogram c ± u ± v.
+    pub(super) fn area(&self) -> f64 {
+        4.0 * self.u.as_dvec3().cross(self.v.as_dvec3()).length()
+    }
+
+    /// The point with coordinates a and b.
+    pub(super) fn at(&self, at: DVec2) -> SampledPoint {
+        let [centre, u, v] = [self.centre, self.u, self.v].map(Vec3::as_dvec3);
+        SampledPoint {
+            position: centre + at.x * u + at.y * v,
+            u: at.x as f32,
+            v: at.y as f32,
+        }
     }
 
     /// The point of a hit, with a and b as its surface coordinates.

@@ -1,7 +1,10 @@
 //! Spheres.
 
 use super::compact::Slots;
-use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{
+    AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint,
+    numbers_of, on_sphere,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
@@ -99,6 +102,19 @@ impl Shape for Sphere {
             error: self.error(),
             is_flat: false,
         }
+    }
+
+    fn area(&self) -> f64 {
+        4.0 * PI * f64::from(self.radius).powi(2)
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        let on_unit = on_sphere(at);
+        Some(SampledPoint {
+            position: self.centre.as_dvec3() + f64::from(self.radius) * on_unit,
+            u: 0.0,
+            v: 0.0,
+        })
     }
 
     fn interior(&self, _: &Ray) -> Interior {

@@ -1,8 +1,9 @@
 //! Triangles.
 
 use super::lines::straight;
+use super::sample::in_triangle;
 use super::shared_corners::SharedCorners;
-use super::{AddLine, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U};
+use super::{AddLine, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint, U};
 use crate::aabb::{Aabb, Planes};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
@@ -76,6 +77,21 @@ impl Shape for Triangle {
             error: self.error(weighted, position),
             is_flat: true,
         }
+    }
+
+    fn area(&self) -> f64 {
+        let [a, b, c] = self.0.map(Vec3::as_dvec3);
+        0.5 * (b - a).cross(c - a).length()
+    }
+
+    fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
+        let [a, b, c] = self.0.map(Vec3::as_dvec3);
+        let weights = in_triangle(at);
+        Some(SampledPoint {
+            position: a + weights.x * (b - a) + weights.y * (c - a),
+            u: weights.x as f32,
+            v: weights.y as f32,
+        })
     }
 
     /// The edges.

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{Comparison, Context};
+use hitscope_core::integrator::{Comparison, Context, Lighting};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
@@ -137,6 +137,7 @@ impl PictureArgs {
             camera,
             shading,
             background: from_display(DARK_BACKGROUND),
+            lighting: Lighting::default(),
         };
         let job = Job {
             context,

@@ -9,7 +9,7 @@ use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
 use hitscope_core::Camera;
-use hitscope_core::integrator::Context;
+use hitscope_core::integrator::{Context, Lighting};
 use std::sync::Arc;
 
 /// Place of the picture in the window. It covers whole physical pixels, so that each pixel of the picture is one
@@ -121,6 +121,7 @@ impl App {
                 camera: self.turntable.camera(resolution),
                 shading: self.settings.shading(),
                 background,
+                lighting: Lighting::default(),
             },
             integrator: self.settings.view(),
             samples: self.settings.samples,

@@ -3,7 +3,7 @@
 use super::*;
 use glam::DVec3;
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::INTEGRATORS;
+use hitscope_core::integrator::{INTEGRATORS, Lighting};
 use hitscope_core::kernel::triangle_kernel;
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::scene::Shading;
@@ -37,6 +37,7 @@ fn request(scene: &Arc<Scene>, x: f64, samples: u32) -> Request {
                 .expect("a camera"),
             shading: Shading::Flat,
             background: Vec3::ZERO,
+            lighting: Lighting::default(),
         },
         integrator: INTEGRATORS[0],
         samples,

@@ -1,0 +1,63 @@
+//! Perfectly diffuse surfaces: they look equally bright from everywhere.
+//!
+//! Source: J. H. Lambert, "Photometria", 1760.
+
+use super::{Bsdf, Model, Scatter, Scattered};
+use crate::shape::in_disk;
+use glam::{Vec2, Vec3};
+use std::f32::consts::FRAC_1_PI;
+
+/// A surface that reflects a part of the light equally to all directions on its front.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Diffuse {
+    /// The part that is reflected, in linear RGB; at most 1.
+    pub reflectance: Vec3,
+}
+
+pub(super) static DIFFUSE: Model = Model {
+    name: "diffuse",
+    source: "Lambert, Photometria, 1760",
+    transmits: false,
+    is_reciprocal: true,
+    examples: || {
+        let grey = |x| {
+            Bsdf::Diffuse(Diffuse {
+                reflectance: Vec3::splat(x),
+            })
+        };
+        vec![grey(0.5), grey(1.0)]
+    },
+};
+
+/// A direction about the z axis with a density of cos θ / π.
+///
+/// Source: Malley's method; Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, A.5.3.
+pub(crate) fn cosine_direction(at: Vec2) -> Vec3 {
+    let disk = in_disk(at.as_dvec2());
+    let z = (1.0 - disk.length_squared()).max(0.0).sqrt();
+    Vec3::new(disk.x as f32, disk.y as f32, z as f32)
+}
+
+impl Scatter for Diffuse {
+    fn evaluate(&self, outgoing: Vec3, incoming: Vec3) -> Vec3 {
+        self.reflectance * self.density(outgoing, incoming)
+    }
+
+    fn sample(&self, outgoing: Vec3, at: Vec2, _: f32) -> Option<Scattered> {
+        let incoming = cosine_direction(at);
+        let density = self.density(outgoing, incoming);
+        (density > 0.0).then_some(Scattered {
+            incoming,
+            weight: self.reflectance,
+            density: Some(density),
+        })
+    }
+
+    fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
+        if outgoing.z > 0.0 && incoming.z > 0.0 {
+            FRAC_1_PI * incoming.z
+        } else {
+            0.0
+        }
+    }
+}

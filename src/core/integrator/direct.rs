@@ -1,0 +1,24 @@
+//! The view *Direct light*: light that reaches surfaces straight from the lights.
+
+use super::path::follow;
+use super::{Context, Integrator, Needs};
+use crate::ray::{Hit, Ray};
+use crate::sampler::Sampler;
+use glam::Vec3;
+
+/// The row of the view.
+pub(super) static DIRECT: Integrator = Integrator {
+    name: "direct",
+    title: "Direct light",
+    about: "Light from the lights, without light by way of other surfaces.",
+    needs: Needs::LIGHTS,
+    legend: Vec::new,
+    radiance,
+};
+
+fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
+    if hit.is_none() && context.lighting.lights.environment().is_none() {
+        return context.background;
+    }
+    follow(context, ray, hit, sampler, Some(1))
+}

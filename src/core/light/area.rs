@@ -1,0 +1,88 @@
+//! Primitives whose material emits light.
+
+use super::LightSample;
+use crate::mesh::Material;
+use crate::ray::{Hit, Ray};
+use crate::scene::Scene;
+use crate::spawn::Endpoint;
+use glam::{Vec2, Vec3};
+use std::f32::consts::PI;
+
+/// A primitive that emits the same light everywhere and to all directions on one side or both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct AreaLight {
+    primitive: u32,
+    radiance: Vec3,
+    /// In square units of the scene.
+    area: f64,
+    emits_on_back: bool,
+}
+
+impl AreaLight {
+    /// The primitives of a scene that emit light. Those without an area that can be sampled are left out; rays that hit
+    /// them find their light.
+    pub(super) fn of_scene(scene: &Scene) -> impl Iterator<Item = Self> + '_ {
+        let materials = &scene.mesh().attributes().materials;
+        let emits = |material: &Material| material.emission.max_element() > 0.0;
+        let any = materials.entries().iter().any(emits);
+        let count = if any { scene.primitive_count() } else { 0 };
+        (0..count as u32).filter_map(move |primitive| {
+            let material = materials.get(scene.material(primitive))?;
+            let area = if emits(material) {
+                scene.area(primitive)
+            } else {
+                0.0
+            };
+            (area > 0.0 && area.is_finite()).then_some(Self {
+                primitive,
+                radiance: material.emission,
+                area,
+                emits_on_back: material.emits_on_back,
+            })
+        })
+    }
+
+    pub(super) fn primitive(&self) -> u32 {
+        self.primitive
+    }
+
+    pub(super) fn power(&self) -> Vec3 {
+        let sides = if self.emits_on_back { 2.0 } else { 1.0 };
+        sides * PI * self.area as f32 * self.radiance
+    }
+
+    /// `None` if the sampled point doesn't emit towards `from`.
+    pub(super) fn sample(&self, scene: &Scene, from: Vec3, at: Vec2) -> Option<LightSample> {
+        let (ray, hit) = scene.sampled(self.primitive, from, at.as_dvec2())?;
+        let surface = scene.surface(&ray, &hit);
+        let way = surface.position.as_dvec3() - from.as_dvec3();
+        let dir = way.try_normalize()?.as_vec3();
+        let density = self.density_at(way.length_squared(), surface.normal.as_vec3().dot(-dir))?;
+        Some(LightSample {
+            dir,
+            end: Some(Endpoint::OnSurface {
+                hit,
+                surface,
+                corners: scene.corners(self.primitive),
+            }),
+            weight: self.radiance / density,
+            density: Some(density),
+        })
+    }
+
+    /// The density of the point that a ray hits, as seen from a point on its line.
+    pub(super) fn density(&self, scene: &Scene, from: Vec3, ray: &Ray, hit: &Hit) -> f32 {
+        let surface = scene.surface(ray, hit);
+        let way = surface.position.as_dvec3() - from.as_dvec3();
+        let towards = -(ray.dir.normalize());
+        let cos = surface.normal.as_vec3().dot(towards);
+        self.density_at(way.length_squared(), cos).unwrap_or(0.0)
+    }
+
+    /// The density of a point at a squared distance, with the cosine between its normal and the way back.
+    fn density_at(&self, squared_distance: f64, cos: f32) -> Option<f32> {
+        let cos = if self.emits_on_back { cos.abs() } else { cos };
+        let density = squared_distance / (f64::from(cos) * self.area);
+        (cos > 0.0 && density > 0.0).then_some(density as f32)
+    }
+}

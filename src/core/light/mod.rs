@@ -1,0 +1,165 @@
+//! Lights: one file a kind.
+//!
+//! Radiance is linear RGB, in any unit: twice the light gives twice the picture. A density is a probability per solid
+//! angle as seen from the lit point.
+
+mod alias;
+mod area;
+mod distant;
+mod environment;
+mod point;
+
+pub use alias::AliasTable;
+pub use area::AreaLight;
+pub use distant::DirectionalLight;
+pub use environment::Environment;
+pub use point::PointLight;
+
+use crate::ray::{Hit, Ray};
+use crate::scene::Scene;
+use crate::spawn::Endpoint;
+use crate::srgb::luminance;
+use glam::{Vec2, Vec3};
+use std::collections::HashMap;
+
+/// A light that is sampled.
+#[derive(Clone, Debug)]
+pub enum Light {
+    /// Light from infinitely far away, from all directions.
+    Environment(Environment),
+    /// Light from infinitely far away, from one direction.
+    Directional(DirectionalLight),
+    /// Light from a point.
+    Point(PointLight),
+    /// A primitive whose material emits light.
+    Area(AreaLight),
+}
+
+/// Light that may reach a point from a direction, if nothing is in the way.
+#[derive(Clone, Debug)]
+pub struct LightSample {
+    /// The unit direction to the light.
+    pub dir: Vec3,
+    /// Where the way to the light ends; `None` if it doesn't.
+    pub end: Option<Endpoint>,
+    /// The light that arrives, divided by the density.
+    pub weight: Vec3,
+    /// The density; `None` if the light comes from a single direction, so that no ray meets it by chance.
+    pub density: Option<f32>,
+}
+
+/// The lights of a scene.
+#[derive(Clone, Debug, Default)]
+pub struct Lights {
+    lights: Vec<Light>,
+    /// Chooses a light by its power.
+    choice: AliasTable,
+    /// The index of the environment.
+    environment: Option<u32>,
+    /// The light of each primitive that emits light.
+    of_primitive: HashMap<u32, u32>,
+    has_coverage: bool,
+}
+
+impl Lights {
+    /// The primitives of a scene that emit light, and further lights. Of several environments the last one counts.
+    pub fn new(scene: &Scene, others: Vec<Light>) -> Self {
+        let mut lights: Vec<Light> = AreaLight::of_scene(scene).map(Light::Area).collect();
+        let of_primitive = lights
+            .iter()
+            .zip(0..)
+            .filter_map(|(light, index)| match light {
+                Light::Area(light) => Some((light.primitive(), index)),
+                _ => None,
+            });
+        let of_primitive = of_primitive.collect();
+        let is_environment = |light: &Light| matches!(light, Light::Environment(_));
+        let last = others.iter().rposition(is_environment);
+        let kept = others.into_iter().enumerate();
+        let kept = kept.filter(|(k, light)| !is_environment(light) || Some(*k) == last);
+        lights.extend(kept.map(|(_, light)| light));
+        let materials = &scene.mesh().attributes().materials;
+        let radius = scene.bounds().radius();
+        let power = |light: &Light| f64::from(luminance(light.power(radius)));
+        Self {
+            choice: AliasTable::new(&lights.iter().map(power).collect::<Vec<_>>()),
+            environment: lights.iter().position(is_environment).map(|k| k as u32),
+            of_primitive,
+            has_coverage: materials.entries().iter().any(|m| m.opacity < 1.0),
+            lights,
+        }
+    }
+
+    /// Whether light passes through parts of some surface.
+    pub fn has_coverage(&self) -> bool {
+        self.has_coverage
+    }
+
+    /// All lights.
+    pub fn all(&self) -> &[Light] {
+        &self.lights
+    }
+
+    /// The environment.
+    pub fn environment(&self) -> Option<&Environment> {
+        match self.lights.get(self.environment? as usize)? {
+            Light::Environment(environment) => Some(environment),
+            _ => None,
+        }
+    }
+
+    /// Light that reaches a point, from a light chosen by its power. `at` and `choice` are uniform numbers in [0, 1).
+    pub fn sample(&self, scene: &Scene, from: Vec3, at: Vec2, choice: f32) -> Option<LightSample> {
+        let (index, probability) = self.choice.sample(choice)?;
+        let sample = match &self.lights[index] {
+            Light::Environment(light) => light.sample(at),
+            Light::Directional(light) => Some(light.sample()),
+            Light::Point(light) => light.sample(from),
+            Light::Area(light) => light.sample(scene, from, at),
+        }?;
+        Some(LightSample {
+            weight: sample.weight / probability,
+            density: sample.density.map(|density| density * probability),
+            ..sample
+        })
+    }
+
+    /// The light that comes from infinitely far away, from a unit direction; `None` without an environment.
+    pub fn from_afar(&self, dir: Vec3) -> Option<Vec3> {
+        self.environment().map(|light| light.radiance(dir))
+    }
+
+    /// The density with which [`sample`](Self::sample) chooses the environment in a unit direction.
+    pub fn density_of_environment(&self, dir: Vec3) -> f32 {
+        let density = |light: &Environment| light.density(dir);
+        self.environment().map_or(0.0, density) * self.probability(self.environment)
+    }
+
+    /// The density with which [`sample`](Self::sample) chooses the point that a ray hits, for the lit point `from` on the
+    /// ray's line.
+    pub fn density_of_hit(&self, scene: &Scene, from: Vec3, ray: &Ray, hit: &Hit) -> f32 {
+        let index = self.of_primitive.get(&hit.primitive).copied();
+        match index.map(|index| &self.lights[index as usize]) {
+            Some(Light::Area(light)) => {
+                light.density(scene, from, ray, hit) * self.probability(index)
+            }
+            _ => 0.0,
+        }
+    }
+
+    fn probability(&self, light: Option<u32>) -> f32 {
+        light.map_or(0.0, |index| self.choice.probability(index as usize))
+    }
+}
+
+impl Light {
+    /// About the power that lights a scene of this radius, up to a factor that all lights have in common.
+    fn power(&self, radius: f64) -> Vec3 {
+        match self {
+            Self::Environment(light) => light.power(radius),
+            Self::Directional(light) => light.power(radius),
+            Self::Point(light) => light.power(),
+            Self::Area(light) => light.power(),
+        }
+    }
+}
