@@ -13,7 +13,10 @@ pub(super) static AMBIENT_OCCLUSION: Integrator = Integrator {
     name: "ao",
     title: "Ambient occlusion",
     about: "The part of directions, weighted by cosine, in which nothing is near. White is open.",
-    needs: Needs::LIGHTS,
+    needs: Needs {
+        ao_distance: true,
+        ..Needs::LIGHTS
+    },
     legend: Vec::new,
     radiance,
 };

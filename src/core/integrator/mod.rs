@@ -96,6 +96,10 @@ pub struct Needs {
     pub vertex_normals: bool,
     /// Whether the view needs lights.
     pub lights: bool,
+    /// Whether the view depends on [`Lighting::ao_distance`].
+    pub ao_distance: bool,
+    /// Whether the view depends on [`Lighting::depth_limit`].
+    pub depth_limit: bool,
     /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
     pub final_tree: bool,
 }
@@ -106,6 +110,8 @@ impl Needs {
         second: Comparison::Nothing,
         vertex_normals: false,
         lights: false,
+        ao_distance: false,
+        depth_limit: false,
         final_tree: false,
     };
     /// Vertex normals.

@@ -14,7 +14,10 @@ pub(super) static PATH: Integrator = Integrator {
     name: "path",
     title: "Path tracing",
     about: "Light from the lights and by way of other surfaces.",
-    needs: Needs::LIGHTS,
+    needs: Needs {
+        depth_limit: true,
+        ..Needs::LIGHTS
+    },
     legend: Vec::new,
     radiance,
 };

@@ -100,6 +100,13 @@ impl App {
                 true,
             ),
             (
+                "Noise",
+                settings.shows_noise,
+                Action::ToggleNoise,
+                "Standard error of each pixel, in views with light",
+                settings.view().needs.lights,
+            ),
+            (
                 "Orthographic",
                 self.turntable.is_orthographic,
                 Action::ToggleOrthographic,
