@@ -76,6 +76,7 @@ pub fn noise_legend() -> Legend {
 /// A film's pixels as they are shown.
 pub struct Development {
     look: Look,
+    size: UVec2,
     /// Empty for [`Look::PLAIN`].
     pixels: Vec<[u8; 4]>,
 }
@@ -84,6 +85,7 @@ impl Default for Development {
     fn default() -> Self {
         Self {
             look: Look::PLAIN,
+            size: UVec2::ZERO,
             pixels: Vec::new(),
         }
     }
@@ -91,7 +93,7 @@ impl Default for Development {
 
 impl Development {
     /// Updates the pixels of a film that changed; all of them if the look or the size changed. Returns all pixels, row by
-    /// row from the top, and the rectangle to upload; `None` if nothing changed.
+    /// row from the top, and the rectangle to upload; `None` if nothing changed, also for a film of another size.
     pub fn update<'a>(
         &'a mut self,
         film: &'a Film,
@@ -99,18 +101,23 @@ impl Development {
         look: Look,
     ) -> Option<(&'a [[u8; 4]], PixelRect)> {
         let size = film.size();
+        let (is_same_look, is_same_size) = (look == self.look, size == self.size);
+        let all = PixelRect {
+            min: UVec2::ZERO,
+            max: size,
+        };
+        let rect = match changed {
+            Some(rect) if is_same_look && is_same_size => rect,
+            // A new film has nothing to show before its first pixels change.
+            None if is_same_look || !is_same_size => return None,
+            _ => all,
+        };
+        (self.look, self.size) = (look, size);
         let count = if look.is_plain() {
             0
         } else {
             size.element_product() as usize
         };
-        let all = PixelRect {
-            min: UVec2::ZERO,
-            max: size,
-        };
-        let is_new = look != self.look || self.pixels.len() != count;
-        let rect = if is_new { Some(all) } else { changed }?;
-        self.look = look;
         self.pixels.resize(count, [0; 4]);
         if look.is_plain() {
             return Some((film.pixels(), rect));
@@ -204,7 +211,10 @@ mod tests {
         let mut development = Development::default();
         let one = film(&[0.5]);
         let noise = Look::Noise(1.0);
-        let (pixels, _) = development.update(&one, None, noise).expect("a new look");
+        assert!(development.update(&one, None, noise).is_none(), "unseen");
+        let (pixels, _) = development
+            .update(&one, Some(all()), noise)
+            .expect("changed");
         assert_eq!(pixels, one.pixels());
         // The standard error of 0.4 and 0.6 is 0.1.
         let two = film(&[0.4, 0.6]);

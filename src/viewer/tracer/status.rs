@@ -6,6 +6,8 @@ use std::time::Duration;
 /// Figures for the status line.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Status {
+    /// Whether the preview of a view that needs lights is being traced.
+    pub is_preview: bool,
     /// Number of samples that every pixel has; 0 while the picture consists of coarse blocks.
     pub samples: u32,
     /// Passes done.
@@ -29,6 +31,7 @@ impl Tracer {
     pub fn status(&self) -> Status {
         let speed = &self.speeds[usize::from(self.is_lit())];
         Status {
+            is_preview: self.posted.as_ref().is_some_and(|posted| posted.is_preview),
             samples: self.film.samples(),
             passes: self.film.passes_done(),
             pass_count: self.film.plan().pass_count(),
