@@ -13,10 +13,7 @@ pub(super) static AMBIENT_OCCLUSION: Integrator = Integrator {
     name: "ao",
     title: "Ambient occlusion",
     about: "The part of directions, weighted by cosine, in which nothing is near. White is open.",
-    needs: Needs {
-        ao_distance: true,
-        ..Needs::LIGHTS
-    },
+    needs: Needs::LIGHTS,
     legend: Vec::new,
     radiance,
 };

@@ -14,10 +14,7 @@ pub(super) static PATH: Integrator = Integrator {
     name: "path",
     title: "Path tracing",
     about: "Light from the lights and by way of other surfaces.",
-    needs: Needs {
-        depth_limit: true,
-        ..Needs::LIGHTS
-    },
+    needs: Needs::LIGHTS,
     legend: Vec::new,
     radiance,
 };
