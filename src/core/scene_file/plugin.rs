@@ -1,4 +1,4 @@
-//! Objects that are kept as they stand in the file: integrators and emitters.
+//! Objects that are kept as they stand in the file: integrators, and emitters that aren't supported.
 
 use super::description::Place;
 use glam::{DMat4, DVec3};
