@@ -3,7 +3,7 @@
 use super::element::Element;
 use super::objects;
 use super::parameters::Parameters;
-use super::plugin::Plugin;
+use super::plugin::{Parameter, Plugin};
 use super::problem::{Problem, quoted};
 use super::reader::Reader;
 use crate::integrator;
@@ -45,6 +45,9 @@ const RR_DEPTH: u32 = 5;
 pub(super) fn integrator(reader: &mut Reader, element: Element) -> Result<Integrator, Problem> {
     let plugin = objects::plugin(reader, element)?;
     let mut parameters = Parameters::new("integrator", &plugin.kind, element.place);
+    // The copies last until the end of the function.
+    let bytes: usize = plugin.parameters.iter().map(Parameter::bytes).sum();
+    reader.memory.take(bytes as u64, element.place)?;
     for parameter in &plugin.parameters {
         parameters.add(parameter.clone())?;
     }
@@ -77,6 +80,7 @@ pub(super) fn integrator(reader: &mut Reader, element: Element) -> Result<Integr
             *view
         }
     };
+    reader.memory.give_back(bytes as u64);
     Ok(Integrator {
         plugin,
         view,

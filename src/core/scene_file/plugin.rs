@@ -58,6 +58,17 @@ pub enum Value {
     Reference(String),
 }
 
+impl Parameter {
+    /// The memory that the parameter takes.
+    pub(super) fn bytes(&self) -> usize {
+        let text_length = match &self.value {
+            Value::Text(text) | Value::Reference(text) => text.len(),
+            _ => 0,
+        };
+        size_of::<Self>() + self.name.len() + text_length
+    }
+}
+
 impl Value {
     /// The name of the element with such a value.
     pub fn element(&self) -> &'static str {
