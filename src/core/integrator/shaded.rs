@@ -1,6 +1,6 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Setting};
 use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
 use crate::light::studio::{self, AMBIENT, Lamp};
 use crate::mesh::{Illumination, Material};
@@ -16,7 +16,10 @@ pub(super) static SHADED: Integrator = Integrator {
     name: "shaded",
     title: "Shaded",
     about: "Lit by a studio light that moves with the camera.",
-    needs: Needs::VERTEX_NORMALS,
+    needs: Needs {
+        settings: &[Setting::Exposure],
+        ..Needs::VERTEX_NORMALS
+    },
     legend: Vec::new,
     radiance,
 };
