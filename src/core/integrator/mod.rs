@@ -105,6 +105,23 @@ pub struct Needs {
     pub second_policy: bool,
     /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
     pub final_tree: bool,
+    /// The settings that change the picture.
+    pub settings: &'static [Setting],
+}
+
+/// A setting that changes the pictures of some views.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// The lights and the environment.
+    Lights,
+    /// How rays leave surfaces.
+    Spawn,
+    /// The most surfaces on a path.
+    Depth,
+    /// The distance to which surfaces occlude.
+    OcclusionDistance,
+    /// The factor between light and colour: the view's colours are light.
+    Exposure,
 }
 
 impl Needs {
@@ -115,6 +132,7 @@ impl Needs {
         lights: false,
         second_policy: false,
         final_tree: false,
+        settings: &[],
     };
     /// Vertex normals.
     const VERTEX_NORMALS: Self = Self {
@@ -124,8 +142,24 @@ impl Needs {
     /// Vertex normals and lights.
     const LIGHTS: Self = Self {
         lights: true,
+        settings: &[Setting::Lights, Setting::Spawn, Setting::Exposure],
         ..Self::VERTEX_NORMALS
     };
+    /// Vertex normals and lights, for paths of any length.
+    const PATHS: Self = Self {
+        settings: &[
+            Setting::Lights,
+            Setting::Spawn,
+            Setting::Depth,
+            Setting::Exposure,
+        ],
+        ..Self::LIGHTS
+    };
+
+    /// Whether a setting changes the picture.
+    pub fn uses(&self, setting: Setting) -> bool {
+        self.settings.contains(&setting)
+    }
 }
 
 /// The kernel that a view compares the chosen one with.

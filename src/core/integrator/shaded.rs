@@ -1,7 +1,8 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Setting};
 use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
+use crate::light::studio::{self, AMBIENT, Lamp};
 use crate::mesh::{Illumination, Material};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -15,21 +16,16 @@ pub(super) static SHADED: Integrator = Integrator {
     name: "shaded",
     title: "Shaded",
     about: "Lit by a studio light that moves with the camera.",
-    needs: Needs::VERTEX_NORMALS,
+    needs: Needs {
+        settings: &[Setting::Exposure],
+        ..Needs::VERTEX_NORMALS
+    },
     legend: Vec::new,
     radiance,
 };
 
 /// Reflectance of faces without a material.
 const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
-/// Ambient light; the rest comes from the two lamps.
-const AMBIENT: f32 = 0.10;
-/// Directions and strengths of the lamps in camera space: a key light at the upper left, a fill light at the
-/// lower right.
-const LAMPS: [(Vec3, f32); 2] = [
-    (Vec3::new(-0.45, 0.65, 0.62), 0.85),
-    (Vec3::new(0.80, -0.10, 0.60), 0.22),
-];
 /// Maximum number of transparent surfaces along a ray; behind the last one it sees the background.
 const MOST_LAYERS: usize = 32;
 /// Transmittance below which a ray is ended: half a step of 8 bits.
@@ -73,7 +69,9 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
     let diffuse = diffuse(&context.scene, material, &hit);
-    let emission = material.map_or(Vec3::ZERO, |m| m.emission);
+    let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
+    let emitting = material.filter(|material| is_front || material.emits_on_back);
+    let emission = emitting.map_or(Vec3::ZERO, |material| material.emission);
     let opacity = material.map_or(1.0, |m| m.opacity);
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
     if illumination == Illumination::Constant {
@@ -81,11 +79,8 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     }
 
     let normal = surface.facing_normal(ray);
-    let camera = &context.camera;
-    let axes = [camera.right(), camera.up(), camera.back()].map(|axis| axis.as_vec3());
-    let to_lamp = |dir: Vec3| (dir.x * axes[0] + dir.y * axes[1] + dir.z * axes[2]).normalize();
-    let lamps = LAMPS.map(|(dir, strength)| (to_lamp(dir), strength));
-    let of_lamp = |(dir, strength): (Vec3, f32)| strength * normal.dot(dir).max(0.0);
+    let lamps = studio::lamps(&context.camera);
+    let of_lamp = |lamp: Lamp| lamp.strength * normal.dot(lamp.to_lamp).max(0.0);
     let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();
     let mut sum = light * diffuse + emission;
     if let Some(material) = material
@@ -95,11 +90,11 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
         && material.shininess > 0.0
     {
         let to_eye = (-ray.dir).normalize_or_zero();
-        let highlight = |(dir, strength): (Vec3, f32)| {
-            let halfway = (dir + to_eye).normalize_or_zero();
-            let is_lit = normal.dot(dir) > 0.0;
+        let highlight = |lamp: Lamp| {
+            let halfway = (lamp.to_lamp + to_eye).normalize_or_zero();
+            let is_lit = normal.dot(lamp.to_lamp) > 0.0;
             let size = normal.dot(halfway).max(0.0).powf(material.shininess);
-            if is_lit { strength * size } else { 0.0 }
+            if is_lit { lamp.strength * size } else { 0.0 }
         };
         sum += material.specular * lamps.into_iter().map(highlight).sum::<f32>();
     }
