@@ -28,7 +28,7 @@ fn main() -> std::io::Result<()> {
 }
 
 /// The file in Radiance HDR format, without compression.
-fn file() -> Vec<u8> {
+pub fn file() -> Vec<u8> {
     let texels: Vec<DVec3> = (0..WIDTH * HEIGHT)
         .map(|k| radiance(direction(k % WIDTH, k / WIDTH)))
         .collect();
