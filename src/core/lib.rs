@@ -25,6 +25,7 @@
 //! | [`spawn`] | origins of rays that leave a surface |
 //! | [`plan`] | the order in which pixels and samples are traced |
 //! | [`film`] | accumulation of samples |
+//! | [`tone`] | exposure and tone curves |
 //! | [`render`] | progressive rendering on several threads |
 //! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`] | shared types |
 //!
@@ -62,6 +63,7 @@ pub mod shape;
 pub mod simd;
 pub mod spawn;
 pub mod srgb;
+pub mod tone;
 
 pub use aabb::Aabb;
 pub use camera::Camera;

@@ -197,7 +197,7 @@ pub static POINTER: &[(&str, &str)] = &[
     ("Shift+drag, middle drag or right drag", "Pan"),
     (
         "Ctrl+drag",
-        "Rotate the environment, in views with its light",
+        "Rotate the environment, if it is a picture and the view shows its light",
     ),
     ("Scroll or pinch", "Zoom to the cursor"),
     ("Click", "Inspect the pixel"),

@@ -1,17 +1,18 @@
 //! The settings of the window, kept between runs.
 
-use crate::look::{TONE_CURVES, ToneCurve};
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
+use hitscope_core::integrator::{INTEGRATORS, Integrator, Setting, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{KernelChoice, default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
-use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
+use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy, spawn_policy};
+use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
+use std::path::PathBuf;
 
 /// A tab of the side panel.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
@@ -25,6 +26,19 @@ pub enum Tab {
     Mesh,
     /// Speed and accuracy of the kernels in this scene.
     Trade,
+}
+
+/// Where light from far away comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum EnvironmentSource {
+    /// The lights of the scene's file; white light from everywhere if nothing in the scene emits light.
+    Scene,
+    /// A colour, the same from everywhere.
+    Colour,
+    /// The built-in studio.
+    Studio,
+    /// A picture in a file.
+    File,
 }
 
 /// Allowed widths of the side panel, in points.
@@ -69,13 +83,19 @@ pub struct Settings {
     pub noise_limit_percent: f32,
     /// Name of the rule for rays that leave surfaces.
     pub spawn: String,
+    /// Name of the rule that the view *Spawn policies* compares with.
+    pub second_spawn: String,
     /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene.
     pub ao_distance: f32,
     /// Whether paths have a limit on their surfaces.
     pub has_depth_limit: bool,
     /// The most surfaces on a path.
     pub depth_limit: u32,
-    /// sRGB of the light from far away.
+    /// Where light from far away comes from.
+    pub environment: EnvironmentSource,
+    /// The picture of [`EnvironmentSource::File`].
+    pub environment_file: Option<PathBuf>,
+    /// sRGB of [`EnvironmentSource::Colour`].
     pub environment_colour: [u8; 3],
     /// Factor of the light from far away.
     pub environment_brightness: f32,
@@ -132,9 +152,12 @@ impl Default for Settings {
             has_noise_limit: false,
             noise_limit_percent: 1.0,
             spawn: default_spawn_policy().name.to_owned(),
+            second_spawn: SPAWN_POLICIES[0].name.to_owned(),
             ao_distance: 1.0,
             has_depth_limit: false,
             depth_limit: 8,
+            environment: EnvironmentSource::Scene,
+            environment_file: None,
             environment_colour: [255; 3],
             environment_brightness: 1.0,
             environment_degrees: 0.0,
@@ -222,9 +245,12 @@ impl Settings {
 
     /// How rays leave surfaces.
     pub fn spawn(&self) -> &'static SpawnPolicy {
-        let mut policies = SPAWN_POLICIES.iter();
-        let named = policies.find(|policy| policy.name == self.spawn);
-        named.unwrap_or_else(default_spawn_policy)
+        spawn_policy(&self.spawn).unwrap_or_else(default_spawn_policy)
+    }
+
+    /// The rule that the view *Spawn policies* compares with.
+    pub fn second_spawn(&self) -> &'static SpawnPolicy {
+        spawn_policy(&self.second_spawn).unwrap_or(&SPAWN_POLICIES[0])
     }
 
     /// The most surfaces on a path; `None` for no limit.
@@ -232,15 +258,26 @@ impl Settings {
         self.has_depth_limit.then_some(self.depth_limit)
     }
 
-    /// Whether the view shows light, so that environment and exposure matter.
+    /// Whether the view shows light from far away.
     pub fn shows_light(&self) -> bool {
+        self.view().needs.uses(Setting::Lights)
+    }
+
+    /// Whether the light from far away is a picture, which can be rotated.
+    pub fn has_map(&self) -> bool {
+        use EnvironmentSource::{File, Studio};
+        self.shows_light() && matches!(self.environment, Studio | File)
+    }
+
+    /// Whether exposure and tone curve change the picture. The view *Shaded* is shown as it is, which is faster.
+    pub fn is_exposed(&self) -> bool {
         let needs = self.view().needs;
-        needs.lights && !needs.ao_distance
+        needs.lights && needs.uses(Setting::Exposure)
     }
 
     /// The factor of light in the picture.
     pub fn exposure(&self) -> f32 {
-        if self.shows_light() {
+        if self.is_exposed() {
             self.exposure_stops.exp2()
         } else {
             1.0
@@ -249,9 +286,16 @@ impl Settings {
 
     /// How colours are limited to those of the screen.
     pub fn tone_curve(&self) -> &'static ToneCurve {
-        let mut curves = TONE_CURVES.iter();
-        let named = curves.find(|curve| self.shows_light() && curve.name == self.tone_curve);
-        named.unwrap_or(&TONE_CURVES[0])
+        tone_curve(&self.tone_curve).unwrap_or(TONE_CURVES[0])
+    }
+
+    /// How light is shown.
+    pub fn display(&self) -> Display {
+        if self.is_exposed() {
+            Display::new(self.exposure_stops, self.tone_curve())
+        } else {
+            Display::default()
+        }
     }
 
     /// The axis that points up.

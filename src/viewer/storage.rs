@@ -3,15 +3,15 @@
 //! eframe writes the file `app.ron`, a table of strings by name, at the end and twice per minute. The settings are one
 //! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
-use crate::look::TONE_CURVES;
 use crate::panels::light::{
     AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
 };
-use crate::settings::{PANEL_WIDTHS, Settings};
+use crate::settings::{EnvironmentSource, PANEL_WIDTHS, Settings};
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
 use hitscope_core::plan::MAX_SAMPLES;
-use hitscope_core::spawn::SPAWN_POLICIES;
+use hitscope_core::spawn::spawn_policy;
+use hitscope_core::tone::tone_curve;
 use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -122,13 +122,15 @@ fn usable(settings: Settings) -> Settings {
 /// The same for the settings of views that need lights.
 fn usable_light(settings: Settings) -> Settings {
     let default = Settings::default();
-    let named = |name: String, is_known: bool, default: String| {
-        if is_known { name } else { default }
+    let policy = |name: String, default: String| {
+        if spawn_policy(&name).is_some() {
+            name
+        } else {
+            default
+        }
     };
-    let is_policy = SPAWN_POLICIES.iter().any(|row| row.name == settings.spawn);
-    let is_curve = TONE_CURVES
-        .iter()
-        .any(|row| row.name == settings.tone_curve);
+    let lacks_file =
+        settings.environment == EnvironmentSource::File && settings.environment_file.is_none();
     Settings {
         time_limit_s: number(settings.time_limit_s, TIME_LIMITS_S, default.time_limit_s),
         noise_limit_percent: number(
@@ -153,8 +155,18 @@ fn usable_light(settings: Settings) -> Settings {
             default.environment_degrees,
         ),
         exposure_stops: number(settings.exposure_stops, EXPOSURES, default.exposure_stops),
-        spawn: named(settings.spawn, is_policy, default.spawn),
-        tone_curve: named(settings.tone_curve, is_curve, default.tone_curve),
+        environment: if lacks_file {
+            default.environment
+        } else {
+            settings.environment
+        },
+        spawn: policy(settings.spawn, default.spawn),
+        second_spawn: policy(settings.second_spawn, default.second_spawn),
+        tone_curve: if tone_curve(&settings.tone_curve).is_some() {
+            settings.tone_curve
+        } else {
+            default.tone_curve
+        },
         ..settings
     }
 }
@@ -214,6 +226,9 @@ mod tests {
             let panel_width = with("panel_width", width).panel_width;
             assert_eq!(panel_width, default.panel_width, "{width}");
         }
+        // Without the name of a file.
+        let environment = with("environment", "\"File\"").environment;
+        assert_eq!(environment, default.environment);
         for samples in ["0", "3", "131072", "-1", "1.5"] {
             assert_eq!(
                 with("samples", samples).samples,
@@ -228,7 +243,9 @@ mod tests {
             "tab",
             "theme",
             "spawn",
+            "second_spawn",
             "tone_curve",
+            "environment",
         ] {
             let read = with(name, "\"of another version\"");
             let kept =

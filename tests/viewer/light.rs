@@ -6,9 +6,9 @@ use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
 use hitscope::look::noise_legend;
-use hitscope::settings::Settings;
-use hitscope_core::film::encode;
-use std::path::PathBuf;
+use hitscope::settings::{EnvironmentSource, Settings};
+use hitscope_core::tone::Display;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The view *Ambient occlusion*, which needs little time, without the side panel.
@@ -128,7 +128,7 @@ fn noise_is_shown_without_new_samples() {
     let noise = on_screen(&mut window);
     // Where all samples agree, the colour is the lowest of the legend.
     let (least, _) = noise_legend()[0][0].clone();
-    let least = encode(least);
+    let least = Display::default().encode(least);
     let calm = noise.iter().filter(|&&pixel| pixel == least).count();
     assert!(calm > picture.len() / 100 && calm < picture.len(), "{calm}");
     window.get_by_label("Noise").click();
@@ -141,6 +141,7 @@ fn a_drag_with_ctrl_rotates_the_environment_of_views_with_light() {
     for (view, rotates) in [("direct", true), ("shaded", false)] {
         let settings = Settings {
             view: view.to_owned(),
+            environment: EnvironmentSource::Studio,
             ..ambient_occlusion(1)
         };
         let Some(mut window) = app_with(settings) else {
@@ -164,17 +165,31 @@ fn a_drag_with_ctrl_rotates_the_environment_of_views_with_light() {
 }
 
 #[test]
-fn a_dropped_environment_does_not_replace_the_scene() {
-    let Some(mut window) = app_with(ambient_occlusion(1)) else {
+fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
+    let settings = Settings {
+        view: "direct".to_owned(),
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = app_with(settings) else {
         return;
     };
+    wait(&mut window, "the picture", App::is_settled);
     let name = window.state().document().name().to_owned();
-    drop_file(&mut window, PathBuf::from("sky.HDR"));
-    window.run_steps(2);
+    let white = window.state().film().pixels().to_vec();
+    let sky = Path::new(env!("CARGO_MANIFEST_DIR")).join("assets/studio.hdr");
+    drop_file(&mut window, sky.clone());
+    wait(&mut window, "the sky", |app| {
+        app.is_settled() && app.film().pixels() != white
+    });
     let app = window.state();
-    assert_eq!(
-        app.notice(),
-        Some("sky.HDR: environments can't be read from files yet")
-    );
+    assert_eq!(app.notice(), None);
+    assert_eq!(app.settings().environment, EnvironmentSource::File);
+    assert_eq!(app.settings().environment_file, Some(sky));
+    // One that can't be read is reported, and the light is that of the scene again.
+    drop_file(&mut window, PathBuf::from("none.HDR"));
+    wait(&mut window, "the error", |app| app.notice().is_some());
+    let app = window.state();
+    assert!(app.notice().is_some_and(|text| text.contains("none.HDR")));
+    assert_eq!(app.settings().environment, EnvironmentSource::Scene);
     assert_eq!(app.document().name(), name);
 }

@@ -14,7 +14,10 @@ pub(super) static SHADING_NORMAL: Integrator = Integrator {
     name: "shading-normal",
     title: "Shading normal",
     about: "Directions of light that only the shading normal or only the geometric normal admits. Path tracing drops both, which darkens edges and the border of shadows.",
-    needs: Needs::LIGHTS,
+    needs: Needs {
+        settings: &[],
+        ..Needs::LIGHTS
+    },
     legend,
     radiance,
 };

@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{Comparison, Context, Integrator};
+use hitscope_core::integrator::{Comparison, Context, Integrator, Lighting};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
@@ -223,7 +223,11 @@ impl PictureArgs {
             camera,
             shading,
             background: from_display(DARK_BACKGROUND),
-            lighting: self.light.lighting(&loaded, &camera)?,
+            lighting: if view.needs.lights {
+                self.light.lighting(&loaded, &camera)?
+            } else {
+                Lighting::default()
+            },
         };
         let job = Job {
             context,

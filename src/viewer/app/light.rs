@@ -1,22 +1,47 @@
 //! Light in the picture: the lights of a scene, the environment, and how the film is shown.
 
-use super::App;
+use super::{App, Notice, NoticeKind};
 use crate::look::Look;
-use crate::settings::Settings;
+use crate::settings::EnvironmentSource;
+use crate::task::{Task, TaskPanicked};
 use crate::tracer::Limits;
-use glam::Vec3;
+use glam::{Mat3, Vec3};
 use hitscope_core::Scene;
+use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::Lighting;
-use hitscope_core::light::{Environment, Light, Lights};
+use hitscope_core::light::{
+    Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap,
+};
+use hitscope_core::obj::LoadError;
+use hitscope_core::progress::Progress;
 use hitscope_core::srgb::from_texel;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The lights of a scene, and what they were made from.
 pub(super) struct SceneLights {
     scene: Arc<Scene>,
-    environment: Vec3,
+    /// `None` for that of the scene's file.
+    environment: Option<Environment>,
     lights: Arc<Lights>,
+}
+
+/// The picture of an environment in a file.
+#[derive(Default)]
+pub(super) enum EnvironmentFile {
+    #[default]
+    None,
+    Loading(PathBuf, Task<Result<LoadedMap, LoadError>>),
+    Loaded(PathBuf, Arc<EnvironmentMap>),
+}
+
+impl EnvironmentFile {
+    fn path(&self) -> Option<&Path> {
+        match self {
+            Self::None => None,
+            Self::Loading(path, _) | Self::Loaded(path, _) => Some(path),
+        }
+    }
 }
 
 /// Whether a file's name is that of a picture of an environment.
@@ -27,54 +52,130 @@ pub(super) fn is_environment(path: &Path) -> bool {
         .any(|known| extension.eq_ignore_ascii_case(known))
 }
 
-/// The radiance of the environment.
-fn environment(settings: &Settings) -> Vec3 {
-    settings.environment_brightness * from_texel(settings.environment_colour)
-}
-
 impl App {
     /// The lights of the scene and the options of light transport.
     pub(super) fn lighting(&mut self) -> Lighting {
-        let settings = &self.settings;
-        if !settings.view().needs.lights {
+        if !self.settings.view().needs.lights {
             return Lighting::default();
         }
-        let scene = &self.document.loaded.scene;
-        let environment = environment(settings);
+        let loaded = &self.document.loaded;
+        let (scene, environment) = (&loaded.scene, self.environment());
         let is_current = |lights: &SceneLights| {
             Arc::ptr_eq(&lights.scene, scene) && lights.environment == environment
         };
         let kept = self.lights.take().filter(is_current);
         let lights = kept.unwrap_or_else(|| {
-            let others = vec![Light::Environment(Environment::Constant(environment))];
+            let mut others = loaded.lights.clone();
+            let lights = match environment.clone() {
+                None => Lights::or_white(scene, others),
+                Some(environment) => {
+                    others.push(Light::Environment(environment));
+                    Lights::new(scene, others)
+                }
+            };
             SceneLights {
                 scene: Arc::clone(scene),
                 environment,
-                lights: Arc::new(Lights::new(scene, others)),
+                lights: Arc::new(lights),
             }
         });
+        let settings = &self.settings;
         let lighting = Lighting {
             lights: Arc::clone(&lights.lights),
             spawn: settings.spawn(),
+            second_spawn: settings.second_spawn(),
             ao_distance: settings.ao_distance,
-            depth_limit: settings.depth_limit(),
+            depth_limit: settings.depth_limit().or(loaded.depth_limit()),
         };
         self.lights = Some(lights);
         lighting
     }
 
-    /// Lights the scene by a picture of an environment.
+    /// The environment that replaces that of the scene's file; `None` also while it is being loaded.
+    fn environment(&self) -> Option<Environment> {
+        let settings = &self.settings;
+        let brightness = settings.environment_brightness;
+        let map = match settings.environment {
+            EnvironmentSource::Scene => return None,
+            EnvironmentSource::Colour => {
+                let colour = from_texel(settings.environment_colour);
+                return Some(Environment::Constant(brightness * colour));
+            }
+            EnvironmentSource::Studio => EnvironmentMap::built_in(),
+            EnvironmentSource::File => match &self.environment_file {
+                EnvironmentFile::Loaded(_, map) => Arc::clone(map),
+                _ => return None,
+            },
+        };
+        let placement = MapPlacement {
+            orientation: match settings.up_axis() {
+                UpAxis::Y => Mat3::IDENTITY,
+                UpAxis::Z => Mat3::from_cols(Vec3::X, Vec3::Z, Vec3::NEG_Y),
+            },
+            rotation_radians: settings.environment_degrees.to_radians(),
+            scale: brightness,
+        };
+        Some(Environment::Map(PlacedMap::new(map, placement)))
+    }
+
+    /// Lights the scene by a picture of an environment, once it is loaded.
     pub fn set_environment(&mut self, path: &Path) {
-        self.error(format!(
-            "{}: environments can't be read from files yet",
-            path.display()
-        ));
+        self.settings.environment_file = Some(path.to_owned());
+        self.settings.environment = EnvironmentSource::File;
+        // Also loads a file again that has changed.
+        self.environment_file = EnvironmentFile::None;
+    }
+
+    /// Loads the file of the environment if it is wanted. If that fails, the environment is that of the scene again.
+    pub(super) fn poll_environment(&mut self, ctx: &egui::Context) {
+        let is_wanted = self.settings.environment == EnvironmentSource::File
+            && self.settings.view().needs.lights;
+        let Some(path) = self.settings.environment_file.clone().filter(|_| is_wanted) else {
+            return;
+        };
+        if self.environment_file.path() != Some(&path) {
+            let (file, limit) = (path.clone(), self.load_options.max_memory);
+            let load = move || EnvironmentMap::load(&file, limit, &Progress::default());
+            let task = Task::spawn("environment", ctx, load);
+            self.environment_file = EnvironmentFile::Loading(path.clone(), task);
+        }
+        let EnvironmentFile::Loading(_, task) = &self.environment_file else {
+            return;
+        };
+        let result = match task.poll() {
+            Ok(None) => return,
+            Ok(Some(result)) => result.map_err(|error| error.to_string()),
+            Err(broken @ TaskPanicked) => Err(format!("{}: {broken}", path.display())),
+        };
+        match result {
+            Ok(loaded) => {
+                if let Some(warning) = loaded.warnings.first() {
+                    self.notice = Some(Notice {
+                        text: format!("{}: {warning}", path.display()),
+                        kind: NoticeKind::Warning,
+                    });
+                }
+                self.environment_file = EnvironmentFile::Loaded(path, loaded.map);
+            }
+            Err(message) => {
+                self.settings.environment = EnvironmentSource::Scene;
+                self.settings.environment_file = None;
+                self.environment_file = EnvironmentFile::None;
+                self.error(message);
+            }
+        }
+    }
+
+    /// Whether an environment is being loaded.
+    pub(super) fn is_loading_environment(&self) -> bool {
+        matches!(self.environment_file, EnvironmentFile::Loading(..))
     }
 
     /// Rotates the environment by a drag to the right, in points.
     pub(super) fn rotate_environment(&mut self, drag: f32) {
         const DEGREES_PER_POINT: f32 = 0.5;
-        let degrees = self.settings.environment_degrees + DEGREES_PER_POINT * drag;
+        // Counter-clockwise as seen from above moves the far side to the left.
+        let degrees = self.settings.environment_degrees - DEGREES_PER_POINT * drag;
         self.settings.environment_degrees = degrees.rem_euclid(360.0);
     }
 
@@ -94,11 +195,11 @@ impl App {
     pub(super) fn look(&self) -> Look {
         let settings = &self.settings;
         if !self.tracer.shows_lit() {
-            Look::PLAIN
+            Look::plain()
         } else if settings.shows_noise {
             Look::Noise(settings.exposure())
         } else {
-            Look::Picture(settings.exposure(), settings.tone_curve())
+            Look::Picture(settings.display())
         }
     }
 }

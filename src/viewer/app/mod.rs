@@ -52,7 +52,7 @@ use hitscope_core::camera::Turntable;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_core::{Camera, Scene};
 use hitscope_lab::commands::{default_thread_count, print_line};
-use light::SceneLights;
+use light::{EnvironmentFile, SceneLights};
 use pick::Pick;
 use pointer::Clicks;
 use std::path::PathBuf;
@@ -126,6 +126,7 @@ pub struct App {
     picture: Picture,
     /// The lights of the last request that needs lights.
     lights: Option<SceneLights>,
+    environment_file: EnvironmentFile,
     overlay: OverlayLayer,
     /// Scene and camera of the picture that is on the screen.
     on_screen: Option<(Arc<Scene>, Camera)>,
@@ -195,6 +196,7 @@ impl App {
             development: Development::default(),
             picture: Picture::new(&render_state),
             lights: None,
+            environment_file: EnvironmentFile::default(),
             overlay: OverlayLayer::new(&render_state),
             on_screen: None,
             clicks: Clicks::default(),
@@ -261,6 +263,7 @@ impl eframe::App for App {
         }
         self.poll_loading(ctx);
         self.poll_saving(ctx);
+        self.poll_environment(ctx);
         self.poll_watch(ctx);
         self.poll_gpu_errors();
         self.poll_picking(ctx);

@@ -34,7 +34,7 @@ impl App {
         let drag = DVec2::new(drag.x.into(), drag.y.into());
         let modifiers = ui.input(|input| input.modifiers);
         let is_primary = response.dragged_by(PointerButton::Primary);
-        if is_primary && modifiers.command && self.settings.shows_light() {
+        if is_primary && modifiers.command && self.settings.has_map() {
             self.rotate_environment(response.drag_delta().x);
         } else if is_primary && !modifiers.shift {
             self.turntable.orbit(drag, canvas.resolution);

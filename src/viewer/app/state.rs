@@ -25,6 +25,7 @@ impl App {
                 && request.shows_last_tree == self.shows_last_tree()
         };
         self.loading.is_none()
+            && !self.is_loading_environment()
             && self.document.has_last_tree()
             && self.tracer.posted().is_some_and(is_wanted)
             && self.tracer.is_finished()

@@ -2,11 +2,13 @@
 
 use super::view::legend_ui;
 use crate::bindings::Action;
-use crate::look::{TONE_CURVES, noise_legend};
-use crate::settings::Settings;
+use crate::look::noise_legend;
+use crate::settings::{EnvironmentSource, Settings};
 use crate::tracer::LEAST_SAMPLES;
 use egui::{DragValue, Slider};
-use hitscope_core::spawn::SPAWN_POLICIES;
+use hitscope_core::integrator::Setting;
+use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy};
+use hitscope_core::tone::TONE_CURVES;
 use std::ops::RangeInclusive;
 
 /// Distances of ambient occlusion, in radii of the scene.
@@ -30,7 +32,7 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
     if !needs.lights {
         return;
     }
-    if needs.ao_distance {
+    if needs.uses(Setting::OcclusionDistance) {
         ui.horizontal(|ui| {
             let label = ui.label("Distance");
             let slider = Slider::new(&mut settings.ao_distance, AO_DISTANCES)
@@ -44,9 +46,11 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
     }
     if settings.shows_light() {
         environment_ui(ui, settings, actions);
+    }
+    if settings.is_exposed() {
         exposure_ui(ui, settings);
     }
-    if needs.depth_limit {
+    if needs.uses(Setting::Depth) {
         ui.horizontal(|ui| {
             ui.checkbox(&mut settings.has_depth_limit, "Depth limit")
                 .on_hover_text("The most surfaces on a path. If off, paths end at random.");
@@ -56,42 +60,78 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
             ui.add_enabled(settings.has_depth_limit, limit);
         });
     }
-    spawn_ui(ui, settings);
+    if needs.uses(Setting::Spawn) {
+        let chosen = settings.spawn();
+        spawn_ui(ui, "Spawn policy", chosen, &mut settings.spawn);
+    }
+    if needs.second_policy {
+        let chosen = settings.second_spawn();
+        spawn_ui(ui, "compared with", chosen, &mut settings.second_spawn);
+    }
     noise_ui(ui, settings);
 }
 
 fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut Vec<Action>) {
+    let file = settings.environment_file.as_ref().map(|path| {
+        let name = path.file_name().unwrap_or_default();
+        name.to_string_lossy().into_owned()
+    });
+    let title = |source| match source {
+        EnvironmentSource::Scene => "Of the scene",
+        EnvironmentSource::Colour => "Colour",
+        EnvironmentSource::Studio => "Studio",
+        EnvironmentSource::File => file.as_deref().unwrap_or_default(),
+    };
     ui.horizontal(|ui| {
+        use EnvironmentSource::{Colour, File, Scene, Studio};
         let label = ui.label("Environment");
-        ui.color_edit_button_srgb(&mut settings.environment_colour)
+        egui::ComboBox::from_id_salt("environment")
+            .selected_text(title(settings.environment))
+            .show_ui(ui, |ui| {
+                for source in [Scene, Studio, Colour, File] {
+                    if source != File || file.is_some() {
+                        ui.selectable_value(&mut settings.environment, source, title(source));
+                    }
+                }
+            })
+            .response
             .labelled_by(label.id)
-            .on_hover_text("Colour of the light from far away");
-        let open = ui.button("Open environment…");
-        if open
-            .on_hover_text("Light the scene by an HDR or EXR picture; or drop one on the window")
-            .clicked()
-        {
-            actions.push(Action::OpenEnvironment);
+            .on_hover_text(
+                "Light from far away. That of the scene is white if nothing in the scene emits light.",
+            );
+        if settings.environment == Colour {
+            ui.color_edit_button_srgb(&mut settings.environment_colour);
         }
     });
-    ui.horizontal(|ui| {
-        let label = ui.label("Brightness");
-        let slider = Slider::new(&mut settings.environment_brightness, BRIGHTNESSES)
-            .logarithmic(true)
-            .smallest_positive(0.01);
-        let slider = ui.add(slider).labelled_by(label.id);
-        slider.on_hover_text("Factor of the light from far away");
-    });
-    ui.horizontal(|ui| {
-        let label = ui.label("Rotation");
-        let slider = Slider::new(&mut settings.environment_degrees, ROTATIONS)
-            .suffix("°")
-            .fixed_decimals(0);
-        let slider = ui.add(slider).labelled_by(label.id);
-        slider.on_hover_text(
-            "Rotation of the environment about the up axis, in degrees (Ctrl+drag in the picture)",
-        );
-    });
+    let open = ui.button("Open environment…");
+    if open
+        .on_hover_text("Light the scene by an HDR or EXR picture; or drop one on the window")
+        .clicked()
+    {
+        actions.push(Action::OpenEnvironment);
+    }
+    if settings.environment != EnvironmentSource::Scene {
+        ui.horizontal(|ui| {
+            let label = ui.label("Brightness");
+            let slider = Slider::new(&mut settings.environment_brightness, BRIGHTNESSES)
+                .logarithmic(true)
+                .smallest_positive(0.01);
+            let slider = ui.add(slider).labelled_by(label.id);
+            slider.on_hover_text("Factor of the light from far away");
+        });
+    }
+    if settings.has_map() {
+        ui.horizontal(|ui| {
+            let label = ui.label("Rotation");
+            let slider = Slider::new(&mut settings.environment_degrees, ROTATIONS)
+                .suffix("°")
+                .fixed_decimals(0);
+            let slider = ui.add(slider).labelled_by(label.id);
+            slider.on_hover_text(
+                "Rotation of the environment about the up axis, in degrees (Ctrl+drag in the picture)",
+            );
+        });
+    }
 }
 
 fn exposure_ui(ui: &mut egui::Ui, settings: &mut Settings) {
@@ -112,25 +152,24 @@ fn exposure_ui(ui: &mut egui::Ui, settings: &mut Settings) {
                 for curve in TONE_CURVES {
                     let name = curve.name.to_owned();
                     ui.selectable_value(&mut settings.tone_curve, name, curve.title)
-                        .on_hover_text(curve.summary);
+                        .on_hover_text(curve.about);
                 }
             })
             .response
             .labelled_by(label.id)
-            .on_hover_text(chosen.summary);
+            .on_hover_text(chosen.about);
     });
 }
 
-fn spawn_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+fn spawn_ui(ui: &mut egui::Ui, name: &str, chosen: &SpawnPolicy, kept: &mut String) {
     ui.horizontal(|ui| {
-        let label = ui.label("Spawn policy");
-        let chosen = settings.spawn();
-        egui::ComboBox::from_id_salt("spawn")
+        let label = ui.label(name);
+        egui::ComboBox::from_id_salt(name)
             .selected_text(chosen.title)
             .show_ui(ui, |ui| {
                 for policy in SPAWN_POLICIES {
                     let name = policy.name.to_owned();
-                    ui.selectable_value(&mut settings.spawn, name, policy.title)
+                    ui.selectable_value(kept, name, policy.title)
                         .on_hover_text(policy.summary);
                 }
             })

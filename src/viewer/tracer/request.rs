@@ -40,6 +40,7 @@ impl Request {
 fn is_same_light(a: &Lighting, b: &Lighting) -> bool {
     Arc::ptr_eq(&a.lights, &b.lights)
         && a.spawn.name == b.spawn.name
+        && a.second_spawn.name == b.second_spawn.name
         && a.ao_distance == b.ao_distance
         && a.depth_limit == b.depth_limit
 }
