@@ -54,12 +54,21 @@ fn read(path: &Path) -> Option<Settings> {
 
 /// Passes the settings to eframe, which writes the file.
 pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
-    if let Ok(text) = serde_json::to_string(settings) {
+    if let Some(text) = to_json(settings) {
         storage.set_string(KEY, text);
     }
     if storage.get_string(EGUI_KEY).is_some() {
         storage.remove_string(EGUI_KEY);
     }
+}
+
+/// The settings as JSON. A path that isn't UTF-8, which JSON can't hold, is left out.
+fn to_json(settings: &Settings) -> Option<String> {
+    let mut settings = settings.clone();
+    settings.environment_file = settings
+        .environment_file
+        .filter(|path| path.to_str().is_some());
+    serde_json::to_string(&settings).ok()
 }
 
 /// Parses the settings; a setting that is missing or invalid has its default.
@@ -275,6 +284,21 @@ mod tests {
                 "{name}"
             );
         }
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_path_that_is_not_utf_8_does_not_prevent_storage() {
+        use std::os::unix::ffi::OsStringExt as _;
+        let mut settings = chosen();
+        settings.environment = EnvironmentSource::File;
+        settings.environment_file = Some("sky.hdr".into());
+        let text = to_json(&settings).expect("JSON");
+        assert_eq!(from_json(&text), settings);
+        let path = std::ffi::OsString::from_vec(b"sky\xff.hdr".to_vec());
+        settings.environment_file = Some(path.into());
+        let text = to_json(&settings).expect("JSON");
+        assert_eq!(from_json(&text), chosen());
     }
 
     #[test]
