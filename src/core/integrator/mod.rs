@@ -17,6 +17,8 @@ mod shaded;
 mod transport;
 mod triangle;
 
+pub(crate) use shaded::diffuse as diffuse_colour;
+
 use crate::camera::Camera;
 use crate::intersector::Intersector;
 use crate::kernel::{KernelChoice, exact_triangle_kernel};
