@@ -1,14 +1,14 @@
-//! Film: accumulates samples and encodes them for display.
+//! Film: accumulates samples and encodes them for a display.
 //!
 //! Sums are integers of 128 bits, so the picture doesn't depend on the order in which tiles arrive, and bright samples
 //! aren't clamped. Pixels without a
 //! sample show the colour of their block from a coarser pass.
 
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
-use crate::srgb::{luminance, to_display};
+use crate::srgb::luminance;
+use crate::tone::Display;
 use glam::{UVec2, Vec3};
 use std::collections::TryReserveError;
-use std::sync::LazyLock;
 
 /// The sum of a pixel's samples. The order in which samples are added doesn't matter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -79,6 +79,9 @@ pub struct TileSamples {
 #[derive(Clone, Debug)]
 pub struct Film {
     plan: Plan,
+    display: Display,
+    /// The linear colour of pixels that show nothing.
+    background: Vec3,
     sums: Vec<SampleSum>,
     counts: Vec<u32>,
     /// Size in pixels of the block whose colour a pixel shows; 0 once the pixel has a sample of its own.
@@ -108,11 +111,14 @@ impl Film {
     /// There isn't enough memory; see [`BYTES_PER_PIXEL`].
     pub fn try_new(plan: Plan, background: Vec3) -> Result<Self, TryReserveError> {
         let count = plan.size().element_product() as usize;
+        let display = Display::default();
         Ok(Self {
+            display,
+            background,
             sums: filled(SampleSum::default(), count)?,
             counts: filled(0, count)?,
             shown_step: filled(u8::MAX, count)?,
-            pixels: filled(encode(background), count)?,
+            pixels: filled(display.encode(background), count)?,
             tiles_done: vec![0; plan.pass_count()],
             plan,
         })
@@ -122,9 +128,12 @@ impl Film {
     /// they receive a sample.
     pub fn restart(&mut self, plan: Plan, background: Vec3) {
         if plan.size() != self.plan.size() {
+            let display = self.display;
             *self = Self::new(plan, background);
+            self.set_display(display);
             return;
         }
+        self.background = background;
         self.sums.fill(SampleSum::default());
         self.counts.fill(0);
         self.shown_step.fill(u8::MAX);
@@ -143,7 +152,7 @@ impl Film {
             self.sums[i].merge(sum);
             self.counts[i] += samples;
             self.shown_step[i] = 0;
-            self.pixels[i] = encode(self.sums[i].mean(self.counts[i]));
+            self.pixels[i] = self.display.encode(self.sums[i].mean(self.counts[i]));
             if let Pass::Lattice { step } = pass {
                 self.fill_block(pixel, step);
             }
@@ -171,6 +180,42 @@ impl Film {
                 }
             }
         }
+    }
+
+    /// Changes exposure and tone curve, and returns whether they differ from before. All pixels are encoded again, from
+    /// the same samples; those that don't show any yet show the background.
+    pub fn set_display(&mut self, display: Display) -> bool {
+        if display == self.display {
+            return false;
+        }
+        self.display = display;
+        let background = display.encode(self.background);
+        for i in 0..self.pixels.len() {
+            let shown = match self.shown_step[i] {
+                u8::MAX => None,
+                step => Some(self.shown_index(i, step.into())),
+            };
+            // A pixel that represents a block has a sample.
+            self.pixels[i] = shown.map_or(background, |shown| {
+                display.encode(self.sums[shown].mean(self.counts[shown].max(1)))
+            });
+        }
+        true
+    }
+
+    /// The index of the pixel whose samples a pixel shows.
+    fn shown_index(&self, i: usize, step: u32) -> usize {
+        if step == 0 {
+            return i;
+        }
+        let width = self.plan.size().x;
+        let pixel = UVec2::new(i as u32 % width, i as u32 / width);
+        self.index(self.plan.representative(pixel, step))
+    }
+
+    /// Exposure and tone curve.
+    pub fn display(&self) -> Display {
+        self.display
     }
 
     /// Number of finished passes.
@@ -246,20 +291,6 @@ fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>, TryReserveError> {
     Ok(values)
 }
 
-/// A linear colour as 8-bit sRGB with alpha 255; numbers outside of 0…1 are clamped.
-pub fn encode(colour: Vec3) -> [u8; 4] {
-    /// Steps of the table from 0 to 1, finer than 8-bit sRGB.
-    const STEPS: f32 = 65536.0;
-    /// sRGB for each step. A table, because `powf` per pixel is too slow for the UI thread.
-    static SRGB: LazyLock<Vec<u8>> = LazyLock::new(|| {
-        let encoded = |i: u32| (255.0 * to_display(i as f32 / STEPS)).round() as u8;
-        (0..=STEPS as u32).map(encoded).collect()
-    });
-    let encoded = |x: f32| SRGB[(x.clamp(0.0, 1.0) * STEPS).round() as usize];
-    let [r, g, b] = colour.to_array().map(encoded);
-    [r, g, b, 255]
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -272,12 +303,37 @@ mod tests {
     }
 
     #[test]
-    fn a_mean_of_samples_is_encoded_as_srgb() {
-        // 128/255 through the transfer function.
+    fn the_mean_of_equal_samples_is_that_sample() {
         let grey = Vec3::splat(0.215_861);
-        assert_eq!(encode(grey), [128, 128, 128, 255]);
         assert_eq!(sum_of(&[grey; 4]).mean(4), grey);
-        assert_eq!(encode(Vec3::splat(1e30)), [255; 4]);
+    }
+
+    #[test]
+    fn a_changed_display_gives_the_pixels_of_a_film_that_had_it_from_the_start() {
+        let display = Display::new(1.5, crate::tone::TONE_CURVES[1]);
+        // Blocks at the right and lower border are cut.
+        let plan = Plan::new(UVec2::new(101, 53), 16, 2);
+        let background = Vec3::new(0.1, 0.2, 0.3);
+        let mut with = Film::new(plan.clone(), background);
+        assert!(with.set_display(display));
+        assert!(!with.set_display(display));
+        let mut without = Film::new(plan.clone(), background);
+        let shade = |p: UVec2| Vec3::new(p.x as f32, 2.0 * p.y as f32, 9.0) / 50.0;
+        for unit in (0..plan.unit_count()).map(|k| plan.unit(k)) {
+            let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
+            let tile = TileSamples { unit, sums };
+            with.add(&tile);
+            without.add(&tile);
+            if unit.tile % 2 == 0 {
+                without.set_display(display);
+                assert!(without.pixels() == with.pixels(), "{unit:?}");
+                without.set_display(Display::default());
+            }
+        }
+        // A restart keeps the display.
+        with.restart(Plan::new(UVec2::ONE, 1, 1), background);
+        assert_eq!(with.display(), display);
+        assert_eq!(with.pixels(), [display.encode(background)]);
     }
 
     #[test]
@@ -367,7 +423,7 @@ mod tests {
                     let p = UVec2::new(i % size.x, i / size.x);
                     let middle = p / step * step + step / 2;
                     let shown = if has_sample[i as usize] { p } else { middle };
-                    let expected = encode(shade(shown));
+                    let expected = Display::default().encode(shade(shown));
                     assert_eq!(film.pixels()[i as usize], expected, "{p} by {step}");
                 }
             }

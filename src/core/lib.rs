@@ -25,6 +25,8 @@
 //! | [`spawn`] | origins of rays that leave a surface |
 //! | [`plan`] | the order in which pixels and samples are traced |
 //! | [`film`] | accumulation of samples |
+//! | [`tone`] | exposure and tone curves |
+//! | [`picture`] | pictures for other programs |
 //! | [`render`] | progressive rendering on several threads |
 //! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`] | shared types |
 //!
@@ -49,6 +51,7 @@ pub mod light;
 pub mod loading;
 pub mod mesh;
 pub mod obj;
+pub mod picture;
 pub mod plan;
 mod polygon;
 pub mod progress;
@@ -62,6 +65,7 @@ pub mod shape;
 pub mod simd;
 pub mod spawn;
 pub mod srgb;
+pub mod tone;
 
 pub use aabb::Aabb;
 pub use camera::Camera;

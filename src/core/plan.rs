@@ -200,7 +200,7 @@ impl Plan {
     }
 
     /// The pixel that represents the block around `pixel`: its centre, clamped to the picture.
-    fn representative(&self, pixel: UVec2, step: u32) -> UVec2 {
+    pub(crate) fn representative(&self, pixel: UVec2, step: u32) -> UVec2 {
         (pixel / step * step + step / 2).min(self.size - 1)
     }
 

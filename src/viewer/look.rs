@@ -2,61 +2,31 @@
 
 use glam::{UVec2, Vec3};
 use hitscope_core::Film;
-use hitscope_core::film::encode;
 use hitscope_core::integrator::Legend;
 use hitscope_core::integrator::palette::{error_ramp, log_colour};
 use hitscope_core::plan::PixelRect;
 use hitscope_core::srgb::from_texel;
+use hitscope_core::tone::Display;
 use rayon::prelude::*;
 use std::sync::LazyLock;
 
-/// A way to limit colours to those of the screen.
-pub struct ToneCurve {
-    /// The name in stored settings.
-    pub name: &'static str,
-    /// The title in menus.
-    pub title: &'static str,
-    /// What it does, in a sentence.
-    pub summary: &'static str,
-    /// The colour on the screen in linear RGB, which is clamped to 0…1 afterwards.
-    pub apply: fn(Vec3) -> Vec3,
-}
-
-/// All tone curves; the first one is the default.
-pub static TONE_CURVES: &[ToneCurve] = &[ToneCurve {
-    name: "clip",
-    title: "Clip",
-    summary: "Colours brighter than white are cut off; all others are exact.",
-    apply: |colour| colour,
-}];
-
 /// What is shown of a film.
-#[derive(Clone, Copy)]
+#[derive(Clone, Copy, PartialEq)]
 pub enum Look {
-    /// The picture, brighter by a factor, through a tone curve.
-    Picture(f32, &'static ToneCurve),
+    /// The picture on a display.
+    Picture(Display),
     /// The standard error of each pixel, multiplied by the factor.
     Noise(f32),
 }
 
 impl Look {
     /// The film's own pixels.
-    pub const PLAIN: Self = Self::Picture(1.0, &TONE_CURVES[0]);
+    pub fn plain() -> Self {
+        Self::Picture(Display::default())
+    }
 
     fn is_plain(&self) -> bool {
-        *self == Self::PLAIN
-    }
-}
-
-impl PartialEq for Look {
-    fn eq(&self, other: &Self) -> bool {
-        match (self, other) {
-            (Self::Picture(a, first), Self::Picture(b, second)) => {
-                a == b && first.name == second.name
-            }
-            (Self::Noise(a), Self::Noise(b)) => a == b,
-            _ => false,
-        }
+        *self == Self::plain()
     }
 }
 
@@ -77,14 +47,14 @@ pub fn noise_legend() -> Legend {
 pub struct Development {
     look: Look,
     size: UVec2,
-    /// Empty for [`Look::PLAIN`].
+    /// Empty for [`Look::plain`].
     pixels: Vec<[u8; 4]>,
 }
 
 impl Default for Development {
     fn default() -> Self {
         Self {
-            look: Look::PLAIN,
+            look: Look::plain(),
             size: UVec2::ZERO,
             pixels: Vec::new(),
         }
@@ -138,11 +108,11 @@ impl Development {
 fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
     let in_film = film.pixels()[(pixel.y * film.size().x + pixel.x) as usize];
     match look {
-        Look::Picture(factor, curve) => {
+        Look::Picture(display) => {
             let [r, g, b, _] = in_film;
             let colour = film.radiance(pixel);
             let colour = colour.unwrap_or_else(|| from_texel([r, g, b]));
-            encode((curve.apply)(factor * colour))
+            display.encode(colour)
         }
         Look::Noise(factor) => {
             let error = film.standard_error(pixel);
@@ -154,7 +124,7 @@ fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
 /// The colour of [`log_colour`] on a scale of 256 steps, which is fast enough for each pixel.
 fn noise_colour(error: f64) -> [u8; 4] {
     static RAMP: LazyLock<Vec<[u8; 4]>> = LazyLock::new(|| {
-        let colour = |step: u8| encode(error_ramp(f32::from(step) / 255.0));
+        let colour = |step: u8| Display::default().encode(error_ramp(f32::from(step) / 255.0));
         (0..=255).map(colour).collect()
     });
     let [least, most] = NOISE_RANGE;
@@ -167,6 +137,7 @@ mod tests {
     use super::*;
     use hitscope_core::film::{SampleSum, TileSamples};
     use hitscope_core::plan::Plan;
+    use hitscope_core::tone::TONE_CURVES;
 
     const SIZE: UVec2 = UVec2::new(3, 2);
 
@@ -196,13 +167,13 @@ mod tests {
         let film = film(&[4.0, 2.0]);
         let mut development = Development::default();
         let (pixels, _) = development
-            .update(&film, Some(all()), Look::PLAIN)
+            .update(&film, Some(all()), Look::plain())
             .expect("changed");
         assert_eq!(pixels, [[255; 4]; 6]);
-        let darker = Look::Picture(0.25, &TONE_CURVES[0]);
+        let darker = Look::Picture(Display::new(-2.0, TONE_CURVES[0]));
         let (pixels, rect) = development.update(&film, None, darker).expect("a new look");
         assert_eq!((rect.min, rect.max), (UVec2::ZERO, SIZE));
-        assert_eq!(pixels, [encode(Vec3::splat(0.75)); 6]);
+        assert_eq!(pixels, [Display::default().encode(Vec3::splat(0.75)); 6]);
         assert!(development.update(&film, None, darker).is_none());
     }
 
@@ -223,7 +194,7 @@ mod tests {
             .expect("changed");
         let (ten_percent, text) = noise_legend()[0][3].clone();
         assert_eq!(text, "10 %");
-        let expected = encode(ten_percent);
+        let expected = Display::default().encode(ten_percent);
         // A step of the ramp is at most two steps of sRGB.
         for (channel, expected) in pixels[0].into_iter().zip(expected) {
             assert!(channel.abs_diff(expected) <= 2, "{pixels:?} {expected}");

@@ -1,6 +1,5 @@
 //! The settings of the window, kept between runs.
 
-use crate::look::{TONE_CURVES, ToneCurve};
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
@@ -10,6 +9,7 @@ use hitscope_core::kernel::{KernelChoice, default_triangle_kernel, exact_triangl
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
+use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -249,9 +249,16 @@ impl Settings {
 
     /// How colours are limited to those of the screen.
     pub fn tone_curve(&self) -> &'static ToneCurve {
-        let mut curves = TONE_CURVES.iter();
-        let named = curves.find(|curve| self.shows_light() && curve.name == self.tone_curve);
-        named.unwrap_or(&TONE_CURVES[0])
+        tone_curve(&self.tone_curve).unwrap_or(TONE_CURVES[0])
+    }
+
+    /// How radiance is shown; unchanged in views that don't show light.
+    pub fn display(&self) -> Display {
+        if self.shows_light() {
+            Display::new(self.exposure_stops, self.tone_curve())
+        } else {
+            Display::default()
+        }
     }
 
     /// The axis that points up.

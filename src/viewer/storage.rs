@@ -3,7 +3,6 @@
 //! eframe writes the file `app.ron`, a table of strings by name, at the end and twice per minute. The settings are one
 //! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
-use crate::look::TONE_CURVES;
 use crate::panels::light::{
     AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
 };
@@ -12,6 +11,7 @@ use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
 use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::spawn::SPAWN_POLICIES;
+use hitscope_core::tone::tone_curve;
 use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -126,9 +126,7 @@ fn usable_light(settings: Settings) -> Settings {
         if is_known { name } else { default }
     };
     let is_policy = SPAWN_POLICIES.iter().any(|row| row.name == settings.spawn);
-    let is_curve = TONE_CURVES
-        .iter()
-        .any(|row| row.name == settings.tone_curve);
+    let is_curve = tone_curve(&settings.tone_curve).is_some();
     Settings {
         time_limit_s: number(settings.time_limit_s, TIME_LIMITS_S, default.time_limit_s),
         noise_limit_percent: number(

@@ -13,7 +13,9 @@ pub(crate) mod studio;
 pub use alias::AliasTable;
 pub use area::AreaLight;
 pub use distant::DirectionalLight;
-pub use environment::Environment;
+pub use environment::{
+    Environment, EnvironmentMap, LoadedMap, MapError, MapPlacement, MapSample, PlacedMap,
+};
 pub use point::PointLight;
 pub use studio::studio;
 
@@ -81,7 +83,7 @@ impl Lights {
         let kept = kept.filter(|(k, light)| !is_environment(light) || Some(*k) == last);
         lights.extend(kept.map(|(_, light)| light));
         let materials = &scene.mesh().attributes().materials;
-        let radius = scene.bounds().radius();
+        let radius = radius_for_power(scene);
         let power = |light: &Light| f64::from(luminance(light.power(radius)));
         Self {
             choice: AliasTable::new(&lights.iter().map(power).collect::<Vec<_>>()),
@@ -160,6 +162,17 @@ impl Lights {
 
     fn probability(&self, light: Option<u32>) -> f32 {
         light.map_or(0.0, |index| self.choice.probability(index as usize))
+    }
+}
+
+/// The radius of the scene for comparisons of lights' powers. Planes have no bounds, so a scene of planes alone counts as
+/// one of radius 1. The powers of extreme radii would overflow or vanish in f32.
+fn radius_for_power(scene: &Scene) -> f64 {
+    let radius = scene.bounds().radius();
+    if radius > 0.0 {
+        radius.clamp(1e-12, 1e12)
+    } else {
+        1.0
     }
 }
 

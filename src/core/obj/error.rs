@@ -56,7 +56,7 @@ pub fn shown(path: &Path) -> String {
 }
 
 /// Replaces control characters and bidirectional formatting characters in a text.
-pub(super) fn printable(text: &str) -> String {
+pub(crate) fn printable(text: &str) -> String {
     let is_bidi_control = |c: char| matches!(c, '\u{202A}'..='\u{202E}' | '\u{2066}'..='\u{2069}');
     let replaced = |c: char| {
         if c.is_control() || is_bidi_control(c) {

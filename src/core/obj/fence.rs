@@ -6,7 +6,7 @@ use std::panic::{AssertUnwindSafe, catch_unwind};
 /// Returns the result of `work`, or an error with the panic's message. `what` names the work in the error.
 ///
 /// After a panic, values that `work` refers to may be inconsistent: only drop them.
-pub(super) fn fenced<T>(what: &str, work: impl FnOnce() -> T) -> Result<T, String> {
+pub(crate) fn fenced<T>(what: &str, work: impl FnOnce() -> T) -> Result<T, String> {
     catch_unwind(AssertUnwindSafe(work))
         .map_err(|panic| format!("{what} failed unexpectedly: {}", panic_message(&*panic)))
 }

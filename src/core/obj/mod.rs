@@ -54,8 +54,10 @@ mod triangulate;
 mod used;
 mod words;
 
+pub(crate) use error::printable;
 pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
+pub(crate) use fence::fenced;
 pub use materials::ReadFile;
 pub(crate) use materials::read_past;
 pub(crate) use origin::origin_near;
@@ -66,7 +68,6 @@ use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};
 use chunks::CHUNK_SIZE;
 use error::Problem;
-use fence::fenced;
 use materials::{Folder, NamedFiles, ReferencedFiles};
 use source::Source;
 use std::fs::{File, Metadata};

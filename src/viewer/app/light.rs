@@ -94,11 +94,11 @@ impl App {
     pub(super) fn look(&self) -> Look {
         let settings = &self.settings;
         if !self.tracer.shows_lit() {
-            Look::PLAIN
+            Look::plain()
         } else if settings.shows_noise {
             Look::Noise(settings.exposure())
         } else {
-            Look::Picture(settings.exposure(), settings.tone_curve())
+            Look::Picture(settings.display())
         }
     }
 }

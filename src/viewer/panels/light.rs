@@ -2,11 +2,12 @@
 
 use super::view::legend_ui;
 use crate::bindings::Action;
-use crate::look::{TONE_CURVES, noise_legend};
+use crate::look::noise_legend;
 use crate::settings::Settings;
 use crate::tracer::LEAST_SAMPLES;
 use egui::{DragValue, Slider};
 use hitscope_core::spawn::SPAWN_POLICIES;
+use hitscope_core::tone::TONE_CURVES;
 use std::ops::RangeInclusive;
 
 /// Distances of ambient occlusion, in radii of the scene.
@@ -112,12 +113,12 @@ fn exposure_ui(ui: &mut egui::Ui, settings: &mut Settings) {
                 for curve in TONE_CURVES {
                     let name = curve.name.to_owned();
                     ui.selectable_value(&mut settings.tone_curve, name, curve.title)
-                        .on_hover_text(curve.summary);
+                        .on_hover_text(curve.about);
                 }
             })
             .response
             .labelled_by(label.id)
-            .on_hover_text(chosen.summary);
+            .on_hover_text(chosen.about);
     });
 }
 

@@ -2,6 +2,10 @@
 //!
 //! `HITSCOPE_LIGHT_PATHS=1000000` follows that many paths for each figure. By default it is 2^16.
 
+// Measured environments: the side that they light, and how they are sampled.
+mod environment;
+// Files of measured environments.
+mod environment_files;
 // Surfaces lit by emitters: form factors.
 mod form_factors;
 // Closed rooms that emit light.

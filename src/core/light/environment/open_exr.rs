@@ -1,0 +1,78 @@
+//! Decoder of OpenEXR pictures.
+//!
+//! Source: "OpenEXR File Layout", <https://openexr.com/en/latest/OpenEXRFileLayout.html>.
+
+use super::file::{Cancellable, Picture, Problem, black};
+use crate::obj::printable;
+use crate::progress::{Cancelled, Progress};
+use exr::meta::MetaData;
+use exr::meta::header::Header;
+use exr::prelude::{ReadChannels, ReadLayers, ReadSpecificChannel, Vec2 as Size, read};
+use glam::{UVec2, Vec3};
+use std::cell::Cell;
+
+/// What a file starts with.
+pub(super) const START: &[u8] = &[0x76, 0x2f, 0x31, 0x01];
+
+/// The channels of a picture.
+const CHANNELS: [&str; 3] = ["R", "G", "B"];
+
+/// Decodes the first layer with the channels R, G and B. An alpha channel is ignored: colours are stored multiplied by it.
+pub(super) fn decode(
+    bytes: &[u8],
+    max_bytes: u64,
+    progress: &Progress,
+) -> Result<Picture, Problem> {
+    let problem = |error: exr::error::Error| match progress.check() {
+        Ok(()) => Problem::Content(message(&error)),
+        Err(Cancelled) => Problem::Cancelled,
+    };
+    let source = || Cancellable::new(bytes, progress);
+    let header = MetaData::read_from_buffered(source(), false).map_err(problem)?;
+    let Some(layer) = header.headers.iter().find(|header| is_picture(header)) else {
+        return Err("no layer has the channels R, G and B".to_owned().into());
+    };
+    let [width, height] = [layer.layer_size.0, layer.layer_size.1].map(u32::try_from);
+    let (Ok(width), Ok(height)) = (width, height) else {
+        return Err("the picture is too large".to_owned().into());
+    };
+    let size = UVec2::new(width, height);
+    let texels = Cell::new(black(size, max_bytes)?);
+    let reader = read()
+        .no_deep_data()
+        .largest_resolution_level()
+        .specific_channels()
+        .required(CHANNELS[0])
+        .required(CHANNELS[1])
+        .required(CHANNELS[2])
+        .collect_pixels(
+            move |_, _| texels.take(),
+            move |texels: &mut Vec<Vec3>, Size(x, y), (r, g, b): (f32, f32, f32)| {
+                if let Some(texel) = texels.get_mut(y * width as usize + x) {
+                    *texel = Vec3::new(r, g, b);
+                }
+            },
+        )
+        .first_valid_layer()
+        .all_attributes();
+    let image = reader.non_parallel().from_buffered(source());
+    let texels = image.map_err(problem)?.layer_data.channel_data.pixels;
+    Ok(Picture { size, texels })
+}
+
+fn is_picture(header: &Header) -> bool {
+    let names = || header.channels.list.iter().map(|channel| &channel.name);
+    !header.deep
+        && CHANNELS
+            .iter()
+            .all(|channel| names().any(|name| name.eq(channel)))
+}
+
+fn message(error: &exr::error::Error) -> String {
+    let text = printable(error.to_string().trim());
+    if text.contains("missing bytes") {
+        "the file is truncated".to_owned()
+    } else {
+        text
+    }
+}
