@@ -213,7 +213,7 @@ fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
     let rendered = args.trace()?;
     let size = rendered.film.size();
     let noise = args.noise.then(|| rendered.noise());
-    let mut pixels = rendered.pixels().into_owned();
+    let mut pixels = rendered.film.pixels().to_vec();
     if let Some(gpu) = gpu {
         let edges = args.wireframe.then_some(WireframeEdges::Polygons);
         let normals = args.normals.then_some(rendered.shading);
@@ -330,7 +330,7 @@ fn render_instead(cli: &Cli) -> Result<(), CommandError> {
         None => ("the built-in scene".to_owned(), embedded_scene()),
     };
     let rendered = picture.trace(loaded)?;
-    output.write_png(rendered.film.size(), &rendered.pixels())?;
+    output.write_png(rendered.film.size(), rendered.film.pixels())?;
     let mut out = stdout().lock();
     writeln!(out, "rendered {input} to {OUTPUT}")?;
     writeln!(

@@ -86,11 +86,15 @@ fn a_scene_file_keeps_its_contents_and_its_files_are_found_from_another_folder()
     let folder = tempfile::tempdir().expect("a folder");
     let mesh = "v -3 -1 0\nv -2 -1 0\nv -2 1 0\nf 1 2 3\n";
     std::fs::write(folder.path().join("mesh.obj"), mesh).expect("written");
+    // White above and black below.
+    let mut sky = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
+    sky.extend([128, 128, 128, 129, 0, 0, 0, 0]);
+    std::fs::write(folder.path().join("sky.hdr"), sky).expect("written");
     let path = folder.path().join("scene.xml");
     let text = r#"<scene version="3.0.0">
         <sensor type="perspective" id="first"><sampler type="independent"><integer name="sample_count" value="32"/></sampler></sensor>
         <sensor type="orthographic" id="second"/>
-        <emitter type="envmap"><string name="filename" value="sky.exr"/></emitter>
+        <emitter type="envmap"><string name="filename" value="sky.hdr"/></emitter>
         <shape type="obj"><string name="filename" value="mesh.obj"/></shape>
         <shape type="sphere"><bsdf type="diffuse"><rgb name="reflectance" value="0.5, 0.1, 0.1"/></bsdf></shape>
         <shape type="cube"><transform name="to_world"><rotate y="1" angle="30"/><translate x="2"/></transform></shape>
@@ -116,14 +120,14 @@ fn a_scene_file_keeps_its_contents_and_its_files_are_found_from_another_folder()
     assert_eq!(sensors, [Some("first"), Some("second")]);
     assert_eq!(again.sensors[0].sample_count, 32);
     let xml = std::fs::read_to_string(&saved).expect("written");
-    assert!(xml.contains(r#"value="sky.exr""#), "relative: {xml}");
+    assert!(xml.contains(r#"value="sky.hdr""#), "relative: {xml}");
     let elsewhere = scene_text(
         scene.description.as_deref(),
         &path,
         &view,
         Path::new("/other"),
     );
-    let sky = folder.path().join("sky.exr");
+    let sky = folder.path().join("sky.hdr");
     let elsewhere = elsewhere.expect("text");
     assert!(
         elsewhere.contains(sky.to_str().expect("UTF-8")),

@@ -69,13 +69,13 @@ fn exposure_multiplies_light_before_it_is_encoded() {
         "--view direct --environment constant:0.25 --exposure 1",
     );
     let bright = rendered(&folder, "--view direct --environment constant:0.5");
-    assert_eq!(dim.pixels(), bright.pixels());
+    assert_eq!(dim.film.pixels(), bright.film.pixels());
 }
 
 #[test]
 fn the_integrator_of_a_scene_file_is_the_default_view() {
     let folder = folder(&format!("<integrator type='normal'/>{DARK}"));
-    let pixels = |options: &str| rendered(&folder, options).pixels().into_owned();
+    let pixels = |options: &str| rendered(&folder, options).film.pixels().to_vec();
     assert_eq!(pixels(""), pixels("--view normal"));
     assert_ne!(pixels(""), pixels("--view depth"));
 }
@@ -108,6 +108,41 @@ fn occlusion_ends_at_the_distance() {
 }
 
 #[test]
+fn a_tone_curve_changes_bright_colours() {
+    let folder = folder(DARK);
+    let shown = |options: &str| {
+        let options = format!("--view direct --environment constant:4 {options}");
+        rendered(&folder, &options).film.pixels()[0]
+    };
+    assert_eq!(shown(""), [255; 4]);
+    assert_eq!(shown("--tone clip"), [255; 4]);
+    assert!(shown("--tone neutral")[0] < 255);
+}
+
+#[test]
+fn the_environment_of_a_file_is_turned_by_an_option() {
+    let folder = folder(DARK);
+    // White around +z and black around −z, on two rows.
+    let mut sky = "#?RADIANCE\n\n-Y 2 +X 4\n".as_bytes().to_vec();
+    for _ in 0..2 {
+        sky.extend([
+            0, 0, 0, 0, 128, 128, 128, 129, 128, 128, 128, 129, 0, 0, 0, 0,
+        ]);
+    }
+    std::fs::write(folder.write("sky.hdr", ""), sky).expect("written");
+    // The camera looks along −z.
+    let corner = |degrees: f32| {
+        let line = format!(
+            "@scene.xml -o @out.png --samples 4 --view direct --environment @sky.hdr --rotation {degrees}"
+        );
+        let rendered = folder.args::<RenderArgs>(&line).trace().expect("rendered");
+        rendered.film.radiance(UVec2::ZERO).expect("traced").y
+    };
+    assert!(corner(0.0) < 0.5, "{}", corner(0.0));
+    assert!(corner(180.0) > 0.5, "{}", corner(180.0));
+}
+
+#[test]
 fn noise_is_that_of_the_samples() {
     let folder = folder(DARK);
     let even = rendered(
@@ -132,7 +167,7 @@ fn a_rotation_without_an_environment_map_is_refused() {
     assert!(error.is_usage());
     assert_eq!(
         error.to_string(),
-        "--rotation has no effect: the scene has no environment map"
+        "--rotation has no effect: the scene has no picture of an environment"
     );
 }
 

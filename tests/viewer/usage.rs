@@ -69,9 +69,10 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             "expected a distance above 0",
         ),
         (
-            &format!("{render} --exposure 65"),
-            "expected stops from -64 to 64",
+            &format!("{render} --exposure 101"),
+            "expected stops from -100 to 100",
         ),
+        (&format!("{render} --tone bright"), "[possible values: clip"),
         (
             &format!("{render} --integrator bidirectional"),
             "[possible values: shaded",
@@ -157,7 +158,7 @@ fn options_without_effect_are_refused() {
         ),
         (
             &format!("{render} --view path --environment studio --rotation 90"),
-            "it needs --environment FILE",
+            "as in --environment FILE",
         ),
         (
             &format!("{render} --spawn fixed-epsilon"),
@@ -173,6 +174,10 @@ fn options_without_effect_are_refused() {
         ),
         (
             &format!("{render} --view normal --exposure 1"),
+            "no effect on the view “normal”: it needs --view shaded or",
+        ),
+        (
+            &format!("{render} --view normal --tone clip"),
             "no effect on the view “normal”: it needs --view shaded or",
         ),
         (

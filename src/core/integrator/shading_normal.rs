@@ -4,7 +4,7 @@
 
 use super::palette::{FALSE_HIT, MISSED};
 use super::transport::ShadingPoint;
-use super::{Context, Integrator, Legend, Needs};
+use super::{Context, Integrator, Legend, Needs, Setting};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -14,7 +14,10 @@ pub(super) static SHADING_NORMAL: Integrator = Integrator {
     name: "shading-normal",
     title: "Shading normal",
     about: "Directions of light that only the shading normal or only the geometric normal admits. Path tracing drops both, which darkens edges and the border of shadows.",
-    needs: Needs::LIGHTS,
+    needs: Needs {
+        settings: &[Setting::Lights],
+        ..Needs::LIGHTS
+    },
     legend,
     radiance,
 };

@@ -2,7 +2,7 @@
 
 use super::palette::{FALSE_HIT, MISSED};
 use super::transport::ShadingPoint;
-use super::{Context, Integrator, Legend, Needs};
+use super::{Context, Integrator, Legend, Needs, Setting};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::spawn::SpawnPolicy;
@@ -15,6 +15,7 @@ pub(super) static SPAWNING: Integrator = Integrator {
     about: "Where rays that leave the surface by the chosen policy are blocked and those by the second one aren't, or the other way round.",
     needs: Needs {
         second_policy: true,
+        settings: &[Setting::Spawn],
         ..Needs::LIGHTS
     },
     legend,

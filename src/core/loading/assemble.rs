@@ -4,6 +4,7 @@ use super::lights::{self, EmittingMaterials};
 use super::merge::{Part, merged};
 use super::placed::{Groups, Placed, Refusal, placed};
 use super::{LoadedScene, StartView, size_warning};
+use crate::light::{EnvironmentMap, LoadedMap};
 use crate::mesh::{Illumination, Material};
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
@@ -27,6 +28,7 @@ pub(super) fn load(
     let start = Instant::now();
     let file = scene_file::load(path, load_options.max_memory, progress)?;
     let mut contents = Contents::load(&file, load_options, progress)?;
+    let map = contents.map.take();
     contents.report.duration = start.elapsed();
     progress.enter(Phase::Building);
     let scene = contents.scene(&file, load_options.recentre, options, progress);
@@ -34,7 +36,7 @@ pub(super) fn load(
         path: path.to_owned(),
     })?;
     report.warnings.extend(size_warning(scene.bounds()));
-    let lights = lights::lights(&file, scene.mesh().origin());
+    let lights = lights::lights(&file, scene.mesh().origin(), map.as_ref());
     Ok(LoadedScene {
         scene: Arc::new(scene),
         lights,
@@ -51,6 +53,8 @@ struct Contents {
     shapes: Vec<(Box<dyn Placed>, u32)>,
     /// Materials that come after those of the file.
     emitting: EmittingMaterials,
+    /// The picture of the environment.
+    map: Option<Arc<EnvironmentMap>>,
     report: LoadReport,
 }
 
@@ -64,6 +68,7 @@ impl Contents {
             parts: Vec::new(),
             shapes: Vec::new(),
             emitting: EmittingMaterials::default(),
+            map: None,
             report: LoadReport {
                 warnings: file.warnings.clone(),
                 files: file.files.clone(),
@@ -97,9 +102,15 @@ impl Contents {
             }
         }
         for emitter in &file.emitters {
-            if matches!(emitter.kind, EmitterKind::Envmap { .. }) {
-                let message = "emitter “envmap” isn't used yet".to_owned();
-                contents.warn(file, emitter.place, message);
+            if let EmitterKind::Envmap { file: path, .. } = &emitter.kind {
+                let LoadedMap { map, warnings } =
+                    EnvironmentMap::load(path, options.max_memory, progress)?;
+                contents.map = Some(map);
+                let report = LoadReport {
+                    warnings,
+                    ..LoadReport::default()
+                };
+                contents.take_report(path, report);
             }
         }
         Ok(contents)
@@ -152,7 +163,7 @@ impl Contents {
         });
     }
 
-    /// Adds the report of an OBJ file.
+    /// Adds the report of a file that the scene file names.
     fn take_report(&mut self, path: &Path, report: LoadReport) {
         let told = report.warnings.into_iter().map(|warning| {
             let line = warning

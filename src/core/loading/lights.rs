@@ -1,14 +1,21 @@
 //! Lights of a scene file's emitters, and materials that emit light.
 
-use crate::light::{DirectionalLight, Environment, Light, PointLight};
+use crate::light::{
+    DirectionalLight, Environment, EnvironmentMap, Light, MapPlacement, PlacedMap, PointLight,
+};
 use crate::mesh::{Illumination, Material};
 use crate::scene_file::{EmitterKind, SceneFile};
-use glam::{DMat4, DVec3, Vec3};
+use glam::{DMat3, DVec3, Vec3};
 use std::collections::HashMap;
-use std::path::Path;
+use std::sync::Arc;
 
-/// The lights of emitters that aren't attached to a shape, in coordinates about an origin.
-pub(super) fn lights(file: &SceneFile, origin: DVec3) -> Vec<Light> {
+/// The lights of emitters that aren't attached to a shape, in coordinates about an origin. `map` is the picture of the
+/// file's `envmap`.
+pub(super) fn lights(
+    file: &SceneFile,
+    origin: DVec3,
+    map: Option<&Arc<EnvironmentMap>>,
+) -> Vec<Light> {
     let light = |kind: &EmitterKind| match kind {
         EmitterKind::Constant { radiance } => {
             let radiance = radiance.as_vec3();
@@ -29,10 +36,15 @@ pub(super) fn lights(file: &SceneFile, origin: DVec3) -> Vec<Light> {
             irradiance: irradiance.as_vec3(),
         })),
         EmitterKind::Envmap {
-            file,
-            scale,
-            to_world,
-        } => environment_map(file, *scale, to_world).map(Light::Environment),
+            scale, to_world, ..
+        } => map.map(|map| {
+            let placement = MapPlacement {
+                orientation: orthonormal(DMat3::from_mat4(*to_world)).as_mat3(),
+                scale: *scale as f32,
+                ..MapPlacement::default()
+            };
+            Light::Environment(Environment::Map(PlacedMap::new(Arc::clone(map), placement)))
+        }),
         EmitterKind::Area { .. } | EmitterKind::Other(_) => None,
     };
     let emitters = file.emitters.iter();
@@ -47,9 +59,12 @@ fn unit(vector: DVec3) -> Vec3 {
     (vector / vector.abs().max_element()).normalize().as_vec3()
 }
 
-/// The environment in a file. Such files aren't read yet; loading says so.
-fn environment_map(_file: &Path, _scale: f64, _to_world: &DMat4) -> Option<Environment> {
-    None
+/// The orthonormal matrix near a matrix that is nearly orthonormal.
+fn orthonormal(matrix: DMat3) -> DMat3 {
+    let x = matrix.x_axis.normalize();
+    let y = matrix.y_axis.reject_from_normalized(x).normalize();
+    let z = matrix.z_axis.reject_from_normalized(x);
+    DMat3::from_cols(x, y, z.reject_from_normalized(y).normalize())
 }
 
 /// Copies of materials that emit light on their front.
@@ -117,6 +132,21 @@ mod tests {
         };
         assert_eq!(materials[2], copy);
         assert_eq!(materials[3].diffuse, Some(Vec3::ZERO));
+    }
+
+    #[test]
+    fn a_rotation_with_few_digits_becomes_orthonormal() {
+        let typed = DMat3::from_cols(
+            DVec3::new(0.866, 0.0, -0.5),
+            DVec3::Y,
+            DVec3::new(0.5, 0.0, 0.866),
+        );
+        let exact = orthonormal(typed);
+        assert!(exact.abs_diff_eq(typed, 1e-4));
+        let product = exact.transpose() * exact;
+        assert!(product.abs_diff_eq(DMat3::IDENTITY, 1e-15), "{product}");
+        let mirrored = DMat3::from_diagonal(DVec3::new(-1.0, 1.0, 1.0));
+        assert_eq!(orthonormal(mirrored), mirrored);
     }
 
     #[test]

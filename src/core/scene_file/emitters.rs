@@ -87,6 +87,8 @@ pub(super) fn emitter(
 /// An emitter of Mitsuba's that isn't supported, with a warning.
 fn unsupported(reader: &mut Reader, element: Element) -> Result<Emitter, Problem> {
     let mut plugin = objects::plugin(reader, element)?;
+    let bytes = 2 * size_of::<Emitter>() as u64;
+    reader.memory.take(bytes, element.place)?;
     let kind = quoted(&plugin.kind);
     let similar = MOST_SIMILAR.iter().find(|(name, _)| *name == plugin.kind);
     let similar = similar.map_or(String::new(), |(_, similar)| {

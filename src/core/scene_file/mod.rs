@@ -100,7 +100,7 @@
 //! | `constant` | `radiance` = 1 |
 //! | `point` | `position` = 0, or `to_world`; `intensity` = 1 |
 //! | `directional` | `direction` = (0, 0, 1) in which the light travels, or `to_world`; `irradiance` = 1. A scale in `to_world` doesn't change the light, unlike in Mitsuba |
-//! | `envmap` | `filename`, `scale` = 1, `to_world`: a rotation |
+//! | `envmap` | `filename`: a latitude–longitude picture, Radiance HDR or OpenEXR; `scale` = 1; `to_world`: a rotation. `mis_compensation` has no effect |
 //!
 //! Light is `rgb` (linear), `spectrum` with one number or `float`, and isn't negative. A scene has at most one
 //! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. So does a texture in

@@ -1,26 +1,32 @@
 //! Options of light, and the lights of a picture.
 
 use super::CommandError;
+use super::stderr::print_line;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use glam::Vec3;
 use hitscope_core::Camera;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Lighting, Setting};
-use hitscope_core::light::{Environment, Light, Lights, studio};
+use hitscope_core::light::{
+    Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap, studio,
+};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::shown;
+use hitscope_core::progress::Progress;
 use hitscope_core::spawn::{SPAWN_POLICIES, default_spawn_policy, spawn_policy};
+use hitscope_core::tone::{Display, TONE_CURVES, tone_curve};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// Options of light
 #[derive(Args, Clone, Debug)]
 pub struct LightArgs {
-    /// Light from all directions, in place of the scene file's: constant:R,G,B (linear), or studio: the lamps of the
-    /// view “shaded”, with shadows [default: the scene file's; constant:1,1,1 if nothing emits light]
-    #[arg(long, value_name = "FILE|constant:R,G,B|studio", value_parser = parse_environment)]
+    /// Light from all directions, in place of the scene file's: a latitude-longitude picture (.hdr or .exr);
+    /// constant:R,G,B (linear); studio: the lamps of the view “shaded”, with shadows; or built-in: a picture of a
+    /// studio [default: the scene file's; constant:1,1,1 if nothing emits light]
+    #[arg(long, value_name = "FILE|constant:R,G,B|studio|built-in", value_parser = parse_environment)]
     pub environment: Option<EnvironmentSource>,
-    /// Turn the environment about the y axis, counter-clockwise as seen from above
+    /// Turn the environment's picture about its vertical axis, counter-clockwise as seen from above
     #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse_rotation)]
     pub rotation: Option<f32>,
     /// Rule for the origin of rays that leave a surface
@@ -36,6 +42,9 @@ pub struct LightArgs {
     /// Brighten the picture by a factor of 2 per stop
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
     pub exposure: Option<f32>,
+    /// Curve that limits brightness to that of the screen [default: clip]
+    #[arg(long, value_name = "CURVE", value_parser = curve_names())]
+    pub tone: Option<String>,
 }
 
 /// Where light from all directions comes from.
@@ -45,6 +54,8 @@ pub enum EnvironmentSource {
     Studio,
     /// The same radiance from all directions.
     Constant(Vec3),
+    /// The built-in picture of a studio.
+    BuiltIn,
     /// A picture of all directions.
     File(PathBuf),
 }
@@ -66,6 +77,7 @@ impl LightArgs {
                 Setting::OcclusionDistance,
             ),
             ("--exposure", self.exposure.is_some(), Setting::Exposure),
+            ("--tone", self.tone.is_some(), Setting::Exposure),
         ];
         for (option, is_given, setting) in given {
             if is_given && !view.needs.uses(setting) {
@@ -82,20 +94,29 @@ impl LightArgs {
             Some(EnvironmentSource::Studio | EnvironmentSource::Constant(_))
         );
         if self.rotation.is_some() && is_even {
-            let message = "--rotation has no effect on constant light and on the studio: it needs --environment FILE";
+            let message = "--rotation has no effect on constant light and on the studio: it needs a picture, as in --environment FILE";
             return Err(CommandError::Usage(message.to_owned()));
         }
         Ok(())
     }
 
-    /// What light transport depends on in a picture of a scene.
+    /// Exposure and tone curve.
+    pub fn display(&self) -> Display {
+        let curve = self.tone.as_deref().map_or(TONE_CURVES[0], |name| {
+            tone_curve(name).expect("clap accepts only names in the table")
+        });
+        Display::new(self.exposure.unwrap_or(0.0), curve)
+    }
+
+    /// What light transport depends on in a picture of a scene. A picture of an environment may take `max_memory` bytes.
     ///
     /// # Errors
-    /// [`CommandError::Usage`] if there is no environment to turn, and errors of the environment's file.
+    /// [`CommandError::Usage`] if there is no picture to turn, and [`CommandError::Load`].
     pub fn lighting(
         &self,
         loaded: &LoadedScene,
         camera: &Camera,
+        max_memory: u64,
     ) -> Result<Lighting, CommandError> {
         let default = Lighting::default();
         let named = self.spawn.as_deref();
@@ -105,43 +126,73 @@ impl LightArgs {
         Ok(Lighting {
             lights: Arc::new(Lights::or_white(
                 &loaded.scene,
-                self.lights(loaded, camera)?,
+                self.lights(loaded, camera, max_memory)?,
             )),
             spawn,
+            second_spawn: default.second_spawn,
             ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
             depth_limit: self.depth.or(loaded.depth_limit()),
         })
     }
 
     /// The lights of the file and the chosen environment, which replaces the file's.
-    fn lights(&self, loaded: &LoadedScene, camera: &Camera) -> Result<Vec<Light>, CommandError> {
+    fn lights(
+        &self,
+        loaded: &LoadedScene,
+        camera: &Camera,
+        max_memory: u64,
+    ) -> Result<Vec<Light>, CommandError> {
         let mut lights = loaded.lights.clone();
         match &self.environment {
-            None if self.rotation.is_some() => {
-                let message = "--rotation has no effect: the scene has no environment map";
-                return Err(CommandError::Usage(message.to_owned()));
-            }
             None => {}
             Some(EnvironmentSource::Studio) => lights.extend(studio(camera)),
             Some(EnvironmentSource::Constant(radiance)) => {
                 lights.push(Light::Environment(Environment::Constant(*radiance)));
             }
-            Some(EnvironmentSource::File(path)) => {
-                let degrees = self.rotation.unwrap_or(0.0);
-                lights.push(Light::Environment(environment_map(path, degrees)?));
+            Some(EnvironmentSource::BuiltIn) => {
+                lights.push(Light::Environment(Environment::built_in()));
             }
+            Some(EnvironmentSource::File(path)) => {
+                let map = load_map(path, max_memory)?;
+                let map = PlacedMap::new(map, MapPlacement::default());
+                lights.push(Light::Environment(Environment::Map(map)));
+            }
+        }
+        if let Some(degrees) = self.rotation
+            && !turn(&mut lights, degrees)
+        {
+            let message = "--rotation has no effect: the scene has no picture of an environment";
+            return Err(CommandError::Usage(message.to_owned()));
         }
         Ok(lights)
     }
 }
 
-/// The environment in a picture file, turned about the y axis. No format is read yet.
-fn environment_map(path: &Path, _degrees: f32) -> Result<Environment, CommandError> {
-    let message = format!(
-        "--environment {}: no picture format is read yet; use constant:R,G,B or studio",
-        shown(path)
-    );
-    Err(CommandError::Usage(message))
+/// Loads the picture of an environment, and prints its warnings.
+fn load_map(path: &Path, max_memory: u64) -> Result<Arc<EnvironmentMap>, CommandError> {
+    let LoadedMap { map, warnings } = EnvironmentMap::load(path, max_memory, &Progress::default())?;
+    for warning in warnings {
+        print_line(format_args!("{}: warning: {warning}", shown(path)));
+    }
+    Ok(map)
+}
+
+/// Turns the last environment about its vertical axis, and returns whether it is a picture.
+fn turn(lights: &mut [Light], degrees: f32) -> bool {
+    let mut environments = lights.iter_mut().rev().filter_map(|light| match light {
+        Light::Environment(environment) => Some(environment),
+        _ => None,
+    });
+    let Some(Environment::Map(placed)) = environments.next() else {
+        return false;
+    };
+    let placement = *placed.placement();
+    let turned = MapPlacement {
+        rotation_radians: placement.rotation_radians + degrees.to_radians(),
+        ..placement
+    };
+    *placed = PlacedMap::new(Arc::clone(placed.map()), turned);
+    true
 }
 
 /// The names of the views that depend on a setting, as alternatives.
@@ -151,14 +202,20 @@ fn views_with(setting: Setting) -> String {
     names.join(" or ")
 }
 
+fn curve_names() -> impl clap::builder::TypedValueParser<Value = String> {
+    PossibleValuesParser::new(TONE_CURVES.iter().map(|curve| curve.name)).map(|name| name)
+}
+
 fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(SPAWN_POLICIES.iter().map(|policy| policy.name)).map(|name| name)
 }
 
-/// `studio`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
+/// `studio`, `built-in`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
 fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
-    if text == "studio" {
-        return Ok(EnvironmentSource::Studio);
+    match text {
+        "studio" => return Ok(EnvironmentSource::Studio),
+        "built-in" => return Ok(EnvironmentSource::BuiltIn),
+        _ => {}
     }
     let Some(colour) = text.strip_prefix("constant:") else {
         return Ok(EnvironmentSource::File(PathBuf::from(text)));
@@ -194,8 +251,7 @@ fn parse_distance(text: &str) -> Result<f32, String> {
 
 /// `-1.5`.
 fn parse_stops(text: &str) -> Result<f32, String> {
-    /// The film holds sums from 2⁻⁶⁴ to 2⁶⁴.
-    const MOST: f32 = 64.0;
+    const MOST: f32 = Display::MAX_STOPS;
     match text.parse() {
         Ok(stops) if (-MOST..=MOST).contains(&stops) => Ok(stops),
         _ => Err(format!("expected stops from -{MOST} to {MOST}")),
@@ -241,7 +297,7 @@ mod tests {
         for bad in ["0", "-1", "nan", ""] {
             assert!(parse_distance(bad).is_err(), "{bad}");
         }
-        for bad in ["65", "nan", ""] {
+        for bad in ["101", "nan", ""] {
             assert!(parse_stops(bad).is_err(), "{bad}");
         }
     }

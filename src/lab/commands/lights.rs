@@ -28,6 +28,15 @@ pub enum LightInfo {
         /// The radiance.
         radiance: [f32; 3],
     },
+    /// A picture of the light from all directions.
+    Envmap {
+        /// Width and height of the picture.
+        size: [u32; 2],
+        /// The factor of the picture's radiance.
+        scale: f32,
+        /// Memory of the picture.
+        bytes: usize,
+    },
     /// Light from one direction.
     Directional {
         /// The irradiance of a surface that faces the light.
@@ -51,6 +60,11 @@ impl LightInfo {
         let others = loaded.lights.iter().filter_map(|light| match light {
             Light::Environment(Environment::Constant(radiance)) => Some(Self::Constant {
                 radiance: radiance.to_array(),
+            }),
+            Light::Environment(Environment::Map(placed)) => Some(Self::Envmap {
+                size: placed.map().size().to_array(),
+                scale: placed.placement().scale,
+                bytes: placed.map().bytes(),
             }),
             Light::Directional(light) => Some(Self::Directional {
                 irradiance: light.irradiance.to_array(),
@@ -126,6 +140,14 @@ impl fmt::Display for LightInfo {
                 )
             }
             Self::Constant { radiance } => write!(f, "constant: radiance {radiance:?}"),
+            Self::Envmap {
+                size: [width, height],
+                scale,
+                bytes,
+            } => write!(
+                f,
+                "envmap: {width} x {height} pixels, scale {scale}, {bytes} bytes"
+            ),
             Self::Directional {
                 irradiance,
                 direction,

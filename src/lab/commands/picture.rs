@@ -7,14 +7,13 @@ use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{Comparison, Context, Integrator};
+use hitscope_core::integrator::{Comparison, Context, Integrator, Lighting};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
-use hitscope_core::srgb::{from_display, to_display};
+use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Film, Intersector};
-use std::borrow::Cow;
 use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
@@ -85,8 +84,6 @@ pub struct Rendered {
     pub loaded: LoadedScene,
     /// How normals vary over a triangle.
     pub shading: Shading,
-    /// The picture is brightened by 2 to this power.
-    pub exposure: f32,
 }
 
 /// How far the colours of a picture may be off by chance.
@@ -101,21 +98,6 @@ pub struct Noise {
 }
 
 impl Rendered {
-    /// The picture in sRGB with alpha 255, row by row from the top.
-    pub fn pixels(&self) -> Cow<'_, [[u8; 4]]> {
-        if self.exposure == 0.0 {
-            return Cow::Borrowed(self.film.pixels());
-        }
-        let factor = self.exposure.exp2();
-        let encoded = |linear: f32| (255.0 * to_display(factor * linear)).round() as u8;
-        let pixel = |pixel: UVec2| {
-            let radiance = self.film.radiance(pixel).unwrap_or_default();
-            let [r, g, b] = radiance.to_array().map(encoded);
-            [r, g, b, 255]
-        };
-        Cow::Owned(self.positions().map(pixel).collect())
-    }
-
     /// The noise, from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
     /// have less. With one sample per pixel it isn't known, and counts as 0.
     pub fn noise(&self) -> Noise {
@@ -223,20 +205,35 @@ impl PictureArgs {
             camera,
             shading,
             background: from_display(DARK_BACKGROUND),
-            lighting: self.light.lighting(&loaded, &camera)?,
+            lighting: self.lighting(view, &loaded, &camera)?,
         };
         let job = Job {
             context,
             integrator: view,
             plan: Plan::new(camera.resolution(), 1, self.samples),
         };
+        let mut film = render(job, self.threads.count())?;
+        film.set_display(self.light.display());
         Ok(Rendered {
-            film: render(job, self.threads.count())?,
+            film,
             camera,
             loaded,
             shading,
-            exposure: self.light.exposure.unwrap_or(0.0),
         })
+    }
+
+    /// The lights, if the view needs any.
+    fn lighting(
+        &self,
+        view: &Integrator,
+        loaded: &LoadedScene,
+        camera: &Camera,
+    ) -> Result<Lighting, CommandError> {
+        if !view.needs.lights {
+            return Ok(Lighting::default());
+        }
+        let max_memory = self.mesh.memory.bytes();
+        self.light.lighting(loaded, camera, max_memory)
     }
 
     /// Refuses a picture that exceeds the memory limit together with the mesh.

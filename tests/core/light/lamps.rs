@@ -25,6 +25,10 @@ const OFFSET: DVec3 = DVec3::new(1e6, -2e6, 0.5e6);
 
 fn loaded(contents: &str) -> LoadedScene {
     let folder = tempfile::tempdir().expect("a folder");
+    // White above and black below.
+    let mut sky = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
+    sky.extend([128, 128, 128, 129, 0, 0, 0, 0]);
+    std::fs::write(folder.path().join("sky.hdr"), sky).expect("written");
     let path = folder.path().join("scene.xml");
     let mesh = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
     std::fs::write(folder.path().join("square.obj"), mesh).expect("written");
@@ -166,6 +170,31 @@ fn the_environment_of_a_scene_file_is_seen() {
         panic!("{:?}", loaded.lights);
     };
     assert_eq!(radiance, Vec3::new(1.0, 2.0, 3.0));
+}
+
+#[test]
+fn the_environment_map_of_a_scene_file_is_turned_and_scaled() {
+    // The map's y axis becomes z.
+    let loaded = loaded(
+        r#"<emitter type="envmap"><string name="filename" value="sky.hdr"/><float name="scale" value="2"/>
+             <transform name="to_world"><rotate x="1" angle="90"/></transform></emitter><shape type="disk"/>"#,
+    );
+    let [Light::Environment(environment)] = &loaded.lights[..] else {
+        panic!("{:?}", loaded.lights);
+    };
+    let above = environment.radiance(Vec3::Z);
+    assert!((above - 2.0).abs().max_element() < 1e-5, "{above}");
+    assert!(environment.radiance(Vec3::NEG_Z).max_element() < 1e-5);
+    let names: Vec<_> = loaded
+        .report
+        .files
+        .iter()
+        .filter_map(|file| file.file_name())
+        .collect();
+    assert!(
+        names.contains(&"sky.hdr".as_ref()),
+        "reloaded with the scene: {names:?}"
+    );
 }
 
 #[test]

@@ -217,8 +217,8 @@ const CONTENTS: &[(&str, &str)] = &[
         "3: “intensity” must be <rgb>, not <point>",
     ),
     (
-        "<emitter type='point'>\n<float name='radiance' value='1'/></emitter>",
-        "3: unknown parameter of emitter “point”: “radiance”; the nearest known one is “intensity”",
+        "<emitter type='point'>\n<float name='intensty' value='1'/></emitter>",
+        "3: unknown parameter of emitter “point”: “intensty”; the nearest known one is “intensity”",
     ),
     (
         "<emitter type='point'><point name='position' value='1'/><transform name='to_world'/></emitter>",
