@@ -26,6 +26,7 @@
 //! | [`plan`] | the order in which pixels and samples are traced |
 //! | [`film`] | accumulation of samples |
 //! | [`tone`] | exposure and tone curves |
+//! | [`picture`] | pictures for other programs |
 //! | [`render`] | progressive rendering on several threads |
 //! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`] | shared types |
 //!
@@ -50,6 +51,7 @@ pub mod light;
 pub mod loading;
 pub mod mesh;
 pub mod obj;
+pub mod picture;
 pub mod plan;
 mod polygon;
 pub mod progress;

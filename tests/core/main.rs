@@ -53,6 +53,9 @@ mod shapes;
 // Light transport against closed forms.
 mod light;
 
+// Files for other programs, with what denoisers need.
+mod picture;
+
 // 64×64 pictures, compared exactly.
 mod golden;
 

@@ -102,7 +102,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
 }
 
 /// The product of the colours of material, texture and vertices; clay if there are none.
-pub(super) fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
+pub(crate) fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
     let mesh = scene.mesh();
     let map = material.and_then(|material| material.diffuse_map.as_ref());
     // A face without texture coordinates shows no texture.

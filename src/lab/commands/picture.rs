@@ -205,14 +205,7 @@ impl PictureArgs {
             camera,
             shading,
             background: from_display(DARK_BACKGROUND),
-            lighting: if view.needs.lights {
-                {
-                    let max_memory = self.mesh.memory.bytes();
-                    self.light.lighting(&loaded, &camera, max_memory)?
-                }
-            } else {
-                Lighting::default()
-            },
+            lighting: self.lighting(view, &loaded, &camera)?,
         };
         let job = Job {
             context,
@@ -227,6 +220,20 @@ impl PictureArgs {
             loaded,
             shading,
         })
+    }
+
+    /// The lights, if the view needs any.
+    fn lighting(
+        &self,
+        view: &Integrator,
+        loaded: &LoadedScene,
+        camera: &Camera,
+    ) -> Result<Lighting, CommandError> {
+        if !view.needs.lights {
+            return Ok(Lighting::default());
+        }
+        let max_memory = self.mesh.memory.bytes();
+        self.light.lighting(loaded, camera, max_memory)
     }
 
     /// Refuses a picture that exceeds the memory limit together with the mesh.
