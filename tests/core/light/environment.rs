@@ -146,7 +146,9 @@ fn an_orientation_moves_the_up_axis() {
         scale: 2.0,
     };
     let environment = Environment::Map(PlacedMap::new(map, placement));
-    assert_eq!(environment.radiance(Vec3::Z), Vec3::splat(2000.0));
+    // The rotations are rounded to f32, and a row is 0.1 radians high.
+    let above = environment.radiance(Vec3::Z);
+    assert!((above - Vec3::splat(2000.0)).length() < 0.01, "{above}");
     assert_eq!(environment.radiance(Vec3::Y), Vec3::ZERO);
 }
 

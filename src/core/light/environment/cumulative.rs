@@ -41,7 +41,8 @@ impl Cumulative {
             return None;
         }
         let at = (at * f64::from(total)).min(f64::from(total - 1) + 0.999);
-        let index = self.ends.partition_point(|&end| f64::from(end) <= at);
+        let unit = at as u32;
+        let index = self.ends.partition_point(|&end| end <= unit);
         let (start, end) = self.interval(index);
         let within = (at - f64::from(start)) / f64::from(end - start);
         Some((index, within.clamp(0.0, 1.0)))
