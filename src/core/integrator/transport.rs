@@ -48,7 +48,7 @@ impl<'a> ShadingPoint<'a> {
                 reflectance: shaded::diffuse(scene, material, &hit),
             })
         } else {
-            Bsdf::Black
+            Bsdf::Black(crate::bsdf::Black)
         };
         Self {
             context,
