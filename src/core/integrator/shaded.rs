@@ -1,13 +1,12 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
 use super::{Context, Integrator, Needs};
-use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
-use crate::mesh::{Illumination, Material};
+use crate::appearance::Appearance;
+use crate::interaction::SurfaceInteraction;
+use crate::mesh::Illumination;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
-use crate::scene::Scene;
 use crate::spawn::{Departure, default_spawn_policy};
-use crate::srgb::from_display;
 use glam::Vec3;
 
 /// The row of the view.
@@ -20,8 +19,6 @@ pub(super) static SHADED: Integrator = Integrator {
     radiance,
 };
 
-/// Reflectance of faces without a material.
-const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
 /// Ambient light; the rest comes from the two lamps.
 const AMBIENT: f32 = 0.10;
 /// Directions and strengths of the lamps in camera space: a key light at the upper left, a fill light at the
@@ -72,9 +69,10 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let mesh = context.scene.mesh();
     let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
-    let diffuse = diffuse(&context.scene, material, &hit);
-    let emission = material.map_or(Vec3::ZERO, |m| m.emission);
-    let opacity = material.map_or(1.0, |m| m.opacity);
+    let appearance = Appearance::new(&context.scene, material, &hit);
+    let diffuse = appearance.diffuse();
+    let emission = appearance.emission();
+    let opacity = appearance.opacity();
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
     if illumination == Illumination::Constant {
         return (diffuse + emission, opacity);
@@ -89,7 +87,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();
     let mut sum = light * diffuse + emission;
     if let Some(material) = material
-        && illumination == Illumination::Highlights
+        && illumination.has_highlights()
         && material.specular != Vec3::ZERO
         // Programs write an exponent of 0 for matt materials; taken literally, it would light everything.
         && material.shininess > 0.0
@@ -101,26 +99,9 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
             let size = normal.dot(halfway).max(0.0).powf(material.shininess);
             if is_lit { strength * size } else { 0.0 }
         };
-        sum += material.specular * lamps.into_iter().map(highlight).sum::<f32>();
+        sum += appearance.specular() * lamps.into_iter().map(highlight).sum::<f32>();
     }
     (sum, opacity)
-}
-
-/// The product of the colours of material, texture and vertices; clay if there are none.
-pub(super) fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
-    let mesh = scene.mesh();
-    let map = material.and_then(|material| material.diffuse_map.as_ref());
-    // A face without texture coordinates shows no texture.
-    let of_texture = map
-        .zip(texture_coordinates(scene, hit))
-        .map(|(map, uv)| map.colour(&mesh.attributes().textures, uv));
-    let of_vertices = vertex_colour(scene, hit).map(from_display);
-    let of_material = material.and_then(|material| material.diffuse);
-    [of_material, of_texture, of_vertices]
-        .into_iter()
-        .flatten()
-        .reduce(|a, b| a * b)
-        .unwrap_or(CLAY)
 }
 
 #[cfg(test)]
@@ -129,7 +110,9 @@ mod tests {
     use crate::camera::{Camera, Projection};
     use crate::integrator::Lighting;
     use crate::kernel::default_triangle_kernel;
-    use crate::mesh::{Assigned, Attributes, CornerValues, Runs, Texture, TextureMap, shapes};
+    use crate::mesh::{
+        Assigned, Attributes, CornerValues, Material, Runs, Texture, TextureMap, shapes,
+    };
     use crate::scene::Shading;
     use glam::{DVec3, UVec2, Vec2};
     use std::sync::Arc;

@@ -15,6 +15,7 @@ pub use distant::DirectionalLight;
 pub use environment::Environment;
 pub use point::PointLight;
 
+use crate::mesh::Material;
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
 use crate::spawn::Endpoint;
@@ -78,14 +79,17 @@ impl Lights {
         let kept = others.into_iter().enumerate();
         let kept = kept.filter(|(k, light)| !is_environment(light) || Some(*k) == last);
         lights.extend(kept.map(|(_, light)| light));
-        let materials = &scene.mesh().attributes().materials;
+        let attributes = scene.mesh().attributes();
+        let mut materials = attributes.materials.entries().iter();
+        let has_coverage = |material: &Material| material.has_coverage(&attributes.textures);
+        let has_coverage = materials.any(has_coverage);
         let radius = scene.bounds().radius();
         let power = |light: &Light| f64::from(luminance(light.power(radius)));
         Self {
             choice: AliasTable::new(&lights.iter().map(power).collect::<Vec<_>>()),
             environment: lights.iter().position(is_environment).map(|k| k as u32),
             of_primitive,
-            has_coverage: materials.entries().iter().any(|m| m.opacity < 1.0),
+            has_coverage,
             lights,
         }
     }
