@@ -246,8 +246,8 @@ fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>, TryReserveError> {
     Ok(values)
 }
 
-/// A linear colour as 8-bit sRGB.
-fn encode(colour: Vec3) -> [u8; 4] {
+/// A linear colour as 8-bit sRGB with alpha 255; numbers outside of 0…1 are clamped.
+pub fn encode(colour: Vec3) -> [u8; 4] {
     /// Steps of the table from 0 to 1, finer than 8-bit sRGB.
     const STEPS: f32 = 65536.0;
     /// sRGB for each step. A table, because `powf` per pixel is too slow for the UI thread.

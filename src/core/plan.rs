@@ -1,7 +1,7 @@
 //! The order in which pixels and samples are traced.
 //!
 //! The first pass traces one pixel per block, the following ones use smaller blocks until every pixel has its
-//! centre sample; later passes double the number of samples. No sample is traced twice.
+//! centre sample; later passes double the number of samples, or add [`MAX_SAMPLES_PER_PASS`]. No sample is traced twice.
 //!
 //! ```text
 //! step 4          step 2          step 1
@@ -19,8 +19,10 @@ use crate::sampler::sample_position;
 pub const TILE_PX: u32 = 48;
 /// Block sizes, in pixels.
 pub const STEPS: [u32; 8] = [1, 2, 3, 4, 6, 8, 12, 16];
-/// Maximum number of samples per pixel, which the film's sums can hold.
-pub const MAX_SAMPLES: u32 = 4096;
+/// Maximum number of samples per pixel.
+pub const MAX_SAMPLES: u32 = 65536;
+/// Maximum number of samples that a pass adds to a pixel, so that tiles of late passes don't take long.
+pub const MAX_SAMPLES_PER_PASS: u32 = 64;
 
 /// A rectangle of pixels; `max` is exclusive.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -108,11 +110,9 @@ impl Plan {
         let samples = samples.clamp(1, MAX_SAMPLES).next_power_of_two();
         let mut first = 1;
         while first < samples {
-            passes.push(Pass::Samples {
-                first,
-                count: first,
-            });
-            first *= 2;
+            let count = first.min(MAX_SAMPLES_PER_PASS);
+            passes.push(Pass::Samples { first, count });
+            first += count;
         }
         Self { size, passes }
     }
@@ -258,12 +258,15 @@ mod tests {
     }
 
     #[test]
-    fn samples_double_up_to_the_requested_number() {
-        let plan = Plan::new(UVec2::splat(10), 1, 16);
-        let samples: Vec<u32> = (0..=plan.pass_count())
-            .map(|k| plan.samples_after(k))
-            .collect();
-        assert_eq!(samples, [0, 1, 2, 4, 8, 16]);
+    fn samples_double_and_then_grow_evenly_up_to_the_requested_number() {
+        let samples_of = |samples: u32| -> Vec<u32> {
+            let plan = Plan::new(UVec2::splat(10), 1, samples);
+            (0..=plan.pass_count())
+                .map(|k| plan.samples_after(k))
+                .collect()
+        };
+        assert_eq!(samples_of(16), [0, 1, 2, 4, 8, 16]);
+        assert_eq!(samples_of(256), [0, 1, 2, 4, 8, 16, 32, 64, 128, 192, 256]);
         assert_eq!(Plan::new(UVec2::ONE, 1, 0).pass_count(), 1);
         let most = Plan::new(UVec2::ONE, 1, u32::MAX);
         assert_eq!(most.samples_after(most.pass_count()), MAX_SAMPLES);

@@ -42,7 +42,7 @@ pub enum Endpoint {
 
 /// A rule for the origin of a spawned ray.
 pub struct SpawnPolicy {
-    /// The name in the lab's tables.
+    /// The name, as in the lab's tables and `--spawn`.
     pub name: &'static str,
     /// The title in menus.
     pub title: &'static str,
@@ -184,6 +184,11 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         },
     },
 ];
+
+/// The policy of this name.
+pub fn spawn_policy(name: &str) -> Option<&'static SpawnPolicy> {
+    SPAWN_POLICIES.iter().find(|policy| policy.name == name)
+}
 
 /// The default policy.
 pub fn default_spawn_policy() -> &'static SpawnPolicy {

@@ -11,6 +11,8 @@ pub enum Action {
     Open,
     /// Show the dialog that saves a scene file.
     Save,
+    /// Show the dialog that opens a picture of an environment.
+    OpenEnvironment,
     /// Reload the open file.
     Reload,
     /// Show the scene file's view, or frame the mesh.
@@ -35,6 +37,8 @@ pub enum Action {
     ToggleNormals,
     /// Toggle smooth shading.
     ToggleSmooth,
+    /// Show or hide the noise of a view that needs lights.
+    ToggleNoise,
     /// Pause or resume refinement.
     TogglePause,
     /// Show or hide the side panel.
@@ -191,10 +195,17 @@ pub static KEYS: &[Binding] = &[
 pub static POINTER: &[(&str, &str)] = &[
     ("Drag", "Orbit"),
     ("Shift+drag, middle drag or right drag", "Pan"),
+    (
+        "Ctrl+drag",
+        "Rotate the environment, in views with its light",
+    ),
     ("Scroll or pinch", "Zoom to the cursor"),
     ("Click", "Inspect the pixel"),
     ("Double-click", "Set the pivot"),
-    ("Drop a file", "Open it"),
+    (
+        "Drop a file",
+        "Open it, or light the scene by a picture in HDR or EXR",
+    ),
 ];
 
 /// Keys that egui handles itself.

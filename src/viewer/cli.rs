@@ -192,7 +192,7 @@ impl Command {
     fn run(&self) -> Result<(), CommandError> {
         let mut out = BufWriter::new(stdout().lock());
         match self {
-            Self::Render(args) => render(args)?,
+            Self::Render(args) => render(args, &mut out)?,
             Self::Inspect(args) => args.run(&mut out)?,
             Self::Trace(args) => args.run(&mut out)?,
             Self::Info(args) => args.run(&mut out)?,
@@ -203,7 +203,7 @@ impl Command {
     }
 }
 
-fn render(args: &RenderArgs) -> Result<(), CommandError> {
+fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
     let failed = |error: GpuError| CommandError::Other(error.to_string());
     // Do everything that can fail without the mesh before loading it.
     args.check()?;
@@ -212,14 +212,18 @@ fn render(args: &RenderArgs) -> Result<(), CommandError> {
     let gpu = needs_gpu.then(Gpu::open).transpose().map_err(failed)?;
     let rendered = args.trace()?;
     let size = rendered.film.size();
-    let Some(gpu) = gpu else {
-        return output.write_png(size, rendered.film.pixels());
-    };
-    let mut pixels = rendered.film.pixels().to_vec();
-    let edges = args.wireframe.then_some(WireframeEdges::Polygons);
-    let normals = args.normals.then_some(rendered.shading);
-    offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
-    output.write_png(size, &pixels)
+    let noise = args.noise.then(|| rendered.noise());
+    let mut pixels = rendered.pixels().into_owned();
+    if let Some(gpu) = gpu {
+        let edges = args.wireframe.then_some(WireframeEdges::Polygons);
+        let normals = args.normals.then_some(rendered.shading);
+        offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
+    }
+    output.write_png(size, &pixels)?;
+    if let Some(noise) = noise {
+        writeln!(out, "{noise}")?;
+    }
+    Ok(())
 }
 
 /// Opens the window, or renders a picture if there is no display.
@@ -326,7 +330,7 @@ fn render_instead(cli: &Cli) -> Result<(), CommandError> {
         None => ("the built-in scene".to_owned(), embedded_scene()),
     };
     let rendered = picture.trace(loaded)?;
-    output.write_png(rendered.film.size(), rendered.film.pixels())?;
+    output.write_png(rendered.film.size(), &rendered.pixels())?;
     let mut out = stdout().lock();
     writeln!(out, "rendered {input} to {OUTPUT}")?;
     writeln!(

@@ -16,6 +16,8 @@ pub enum Purpose {
     Open,
     /// Choose the name of a scene file to write.
     Save,
+    /// Choose a picture of an environment to open.
+    Environment,
 }
 
 impl Purpose {
@@ -23,6 +25,7 @@ impl Purpose {
         match self {
             Self::Open => "Open a mesh",
             Self::Save => "Save as a scene file",
+            Self::Environment => "Open an environment",
         }
     }
 }
@@ -96,6 +99,9 @@ impl FileDialog {
                 )
                 .add_filter("All files", &["*"]),
             Purpose::Save => dialog.add_filter("Scene files", &["xml"]),
+            Purpose::Environment => dialog
+                .add_filter("Environments", &["hdr", "HDR", "exr", "EXR"])
+                .add_filter("All files", &["*"]),
         };
         if let Some(folder) = suggested.and_then(Path::parent) {
             dialog = dialog.set_directory(folder);
@@ -170,6 +176,7 @@ impl FileDialog {
                     let hint = match purpose {
                         Purpose::Open => "/path/to/mesh.obj",
                         Purpose::Save => "/path/to/scene.xml",
+                        Purpose::Environment => "/path/to/sky.hdr",
                     };
                     let edit = egui::TextEdit::singleline(&mut field.path)
                         .hint_text(hint)
@@ -183,7 +190,7 @@ impl FileDialog {
                     let replaces =
                         purpose == Purpose::Save && Path::new(field.path.trim()).exists();
                     let button = match purpose {
-                        Purpose::Open => "Load",
+                        Purpose::Open | Purpose::Environment => "Load",
                         Purpose::Save if replaces => "Replace",
                         Purpose::Save => "Save",
                     };

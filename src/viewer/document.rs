@@ -104,6 +104,7 @@ impl Document {
             report: LoadReport::default(),
             view: None,
             description: None,
+            lights: Vec::new(),
         };
         let mut document = Self::new(None, loaded, kernel);
         document.is_blank = true;

@@ -9,7 +9,7 @@
 //! | [`display`] | the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
-//! | [`tracer`] | tracing of the window's picture |
+//! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
@@ -28,6 +28,7 @@ pub mod document;
 pub mod face_lookup;
 pub mod flaw_place;
 pub mod gpu;
+pub mod look;
 pub mod numbers;
 pub mod offscreen;
 pub mod opening;

@@ -1,5 +1,6 @@
 //! The settings of the window, kept between runs.
 
+use crate::look::{TONE_CURVES, ToneCurve};
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
@@ -8,6 +9,7 @@ use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{KernelChoice, default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
+use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 
@@ -28,7 +30,7 @@ pub enum Tab {
 /// Allowed widths of the side panel, in points.
 pub const PANEL_WIDTHS: RangeInclusive<f32> = 240.0..=460.0;
 
-/// The settings of the window. Unknown names of views and kernels stand for the defaults.
+/// The settings of the window. Unknown names of views, kernels, spawn policies and tone curves stand for the defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -57,6 +59,34 @@ pub struct Settings {
     pub normal_length: f32,
     /// Samples per pixel of the finished picture; a power of two.
     pub samples: u32,
+    /// Whether refinement of views that need lights ends after a time.
+    pub has_time_limit: bool,
+    /// The time, in seconds.
+    pub time_limit_s: f32,
+    /// Whether refinement of views that need lights ends at a noise.
+    pub has_noise_limit: bool,
+    /// The mean noise, in percent of white.
+    pub noise_limit_percent: f32,
+    /// Name of the rule for rays that leave surfaces.
+    pub spawn: String,
+    /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene.
+    pub ao_distance: f32,
+    /// Whether paths have a limit on their surfaces.
+    pub has_depth_limit: bool,
+    /// The most surfaces on a path.
+    pub depth_limit: u32,
+    /// sRGB of the light from far away.
+    pub environment_colour: [u8; 3],
+    /// Factor of the light from far away.
+    pub environment_brightness: f32,
+    /// Rotation of the light from far away about the up axis.
+    pub environment_degrees: f32,
+    /// Exposure of views with light, in stops: each doubles the brightness.
+    pub exposure_stops: f32,
+    /// Name of the tone curve of views with light.
+    pub tone_curve: String,
+    /// Whether the noise of views that need lights is shown instead of their picture.
+    pub shows_noise: bool,
     /// Whether the mesh's z axis points up.
     pub is_z_up: bool,
     /// The axis that points up in the open file's view, which is used instead.
@@ -97,6 +127,20 @@ impl Default for Settings {
             shows_normals: false,
             normal_length: 0.03,
             samples: 64,
+            has_time_limit: false,
+            time_limit_s: 60.0,
+            has_noise_limit: false,
+            noise_limit_percent: 1.0,
+            spawn: default_spawn_policy().name.to_owned(),
+            ao_distance: 1.0,
+            has_depth_limit: false,
+            depth_limit: 8,
+            environment_colour: [255; 3],
+            environment_brightness: 1.0,
+            environment_degrees: 0.0,
+            exposure_stops: 0.0,
+            tone_curve: TONE_CURVES[0].name.to_owned(),
+            shows_noise: false,
             is_z_up: false,
             file_up_axis: None,
             has_crease: false,
@@ -174,6 +218,40 @@ impl Settings {
         } else {
             Crease::FromFile
         }
+    }
+
+    /// How rays leave surfaces.
+    pub fn spawn(&self) -> &'static SpawnPolicy {
+        let mut policies = SPAWN_POLICIES.iter();
+        let named = policies.find(|policy| policy.name == self.spawn);
+        named.unwrap_or_else(default_spawn_policy)
+    }
+
+    /// The most surfaces on a path; `None` for no limit.
+    pub fn depth_limit(&self) -> Option<u32> {
+        self.has_depth_limit.then_some(self.depth_limit)
+    }
+
+    /// Whether the view shows light, so that environment and exposure matter.
+    pub fn shows_light(&self) -> bool {
+        let needs = self.view().needs;
+        needs.lights && !needs.ao_distance
+    }
+
+    /// The factor of light in the picture.
+    pub fn exposure(&self) -> f32 {
+        if self.shows_light() {
+            self.exposure_stops.exp2()
+        } else {
+            1.0
+        }
+    }
+
+    /// How colours are limited to those of the screen.
+    pub fn tone_curve(&self) -> &'static ToneCurve {
+        let mut curves = TONE_CURVES.iter();
+        let named = curves.find(|curve| self.shows_light() && curve.name == self.tone_curve);
+        named.unwrap_or(&TONE_CURVES[0])
     }
 
     /// The axis that points up.

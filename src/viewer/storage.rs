@@ -3,9 +3,15 @@
 //! eframe writes the file `app.ron`, a table of strings by name, at the end and twice per minute. The settings are one
 //! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
+use crate::look::TONE_CURVES;
+use crate::panels::light::{
+    AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
+};
 use crate::settings::{PANEL_WIDTHS, Settings};
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
+use hitscope_core::plan::MAX_SAMPLES;
+use hitscope_core::spawn::SPAWN_POLICIES;
 use serde::Deserialize as _;
 use serde_json::Value;
 use std::collections::HashMap;
@@ -26,10 +32,9 @@ const MAX_BYTES: u64 = 1 << 20;
 
 /// The range of Ctrl+Plus and Ctrl+Minus.
 const ZOOMS: RangeInclusive<f32> = 0.2..=5.0;
-/// The range of the control in the Display tab.
+// The ranges of controls in the Display tab.
 const NORMAL_LENGTHS: RangeInclusive<f32> = 0.002..=0.5;
 const CREASES: RangeInclusive<f32> = 0.0..=180.0;
-const MAX_SAMPLES: u32 = 4096;
 
 /// The settings that were stored last, or the defaults.
 pub fn stored_settings() -> Settings {
@@ -81,13 +86,6 @@ fn from_json(text: &str) -> Settings {
 /// Replaces values that the window can't have set by the defaults.
 fn usable(settings: Settings) -> Settings {
     let default = Settings::default();
-    let number = |value: f32, range: RangeInclusive<f32>, default: f32| {
-        if range.contains(&value) {
-            value
-        } else {
-            default
-        }
-    };
     let kernel = |name: String, default: String| {
         if kernel_named(&name).is_some() {
             name
@@ -95,6 +93,7 @@ fn usable(settings: Settings) -> Settings {
             default
         }
     };
+    let settings = usable_light(settings);
     Settings {
         zoom: number(settings.zoom, ZOOMS, default.zoom),
         panel_width: number(settings.panel_width, PANEL_WIDTHS, default.panel_width),
@@ -117,6 +116,55 @@ fn usable(settings: Settings) -> Settings {
             default.view
         },
         ..settings
+    }
+}
+
+/// The same for the settings of views that need lights.
+fn usable_light(settings: Settings) -> Settings {
+    let default = Settings::default();
+    let named = |name: String, is_known: bool, default: String| {
+        if is_known { name } else { default }
+    };
+    let is_policy = SPAWN_POLICIES.iter().any(|row| row.name == settings.spawn);
+    let is_curve = TONE_CURVES
+        .iter()
+        .any(|row| row.name == settings.tone_curve);
+    Settings {
+        time_limit_s: number(settings.time_limit_s, TIME_LIMITS_S, default.time_limit_s),
+        noise_limit_percent: number(
+            settings.noise_limit_percent,
+            NOISE_LIMITS,
+            default.noise_limit_percent,
+        ),
+        ao_distance: number(settings.ao_distance, AO_DISTANCES, default.ao_distance),
+        depth_limit: if DEPTH_LIMITS.contains(&settings.depth_limit) {
+            settings.depth_limit
+        } else {
+            default.depth_limit
+        },
+        environment_brightness: number(
+            settings.environment_brightness,
+            BRIGHTNESSES,
+            default.environment_brightness,
+        ),
+        environment_degrees: number(
+            settings.environment_degrees,
+            ROTATIONS,
+            default.environment_degrees,
+        ),
+        exposure_stops: number(settings.exposure_stops, EXPOSURES, default.exposure_stops),
+        spawn: named(settings.spawn, is_policy, default.spawn),
+        tone_curve: named(settings.tone_curve, is_curve, default.tone_curve),
+        ..settings
+    }
+}
+
+/// The value if it is in the range, else the default.
+fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f32 {
+    if range.contains(&value) {
+        value
+    } else {
+        default
     }
 }
 
@@ -166,22 +214,41 @@ mod tests {
             let panel_width = with("panel_width", width).panel_width;
             assert_eq!(panel_width, default.panel_width, "{width}");
         }
-        for samples in ["0", "3", "8192", "-1", "1.5"] {
+        for samples in ["0", "3", "131072", "-1", "1.5"] {
             assert_eq!(
                 with("samples", samples).samples,
                 default.samples,
                 "{samples}"
             );
         }
-        for name in ["kernel", "against", "view", "tab", "theme"] {
+        for name in [
+            "kernel",
+            "against",
+            "view",
+            "tab",
+            "theme",
+            "spawn",
+            "tone_curve",
+        ] {
             let read = with(name, "\"of another version\"");
             let kept =
                 |settings: &Settings| serde_json::to_value(settings).expect("JSON")[name].clone();
             assert_eq!(kept(&read), kept(&default), "{name}");
             assert!(read.is_smooth, "{name} affects no other");
         }
-        for name in ["normal_length", "crease_degrees"] {
-            let read = with(name, "-1");
+        for name in [
+            "normal_length",
+            "crease_degrees",
+            "time_limit_s",
+            "noise_limit_percent",
+            "ao_distance",
+            "depth_limit",
+            "environment_brightness",
+            "environment_degrees",
+            "environment_colour",
+            "exposure_stops",
+        ] {
+            let read = with(name, "-100");
             assert_eq!(
                 read,
                 Settings {

@@ -1,84 +1,40 @@
 //! Tracing of the window's picture: posts jobs to the threads and collects their tiles.
 //!
 //! While the camera moves, each new request waits for the first pass of the previous request, which is coarse
-//! enough to be fast.
+//! enough to be fast. A view that needs lights is slower: while the camera moves, its preview is traced instead, which is
+//! the first view of the table. The view follows once nothing has changed for a while, and replaces the preview when its
+//! own first pass is done.
+
+mod limits;
+mod noise;
+mod pacing;
+mod request;
+mod speed;
+mod status;
+
+pub use limits::{LEAST_SAMPLES, Limits, StopReason};
+pub use noise::Noise;
+pub use request::Request;
+pub use status::Status;
 
 use crate::times::Times;
 use glam::{UVec2, Vec3};
-use hitscope_core::integrator::{Context, Integrator};
-use hitscope_core::plan::PixelRect;
-use hitscope_core::plan::{Plan, STEPS};
+use hitscope_core::integrator::{Context, INTEGRATORS};
+use hitscope_core::plan::{Pass, PixelRect, Plan};
 use hitscope_core::render::{Job, Message, RenderPanic, Renderer, TileResult};
 use hitscope_core::{Camera, Film, Scene};
-use std::ops::{Range, RangeInclusive};
+use noise::TileNoise;
+use pacing::LOOK;
+use request::PostedRequest;
+use speed::Speed;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
-/// Target time of a frame while the camera moves. Less than 33 ms, as a late frame takes twice the interval.
-const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(30);
-/// Time of the first pass within a frame. Drawing the window takes almost no time with a GPU, and half of the frame
-/// without one.
-const FIRST_PASS: RangeInclusive<Duration> = Duration::from_millis(4)..=Duration::from_millis(20);
 /// Time limit for collecting tiles in one frame.
 const COLLECTING: Duration = Duration::from_millis(6);
-/// A picture that stays longer than this ends a movement.
-const LOOK: Duration = Duration::from_millis(250);
 /// Refinement begins when nothing has changed for this long. Until then the CPU is free to draw the window, which
 /// takes most of its time without a GPU.
 const REST: Duration = Duration::from_millis(80);
-/// Rays per second per thread, until they are measured.
-const ASSUMED_SPEED: f64 = 1e6;
-
-/// A request for a picture.
-#[derive(Clone)]
-pub struct Request {
-    /// Scene, camera and kernels.
-    pub context: Context,
-    /// The view.
-    pub integrator: &'static Integrator,
-    /// Samples per pixel of the finished picture.
-    pub samples: u32,
-    /// Whether the view shows the cost of rays in the final tree.
-    pub shows_last_tree: bool,
-}
-
-impl PartialEq for Request {
-    fn eq(&self, other: &Self) -> bool {
-        let (a, b) = (&self.context, &other.context);
-        Arc::ptr_eq(&a.scene, &b.scene)
-            && Arc::ptr_eq(&a.intersector, &b.intersector)
-            && Arc::ptr_eq(&a.second, &b.second)
-            && (a.camera, a.shading, a.background) == (b.camera, b.shading, b.background)
-            && (self.integrator.name, self.samples) == (other.integrator.name, other.samples)
-            && self.shows_last_tree == other.shows_last_tree
-    }
-}
-
-/// The request that the threads are working on.
-struct PostedRequest {
-    request: Request,
-    at: Instant,
-    /// Time from posting to the newest tile.
-    lasted: Duration,
-}
-
-/// Figures for the status line.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Status {
-    /// Number of samples that every pixel has; 0 while the picture consists of coarse blocks.
-    pub samples: u32,
-    /// Passes done.
-    pub passes: usize,
-    /// Total number of passes.
-    pub pass_count: usize,
-    /// Rays per second of all threads together, while they are tracing.
-    pub rays_per_s: f64,
-    /// Time from the last change to the newest tile.
-    pub lasted: Duration,
-    /// Time between the pictures of the last movement: median and 99th percentile.
-    pub frame_interval: Option<[Duration; 2]>,
-}
-
 /// Traces the newest request.
 pub struct Tracer {
     renderer: Renderer,
@@ -92,15 +48,22 @@ pub struct Tracer {
     /// Time of the first pass, adapted so that frames meet their target.
     first_pass: Duration,
     changed: Option<PixelRect>,
-    /// Rays traced and the seconds that threads spent on them, with an exponential decay.
-    rays: f64,
-    busy_secs: f64,
+    /// Pixels of the preview that changed and weren't taken before the view began.
+    changed_before: Option<PixelRect>,
+    /// Speeds of views that don't need lights, previews among them, and of those that do.
+    speeds: [Speed; 2],
+    noise: TileNoise,
+    limits: Limits,
+    /// The limit that is reached.
+    stopped: Option<StopReason>,
     /// Paused by the user.
     is_paused: bool,
     /// Whether refinement waits until nothing has changed for a while.
     is_held: bool,
     /// Whether the last picture stayed long enough before the next request to end a movement.
     has_rested: bool,
+    /// Whether the picture on the screen is that of a view that needs lights, not of its preview.
+    shows_lit: bool,
     /// Whether tiles are shown before the first pass is complete.
     shows_parts: bool,
     non_finite: u64,
@@ -121,11 +84,15 @@ impl Tracer {
             frame_intervals: Times::default(),
             first_pass: Duration::from_millis(12),
             changed: None,
-            rays: 0.0,
-            busy_secs: 0.0,
+            changed_before: None,
+            speeds: [Speed::default(); 2],
+            noise: TileNoise::default(),
+            limits: Limits::default(),
+            stopped: None,
             is_paused: false,
             is_held: false,
             has_rested: true,
+            shows_lit: false,
             shows_parts: false,
             non_finite: 0,
             hits: 0,
@@ -150,7 +117,10 @@ impl Tracer {
                 break;
             }
         }
-        self.end_hold(ctx);
+        self.check_limits();
+        if self.film.passes_done() > 0 {
+            self.shows_lit = self.is_lit();
+        }
         if self.film.passes_done() > 0
             && let Some(posted) = &self.posted
             && !self.is_shown(&posted.request.context)
@@ -159,38 +129,11 @@ impl Tracer {
             self.shown = Some((Arc::clone(scene), *camera));
             self.count_frame();
         }
+        self.end_hold(ctx);
         panics
     }
 
-    /// Records the time since the previous picture.
-    fn count_frame(&mut self) {
-        let now = Instant::now();
-        let interval = self.shown_at.map(|last| now - last);
-        self.shown_at = Some(now);
-        match interval {
-            Some(interval) if !self.has_rested => {
-                self.frame_intervals.push(interval);
-                self.adapt(interval);
-            }
-            // A new movement begins after a rest.
-            _ => self.frame_intervals.clear(),
-        }
-    }
-
-    /// Adjusts the time of the first pass to the time that the last frame took.
-    fn adapt(&mut self, interval: Duration) {
-        let factor = if interval > FRAME.end {
-            0.9
-        } else if interval < FRAME.start {
-            1.05
-        } else {
-            return;
-        };
-        let wanted = self.first_pass.mul_f64(factor);
-        self.first_pass = wanted.clamp(*FIRST_PASS.start(), *FIRST_PASS.end());
-    }
-
-    /// Starts refinement once nothing has changed for a while.
+    /// Starts refinement, or the view after its preview, once nothing has changed for a while.
     fn end_hold(&mut self, ctx: &egui::Context) {
         if !self.is_held {
             return;
@@ -199,27 +142,61 @@ impl Tracer {
             .posted
             .as_ref()
             .map_or(REST, |posted| posted.at.elapsed());
+        let is_preview = self.posted.as_ref().is_some_and(|posted| posted.is_preview);
         if since < REST {
             ctx.request_repaint_after(REST - since);
-        } else {
+        } else if !is_preview {
             self.is_held = false;
+            self.apply_pause();
+        } else if self.film.passes_done() > 0 {
+            self.is_held = false;
+            self.begin_view();
+        }
+    }
+
+    /// Traces the view whose preview is shown, with the preview's block size. The preview stays until the view's first
+    /// pass is done.
+    fn begin_view(&mut self) {
+        let Some(posted) = &mut self.posted else {
+            return;
+        };
+        posted.is_preview = false;
+        let step = match self.film.plan().pass(0) {
+            Pass::Lattice { step } => step,
+            Pass::Samples { .. } => 1,
+        };
+        let plan = Plan::new(self.film.size(), step, posted.request.samples);
+        self.film.restart(plan, posted.request.context.background);
+        self.changed_before = self.changed.take();
+        self.post();
+    }
+
+    /// Ends refinement if a limit is reached.
+    fn check_limits(&mut self) {
+        if let (None, Some(posted)) = (self.stopped, &self.posted)
+            && posted.is_lit()
+        {
+            let secs = posted.busy_secs / self.renderer.thread_count() as f64;
+            let (samples, noise) = (self.film.samples(), self.noise.total());
+            self.stopped = self.limits.reached(secs, samples, noise);
             self.apply_pause();
         }
     }
 
     fn add(&mut self, tile: &TileResult) {
-        /// Half-life of the measurements, in seconds of one thread.
-        const MEMORY_SECS: f64 = 0.5;
         let rect = self.film.add(&tile.samples);
         self.changed = Some(self.changed.map_or(rect, |changed| changed.union(rect)));
         self.non_finite += u64::from(tile.non_finite);
         self.hits += u64::from(tile.hits);
-        let busy = tile.busy.as_secs_f64();
-        let fade = (-busy / MEMORY_SECS).exp2();
-        self.rays = self.rays * fade + f64::from(tile.rays);
-        self.busy_secs = self.busy_secs * fade + busy;
+        let is_lit = self.is_lit();
+        self.speeds[usize::from(is_lit)].add(tile.rays, tile.busy);
         if let Some(posted) = &mut self.posted {
             posted.lasted = posted.at.elapsed();
+            posted.busy_secs += tile.busy.as_secs_f64();
+        }
+        let unit = tile.samples.unit;
+        if is_lit && matches!(self.film.plan().pass(unit.pass), Pass::Samples { .. }) {
+            self.noise.update(&self.film, unit.tile);
         }
     }
 
@@ -231,19 +208,26 @@ impl Tracer {
             .is_none_or(|posted| posted.request != request);
         // A request for another scene doesn't wait: the old picture is useless.
         let is_same_scene = self.is_shown_scene(&request.context.scene);
-        let is_waiting = self.posted.is_some() && self.film.passes_done() == 0 && is_same_scene;
+        // A view that needs lights is previewed, unless its camera's picture is already on the screen.
+        let is_preview = request.is_lit() && !self.is_shown(&request.context);
+        let is_lit = request.is_lit() && !is_preview;
+        // A view that needs lights takes longer, so that only another such view waits for it.
+        let is_slower = self.is_lit() && !is_lit;
+        let is_waiting =
+            self.posted.is_some() && self.film.passes_done() == 0 && is_same_scene && !is_slower;
         if !is_news || is_waiting {
             return;
         }
         let size = request.context.camera.resolution();
-        let plan = Plan::new(size, self.first_step(size), request.samples);
+        let samples = if is_preview { 1 } else { request.samples };
+        let plan = Plan::new(size, self.first_step(size, is_lit), samples);
         let background = request.context.background;
         // A picture of the same scene stays until the first pass of the new picture is done.
         if self.film.size() == size && is_same_scene {
-            self.film.restart(plan.clone(), background);
+            self.film.restart(plan, background);
         } else {
-            self.film = Film::new(plan.clone(), background);
-            self.changed = None;
+            self.film = Film::new(plan, background);
+            (self.changed, self.changed_before) = (None, None);
         }
         if !is_same_scene {
             self.changed = Some(PixelRect {
@@ -251,52 +235,58 @@ impl Tracer {
                 max: size,
             });
             self.shown = Some((Arc::clone(&request.context.scene), request.context.camera));
-            self.shows_parts = true;
+            (self.shows_parts, self.shows_lit) = (true, false);
         }
-        self.non_finite = 0;
-        self.hits = 0;
         // A slow first pass is a slow frame, not a rest.
         self.has_rested = self.shown_at.is_none_or(|at| at.elapsed() > LOOK);
         self.is_held = true;
-        self.apply_pause();
-        self.renderer.post(Job {
-            context: request.context.clone(),
-            integrator: request.integrator,
-            plan,
-        });
         self.posted = Some(PostedRequest {
             request,
             at: Instant::now(),
             lasted: Duration::ZERO,
+            is_preview,
+            busy_secs: 0.0,
         });
+        self.post();
     }
 
-    /// The smallest block size with which the first pass is fast enough.
-    fn first_step(&self, size: UVec2) -> u32 {
-        let affordable = self.rays_per_s() * self.first_pass.as_secs_f64();
-        let pixels = f64::from(size.x) * f64::from(size.y);
-        let is_affordable = |step: &u32| pixels / f64::from(step * step) <= affordable;
-        let coarsest = STEPS[STEPS.len() - 1];
-        STEPS.into_iter().find(is_affordable).unwrap_or(coarsest)
-    }
-
-    fn rays_per_s(&self) -> f64 {
-        let speed = if self.busy_secs > 0.0 {
-            self.rays / self.busy_secs
-        } else {
-            ASSUMED_SPEED
+    /// Passes the request and the film's plan to the threads.
+    fn post(&mut self) {
+        let Some(posted) = &mut self.posted else {
+            return;
         };
-        speed * self.renderer.thread_count() as f64
+        posted.busy_secs = 0.0;
+        let plan = self.film.plan().clone();
+        self.noise = TileNoise::new(plan.tile_count());
+        let job = Job {
+            context: posted.request.context.clone(),
+            integrator: if posted.is_preview {
+                INTEGRATORS[0]
+            } else {
+                posted.request.integrator
+            },
+            plan,
+        };
+        (self.non_finite, self.hits, self.stopped) = (0, 0, None);
+        self.apply_pause();
+        self.renderer.post(job);
     }
 
     /// The picture and the rectangle that has changed since the last call; `None` until the first pass is done,
     /// except for the first picture of a scene.
     pub fn take_changes(&mut self) -> Option<(&Film, PixelRect)> {
-        if self.film.passes_done() == 0 && !self.shows_parts {
-            return None;
-        }
-        self.shows_parts &= self.film.passes_done() == 0;
-        let changed = self.changed.take()?;
+        let is_first_pass = self.film.passes_done() == 0;
+        let changed = if is_first_pass && !self.shows_parts {
+            None
+        } else {
+            self.shows_parts &= is_first_pass;
+            self.changed.take()
+        };
+        let before = self.changed_before.take();
+        let changed = match (before, changed) {
+            (Some(before), Some(changed)) => before.union(changed),
+            (before, changed) => before.or(changed)?,
+        };
         Some((&self.film, changed))
     }
 
@@ -323,6 +313,31 @@ impl Tracer {
         self.shown.as_ref()
     }
 
+    /// Whether a view that needs lights is being traced, not its preview.
+    fn is_lit(&self) -> bool {
+        self.posted.as_ref().is_some_and(PostedRequest::is_lit)
+    }
+
+    /// Whether the picture to be shown is that of a view that needs lights, not of its preview.
+    pub fn shows_lit(&self) -> bool {
+        self.shows_lit
+    }
+
+    /// Whether nothing is left to trace for the request: the view has all samples, or a limit is reached.
+    pub fn is_finished(&self) -> bool {
+        let is_preview = self.posted.as_ref().is_none_or(|posted| posted.is_preview);
+        !is_preview && (self.film.is_complete() || self.stopped.is_some())
+    }
+
+    /// Sets the conditions that end refinement.
+    pub fn set_limits(&mut self, limits: Limits) {
+        if self.limits != limits {
+            (self.limits, self.stopped) = (limits, None);
+            self.check_limits();
+            self.apply_pause();
+        }
+    }
+
     /// The request that is being traced.
     pub fn posted(&self) -> Option<&Request> {
         self.posted.as_ref().map(|posted| &posted.request)
@@ -344,25 +359,6 @@ impl Tracer {
         self.non_finite
     }
 
-    /// Figures for the status line.
-    pub fn status(&self) -> Status {
-        Status {
-            samples: self.film.samples(),
-            passes: self.film.passes_done(),
-            pass_count: self.film.plan().pass_count(),
-            rays_per_s: if self.busy_secs > 0.0 {
-                self.rays_per_s()
-            } else {
-                0.0
-            },
-            lasted: self
-                .posted
-                .as_ref()
-                .map_or(Duration::ZERO, |posted| posted.lasted),
-            frame_interval: self.frame_intervals.median_and_99th(),
-        }
-    }
-
     /// Cancels the work on the current picture.
     pub fn stop(&mut self) {
         self.renderer.cancel();
@@ -380,7 +376,7 @@ impl Tracer {
     }
 
     fn apply_pause(&mut self) {
-        if self.is_paused || self.is_held {
+        if self.is_paused || self.is_held || self.stopped.is_some() {
             self.renderer.pause();
         } else {
             self.renderer.resume();

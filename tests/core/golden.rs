@@ -13,11 +13,13 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, integrator};
 use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
+use hitscope_core::light::{DirectionalLight, Environment, Light, Lights};
 use hitscope_core::mesh::shapes::{Placement, torus};
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::scene::scene;
+use hitscope_core::spawn::SPAWN_POLICIES;
 use hitscope_core::{Camera, Film, Intersector};
 use std::fs;
 use std::path::PathBuf;
@@ -36,6 +38,17 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
     let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
     let eye = DVec3::new(1.25, -2.0, 2.25);
     let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, projection, plan.size());
+    let lamp = DirectionalLight {
+        to_light: Vec3::new(0.6, 0.0, 0.8),
+        irradiance: Vec3::new(1.5, 1.4, 1.2),
+    };
+    let sky = Environment::Constant(Vec3::new(0.3, 0.4, 0.5));
+    let others = vec![Light::Directional(lamp), Light::Environment(sky)];
+    let lighting = Lighting {
+        lights: Arc::new(Lights::new(&scene, others)),
+        second_spawn: &SPAWN_POLICIES[0],
+        ..Lighting::default()
+    };
     Job {
         context: Context {
             second: view.second(&scene, &intersector, exact_triangle_kernel().into()),
@@ -44,7 +57,7 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
             camera: camera.expect("a camera"),
             shading,
             background: Vec3::new(0.05, 0.1, 0.2),
-            lighting: Lighting::default(),
+            lighting,
         },
         integrator: view,
         plan,

@@ -116,6 +116,17 @@ fn a_scene_file_keeps_its_contents_and_its_files_are_found_from_another_folder()
     assert_eq!(sensors, [Some("first"), Some("second")]);
     assert_eq!(again.sensors[0].sample_count, 32);
     let xml = std::fs::read_to_string(&saved).expect("written");
+    assert!(xml.contains(r#"value="sky.exr""#), "relative: {xml}");
+    let elsewhere = scene_text(
+        scene.description.as_deref(),
+        &path,
+        &view,
+        Path::new("/other"),
+    );
     let sky = folder.path().join("sky.exr");
-    assert!(xml.contains(sky.to_str().expect("UTF-8")), "{xml}");
+    let elsewhere = elsewhere.expect("text");
+    assert!(
+        elsewhere.contains(sky.to_str().expect("UTF-8")),
+        "{elsewhere}"
+    );
 }

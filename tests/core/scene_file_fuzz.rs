@@ -8,7 +8,9 @@
 use cpu_time::ProcessTime;
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
-use hitscope_core::scene_file::{self, Place, Plugin, SceneFile, Shape, ShapeKind};
+use hitscope_core::scene_file::{
+    self, Emitter, EmitterKind, Place, Plugin, SceneFile, Shape, ShapeKind,
+};
 use peak_alloc::PeakAlloc;
 use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -36,7 +38,9 @@ const SCENE: &str = r#"<scene version="3.0.0">
 <sensor type="perspective" id="s"><float name="fov" value="40"/><string name="fov_axis" value="y"/></sensor>
 <sensor type="thinlens"><float name="aperture_radius" value="0.1"/><film type="hdrfilm"><integer name="width" value="9"/></film></sensor>
 <sensor type="orthographic"><transform name="to_world"><scale value="$q"/></transform></sensor>
-<emitter type="point" id="e"><point name="position" value="1 2 3"/><boolean name="b" value="true"/></emitter>
+<emitter type="point" id="e"><point name="position" value="1 2 3"/><rgb name="intensity" value="1 2 3"/></emitter>
+<emitter type="spot"><boolean name="b" value="true"/></emitter>
+<emitter type="directional"><vector name="direction" value="0 0 -1"/></emitter>
 <emitter type="constant"><spectrum name="radiance" value="0.5"/><texture type="bitmap"><ref id="t"/></texture></emitter>
 <include filename="part.xml"/>
 <bsdf type="twosided" id="m"><bsdf type="diffuse"><rgb name="reflectance" value="0.1,0.2,0.3"/></bsdf></bsdf>
@@ -375,12 +379,18 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
         parameters.for_each(|parameter| parameter.place = Place::default());
         plugin.children.iter_mut().for_each(of_plugin);
     }
+    fn of_emitter(emitter: &mut Emitter) {
+        emitter.place = Place::default();
+        if let EmitterKind::Other(plugin) = &mut emitter.kind {
+            of_plugin(plugin);
+        }
+    }
     fn of_shape(shape: &mut Shape) {
         shape.place = Place::default();
         shape
             .emitter
             .iter_mut()
-            .for_each(|emitter| of_plugin(emitter));
+            .for_each(|emitter| of_emitter(emitter));
         if let ShapeKind::Csg { children, .. } = &mut shape.kind {
             children.iter_mut().for_each(of_shape);
         }
@@ -390,8 +400,9 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
     materials.for_each(|material| material.place = Place::default());
     let sensors = scene.sensors.iter_mut();
     sensors.for_each(|sensor| sensor.place = Place::default());
-    let plugins = scene.emitters.iter_mut().chain(&mut scene.integrator);
-    plugins.for_each(of_plugin);
+    scene.emitters.iter_mut().for_each(of_emitter);
+    let integrator = scene.integrator.iter_mut();
+    integrator.for_each(|integrator| of_plugin(&mut integrator.plugin));
     scene.files.clear();
     scene.warnings.clear();
     scene

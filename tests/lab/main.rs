@@ -22,6 +22,9 @@ mod exact;
 // The commands on scene files with other shapes than triangles.
 mod scene_files;
 
+// Options of light, and the list of lights.
+mod light;
+
 // The table in docs/accuracy.md matches a new measurement.
 mod accuracy;
 

@@ -6,6 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
 use hitscope::gpu::adapter::Gpu;
+use hitscope::settings::Settings;
 use std::io::Write as _;
 use std::path::PathBuf;
 use std::sync::OnceLock;
@@ -77,6 +78,26 @@ pub fn app_on(
         file,
         ..StartOptions::default()
     };
+    started(setup, start, size, pixels_per_point)
+}
+
+/// The app with these settings, in a window of 800 × 600 points, after its first picture.
+pub fn app_with(settings: Settings) -> Option<Window> {
+    let gpu = gpu()?;
+    let start = StartOptions {
+        settings,
+        ..StartOptions::default()
+    };
+    let size = egui::vec2(800.0, 600.0);
+    Some(started(shared_setup(gpu), start, size, 1.0))
+}
+
+fn started(
+    setup: WgpuSetup,
+    start: StartOptions,
+    size: egui::Vec2,
+    pixels_per_point: f32,
+) -> Window {
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(pixels_per_point)

@@ -15,6 +15,8 @@ mod harness;
 // Standard input, warnings, and machines that lack memory or threads.
 #[cfg(unix)]
 mod machine;
+// Views that need lights: their options, noise and limits.
+mod light;
 // Flaws, reloading and creases of the open mesh.
 mod mesh;
 // The window before, during and after opening a file.

@@ -48,6 +48,47 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         ("lab --seed -1", "an integer from 0 to"),
         ("good.obj info", "hitscope info good.obj"),
         (
+            &format!("{render} --environment constant:1,2"),
+            "expected constant:R,G,B",
+        ),
+        (
+            &format!("{render} --environment constant:-1"),
+            "must be finite and not negative",
+        ),
+        (
+            &format!("{render} --rotation 400"),
+            "expected degrees from -360 to 360",
+        ),
+        (
+            &format!("{render} --spawn none"),
+            "[possible values: fixed-epsilon",
+        ),
+        (&format!("{render} --depth -1"), "--depth <N>"),
+        (
+            &format!("{render} --ao-distance 0"),
+            "expected a distance above 0",
+        ),
+        (
+            &format!("{render} --exposure 65"),
+            "expected stops from -64 to 64",
+        ),
+        (
+            &format!("{render} --integrator bidirectional"),
+            "[possible values: shaded",
+        ),
+        (
+            &format!("{render} --view path --integrator direct"),
+            "cannot be used multiple times",
+        ),
+        (
+            &format!("{render} --noise --samples 1"),
+            "needs at least 2 samples",
+        ),
+        (
+            "render none.obj -o /dev/stdout --noise",
+            "write the picture to a file",
+        ),
+        (
             "inspect none.obj --pixel 0,0 --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
         ),
@@ -101,6 +142,38 @@ fn options_without_effect_are_refused() {
         (
             &format!("{render} --against fast --view error-t"),
             "it needs --view disagreement",
+        ),
+        (
+            &format!("{render} --environment studio"),
+            "no effect on the view “shaded”: it needs --view",
+        ),
+        (
+            &format!("{render} --view ao --environment studio"),
+            "no effect on the view “ao”: it needs --view",
+        ),
+        (
+            &format!("{render} --rotation 90"),
+            "no effect on the view “shaded”: it needs --view",
+        ),
+        (
+            &format!("{render} --view path --environment studio --rotation 90"),
+            "it needs --environment FILE",
+        ),
+        (
+            &format!("{render} --spawn fixed-epsilon"),
+            "no effect on the view “shaded”: it needs --view ao or",
+        ),
+        (
+            &format!("{render} --view direct --depth 3"),
+            "no effect on the view “direct”: it needs --view",
+        ),
+        (
+            &format!("{render} --view path --ao-distance 1"),
+            "it needs --view ao",
+        ),
+        (
+            &format!("{render} --view normal --exposure 1"),
+            "no effect on the view “normal”: it needs --view shaded or",
         ),
         (
             &format!("{render} --crease 30"),

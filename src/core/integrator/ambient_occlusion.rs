@@ -3,7 +3,7 @@
 //! Source: Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", Rendering Techniques 1998.
 
 use super::transport::{ShadingPoint, transmittance};
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Setting};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -13,7 +13,10 @@ pub(super) static AMBIENT_OCCLUSION: Integrator = Integrator {
     name: "ao",
     title: "Ambient occlusion",
     about: "The part of directions, weighted by cosine, in which nothing is near. White is open.",
-    needs: Needs::LIGHTS,
+    needs: Needs {
+        settings: &[Setting::Spawn, Setting::OcclusionDistance],
+        ..Needs::LIGHTS
+    },
     legend: Vec::new,
     radiance,
 };

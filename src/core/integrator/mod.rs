@@ -14,6 +14,8 @@ mod normal;
 pub mod palette;
 mod path;
 mod shaded;
+mod shading_normal;
+mod spawning;
 mod transport;
 mod triangle;
 
@@ -54,6 +56,8 @@ pub struct Lighting {
     pub lights: Arc<Lights>,
     /// How rays leave surfaces.
     pub spawn: &'static SpawnPolicy,
+    /// The policy that the view *Spawn policies* compares with.
+    pub second_spawn: &'static SpawnPolicy,
     /// The distance to which surfaces occlude in the view *Ambient occlusion*, in radii of the scene's bounding sphere.
     pub ao_distance: f32,
     /// The most surfaces on a path; `None` for no limit.
@@ -66,6 +70,7 @@ impl Default for Lighting {
         Self {
             lights: Arc::default(),
             spawn: default_spawn_policy(),
+            second_spawn: default_spawn_policy(),
             ao_distance: 1.0,
             depth_limit: None,
         }
@@ -96,8 +101,27 @@ pub struct Needs {
     pub vertex_normals: bool,
     /// Whether the view needs lights.
     pub lights: bool,
+    /// Whether the view compares two spawn policies.
+    pub second_policy: bool,
     /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
     pub final_tree: bool,
+    /// The settings that change the picture.
+    pub settings: &'static [Setting],
+}
+
+/// A setting that changes the pictures of some views.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Setting {
+    /// The lights and the environment.
+    Lights,
+    /// How rays leave surfaces.
+    Spawn,
+    /// The most surfaces on a path.
+    Depth,
+    /// The distance to which surfaces occlude.
+    OcclusionDistance,
+    /// The factor between light and colour: the view's colours are light.
+    Exposure,
 }
 
 impl Needs {
@@ -106,7 +130,9 @@ impl Needs {
         second: Comparison::Nothing,
         vertex_normals: false,
         lights: false,
+        second_policy: false,
         final_tree: false,
+        settings: &[],
     };
     /// Vertex normals.
     const VERTEX_NORMALS: Self = Self {
@@ -116,8 +142,24 @@ impl Needs {
     /// Vertex normals and lights.
     const LIGHTS: Self = Self {
         lights: true,
+        settings: &[Setting::Lights, Setting::Spawn, Setting::Exposure],
         ..Self::VERTEX_NORMALS
     };
+    /// Vertex normals and lights, for paths of any length.
+    const PATHS: Self = Self {
+        settings: &[
+            Setting::Lights,
+            Setting::Spawn,
+            Setting::Depth,
+            Setting::Exposure,
+        ],
+        ..Self::LIGHTS
+    };
+
+    /// Whether a setting changes the picture.
+    pub fn uses(&self, setting: Setting) -> bool {
+        self.settings.contains(&setting)
+    }
 }
 
 /// The kernel that a view compares the chosen one with.
@@ -187,6 +229,8 @@ pub static INTEGRATORS: &[&Integrator] = &[
     &error::ERROR_BARYCENTRIC,
     &interpolation::INTERPOLATION,
     &disagreement::DISAGREEMENT,
+    &shading_normal::SHADING_NORMAL,
+    &spawning::SPAWNING,
 ];
 
 /// The view of this name.

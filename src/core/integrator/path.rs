@@ -14,7 +14,7 @@ pub(super) static PATH: Integrator = Integrator {
     name: "path",
     title: "Path tracing",
     about: "Light from the lights and by way of other surfaces.",
-    needs: Needs::LIGHTS,
+    needs: Needs::PATHS,
     legend: Vec::new,
     radiance,
 };

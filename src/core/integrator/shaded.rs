@@ -1,8 +1,9 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Setting};
 use crate::appearance::Appearance;
 use crate::interaction::SurfaceInteraction;
+use crate::light::studio::{self, AMBIENT, Lamp};
 use crate::mesh::Illumination;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -14,19 +15,14 @@ pub(super) static SHADED: Integrator = Integrator {
     name: "shaded",
     title: "Shaded",
     about: "Lit by a studio light that moves with the camera.",
-    needs: Needs::VERTEX_NORMALS,
+    needs: Needs {
+        settings: &[Setting::Exposure],
+        ..Needs::VERTEX_NORMALS
+    },
     legend: Vec::new,
     radiance,
 };
 
-/// Ambient light; the rest comes from the two lamps.
-const AMBIENT: f32 = 0.10;
-/// Directions and strengths of the lamps in camera space: a key light at the upper left, a fill light at the
-/// lower right.
-const LAMPS: [(Vec3, f32); 2] = [
-    (Vec3::new(-0.45, 0.65, 0.62), 0.85),
-    (Vec3::new(0.80, -0.10, 0.60), 0.22),
-];
 /// Maximum number of transparent surfaces along a ray; behind the last one it sees the background.
 const MOST_LAYERS: usize = 32;
 /// Transmittance below which a ray is ended: half a step of 8 bits.
@@ -71,7 +67,13 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let material = mesh.attributes().materials.get(surface.material);
     let appearance = Appearance::new(&context.scene, material, &hit);
     let diffuse = appearance.diffuse();
-    let emission = appearance.emission();
+    let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
+    let emits = is_front || material.is_none_or(|material| material.emits_on_back);
+    let emission = if emits {
+        appearance.emission()
+    } else {
+        Vec3::ZERO
+    };
     let opacity = appearance.opacity();
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
     if illumination == Illumination::Constant {
@@ -79,11 +81,8 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     }
 
     let normal = surface.facing_normal(ray);
-    let camera = &context.camera;
-    let axes = [camera.right(), camera.up(), camera.back()].map(|axis| axis.as_vec3());
-    let to_lamp = |dir: Vec3| (dir.x * axes[0] + dir.y * axes[1] + dir.z * axes[2]).normalize();
-    let lamps = LAMPS.map(|(dir, strength)| (to_lamp(dir), strength));
-    let of_lamp = |(dir, strength): (Vec3, f32)| strength * normal.dot(dir).max(0.0);
+    let lamps = studio::lamps(&context.camera);
+    let of_lamp = |lamp: Lamp| lamp.strength * normal.dot(lamp.to_lamp).max(0.0);
     let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();
     let mut sum = light * diffuse + emission;
     if let Some(material) = material
@@ -93,11 +92,11 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
         && material.shininess > 0.0
     {
         let to_eye = (-ray.dir).normalize_or_zero();
-        let highlight = |(dir, strength): (Vec3, f32)| {
-            let halfway = (dir + to_eye).normalize_or_zero();
-            let is_lit = normal.dot(dir) > 0.0;
+        let highlight = |lamp: Lamp| {
+            let halfway = (lamp.to_lamp + to_eye).normalize_or_zero();
+            let is_lit = normal.dot(lamp.to_lamp) > 0.0;
             let size = normal.dot(halfway).max(0.0).powf(material.shininess);
-            if is_lit { strength * size } else { 0.0 }
+            if is_lit { lamp.strength * size } else { 0.0 }
         };
         sum += appearance.specular() * lamps.into_iter().map(highlight).sum::<f32>();
     }

@@ -7,8 +7,8 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
-use crate::shape::SurfacePoint;
-use crate::spawn::Departure;
+use crate::shape::{SurfacePoint, on_sphere};
+use crate::spawn::{Departure, SpawnPolicy};
 use glam::Vec3;
 
 /// A point of a surface that a ray hits, with the way it scatters light.
@@ -87,8 +87,12 @@ impl<'a> ShadingPoint<'a> {
 
     /// The ray that leaves in a direction; `None` if numbers overflow.
     pub fn spawn(&self, dir: Vec3) -> Option<Ray> {
-        let spawned = self.context.lighting.spawn.spawn(&self.departure(dir));
-        spawned.ok()
+        self.spawn_by(self.context.lighting.spawn, dir)
+    }
+
+    /// The same by another policy.
+    pub fn spawn_by(&self, policy: &SpawnPolicy, dir: Vec3) -> Option<Ray> {
+        policy.spawn(&self.departure(dir)).ok()
     }
 
     /// The ray that continues behind the surface.
@@ -115,6 +119,19 @@ impl<'a> ShadingPoint<'a> {
         let side = self.outgoing.z.signum();
         let dir = side * self.frame.to_world(local);
         self.is_consistent(side * local, dir).then_some(dir)
+    }
+
+    /// A direction to a light; without a light to aim at, a uniform direction.
+    pub fn light_direction(&self, sampler: &mut Sampler) -> Vec3 {
+        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
+        let lights = &self.context.lighting.lights;
+        let sample = lights.sample(&self.context.scene, self.position(), at, choice);
+        sample.map_or_else(|| on_sphere(at.as_dvec2()).as_vec3(), |sample| sample.dir)
+    }
+
+    /// Whether a direction is on the ray's side of the shading and of the geometric normal.
+    pub fn sides(&self, dir: Vec3) -> [bool; 2] {
+        [self.frame.z.dot(dir) > 0.0, self.normal.dot(dir) > 0.0]
     }
 
     /// Whether a direction lies on the same side of the shading and the geometric normal, in the frame and in the world.

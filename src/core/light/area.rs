@@ -19,21 +19,29 @@ pub struct AreaLight {
     emits_on_back: bool,
 }
 
+/// Whether a primitive of the scene emits light.
+pub(super) fn emits(scene: &Scene) -> bool {
+    emitting(scene).next().is_some()
+}
+
+/// The primitives of a scene that emit light, with their materials.
+fn emitting(scene: &Scene) -> impl Iterator<Item = (u32, &Material)> {
+    let materials = &scene.mesh().attributes().materials;
+    let emits = |material: &Material| material.emission.max_element() > 0.0;
+    let any = materials.entries().iter().any(emits);
+    let count = if any { scene.primitive_count() } else { 0 };
+    (0..count as u32).filter_map(move |primitive| {
+        let material = materials.get(scene.material(primitive))?;
+        emits(material).then_some((primitive, material))
+    })
+}
+
 impl AreaLight {
     /// The primitives of a scene that emit light. Those without an area that can be sampled are left out; rays that hit
     /// them find their light.
     pub(super) fn of_scene(scene: &Scene) -> impl Iterator<Item = Self> + '_ {
-        let materials = &scene.mesh().attributes().materials;
-        let emits = |material: &Material| material.emission.max_element() > 0.0;
-        let any = materials.entries().iter().any(emits);
-        let count = if any { scene.primitive_count() } else { 0 };
-        (0..count as u32).filter_map(move |primitive| {
-            let material = materials.get(scene.material(primitive))?;
-            let area = if emits(material) {
-                scene.area(primitive)
-            } else {
-                0.0
-            };
+        emitting(scene).filter_map(|(primitive, material)| {
+            let area = scene.area(primitive);
             (area > 0.0 && area.is_finite()).then_some(Self {
                 primitive,
                 radiance: material.emission,

@@ -8,12 +8,14 @@ mod area;
 mod distant;
 mod environment;
 mod point;
+pub(crate) mod studio;
 
 pub use alias::AliasTable;
 pub use area::AreaLight;
 pub use distant::DirectionalLight;
 pub use environment::Environment;
 pub use point::PointLight;
+pub use studio::studio;
 
 use crate::mesh::Material;
 use crate::ray::{Hit, Ray};
@@ -92,6 +94,15 @@ impl Lights {
             has_coverage,
             lights,
         }
+    }
+
+    /// The same; if nothing emits light, white light of radiance 1 from all directions, so that pictures aren't black.
+    pub fn or_white(scene: &Scene, others: Vec<Light>) -> Self {
+        if others.is_empty() && !area::emits(scene) {
+            let white = Environment::Constant(Vec3::ONE);
+            return Self::new(scene, vec![Light::Environment(white)]);
+        }
+        Self::new(scene, others)
     }
 
     /// Whether light passes through parts of some surface.

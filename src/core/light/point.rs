@@ -22,7 +22,8 @@ impl PointLight {
         Some(LightSample {
             dir: dir.as_vec3(),
             end: Some(Endpoint::InSpace(self.position)),
-            weight: self.intensity / way.length_squared() as f32,
+            // The square of a short way would vanish in f32.
+            weight: (self.intensity.as_dvec3() / way.length_squared()).as_vec3(),
             density: None,
         })
     }

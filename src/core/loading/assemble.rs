@@ -1,5 +1,6 @@
 //! A scene from the description of a scene file.
 
+use super::lights::{self, EmittingMaterials};
 use super::merge::{Part, merged};
 use super::placed::{Groups, Placed, Refusal, placed};
 use super::{LoadedScene, StartView, size_warning};
@@ -7,7 +8,7 @@ use crate::mesh::{Illumination, Material};
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
-use crate::scene_file::{self, Place, SceneFile, ShapeKind};
+use crate::scene_file::{self, EmitterKind, Place, SceneFile, Shape, ShapeKind};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -33,8 +34,10 @@ pub(super) fn load(
         path: path.to_owned(),
     })?;
     report.warnings.extend(size_warning(scene.bounds()));
+    let lights = lights::lights(&file, scene.mesh().origin());
     Ok(LoadedScene {
         scene: Arc::new(scene),
+        lights,
         report,
         view: file.sensors.first().map(StartView::new),
         description: Some(Arc::new(file)),
@@ -46,6 +49,8 @@ struct Contents {
     parts: Vec<Part>,
     /// Shapes other than meshes and their materials.
     shapes: Vec<(Box<dyn Placed>, u32)>,
+    /// Materials that come after those of the file.
+    emitting: EmittingMaterials,
     report: LoadReport,
 }
 
@@ -58,6 +63,7 @@ impl Contents {
         let mut contents = Self {
             parts: Vec::new(),
             shapes: Vec::new(),
+            emitting: EmittingMaterials::default(),
             report: LoadReport {
                 warnings: file.warnings.clone(),
                 files: file.files.clone(),
@@ -65,12 +71,8 @@ impl Contents {
             },
         };
         for shape in &file.shapes {
-            // The first material stands for none.
-            let material = shape.material.map(|material| material + 1);
-            if shape.flip_normals {
-                let message = "flip_normals has no effect".to_owned();
-                contents.warn(file, shape.place, message);
-            }
+            let material = contents.material(file, shape);
+            contents.warn_about(file, shape);
             let placed = placed(shape, &shape.to_world);
             let placed = placed.map_err(|refusal| refused(file, refusal))?;
             if let Some(placed) = placed {
@@ -90,10 +92,51 @@ impl Contents {
                     material,
                     name: name.cloned().unwrap_or_default(),
                     has_face_normals: *face_normals,
+                    flips_normals: shape.flip_normals,
                 });
             }
         }
+        for emitter in &file.emitters {
+            if matches!(emitter.kind, EmitterKind::Envmap { .. }) {
+                let message = "emitter “envmap” isn't used yet".to_owned();
+                contents.warn(file, emitter.place, message);
+            }
+        }
         Ok(contents)
+    }
+
+    /// The index of a shape's material; `None` for none, or for those of an OBJ file.
+    fn material(&mut self, file: &SceneFile, shape: &Shape) -> Option<u32> {
+        // The first material stands for none.
+        let material = shape.material.map(|material| material + 1);
+        match shape.emitter.as_ref().map(|emitter| &emitter.kind) {
+            Some(EmitterKind::Area { radiance }) => {
+                let copy = self.emitting.index(material, *radiance);
+                Some(1 + file.materials.len() as u32 + copy)
+            }
+            _ => material,
+        }
+    }
+
+    /// Warns about parts of a shape that have no effect.
+    fn warn_about(&mut self, file: &SceneFile, shape: &Shape) {
+        let has_direction = matches!(
+            shape.kind,
+            ShapeKind::Obj { .. } | ShapeKind::Disk | ShapeKind::Rectangle
+        );
+        if shape.flip_normals && !has_direction {
+            let message = "flip_normals has no effect on this shape".to_owned();
+            self.warn(file, shape.place, message);
+        }
+        if let ShapeKind::Csg { children, .. } = &shape.kind {
+            for child in children {
+                if let Some(emitter) = &child.emitter {
+                    let message = "an emitter of a part of a csg has no effect".to_owned();
+                    self.warn(file, emitter.place, message);
+                }
+                self.warn_about(file, child);
+            }
+        }
     }
 
     fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
@@ -145,7 +188,9 @@ impl Contents {
         for (shape, material) in &self.shapes {
             shape.push_to(&mut groups, origin, *material);
         }
-        let mesh = merged(self.parts, origin, materials(file));
+        let mut materials = materials(file);
+        self.emitting.append_to(&mut materials);
+        let mesh = merged(self.parts, origin, materials);
         let mut scene = Scene::with_options(mesh, options, progress)?;
         groups.add_to(&mut scene, options, progress)?;
         Ok((scene, self.report))

@@ -15,6 +15,8 @@ pub(super) struct Part {
     pub name: String,
     /// Whether the file's normals are ignored.
     pub has_face_normals: bool,
+    /// Whether front and back are exchanged.
+    pub flips_normals: bool,
 }
 
 impl Part {
@@ -99,11 +101,13 @@ impl Merged {
 
         let linear = DMat3::from_mat4(part.to_world);
         let for_normals = linear.inverse().transpose();
-        let is_mirrored = linear.determinant() < 0.0;
+        let is_mirrored = (linear.determinant() < 0.0) != part.flips_normals;
+        let sign = if part.flips_normals { -1.0 } else { 1.0 };
         let [first_normal, first_coordinate] =
             [self.normals.len() as u32, self.coordinates.len() as u32];
         if !part.has_face_normals {
-            let turned = |n: &Vec3| (for_normals * n.as_dvec3()).normalize_or_zero().as_vec3();
+            let turned =
+                |n: &Vec3| sign * (for_normals * n.as_dvec3()).normalize_or_zero().as_vec3();
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }

@@ -6,11 +6,13 @@
 //! | the shapes of the core that a transformed shape becomes | `placed` |
 //! | all meshes as one | `merge` |
 //! | the sensor as a view | `view` |
+//! | emitters as lights, and materials that emit light | `lights` |
 //! | what was loaded, as the text of a scene file | `saving` |
 //!
 //! Transforms are applied in f64 once; the results are rounded to f32 relative to one origin of the scene.
 
 mod assemble;
+mod lights;
 mod merge;
 mod placed;
 mod saving;
@@ -20,11 +22,13 @@ pub use saving::scene_text;
 pub use view::StartView;
 
 use crate::aabb::Aabb;
+use crate::integrator::{Integrator, integrator};
+use crate::light::Light;
 use crate::mesh::SAFE_SIZE;
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
 use crate::progress::{BackgroundError, Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
-use crate::scene_file::SceneFile;
+use crate::scene_file::{self, SceneFile};
 use std::path::Path;
 use std::sync::Arc;
 
@@ -39,6 +43,9 @@ pub struct LoadedScene {
     pub view: Option<StartView>,
     /// The contents of the file if it is a scene file.
     pub description: Option<Arc<SceneFile>>,
+    /// The lights of the file, in the scene's coordinates. Surfaces that emit light aren't among them: their materials
+    /// say so.
+    pub lights: Vec<Light>,
 }
 
 impl LoadedScene {
@@ -94,7 +101,22 @@ impl LoadedScene {
             report,
             view: None,
             description: None,
+            lights: Vec::new(),
         })
+    }
+
+    /// The view that the file's integrator asks for, if it has one.
+    pub fn integrator(&self) -> Option<&'static Integrator> {
+        integrator(self.file_integrator()?.view?)
+    }
+
+    /// The most surfaces on a path that the file's integrator asks for; `None` for no limit.
+    pub fn depth_limit(&self) -> Option<u32> {
+        self.file_integrator()?.depth_limit
+    }
+
+    fn file_integrator(&self) -> Option<&scene_file::Integrator> {
+        self.description.as_ref()?.integrator.as_ref()
     }
 }
 

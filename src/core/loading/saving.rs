@@ -2,7 +2,7 @@
 
 use super::StartView;
 use crate::scene_file::{
-    self, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Value, WriteError,
+    self, EmitterKind, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Value, WriteError,
 };
 use glam::DMat4;
 use std::path::Path;
@@ -32,8 +32,13 @@ pub fn scene_text(
         None => file.sensors.push(sensor),
     }
     let old_folder = path.parent().unwrap_or(Path::new(""));
-    for plugin in file.emitters.iter_mut().chain(&mut file.integrator) {
-        make_absolute(plugin, old_folder);
+    if let Some(integrator) = &mut file.integrator {
+        make_absolute(&mut integrator.plugin, old_folder);
+    }
+    for emitter in &mut file.emitters {
+        if let EmitterKind::Other(plugin) = &mut emitter.kind {
+            make_absolute(plugin, old_folder);
+        }
     }
     scene_file::to_xml(&file, folder)
 }

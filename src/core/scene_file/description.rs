@@ -2,7 +2,8 @@
 
 pub use crate::group::CsgOperation;
 
-use super::plugin::Plugin;
+use super::emitter::Emitter;
+use super::integrators::Integrator;
 use super::sensor::Sensor;
 use crate::obj::Warning;
 use glam::{DMat4, DVec3};
@@ -20,9 +21,9 @@ pub struct SceneFile {
     /// The sensors in the order of the file.
     pub sensors: Vec<Sensor>,
     /// The integrator.
-    pub integrator: Option<Plugin>,
+    pub integrator: Option<Integrator>,
     /// The emitters that aren't attached to a shape.
-    pub emitters: Vec<Plugin>,
+    pub emitters: Vec<Emitter>,
     /// What isn't used, with the line.
     pub warnings: Vec<Warning>,
 }
@@ -63,7 +64,7 @@ pub struct Shape {
     /// is an emitter.
     pub material: Option<u32>,
     /// The attached emitter.
-    pub emitter: Option<Box<Plugin>>,
+    pub emitter: Option<Box<Emitter>>,
 }
 
 /// A kind of shape with its parameters.

@@ -10,11 +10,11 @@
 //! | **the file and its includes are parsed**, and their objects read | `include`, `reader` |
 //! | elements, attributes, `$name` | `element`, `defaults` |
 //! | properties: numbers, vectors, transforms | `properties`, `number`, `transform`, `parameters` |
-//! | objects | `shapes`, `materials`, `sensors`; others: `objects` |
-//! | the result | `description`, `sensor`, `plugin` |
+//! | objects | `shapes`, `materials`, `emitters`, `sensors`, `integrators`; others: `objects` |
+//! | the result | `description`, `emitter`, `sensor`, `plugin` |
 //! | errors, warnings, memory limit | `problem`, `warnings`, `memory` |
 //! | files on the disk | `stored` |
-//! | writer | `writer`, `shape_writer`, `xml` |
+//! | writer | `writer`, `shape_writer`, `emitter_writer`, `xml` |
 //!
 //! # Format
 //!
@@ -92,15 +92,41 @@
 //! `width` = 768, `height` = 576 and a crop window; `<sampler>` has `sample_count` = 4. `near_clip`, `far_clip` and
 //! other parameters give a warning.
 //!
-//! ## Kept and told
+//! ## Emitters
 //!
-//! Integrators and emitters are kept with their parameters, and give a warning. So do Mitsuba's other objects, which
-//! aren't kept. An element, type, attribute or parameter that Mitsuba doesn't know either is an error.
+//! | emitter | parameters and defaults |
+//! |---|---|
+//! | `area`, inside a shape | `radiance` = 1. The front shines, the side of the normal. Without a bsdf, the shape is black |
+//! | `constant` | `radiance` = 1 |
+//! | `point` | `position` = 0, or `to_world`; `intensity` = 1 |
+//! | `directional` | `direction` = (0, 0, 1) in which the light travels, or `to_world`; `irradiance` = 1. A scale in `to_world` doesn't change the light, unlike in Mitsuba |
+//! | `envmap` | `filename`, `scale` = 1, `to_world`: a rotation |
+//!
+//! Light is `rgb` (linear), `spectrum` with one number or `float`, and isn't negative. A scene has at most one
+//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. So does a texture in
+//! place of a colour.
+//!
+//! ## Integrators
+//!
+//! The integrator selects the initial view: `path`, `direct`, `depth`, or the name of a view of ours, which Mitsuba
+//! refuses. For others of Mitsuba's, a warning names the view that is shown instead.
+//!
+//! `max_depth` = −1 (no limit) counts the surfaces on a path and the emitter: 1 shows emitters alone, 2 also light that
+//! one surface reflects. In [`Integrator::depth_limit`] it is one less, the number of surfaces. `rr_depth` and
+//! `hide_emitters` give a warning unless they have Mitsuba's defaults of 5 and `false`.
+//!
+//! ## Objects that aren't used
+//!
+//! Mitsuba's other objects give a warning and aren't kept. An element, type, attribute or parameter that Mitsuba doesn't know either is an error.
 
 mod defaults;
 mod description;
 mod element;
+mod emitter;
+mod emitter_writer;
+mod emitters;
 mod include;
+mod integrators;
 mod materials;
 mod memory;
 mod number;
@@ -124,6 +150,8 @@ mod writer;
 mod xml;
 
 pub use description::{CsgOperation, Material, Place, Quadric, SceneFile, Shape, ShapeKind};
+pub use emitter::{Emitter, EmitterKind};
+pub use integrators::Integrator;
 pub use plugin::{Parameter, Plugin, Value};
 pub use reader::{load, parse};
 pub use sensor::{Crop, FieldOfView, Film, FovAxis, Sensor, SensorKind};

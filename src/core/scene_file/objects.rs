@@ -1,10 +1,12 @@
 //! The attributes of objects, and objects that are kept as they are.
 
 use super::element::Element;
+use super::integrators::OTHERS;
 use super::plugin::{Parameter, Plugin, Value};
 use super::problem::{Problem, quoted, unknown};
 use super::properties::{self, PROPERTIES};
 use super::reader::Reader;
+use crate::integrator::INTEGRATORS;
 
 /// The elements of Mitsuba's objects.
 const OBJECTS: [&str; 12] = [
@@ -22,24 +24,7 @@ const OBJECTS: [&str; 12] = [
     "volume",
 ];
 
-/// Integrators and emitters of Mitsuba 3.9.1.
-const INTEGRATORS: [&str; 15] = [
-    "aov",
-    "depth",
-    "direct",
-    "direct_projective",
-    "moment",
-    "path",
-    "prb",
-    "prb_basic",
-    "prb_projective",
-    "prbvolpath",
-    "ptracer",
-    "stokes",
-    "volpath",
-    "volpathmis",
-    "volprim_rf_basic",
-];
+/// Emitters of Mitsuba 3.9.1.
 const EMITTERS: [&str; 10] = [
     "area",
     "constant",
@@ -90,19 +75,22 @@ pub(super) fn reference(reader: &Reader, element: Element) -> Result<String, Pro
     Ok(element.required("id", &reader.defaults)?.into_owned())
 }
 
-/// An integrator or emitter, with nested objects.
+/// An integrator or emitter as it stands in the file, with nested objects.
 ///
 /// # Errors
 /// Its type isn't known, or a part of it isn't valid.
 pub(super) fn plugin(reader: &mut Reader, element: Element) -> Result<Plugin, Problem> {
     let head = Head::of(reader, element)?;
-    let known: &[&str] = match element.tag() {
-        "integrator" => &INTEGRATORS,
-        "emitter" => &EMITTERS,
-        _ => &[],
+    let known: Vec<&str> = match element.tag() {
+        "integrator" => {
+            let views = INTEGRATORS.iter().map(|view| view.name);
+            views.chain(OTHERS.iter().map(|(name, _)| *name)).collect()
+        }
+        "emitter" => EMITTERS.to_vec(),
+        _ => Vec::new(),
     };
     if !known.is_empty() && !known.contains(&head.kind.as_str()) {
-        return Err(element.problem(unknown(element.tag(), &head.kind, known)));
+        return Err(element.problem(unknown(element.tag(), &head.kind, &known)));
     }
     reader
         .memory

@@ -107,11 +107,7 @@ impl Parameters {
 
     /// An integer from `least` to the largest of 32 bits without sign.
     pub(super) fn count(&mut self, name: &'static str, least: u32) -> Result<Option<u32>, Problem> {
-        let found = self.converted(name, "integer", |value| match *value {
-            Value::Integer(number) => Some(number),
-            _ => None,
-        })?;
-        let Some((number, place)) = found else {
+        let Some((number, place)) = self.integer(name)? else {
             return Ok(None);
         };
         match u32::try_from(number) {
@@ -121,6 +117,13 @@ impl Parameters {
                 Err(Problem::at(place, message))
             }
         }
+    }
+
+    pub(super) fn integer(&mut self, name: &'static str) -> Result<Option<(i64, Place)>, Problem> {
+        self.converted(name, "integer", |value| match *value {
+            Value::Integer(number) => Some(number),
+            _ => None,
+        })
     }
 
     pub(super) fn boolean(&mut self, name: &'static str, default: bool) -> Result<bool, Problem> {

@@ -1,4 +1,4 @@
-//! Objects that are kept as they stand in the file: integrators and emitters.
+//! Objects that are kept as they stand in the file: integrators, and emitters that aren't supported.
 
 use super::description::Place;
 use glam::{DMat4, DVec3};
@@ -56,6 +56,17 @@ pub enum Value {
     Transform(Box<DMat4>),
     /// `<ref>`: the identifier of another object.
     Reference(String),
+}
+
+impl Parameter {
+    /// The memory that the parameter takes.
+    pub(super) fn bytes(&self) -> usize {
+        let text_length = match &self.value {
+            Value::Text(text) | Value::Reference(text) => text.len(),
+            _ => 0,
+        };
+        size_of::<Self>() + self.name.len() + text_length
+    }
 }
 
 impl Value {

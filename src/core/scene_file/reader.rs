@@ -3,12 +3,13 @@
 use super::defaults::Defaults;
 use super::description::{Place, SceneFile};
 use super::element::{Element, OpenFile};
+use super::emitters::{self, Parent};
 use super::include::Includes;
+use super::integrators;
 use super::materials::{Materials, Registered};
 use super::memory::Memory;
 use super::objects;
 use super::outline::MAX_DEPTH;
-use super::plugin::Plugin;
 use super::problem::{Problem, quoted};
 use super::sensors;
 use super::shapes;
@@ -150,24 +151,23 @@ impl<'r> Reader<'r> {
                 self.scene.sensors.extend(sensor);
             }
             "emitter" => {
-                let emitter = self.unused_plugin(element)?;
+                let emitter = emitters::emitter(self, element, Parent::Scene)?;
+                let mut others = self.scene.emitters.iter();
+                let has_other = others.any(|other| other.kind.is_environment());
+                if has_other && emitter.kind.is_environment() {
+                    return Err(element.problem("the scene has a second environment"));
+                }
                 self.scene.emitters.push(emitter);
             }
             "integrator" if self.scene.integrator.is_some() => {
                 return Err(element.problem("the scene has a second integrator"));
             }
-            "integrator" => self.scene.integrator = Some(self.unused_plugin(element)?),
+            "integrator" => {
+                self.scene.integrator = Some(integrators::integrator(self, element)?);
+            }
             _ => objects::skip(self, element, "scene")?,
         }
         Ok(())
-    }
-
-    /// Reads an object that is kept, with a warning that it isn't used yet.
-    pub(super) fn unused_plugin(&mut self, element: Element) -> Result<Plugin, Problem> {
-        let plugin = objects::plugin(self, element)?;
-        let message = format!("{} {} isn't used", plugin.element, quoted(&plugin.kind));
-        self.warnings.add(plugin.place, message);
-        Ok(plugin)
     }
 
     fn define(&mut self, element: Element) -> Result<(), Problem> {
@@ -204,6 +204,28 @@ impl<'r> Reader<'r> {
         };
         self.ids.insert(id.to_owned(), registered);
         Ok(())
+    }
+
+    /// The path of a mesh or a picture that an object names, with a warning if Mitsuba looks for it elsewhere.
+    ///
+    /// # Errors
+    /// The name is empty or on the network.
+    pub(super) fn data_file(
+        &mut self,
+        name: &str,
+        element: Element,
+        place: Place,
+    ) -> Result<PathBuf, Problem> {
+        let folder = &element.file.folder;
+        let file = self.named_file(name, folder, place)?;
+        let main_folder = self.scene.files[0].parent().unwrap_or(folder);
+        if main_folder.join(name) != file {
+            let name = quoted(name);
+            let message =
+                format!("Mitsuba looks for {name} in the folder of the main file, not of this one");
+            self.warnings.add(place, message);
+        }
+        Ok(file)
     }
 
     /// The path of a file that is named in a scene file.

@@ -30,7 +30,7 @@ impl Writer<'_> {
             }
         }
         if let Some(emitter) = &shape.emitter {
-            self.plugin(emitter)?;
+            self.emitter(emitter)?;
         }
         self.xml.close();
         Ok(())
@@ -146,7 +146,7 @@ fn operation_name(operation: CsgOperation) -> &'static str {
 }
 
 /// The name by which a scene file in `folder` refers to a file.
-fn name_of(file: &Path, folder: &Path) -> Result<String, WriteError> {
+pub(super) fn name_of(file: &Path, folder: &Path) -> Result<String, WriteError> {
     // Fails only for an empty path.
     let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
     let folder = absolute(&folder.join("."));

@@ -2,11 +2,12 @@
 
 use super::description::{CsgOperation, Quadric, Shape, ShapeKind};
 use super::element::Element;
+use super::emitter::Emitter;
+use super::emitters::{self, Parent};
 use super::materials;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
 use super::plane::plane;
-use super::plugin::Plugin;
 use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
@@ -49,7 +50,7 @@ struct Parts {
     is_csg: bool,
     children: Vec<Shape>,
     material: Option<u32>,
-    emitter: Option<Box<Plugin>>,
+    emitter: Option<Box<Emitter>>,
 }
 
 /// A shape with its material, its emitter and nested shapes.
@@ -115,7 +116,8 @@ impl Parts {
                 Err(child.problem(format!("{} has a second emitter", self.parameters.object())))
             }
             "emitter" => {
-                self.emitter = Some(Box::new(reader.unused_plugin(child)?));
+                let emitter = emitters::emitter(reader, child, Parent::Shape)?;
+                self.emitter = Some(Box::new(emitter));
                 Ok(())
             }
             "shape" if self.is_csg => {
@@ -190,15 +192,7 @@ fn obj(
     let Some((name, place)) = parameters.text("filename")? else {
         return Err(parameters.problem("parameter “filename” is missing"));
     };
-    let folder = &element.file.folder;
-    let file = reader.named_file(&name, folder, place)?;
-    let main_folder = reader.scene.files[0].parent().unwrap_or(folder);
-    if main_folder.join(&name) != file {
-        let name = quoted(&name);
-        let message =
-            format!("Mitsuba looks for {name} in the folder of the main file, not of this one");
-        reader.warnings.add(place, message);
-    }
+    let file = reader.data_file(&name, element, place)?;
     Ok(ShapeKind::Obj {
         file,
         face_normals: parameters.boolean("face_normals", false)?,

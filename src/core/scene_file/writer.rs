@@ -1,6 +1,7 @@
 //! Writer of scene files. What it writes reads back to the same description.
 
 use super::description::{Material, SceneFile, Shape, ShapeKind};
+use super::emitter::{Emitter, EmitterKind};
 use super::plugin::{Plugin, Value};
 use super::sensor::{FieldOfView, FovAxis, Sensor, SensorKind};
 use super::xml::{Attribute, WriteError, Xml, matrix, number, vector};
@@ -25,13 +26,13 @@ pub fn to_xml(scene: &SceneFile, folder: &Path) -> Result<String, WriteError> {
     };
     writer.xml.open("scene", &[("version", "3.0.0")])?;
     if let Some(integrator) = &scene.integrator {
-        writer.plugin(integrator)?;
+        writer.plugin(&integrator.plugin)?;
     }
     for sensor in &scene.sensors {
         writer.sensor(sensor)?;
     }
     for emitter in &scene.emitters {
-        writer.plugin(emitter)?;
+        writer.emitter(emitter)?;
     }
     for (material, id) in scene.materials.iter().zip(writer.ids.clone()) {
         if id.is_some() {
@@ -52,8 +53,10 @@ fn ids(scene: &SceneFile) -> Vec<Option<String>> {
     let materials = scene.materials.iter();
     used.extend(materials.clone().filter_map(|m| m.id.clone()));
     used.extend(scene.sensors.iter().filter_map(|sensor| sensor.id.clone()));
-    let plugins = scene.emitters.iter().chain(&scene.integrator);
-    plugins.for_each(|plugin| collect_ids(plugin, &mut used));
+    let integrator = scene.integrator.iter();
+    integrator.for_each(|integrator| collect_ids(&integrator.plugin, &mut used));
+    let emitters = scene.emitters.iter();
+    emitters.for_each(|emitter| collect_emitter_ids(emitter, &mut used));
     let mut next = 0;
     let mut new_id = || loop {
         next += 1;
@@ -80,10 +83,17 @@ fn count_uses(shapes: &[Shape], uses: &mut [usize], ids: &mut HashSet<String>) {
         shape
             .emitter
             .iter()
-            .for_each(|plugin| collect_ids(plugin, ids));
+            .for_each(|emitter| collect_emitter_ids(emitter, ids));
         if let ShapeKind::Csg { children, .. } = &shape.kind {
             count_uses(children, uses, ids);
         }
+    }
+}
+
+fn collect_emitter_ids(emitter: &Emitter, ids: &mut HashSet<String>) {
+    ids.extend(emitter.id.clone());
+    if let EmitterKind::Other(plugin) = &emitter.kind {
+        collect_ids(plugin, ids);
     }
 }
 
@@ -228,8 +238,18 @@ impl Writer<'_> {
         self.property("string", "fov_axis", axis)
     }
 
-    pub(super) fn plugin(&mut self, plugin: &Plugin) -> Result<(), WriteError> {
+    fn plugin(&mut self, plugin: &Plugin) -> Result<(), WriteError> {
         let (id, name) = (plugin.id.as_deref(), plugin.name.as_deref());
+        self.named_plugin(plugin, id, name)
+    }
+
+    /// Writes an object with other attributes.
+    pub(super) fn named_plugin(
+        &mut self,
+        plugin: &Plugin,
+        id: Option<&str>,
+        name: Option<&str>,
+    ) -> Result<(), WriteError> {
         let attributes = attributes(&plugin.kind, id, name);
         self.xml.open(&plugin.element, &attributes)?;
         for parameter in &plugin.parameters {

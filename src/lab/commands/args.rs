@@ -11,7 +11,7 @@ use hitscope_core::group::{all_kernels, kernel_named};
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::KernelChoice;
-use hitscope_core::loading::LoadedScene;
+use hitscope_core::loading::{LoadedScene, is_scene_file};
 use hitscope_core::mesh::Crease;
 use hitscope_core::obj::{FaultPolicy, LoadOptions, Recentre};
 use hitscope_core::scene::SceneOptions;
@@ -149,15 +149,27 @@ impl CreaseArg {
 /// The view of a picture.
 #[derive(Args, Clone, Debug)]
 pub struct ViewArg {
-    /// View: the meaning of the colours
-    #[arg(long, value_name = "NAME", default_value = "shaded", value_parser = view_names())]
-    pub view: String,
+    /// View: the meaning of the colours [default: the scene file's integrator, or shaded]
+    #[arg(long, visible_alias = "integrator", value_name = "NAME", value_parser = view_names())]
+    pub view: Option<String>,
 }
 
 impl ViewArg {
-    /// The view's row in the table.
-    pub fn view(&self) -> &'static Integrator {
-        integrator(&self.view).expect("clap accepts only names in the table")
+    /// The view for a loaded scene.
+    pub fn view(&self, loaded: &LoadedScene) -> &'static Integrator {
+        let of_file = || loaded.integrator().unwrap_or(INTEGRATORS[0]);
+        self.given().unwrap_or_else(of_file)
+    }
+
+    /// The view, if it doesn't depend on the contents of the file.
+    pub fn known(&self, file: &Path) -> Option<&'static Integrator> {
+        let of_mesh = || (!is_scene_file(file)).then_some(INTEGRATORS[0]);
+        self.given().or_else(of_mesh)
+    }
+
+    fn given(&self) -> Option<&'static Integrator> {
+        let name = self.view.as_deref()?;
+        Some(integrator(name).expect("clap accepts only names in the table"))
     }
 }
 

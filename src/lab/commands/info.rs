@@ -3,6 +3,7 @@
 use super::args::MeshArgs;
 use super::input::is_stdin;
 use super::inspect::at_most;
+use super::lights::LightInfo;
 use super::{CommandError, file_error};
 use crate::json;
 use crate::measure::speed::default_camera;
@@ -22,7 +23,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Show the contents of a file: counts, bounds, memory, mesh health, required kernel tier
+/// Show the contents of a file: counts, bounds, lights, memory, mesh health, required kernel tier
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Examples:
@@ -58,6 +59,8 @@ struct Info {
     points: usize,
     /// The groups of primitives, one per shape.
     shapes: Vec<ShapeGroup>,
+    /// Empty if nothing emits light.
+    lights: Vec<LightInfo>,
     bounds: Bounds,
     origin: [f64; 3],
     /// Largest difference per coordinate between the file's decimals and the traced mesh.
@@ -205,6 +208,7 @@ impl Info {
                 .iter()
                 .map(|group| ShapeGroup::of(&**group, mesh))
                 .collect(),
+            lights: LightInfo::of(loaded),
             bounds: Bounds::of(bounds, mesh),
             origin: mesh.origin().to_array(),
             max_rounding: loaded.report.max_rounding,
@@ -259,6 +263,9 @@ impl Info {
                 }
                 None => writeln!(out, "                    no bounds")?,
             }
+        }
+        for light in &self.lights {
+            writeln!(out, "light               {light}")?;
         }
         writeln!(out, "bounds              {:?}", self.bounds.min)?;
         writeln!(out, "                    {:?}", self.bounds.max)?;

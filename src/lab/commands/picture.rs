@@ -2,18 +2,20 @@
 
 use super::args::{CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
 use super::camera::CameraArgs;
-use super::{CommandError, ThreadsArg};
+use super::{CommandError, LightArgs, ThreadsArg};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{Comparison, Context, Lighting};
+use hitscope_core::integrator::{Comparison, Context, Integrator};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
-use hitscope_core::srgb::from_display;
+use hitscope_core::srgb::{from_display, to_display};
 use hitscope_core::{Camera, Film, Intersector};
+use std::borrow::Cow;
+use std::fmt;
 use std::path::Path;
 use std::sync::Arc;
 
@@ -32,6 +34,9 @@ pub struct PictureArgs {
     /// View.
     #[command(flatten)]
     pub view: ViewArg,
+    /// Light.
+    #[command(flatten)]
+    pub light: LightArgs,
     /// Kernel.
     #[command(flatten)]
     pub kernel: KernelArg,
@@ -80,6 +85,77 @@ pub struct Rendered {
     pub loaded: LoadedScene,
     /// How normals vary over a triangle.
     pub shading: Shading,
+    /// The picture is brightened by 2 to this power.
+    pub exposure: f32,
+}
+
+/// How far the colours of a picture may be off by chance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Noise {
+    /// The mean over all pixels of the standard error of the luminance.
+    pub mean: f64,
+    /// The largest standard error.
+    pub worst: f64,
+    /// The pixel that has it.
+    pub worst_at: UVec2,
+}
+
+impl Rendered {
+    /// The picture in sRGB with alpha 255, row by row from the top.
+    pub fn pixels(&self) -> Cow<'_, [[u8; 4]]> {
+        if self.exposure == 0.0 {
+            return Cow::Borrowed(self.film.pixels());
+        }
+        let factor = self.exposure.exp2();
+        let encoded = |linear: f32| (255.0 * to_display(factor * linear)).round() as u8;
+        let pixel = |pixel: UVec2| {
+            let radiance = self.film.radiance(pixel).unwrap_or_default();
+            let [r, g, b] = radiance.to_array().map(encoded);
+            [r, g, b, 255]
+        };
+        Cow::Owned(self.positions().map(pixel).collect())
+    }
+
+    /// The noise, from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
+    /// have less. With one sample per pixel it isn't known, and counts as 0.
+    pub fn noise(&self) -> Noise {
+        let errors = self.positions().map(|pixel| {
+            let error = self.film.standard_error(pixel).unwrap_or(0.0);
+            (error, pixel)
+        });
+        let (mut sum, mut worst) = (0.0, (0.0, UVec2::ZERO));
+        for (error, pixel) in errors {
+            sum += error;
+            if error > worst.0 {
+                worst = (error, pixel);
+            }
+        }
+        Noise {
+            mean: sum / f64::from(self.film.size().element_product().max(1)),
+            worst: worst.0,
+            worst_at: worst.1,
+        }
+    }
+
+    fn positions(&self) -> impl Iterator<Item = UVec2> {
+        let UVec2 { x, y } = self.film.size();
+        (0..y).flat_map(move |row| (0..x).map(move |column| UVec2::new(column, row)))
+    }
+}
+
+impl fmt::Display for Noise {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let Self {
+            mean,
+            worst,
+            worst_at,
+        } = self;
+        let (x, y) = (worst_at.x, worst_at.y);
+        write!(
+            f,
+            "noise: standard error of the luminance {mean:.3e} on average, {worst:.3e} at most, at pixel {x},{y}"
+        )
+    }
 }
 
 /// The background of pictures without a window, in sRGB; the dark theme's.
@@ -93,11 +169,8 @@ impl PictureArgs {
     pub fn check(&self, file: &Path) -> Result<(), CommandError> {
         let refuse = |message: String| Err(CommandError::Usage(message));
         self.camera.check()?;
-        if self.against.is_some() && self.view.view().needs.second != Comparison::Second {
-            let view = &self.view.view;
-            return refuse(format!(
-                "--against has no effect on the view “{view}”: it needs --view disagreement"
-            ));
+        if let Some(view) = self.view.known(file) {
+            self.check_view(view)?;
         }
         self.crease.check(self.shading)?;
         // The size of a scene file's picture may be known only later.
@@ -115,6 +188,18 @@ impl PictureArgs {
         Ok(())
     }
 
+    /// Refuses options that don't change the picture of a view.
+    fn check_view(&self, view: &Integrator) -> Result<(), CommandError> {
+        if self.against.is_some() && view.needs.second != Comparison::Second {
+            let message = format!(
+                "--against has no effect on the view “{}”: it needs --view disagreement",
+                view.name
+            );
+            return Err(CommandError::Usage(message));
+        }
+        self.light.check(view)
+    }
+
     /// Traces the picture of a scene.
     ///
     /// # Errors
@@ -127,7 +212,8 @@ impl PictureArgs {
             Arc::from(loaded.scene.intersector(self.kernel.kernel()));
         let against = self.against.as_deref().unwrap_or("exact");
         let chosen = kernel_named(against).expect("clap accepts only names in the tables");
-        let view = self.view.view();
+        let view = self.view.view(&loaded);
+        self.check_view(view)?;
         let second = view.second(&loaded.scene, &intersector, chosen);
         self.require_memory(&loaded, camera.resolution(), &[&intersector, &second])?;
         let context = Context {
@@ -137,7 +223,7 @@ impl PictureArgs {
             camera,
             shading,
             background: from_display(DARK_BACKGROUND),
-            lighting: Lighting::default(),
+            lighting: self.light.lighting(&loaded, &camera)?,
         };
         let job = Job {
             context,
@@ -149,6 +235,7 @@ impl PictureArgs {
             camera,
             loaded,
             shading,
+            exposure: self.light.exposure.unwrap_or(0.0),
         })
     }
 

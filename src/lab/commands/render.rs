@@ -13,6 +13,7 @@ Examples:
   hitscope render bunny.obj -o bunny.png
   hitscope render bunny.obj -o bunny.png --size 1920x1080 --samples 64 --shading smooth
   hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0 --wireframe
+  hitscope render bunny.obj -o bunny.png --view path --environment studio --samples 256 --noise
   hitscope render bunny.obj -o /dev/stdout --view cost | display
 
 The output file appears under its name once it is complete. A picture takes 19 bytes of memory per pixel.")]
@@ -31,6 +32,9 @@ pub struct RenderArgs {
     /// Draw the normals over the picture (same requirement)
     #[arg(long)]
     pub normals: bool,
+    /// Print the standard error of the pixels' luminance, on average and at most
+    #[arg(long)]
+    pub noise: bool,
 }
 
 impl RenderArgs {
@@ -39,6 +43,13 @@ impl RenderArgs {
     /// # Errors
     /// [`CommandError::Usage`].
     pub fn check(&self) -> Result<(), CommandError> {
+        let refuse = |message: &str| Err(CommandError::Usage(message.to_owned()));
+        if self.noise && self.picture.samples < 2 {
+            return refuse("--noise needs at least 2 samples per pixel");
+        }
+        if self.noise && is_stream(&self.output) {
+            return refuse("--noise prints to standard output; write the picture to a file");
+        }
         self.picture.check(&self.file)
     }
 

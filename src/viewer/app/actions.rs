@@ -21,6 +21,10 @@ impl App {
                 let suggested = suggested_path(&self.document);
                 self.save_dialog.open(ctx, frame, suggested.as_deref());
             }
+            Action::OpenEnvironment => {
+                let near = self.document.path.as_deref();
+                self.environment_dialog.open(ctx, frame, near);
+            }
             Action::Reload => {
                 if let Some(path) = self.document.path.clone() {
                     self.load(path, ctx);
@@ -45,6 +49,7 @@ impl App {
             }
             Action::ToggleNormals => self.settings.shows_normals = !self.settings.shows_normals,
             Action::ToggleSmooth => self.settings.is_smooth = !self.settings.is_smooth,
+            Action::ToggleNoise => self.settings.shows_noise = !self.settings.shows_noise,
             Action::TogglePause => self.tracer.toggle_pause(),
             Action::TogglePanel => self.settings.shows_panel = !self.settings.shows_panel,
             Action::ToggleHelp => self.shows_help = !self.shows_help,
@@ -77,6 +82,7 @@ impl App {
         let is_closed = std::mem::take(&mut self.shows_help)
             || self.open_dialog.dismiss()
             || self.save_dialog.dismiss()
+            || self.environment_dialog.dismiss()
             || self.notice.take().is_some();
         if !is_closed && self.flaw.take().is_none() {
             (self.pick, self.picking, self.face_lookup) = (None, None, None);

@@ -9,7 +9,7 @@ use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
 use hitscope_core::Camera;
-use hitscope_core::integrator::{Context, Lighting};
+use hitscope_core::integrator::Context;
 use std::sync::Arc;
 
 /// Place of the picture in the window. It covers whole physical pixels, so that each pixel of the picture is one
@@ -93,8 +93,8 @@ impl App {
             self.pointer(ui, &response, canvas);
             self.rotate(ui);
             self.paint(ui, canvas, response.dragged());
-            self.tracer
-                .request(self.wanted(ui.ctx(), canvas.resolution));
+            let wanted = self.wanted(ui.ctx(), canvas.resolution);
+            self.tracer.request(wanted);
         });
     }
 
@@ -111,7 +111,7 @@ impl App {
     }
 
     /// The request for the current camera and settings.
-    fn wanted(&self, ctx: &egui::Context, resolution: UVec2) -> Request {
+    fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let background = theme::background(self.settings.view(), ctx.theme());
         Request {
             context: Context {
@@ -121,7 +121,7 @@ impl App {
                 camera: self.turntable.camera(resolution),
                 shading: self.settings.shading(),
                 background,
-                lighting: Lighting::default(),
+                lighting: self.lighting(),
             },
             integrator: self.settings.view(),
             samples: self.settings.samples,
@@ -131,8 +131,10 @@ impl App {
 
     /// Draws the traced picture, the overlay and the marks.
     fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
-        if let Some((film, changed)) = self.tracer.take_changes() {
-            self.picture.upload(film, changed);
+        let changed = self.tracer.take_changes().map(|(_, changed)| changed);
+        let (look, film) = (self.look(), self.tracer.film());
+        if let Some((pixels, changed)) = self.development.update(film, changed, look) {
+            self.picture.upload(film.size(), pixels, changed);
         }
         // Overlay and marks match the scene and the camera of the picture on the screen.
         let Some((scene, camera)) = self.tracer.shown().cloned() else {

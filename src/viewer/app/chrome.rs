@@ -2,7 +2,9 @@
 
 use super::App;
 use crate::bindings::Action;
+use crate::numbers::significant;
 use crate::panels::view::shown_kernel;
+use crate::tracer::{Status, StopReason};
 use crate::watch::Watch;
 use egui::RichText;
 use hitscope_core::Scene;
@@ -100,6 +102,13 @@ impl App {
                 true,
             ),
             (
+                "Noise",
+                settings.shows_noise,
+                Action::ToggleNoise,
+                "Standard error of each pixel, in views with light",
+                settings.view().needs.lights,
+            ),
+            (
                 "Orthographic",
                 self.turntable.is_orthographic,
                 Action::ToggleOrthographic,
@@ -159,27 +168,24 @@ impl App {
         let status = self.tracer.status();
         let scene = &self.document.loaded.scene;
         let ms = |time: std::time::Duration| time.as_secs_f64() * 1e3;
-        let pause = if self.tracer.is_paused() {
-            ", paused"
-        } else {
-            ""
-        };
         let tree = if scene.has_best_tree() {
             "tree"
         } else {
             "quick tree"
         };
+        // A path has many rays.
+        let unit = if self.settings.view().needs.lights {
+            "Msamples/s"
+        } else {
+            "Mrays/s"
+        };
         let kernel = shown_kernel(self.document.kernel(), &scene.kernels()).short_name();
         let mut parts = vec![
             format!("{kernel} kernel"),
             primitives(scene),
-            format!(
-                "{} of {}{pause}",
-                status.samples,
-                counted(self.settings.samples as usize, "sample")
-            ),
+            self.samples_part(&status),
             format!("pass {} of {}", status.passes, status.pass_count),
-            format!("{:.1} Mrays/s", status.rays_per_s / 1e6),
+            format!("{:.1} {unit}", status.rays_per_s / 1e6),
             format!("{:.1} s", status.lasted.as_secs_f64()),
             format!("{tree} {:.0} ms", ms(scene.build_time())),
         ];
@@ -204,6 +210,36 @@ impl App {
         }
         parts
     }
+
+    /// Samples and noise, such as `64 of 128 samples, noise 0.8 % (worst 12 %)`.
+    fn samples_part(&self, status: &Status) -> String {
+        if status.is_preview {
+            return "preview".to_owned();
+        }
+        let all = counted(self.settings.samples as usize, "sample");
+        let mut text = format!("{} of {all}", status.samples);
+        if let Some(noise) = status.noise {
+            let exposure = f64::from(self.settings.exposure());
+            let [mean, worst] = [noise.mean, noise.worst].map(|error| percent(exposure * error));
+            text += &format!(", noise {mean} (worst {worst})");
+        }
+        text += match status.stopped {
+            Some(StopReason::Time) => ", stopped by time",
+            Some(StopReason::Noise) => ", stopped by noise",
+            None if self.tracer.is_paused() => ", paused",
+            None => "",
+        };
+        text
+    }
+}
+
+/// An error relative to white in percent, such as `0.8 %`.
+fn percent(error: f64) -> String {
+    match 100.0 * error {
+        x if x >= 10.0 => format!("{x:.0} %"),
+        x if x >= 0.1 => format!("{x:.1} %"),
+        x => format!("{} %", significant(x, 1)),
+    }
 }
 
 /// The primitives of a scene: triangles, or all of them if it has other shapes.
@@ -211,5 +247,24 @@ fn primitives(scene: &Scene) -> String {
     match scene.groups() {
         [group] => counted_as(group.count(), group.shape().name, group.shape().plural),
         _ => counted(scene.primitive_count(), "primitive"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_is_shown_in_percent_with_few_digits() {
+        for (error, text) in [
+            (0.0, "0 %"),
+            (0.000_05, "0.005 %"),
+            (0.008, "0.8 %"),
+            (0.015, "1.5 %"),
+            (0.123, "12 %"),
+            (4.0, "400 %"),
+        ] {
+            assert_eq!(percent(error), text);
+        }
     }
 }

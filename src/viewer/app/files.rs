@@ -28,6 +28,9 @@ impl App {
         if let Some(path) = self.open_dialog.poll() {
             self.load(path, ctx);
         }
+        if let Some(path) = self.environment_dialog.poll() {
+            self.set_environment(&path);
+        }
         let Some(loading) = &self.loading else { return };
         let result = match loading.poll() {
             Ok(None) => return,

@@ -1,5 +1,6 @@
 //! The windows over the picture: path fields, messages and help.
 
+use super::light::is_environment;
 use super::{App, NoticeKind};
 use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
 use egui::{Align, Layout, RichText};
@@ -13,9 +14,17 @@ impl App {
         if let Some(path) = self.save_dialog.field_ui(ctx) {
             self.save_as(&path, ctx);
         }
+        if let Some(path) = self.environment_dialog.field_ui(ctx) {
+            self.set_environment(&path);
+        }
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
-            self.load(file.path().to_owned(), ctx);
+            let path = file.path();
+            if is_environment(path) {
+                self.set_environment(path);
+            } else {
+                self.load(path.to_owned(), ctx);
+            }
         }
         self.drop_hint_ui(ctx);
         self.notices_ui(ctx);

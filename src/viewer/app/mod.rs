@@ -7,6 +7,7 @@
 //! | `actions` | effects of keys and buttons |
 //! | `canvas` | the picture with its overlay and marks |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
+//! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
 //! | `first_view` | the view in which a document opens |
 //! | `hints` | the message in the middle of an empty picture |
@@ -19,6 +20,7 @@ mod chrome;
 mod files;
 mod first_view;
 mod hints;
+mod light;
 mod messages;
 mod pick;
 mod pointer;
@@ -30,6 +32,7 @@ use crate::document::Document;
 use crate::face_lookup::FaceLookup;
 use crate::flaw_place::FlawPlace;
 use crate::gpu::picture::Picture;
+use crate::look::Development;
 use crate::opening::Loading;
 use crate::overlay::OverlayLayer;
 use crate::saving::Saving;
@@ -49,6 +52,7 @@ use hitscope_core::camera::Turntable;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_core::{Camera, Scene};
 use hitscope_lab::commands::{default_thread_count, print_line};
+use light::SceneLights;
 use pick::Pick;
 use pointer::Clicks;
 use std::path::PathBuf;
@@ -112,12 +116,16 @@ pub struct App {
     watch: Option<Watch>,
     open_dialog: FileDialog,
     save_dialog: FileDialog,
+    environment_dialog: FileDialog,
     saving: Option<Saving>,
     turntable: Turntable,
     /// Field of view and projection before a file's view replaced them; the next file gets them back.
     own_projection: Option<(f64, bool)>,
     tracer: Tracer,
+    development: Development,
     picture: Picture,
+    /// The lights of the last request that needs lights.
+    lights: Option<SceneLights>,
     overlay: OverlayLayer,
     /// Scene and camera of the picture that is on the screen.
     on_screen: Option<(Arc<Scene>, Camera)>,
@@ -180,10 +188,13 @@ impl App {
             watch: None,
             open_dialog: FileDialog::new(Purpose::Open),
             save_dialog: FileDialog::new(Purpose::Save),
+            environment_dialog: FileDialog::new(Purpose::Environment),
             saving: None,
             tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
+            development: Development::default(),
             picture: Picture::new(&render_state),
+            lights: None,
             overlay: OverlayLayer::new(&render_state),
             on_screen: None,
             clicks: Clicks::default(),
@@ -271,6 +282,7 @@ impl eframe::App for App {
             self.error(broken);
         }
         self.refresh_pick(ctx);
+        self.tracer.set_limits(self.limits());
         if let Some(panic) = self.tracer.collect(ctx).first() {
             self.error(panic);
         }

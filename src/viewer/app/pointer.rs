@@ -32,8 +32,11 @@ impl App {
     pub(super) fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
         let drag = response.drag_delta() * canvas.pixels_per_point;
         let drag = DVec2::new(drag.x.into(), drag.y.into());
-        let is_shift = ui.input(|input| input.modifiers.shift);
-        if response.dragged_by(PointerButton::Primary) && !is_shift {
+        let modifiers = ui.input(|input| input.modifiers);
+        let is_primary = response.dragged_by(PointerButton::Primary);
+        if is_primary && modifiers.command && self.settings.shows_light() {
+            self.rotate_environment(response.drag_delta().x);
+        } else if is_primary && !modifiers.shift {
             self.turntable.orbit(drag, canvas.resolution);
         } else if response.dragged() {
             self.turntable.pan(drag, canvas.resolution);

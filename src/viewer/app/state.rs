@@ -18,7 +18,7 @@ impl App {
         self.tracer.film()
     }
 
-    /// Whether the picture has all samples, the overlay has all lines, and nothing is being loaded.
+    /// Whether the picture has all samples or has reached a limit, the overlay has all lines, and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
         let is_wanted = |request: &Request| {
             Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
@@ -27,7 +27,7 @@ impl App {
         self.loading.is_none()
             && self.document.has_last_tree()
             && self.tracer.posted().is_some_and(is_wanted)
-            && self.tracer.film().is_complete()
+            && self.tracer.is_finished()
             && self.overlay.is_complete()
     }
 

@@ -8,7 +8,6 @@ use super::{extent, texture};
 use eframe::egui_wgpu::{Callback, CallbackResources, CallbackTrait, RenderState};
 use egui::{PaintCallbackInfo, Rect, Shape};
 use glam::UVec2;
-use hitscope_core::Film;
 use hitscope_core::plan::PixelRect;
 
 /// A complete shader, without [`view::SHADER`](super::view::SHADER).
@@ -53,9 +52,9 @@ impl Picture {
         }
     }
 
-    /// Uploads the changed pixels, or all pixels if the size changed.
-    pub fn upload(&mut self, film: &Film, changed: PixelRect) {
-        let size = film.size();
+    /// Uploads the changed pixels, or all pixels if the size changed. Pixels are sRGB with alpha 255, row by row from the
+    /// top; as many as the size says.
+    pub fn upload(&mut self, size: UVec2, pixels: &[[u8; 4]], changed: PixelRect) {
         let is_same_size =
             |texture: &wgpu::Texture| UVec2::new(texture.width(), texture.height()) == size;
         let mut rect = changed;
@@ -82,7 +81,7 @@ impl Picture {
                 },
                 aspect: wgpu::TextureAspect::All,
             },
-            film.pixels()[first..].as_flattened(),
+            pixels[first..].as_flattened(),
             wgpu::TexelCopyBufferLayout {
                 offset: 0,
                 bytes_per_row: Some(4 * size.x),

@@ -3,6 +3,7 @@
 mod flaws;
 pub mod inspect;
 mod labels;
+pub mod light;
 pub mod mesh;
 pub mod progress;
 mod table;

@@ -1,5 +1,6 @@
-//! The Display tab: view, shading, kernel, overlay, camera, theme.
+//! The Display tab: view with its options, shading, kernel, overlay, camera, theme.
 
+use super::light::light_ui;
 use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
@@ -7,6 +8,7 @@ use hitscope_core::camera::{StandardView, Turntable, UpAxis};
 use hitscope_core::group::ShapeKernels;
 use hitscope_core::integrator::{Comparison, INTEGRATORS, Legend};
 use hitscope_core::kernel::{KernelChoice, KernelInfo};
+use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::srgb::to_display;
 
 /// Shows the tab; `shapes` are the kernels of the scene's shapes.
@@ -17,7 +19,7 @@ pub fn view_ui(
     shapes: &[ShapeKernels],
     actions: &mut Vec<Action>,
 ) {
-    chosen_view_ui(ui, settings, shapes);
+    chosen_view_ui(ui, settings, shapes, actions);
     ui.separator();
     kernel_ui(ui, settings, shapes);
     ui.separator();
@@ -41,7 +43,12 @@ pub fn view_ui(
     }
 }
 
-fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings, shapes: &[ShapeKernels]) {
+fn chosen_view_ui(
+    ui: &mut egui::Ui,
+    settings: &mut Settings,
+    shapes: &[ShapeKernels],
+    actions: &mut Vec<Action>,
+) {
     ui.label(RichText::new("View").strong());
     ui.horizontal_wrapped(|ui| {
         for choice in INTEGRATORS {
@@ -84,16 +91,17 @@ fn chosen_view_ui(ui: &mut egui::Ui, settings: &mut Settings, shapes: &[ShapeKer
     ui.horizontal(|ui| {
         let label = ui.label("Samples per pixel");
         let mut power = settings.samples.max(1).ilog2();
-        let slider = egui::Slider::new(&mut power, 0..=12)
+        let slider = egui::Slider::new(&mut power, 0..=MAX_SAMPLES.ilog2())
             .custom_formatter(|power, _| format!("{}", 1u32 << power as u32))
             .custom_parser(|text| text.parse().ok().map(f64::log2));
         ui.add(slider).labelled_by(label.id);
         settings.samples = 1 << power;
     });
+    light_ui(ui, settings, actions);
 }
 
 /// Shows the legend of the view.
-fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
+pub(super) fn legend_ui(ui: &mut egui::Ui, legend: &Legend) {
     for line in legend {
         ui.horizontal(|ui| {
             ui.spacing_mut().item_spacing.x = 5.0;

@@ -1,5 +1,8 @@
 //! Tests: coarseness, refinement and display of the picture during and after a movement.
 
+mod lit;
+
+use super::pacing::{FIRST_PASS, FRAME};
 use super::*;
 use glam::DVec3;
 use hitscope_core::camera::Projection;
@@ -93,9 +96,12 @@ fn the_first_pass_has_the_smallest_blocks_that_fit_its_time() {
         // The coarsest step.
         (1.0, 16),
     ] {
-        (tracer.rays, tracer.busy_secs) = (rays_per_first_pass, 0.01);
+        tracer.speeds[0] = Speed {
+            rays: rays_per_first_pass,
+            busy_secs: 0.01,
+        };
         assert_eq!(
-            tracer.first_step(SIZE),
+            tracer.first_step(SIZE, false),
             step,
             "{rays_per_first_pass} of {pixels}"
         );

@@ -6,6 +6,8 @@
 mod form_factors;
 // Closed rooms that emit light.
 mod furnace;
+// Planes under points and directions of light, from scene files; the studio.
+mod lamps;
 // How open surfaces are.
 mod openness;
 

@@ -2,7 +2,7 @@
 
 use super::{parse, parse_bytes, scene, warnings};
 use glam::{DMat4, DVec3};
-use hitscope_core::scene_file::{CsgOperation, Parameter, Place, SceneFile, ShapeKind, Value};
+use hitscope_core::scene_file::{CsgOperation, Place, SceneFile, ShapeKind};
 use std::path::PathBuf;
 
 pub(super) fn read(contents: &str) -> SceneFile {
@@ -233,64 +233,6 @@ fn other_bsdfs_and_textures_are_replaced_with_a_warning() {
         "line 6: bsdf “diffuse” in scene without id isn't used",
         "line 7: medium “homogeneous” in shape “disk” isn't used",
         "line 8: text “words” isn't used",
-    ];
-    assert_eq!(warnings(&scene), expected);
-}
-
-#[test]
-fn integrators_and_emitters_are_kept_with_a_warning() {
-    let scene = read(
-        "<integrator type='path'><integer name='max_depth' value='3'/></integrator>
-         <emitter type='constant' id='sky'><rgb name='radiance' value='1 2 3'/></emitter>
-         <shape type='rectangle'><emitter type='area'><spectrum name='radiance' value='5'/>
-         <texture type='bitmap' name='t'><string name='filename' value='a.png'/><ref name='r' id='x'/></texture>
-         </emitter></shape>
-         <emitter type='point'><point name='position' value='1 0 0'/><boolean name='b' value='false'/>
-         <transform name='to_world'><scale value='2'/></transform></emitter>",
-    );
-    let integrator = scene.integrator.as_ref().expect("an integrator");
-    assert_eq!(
-        (integrator.element.as_str(), integrator.kind.as_str()),
-        ("integrator", "path")
-    );
-    let expected = Parameter {
-        place: at(2),
-        name: "max_depth".to_owned(),
-        value: Value::Integer(3),
-    };
-    assert_eq!(integrator.parameters, [expected]);
-    assert_eq!(scene.emitters[0].id.as_deref(), Some("sky"));
-    let radiance = &scene.emitters[0].parameters[0].value;
-    assert_eq!(*radiance, Value::Rgb(DVec3::new(1.0, 2.0, 3.0)));
-    let values: Vec<_> = scene.emitters[1]
-        .parameters
-        .iter()
-        .map(|p| p.value.clone())
-        .collect();
-    let scale = Box::new(DMat4::from_scale(DVec3::splat(2.0)));
-    let expected = [
-        Value::Point(DVec3::X),
-        Value::Boolean(false),
-        Value::Transform(scale),
-    ];
-    assert_eq!(values, expected);
-    let area = scene.shapes[0].emitter.as_ref().expect("an emitter");
-    assert_eq!(area.parameters[0].value, Value::Spectrum(5.0));
-    let texture = &area.children[0];
-    assert_eq!(
-        (texture.element.as_str(), texture.name.as_deref()),
-        ("texture", Some("t"))
-    );
-    assert_eq!(texture.parameters[0].value, Value::Text("a.png".to_owned()));
-    assert_eq!(
-        texture.parameters[1].value,
-        Value::Reference("x".to_owned())
-    );
-    let expected = [
-        "line 2: integrator “path” isn't used",
-        "line 3: emitter “constant” isn't used",
-        "line 4: emitter “area” isn't used",
-        "line 7: emitter “point” isn't used",
     ];
     assert_eq!(warnings(&scene), expected);
 }

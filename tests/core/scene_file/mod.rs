@@ -6,6 +6,9 @@ mod mitsuba;
 // Fields of view as Mitsuba computes them.
 mod fields_of_view;
 
+// Emitters and integrators.
+mod emitters;
+
 // Sensors, with their films and samplers.
 mod sensors;
 

@@ -195,6 +195,67 @@ const CONTENTS: &[(&str, &str)] = &[
         "<shape type='disk'><emitter type='area'/>\n<emitter type='area'/></shape>",
         "3: shape “disk” has a second emitter",
     ),
+    // Emitters and integrators.
+    (
+        "<emitter type='area'/>",
+        "2: emitter “area” must stand in a shape",
+    ),
+    (
+        "<shape type='disk'>\n<emitter type='point'/></shape>",
+        "3: emitter “point” can't stand in a shape, only “area” can",
+    ),
+    (
+        "<shape type='disk'><emitter type='area'>\n<rgb name='radiance' value='1 -1 1'/></emitter></shape>",
+        "3: “radiance” must not be negative",
+    ),
+    (
+        "<emitter type='point'>\n<float name='intensity' value='1e39'/></emitter>",
+        "3: “intensity” is too large for f32",
+    ),
+    (
+        "<emitter type='point'>\n<point name='intensity' value='1'/></emitter>",
+        "3: “intensity” must be <rgb>, not <point>",
+    ),
+    (
+        "<emitter type='point'>\n<float name='radiance' value='1'/></emitter>",
+        "3: unknown parameter of emitter “point”: “radiance”; the nearest known one is “intensity”",
+    ),
+    (
+        "<emitter type='point'><point name='position' value='1'/><transform name='to_world'/></emitter>",
+        "2: emitter “point”: “position” and “to_world” exclude each other",
+    ),
+    (
+        "<emitter type='directional'><vector name='direction' value='1'/><transform name='to_world'/></emitter>",
+        "2: emitter “directional”: “direction” and “to_world” exclude each other",
+    ),
+    (
+        "<emitter type='directional'><vector name='direction' value='0'/></emitter>",
+        "2: emitter “directional”: “direction” is zero",
+    ),
+    (
+        "<shape type='disk'><emitter type='area'><transform name='to_world'/></emitter></shape>",
+        "2: emitter “area”: “to_world” isn't allowed: the light is where the shape is",
+    ),
+    (
+        "<emitter type='envmap'/>",
+        "2: emitter “envmap”: parameter “filename” is missing",
+    ),
+    (
+        "<emitter type='envmap'><string name='filename' value='a.exr'/><transform name='to_world'><scale value='2'/></transform></emitter>",
+        "2: emitter “envmap”: “to_world” must be a rotation",
+    ),
+    (
+        "<emitter type='constant'/>\n<emitter type='envmap'><string name='filename' value='a.exr'/></emitter>",
+        "3: the scene has a second environment",
+    ),
+    (
+        "<integrator type='path'>\n<integer name='max_depth' value='-2'/></integrator>",
+        "3: “max_depth” must be -1 or more",
+    ),
+    (
+        "<integrator type='path'>\n<integer name='max_dept' value='2'/></integrator>",
+        "3: unknown parameter of integrator “path”: “max_dept”; the nearest known one is “max_depth”",
+    ),
     (
         "<bsdf type='diffuse' id='a'><rgb name='reflectance' value='1.5 0 0'/></bsdf>",
         "2: “reflectance” must be from 0 to 1",

@@ -2,12 +2,14 @@
 
 use super::{parse, parse_files, scene};
 use glam::{DMat4, DVec3};
-use hitscope_core::scene_file::{self, Place, Plugin, SceneFile, Shape, ShapeKind};
+use hitscope_core::scene_file::{
+    self, Emitter, EmitterKind, Place, Plugin, SceneFile, Shape, ShapeKind,
+};
 use std::path::{Path, PathBuf};
 
 /// Everything that a scene can contain.
 const ALL: &str = r##"
-<integrator type="path"><integer name="max_depth" value="-1"/><string name="s" value="a &amp; &lt;b&gt; &quot;c&quot;&#10;d"/></integrator>
+<integrator type="aov"><integer name="max_depth" value="-1"/><string name="s" value="a &amp; &lt;b&gt; &quot;c&quot;&#10;d"/></integrator>
 <sensor type="perspective" id="p"><float name="fov" value="33.3"/><string name="fov_axis" value="larger"/>
   <transform name="to_world"><lookat origin="1,2,3" target="4,5,7" up="0,1,0"/></transform></sensor>
 <sensor type="perspective"/>
@@ -19,7 +21,10 @@ const ALL: &str = r##"
 <sensor type="thinlens"><float name="aperture_radius" value="0.3"/></sensor>
 <emitter type="envmap" id="e"><string name="filename" value="a.exr"/><float name="scale" value="0.1"/>
   <transform name="to_world"><rotate x="1" angle="33"/></transform></emitter>
-<emitter type="point" name="n"><point name="position" value="1 2 3"/><vector name="v" value="1e300"/>
+<emitter type="point" name="n"><point name="position" value="1 2 3"/><float name="intensity" value="0.1"/></emitter>
+<emitter type="point"><transform name="to_world"><translate x="0.1"/></transform></emitter>
+<emitter type="directional"><vector name="direction" value="0.1 0.2 -0.3"/><spectrum name="irradiance" value="1e-9"/></emitter>
+<emitter type="spot" name="n"><point name="position" value="1 2 3"/><vector name="v" value="1e300"/>
   <boolean name="b" value="true"/><spectrum name="i" value="1e-300"/><texture type="bitmap"><ref id="q"/><ref name="r" id="q"/></texture></emitter>
 <shape type="obj" id="o" name="m"><string name="filename" value="sub/mesh's.obj"/><ref id="late"/></shape>
 <shape type="obj"><string name="filename" value="/abs/a.obj"/><boolean name="flip_tex_coords" value="false"/></shape>
@@ -53,12 +58,18 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
             .for_each(|p| p.place = Place::default());
         plugin.children.iter_mut().for_each(of_plugin);
     }
+    fn of_emitter(emitter: &mut Emitter) {
+        emitter.place = Place::default();
+        if let EmitterKind::Other(plugin) = &mut emitter.kind {
+            of_plugin(plugin);
+        }
+    }
     fn of_shape(shape: &mut Shape) {
         shape.place = Place::default();
         shape
             .emitter
             .iter_mut()
-            .for_each(|emitter| of_plugin(emitter));
+            .for_each(|emitter| of_emitter(emitter));
         if let ShapeKind::Csg { children, .. } = &mut shape.kind {
             children.iter_mut().for_each(of_shape);
         }
@@ -72,11 +83,9 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
         .sensors
         .iter_mut()
         .for_each(|s| s.place = Place::default());
-    scene
-        .emitters
-        .iter_mut()
-        .chain(&mut scene.integrator)
-        .for_each(of_plugin);
+    scene.emitters.iter_mut().for_each(of_emitter);
+    let integrator = scene.integrator.iter_mut();
+    integrator.for_each(|integrator| of_plugin(&mut integrator.plugin));
     scene.files.clear();
     scene.warnings.clear();
     scene

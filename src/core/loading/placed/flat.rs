@@ -12,11 +12,18 @@ struct PlacedSpan {
 }
 
 impl PlacedSpan {
-    fn new(to_world: &DMat4) -> Self {
+    /// Mirroring keeps the front, the side of the image of +z, unless `flip_normals` is set.
+    fn new(to_world: &DMat4, flip_normals: bool) -> Self {
         let linear = DMat3::from_mat4(*to_world);
+        let is_mirrored = (linear.determinant() < 0.0) != flip_normals;
+        let v = if is_mirrored {
+            -linear.y_axis
+        } else {
+            linear.y_axis
+        };
         Self {
             centre: to_world.transform_point3(DVec3::ZERO),
-            axes: [linear.x_axis, linear.y_axis],
+            axes: [linear.x_axis, v],
         }
     }
 
@@ -42,14 +49,14 @@ pub(super) struct PlacedDisk(PlacedSpan);
 pub(super) struct PlacedRectangle(PlacedSpan);
 
 impl PlacedDisk {
-    pub fn new(to_world: &DMat4) -> Self {
-        Self(PlacedSpan::new(to_world))
+    pub fn new(to_world: &DMat4, flip_normals: bool) -> Self {
+        Self(PlacedSpan::new(to_world, flip_normals))
     }
 }
 
 impl PlacedRectangle {
-    pub fn new(to_world: &DMat4) -> Self {
-        Self(PlacedSpan::new(to_world))
+    pub fn new(to_world: &DMat4, flip_normals: bool) -> Self {
+        Self(PlacedSpan::new(to_world, flip_normals))
     }
 }
 

@@ -105,8 +105,8 @@ pub(super) fn placed(shape: &Shape, to_world: &DMat4) -> Result<Option<Box<dyn P
         ShapeKind::Obj { .. } => return Ok(None),
         ShapeKind::Sphere { center, radius } => sphere::placed(center, radius, to_world),
         ShapeKind::Plane { point, normal } => plane::placed(point, normal, to_world),
-        ShapeKind::Disk => Box::new(flat::PlacedDisk::new(to_world)),
-        ShapeKind::Rectangle => Box::new(flat::PlacedRectangle::new(to_world)),
+        ShapeKind::Disk => Box::new(flat::PlacedDisk::new(to_world, shape.flip_normals)),
+        ShapeKind::Rectangle => Box::new(flat::PlacedRectangle::new(to_world, shape.flip_normals)),
         ShapeKind::Cube => cuboid::placed(to_world, -DVec3::ONE, DVec3::ONE),
         ShapeKind::Box { min, max } => cuboid::placed(to_world, min, max),
         ShapeKind::Cylinder {

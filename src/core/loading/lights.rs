@@ -1,0 +1,132 @@
+//! Lights of a scene file's emitters, and materials that emit light.
+
+use crate::light::{DirectionalLight, Environment, Light, PointLight};
+use crate::mesh::{Illumination, Material};
+use crate::scene_file::{EmitterKind, SceneFile};
+use glam::{DMat4, DVec3, Vec3};
+use std::collections::HashMap;
+use std::path::Path;
+
+/// The lights of emitters that aren't attached to a shape, in coordinates about an origin.
+pub(super) fn lights(file: &SceneFile, origin: DVec3) -> Vec<Light> {
+    let light = |kind: &EmitterKind| match kind {
+        EmitterKind::Constant { radiance } => {
+            let radiance = radiance.as_vec3();
+            Some(Light::Environment(Environment::Constant(radiance)))
+        }
+        EmitterKind::Point {
+            position,
+            intensity,
+        } => Some(Light::Point(PointLight {
+            position: (position - origin).as_vec3(),
+            intensity: intensity.as_vec3(),
+        })),
+        EmitterKind::Directional {
+            direction,
+            irradiance,
+        } => Some(Light::Directional(DirectionalLight {
+            to_light: unit(-direction),
+            irradiance: irradiance.as_vec3(),
+        })),
+        EmitterKind::Envmap {
+            file,
+            scale,
+            to_world,
+        } => environment_map(file, *scale, to_world).map(Light::Environment),
+        EmitterKind::Area { .. } | EmitterKind::Other(_) => None,
+    };
+    let emitters = file.emitters.iter();
+    emitters
+        .filter_map(|emitter| light(&emitter.kind))
+        .collect()
+}
+
+/// A vector other than 0 at length 1.
+fn unit(vector: DVec3) -> Vec3 {
+    // Scaled first, so that no square overflows or vanishes.
+    (vector / vector.abs().max_element()).normalize().as_vec3()
+}
+
+/// The environment in a file. Such files aren't read yet; loading says so.
+fn environment_map(_file: &Path, _scale: f64, _to_world: &DMat4) -> Option<Environment> {
+    None
+}
+
+/// Copies of materials that emit light on their front.
+#[derive(Default)]
+pub(super) struct EmittingMaterials {
+    /// The index of the copied material, or `None` for a black one, and the radiance.
+    copies: Vec<(Option<u32>, DVec3)>,
+    indices: HashMap<(Option<u32>, [u64; 3]), u32>,
+}
+
+impl EmittingMaterials {
+    /// The index among the copies of a material that emits this radiance.
+    pub fn index(&mut self, material: Option<u32>, radiance: DVec3) -> u32 {
+        let next = self.copies.len() as u32;
+        let bits = radiance.to_array().map(f64::to_bits);
+        let index = *self.indices.entry((material, bits)).or_insert(next);
+        if index == next {
+            self.copies.push((material, radiance));
+        }
+        index
+    }
+
+    /// Appends the copies to the list of materials.
+    pub fn append_to(&self, materials: &mut Vec<Material>) {
+        for (copied, radiance) in &self.copies {
+            let copied = copied.and_then(|index| materials.get(index as usize));
+            // What Mitsuba uses for an emitting shape without a bsdf.
+            let black = || Material {
+                diffuse: Some(Vec3::ZERO),
+                illumination: Illumination::Diffuse,
+                ..Material::default()
+            };
+            let material = Material {
+                emission: radiance.as_vec3(),
+                emits_on_back: false,
+                ..copied.cloned().unwrap_or_else(black)
+            };
+            materials.push(material);
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn emitting_shapes_share_copies_of_their_materials() {
+        let red = Material {
+            diffuse: Some(Vec3::X),
+            ..Material::named("red")
+        };
+        let mut materials = vec![Material::default(), red.clone()];
+        let mut emitting = EmittingMaterials::default();
+        let asked = [(Some(1), 2.0), (None, 2.0), (Some(1), 3.0), (Some(1), 2.0)];
+        let indices = asked.map(|(index, all)| emitting.index(index, DVec3::splat(all)));
+        assert_eq!(indices, [0, 1, 2, 0]);
+        emitting.append_to(&mut materials);
+        assert_eq!(materials.len(), 5);
+        assert_eq!(materials[1], red, "the original emits nothing");
+        let copy = Material {
+            emission: Vec3::splat(2.0),
+            emits_on_back: false,
+            ..red
+        };
+        assert_eq!(materials[2], copy);
+        assert_eq!(materials[3].diffuse, Some(Vec3::ZERO));
+    }
+
+    #[test]
+    fn directions_of_any_length_become_unit_vectors() {
+        for length in [1e-320, 1e-200, 1.0, 1e300] {
+            let along = unit(DVec3::new(0.0, 3.0 * length, -4.0 * length));
+            assert!(
+                (along - Vec3::new(0.0, 0.6, -0.8)).length() < 1e-3,
+                "{length}"
+            );
+        }
+    }
+}

@@ -1,0 +1,232 @@
+//! What is shown of a film: its picture, with exposure and tone curve, or its noise.
+
+use glam::{UVec2, Vec3};
+use hitscope_core::Film;
+use hitscope_core::film::encode;
+use hitscope_core::integrator::Legend;
+use hitscope_core::integrator::palette::{error_ramp, log_colour};
+use hitscope_core::plan::PixelRect;
+use hitscope_core::srgb::from_texel;
+use rayon::prelude::*;
+use std::sync::LazyLock;
+
+/// A way to limit colours to those of the screen.
+pub struct ToneCurve {
+    /// The name in stored settings.
+    pub name: &'static str,
+    /// The title in menus.
+    pub title: &'static str,
+    /// What it does, in a sentence.
+    pub summary: &'static str,
+    /// The colour on the screen in linear RGB, which is clamped to 0…1 afterwards.
+    pub apply: fn(Vec3) -> Vec3,
+}
+
+/// All tone curves; the first one is the default.
+pub static TONE_CURVES: &[ToneCurve] = &[ToneCurve {
+    name: "clip",
+    title: "Clip",
+    summary: "Colours brighter than white are cut off; all others are exact.",
+    apply: |colour| colour,
+}];
+
+/// What is shown of a film.
+#[derive(Clone, Copy)]
+pub enum Look {
+    /// The picture, brighter by a factor, through a tone curve.
+    Picture(f32, &'static ToneCurve),
+    /// The standard error of each pixel, multiplied by the factor.
+    Noise(f32),
+}
+
+impl Look {
+    /// The film's own pixels.
+    pub const PLAIN: Self = Self::Picture(1.0, &TONE_CURVES[0]);
+
+    fn is_plain(&self) -> bool {
+        *self == Self::PLAIN
+    }
+}
+
+impl PartialEq for Look {
+    fn eq(&self, other: &Self) -> bool {
+        match (self, other) {
+            (Self::Picture(a, first), Self::Picture(b, second)) => {
+                a == b && first.name == second.name
+            }
+            (Self::Noise(a), Self::Noise(b)) => a == b,
+            _ => false,
+        }
+    }
+}
+
+/// The range of the colours for noise, where white is 1.
+const NOISE_RANGE: [f64; 2] = [1e-4, 1.0];
+
+/// The legend of [`Look::Noise`].
+pub fn noise_legend() -> Legend {
+    let percents = [0.01, 0.1, 1.0, 10.0, 100.0];
+    let entry = |percent: f64| {
+        let colour = log_colour(percent / 100.0, NOISE_RANGE);
+        (colour, format!("{percent} %"))
+    };
+    vec![percents.map(entry).into()]
+}
+
+/// A film's pixels as they are shown.
+pub struct Development {
+    look: Look,
+    size: UVec2,
+    /// Empty for [`Look::PLAIN`].
+    pixels: Vec<[u8; 4]>,
+}
+
+impl Default for Development {
+    fn default() -> Self {
+        Self {
+            look: Look::PLAIN,
+            size: UVec2::ZERO,
+            pixels: Vec::new(),
+        }
+    }
+}
+
+impl Development {
+    /// Updates the pixels of a film that changed; all of them if the look or the size changed. Returns all pixels, row by
+    /// row from the top, and the rectangle to upload; `None` if nothing changed, also for a film of another size.
+    pub fn update<'a>(
+        &'a mut self,
+        film: &'a Film,
+        changed: Option<PixelRect>,
+        look: Look,
+    ) -> Option<(&'a [[u8; 4]], PixelRect)> {
+        let size = film.size();
+        let (is_same_look, is_same_size) = (look == self.look, size == self.size);
+        let all = PixelRect {
+            min: UVec2::ZERO,
+            max: size,
+        };
+        let rect = match changed {
+            Some(rect) if is_same_look && is_same_size => rect,
+            // A new film has nothing to show before its first pixels change.
+            None if is_same_look || !is_same_size => return None,
+            _ => all,
+        };
+        (self.look, self.size) = (look, size);
+        let count = if look.is_plain() {
+            0
+        } else {
+            size.element_product() as usize
+        };
+        self.pixels.resize(count, [0; 4]);
+        if look.is_plain() {
+            return Some((film.pixels(), rect));
+        }
+        let rows = self.pixels.par_chunks_mut(size.x as usize).enumerate();
+        let rows = rows.skip(rect.min.y as usize);
+        let rows = rows.take((rect.max.y - rect.min.y) as usize);
+        rows.for_each(|(y, row)| {
+            for x in rect.min.x..rect.max.x {
+                row[x as usize] = shown(film, UVec2::new(x, y as u32), look);
+            }
+        });
+        Some((&self.pixels, rect))
+    }
+}
+
+/// The colour of a pixel. A pixel without a sample has the colour of its block; one without noise that of the picture.
+fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
+    let in_film = film.pixels()[(pixel.y * film.size().x + pixel.x) as usize];
+    match look {
+        Look::Picture(factor, curve) => {
+            let [r, g, b, _] = in_film;
+            let colour = film.radiance(pixel);
+            let colour = colour.unwrap_or_else(|| from_texel([r, g, b]));
+            encode((curve.apply)(factor * colour))
+        }
+        Look::Noise(factor) => {
+            let error = film.standard_error(pixel);
+            error.map_or(in_film, |error| noise_colour(f64::from(factor) * error))
+        }
+    }
+}
+
+/// The colour of [`log_colour`] on a scale of 256 steps, which is fast enough for each pixel.
+fn noise_colour(error: f64) -> [u8; 4] {
+    static RAMP: LazyLock<Vec<[u8; 4]>> = LazyLock::new(|| {
+        let colour = |step: u8| encode(error_ramp(f32::from(step) / 255.0));
+        (0..=255).map(colour).collect()
+    });
+    let [least, most] = NOISE_RANGE;
+    let part = (error.max(least) / least).ln() / (most / least).ln();
+    RAMP[(255.0 * part.min(1.0)).round() as usize]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use hitscope_core::film::{SampleSum, TileSamples};
+    use hitscope_core::plan::Plan;
+
+    const SIZE: UVec2 = UVec2::new(3, 2);
+
+    /// A film whose pixels have these samples.
+    fn film(samples: &[f32]) -> Film {
+        let plan = Plan::new(SIZE, 1, samples.len() as u32);
+        let mut film = Film::new(plan.clone(), Vec3::ZERO);
+        for unit in (0..plan.unit_count()).map(|k| plan.unit(k)) {
+            let mut sum = SampleSum::default();
+            let taken = plan.pass(unit.pass).samples();
+            taken.for_each(|k| assert!(sum.add(Vec3::splat(samples[k as usize]))));
+            let sums = plan.pixels(unit).map(|_| sum).collect();
+            film.add(&TileSamples { unit, sums });
+        }
+        film
+    }
+
+    fn all() -> PixelRect {
+        PixelRect {
+            min: UVec2::ZERO,
+            max: SIZE,
+        }
+    }
+
+    #[test]
+    fn exposure_multiplies_light_before_it_is_clipped() {
+        let film = film(&[4.0, 2.0]);
+        let mut development = Development::default();
+        let (pixels, _) = development
+            .update(&film, Some(all()), Look::PLAIN)
+            .expect("changed");
+        assert_eq!(pixels, [[255; 4]; 6]);
+        let darker = Look::Picture(0.25, &TONE_CURVES[0]);
+        let (pixels, rect) = development.update(&film, None, darker).expect("a new look");
+        assert_eq!((rect.min, rect.max), (UVec2::ZERO, SIZE));
+        assert_eq!(pixels, [encode(Vec3::splat(0.75)); 6]);
+        assert!(development.update(&film, None, darker).is_none());
+    }
+
+    #[test]
+    fn noise_has_the_colours_of_its_legend_and_needs_two_samples() {
+        let mut development = Development::default();
+        let one = film(&[0.5]);
+        let noise = Look::Noise(1.0);
+        assert!(development.update(&one, None, noise).is_none(), "unseen");
+        let (pixels, _) = development
+            .update(&one, Some(all()), noise)
+            .expect("changed");
+        assert_eq!(pixels, one.pixels());
+        // The standard error of 0.4 and 0.6 is 0.1.
+        let two = film(&[0.4, 0.6]);
+        let (pixels, _) = development
+            .update(&two, Some(all()), noise)
+            .expect("changed");
+        let (ten_percent, text) = noise_legend()[0][3].clone();
+        assert_eq!(text, "10 %");
+        let expected = encode(ten_percent);
+        // A step of the ramp is at most two steps of sRGB.
+        for (channel, expected) in pixels[0].into_iter().zip(expected) {
+            assert!(channel.abs_diff(expected) <= 2, "{pixels:?} {expected}");
+        }
+    }
+}

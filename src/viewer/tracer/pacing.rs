@@ -1,0 +1,64 @@
+//! The pace of pictures: how coarse the first pass has to be, so that frames meet their target.
+
+use super::Tracer;
+use glam::UVec2;
+use hitscope_core::plan::STEPS;
+use std::ops::{Range, RangeInclusive};
+use std::time::{Duration, Instant};
+
+/// Target time of a frame while the camera moves. Less than 33 ms, as a late frame takes twice the interval.
+pub(super) const FRAME: Range<Duration> = Duration::from_millis(24)..Duration::from_millis(30);
+/// Time of the first pass within a frame. Drawing the window takes almost no time with a GPU, and half of the frame
+/// without one.
+pub(super) const FIRST_PASS: RangeInclusive<Duration> =
+    Duration::from_millis(4)..=Duration::from_millis(20);
+/// A picture that stays longer than this ends a movement.
+pub(super) const LOOK: Duration = Duration::from_millis(250);
+/// Rays per second per thread, until they are measured.
+const ASSUMED_SPEED: f64 = 1e6;
+
+impl Tracer {
+    /// Records the time since the previous picture.
+    pub(super) fn count_frame(&mut self) {
+        let now = Instant::now();
+        let interval = self.shown_at.map(|last| now - last);
+        self.shown_at = Some(now);
+        match interval {
+            Some(interval) if !self.has_rested => {
+                self.frame_intervals.push(interval);
+                self.adapt(interval);
+            }
+            // A new movement begins after a rest.
+            _ => self.frame_intervals.clear(),
+        }
+    }
+
+    /// Adjusts the time of the first pass to the time that the last frame took.
+    pub(super) fn adapt(&mut self, interval: Duration) {
+        let factor = if interval > FRAME.end {
+            0.9
+        } else if interval < FRAME.start {
+            1.05
+        } else {
+            return;
+        };
+        let wanted = self.first_pass.mul_f64(factor);
+        self.first_pass = wanted.clamp(*FIRST_PASS.start(), *FIRST_PASS.end());
+    }
+
+    /// The smallest block size with which the first pass is fast enough.
+    pub(super) fn first_step(&self, size: UVec2, is_lit: bool) -> u32 {
+        let speed = self.speeds[usize::from(is_lit)].rays_per_s();
+        let affordable =
+            self.of_all_threads(speed.unwrap_or(ASSUMED_SPEED)) * self.first_pass.as_secs_f64();
+        let pixels = f64::from(size.x) * f64::from(size.y);
+        let is_affordable = |step: &u32| pixels / f64::from(step * step) <= affordable;
+        let coarsest = STEPS[STEPS.len() - 1];
+        STEPS.into_iter().find(is_affordable).unwrap_or(coarsest)
+    }
+
+    /// The speed of all threads together.
+    pub(super) fn of_all_threads(&self, rays_per_s: f64) -> f64 {
+        rays_per_s * self.renderer.thread_count() as f64
+    }
+}

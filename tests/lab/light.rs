@@ -1,0 +1,172 @@
+//! The commands' options of light, and the lights that `info` lists.
+
+use crate::folder::Folder;
+use glam::{UVec2, Vec3};
+use hitscope_lab::commands::{InfoArgs, Noise, RenderArgs, Rendered};
+use serde_json::json;
+
+/// A sphere in the middle of the picture, without a light.
+const DARK: &str = r#"<sensor type="perspective"><float name="fov" value="40"/>
+  <transform name="to_world"><lookat origin="0,0,10" target="0,0,0" up="0,1,0"/></transform>
+  <film type="hdrfilm"><integer name="width" value="16"/><integer name="height" value="16"/></film></sensor>
+<shape type="sphere"><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>"#;
+
+fn folder(contents: &str) -> Folder {
+    let folder = Folder::new();
+    let text = format!("<scene version=\"3.0.0\">{contents}</scene>");
+    folder.write("scene.xml", &text);
+    folder
+}
+
+fn rendered(folder: &Folder, options: &str) -> Rendered {
+    let line = format!("@scene.xml -o @out.png --samples 4 {options}");
+    let args = folder.args::<RenderArgs>(&line);
+    args.trace().expect("rendered")
+}
+
+/// The radiance of a pixel beside the sphere and of one on it.
+fn corner_and_middle(rendered: &Rendered) -> [Vec3; 2] {
+    [UVec2::ZERO, UVec2::splat(8)].map(|pixel| rendered.film.radiance(pixel).expect("traced"))
+}
+
+#[test]
+fn an_environment_replaces_that_of_the_file() {
+    let folder = folder(&format!("<emitter type='constant'/>{DARK}"));
+    let [corner, middle] = corner_and_middle(&rendered(&folder, "--view direct"));
+    assert_eq!(corner, Vec3::ONE);
+    // The file's reflectance is 0.5; every direction from a sphere is open.
+    assert!((middle - 0.5).abs().max_element() < 1e-5, "{middle}");
+    let option = "--integrator direct --environment constant:0.25,0.5,2";
+    let [corner, middle] = corner_and_middle(&rendered(&folder, option));
+    assert_eq!(corner, Vec3::new(0.25, 0.5, 2.0));
+    let expected = 0.5 * corner;
+    assert!((middle - expected).abs().max_element() < 1e-5, "{middle}");
+}
+
+#[test]
+fn a_scene_without_a_light_is_lit_by_white_light() {
+    for view in ["direct", "path"] {
+        let rendered = rendered(&folder(DARK), &format!("--view {view}"));
+        let [corner, middle] = corner_and_middle(&rendered);
+        assert_eq!(corner, Vec3::ONE);
+        assert!(middle.min_element() > 0.4, "{middle}");
+    }
+}
+
+#[test]
+fn the_studio_is_ambient_light_and_lamps() {
+    let rendered = rendered(&folder(DARK), "--view direct --environment studio");
+    let [corner, middle] = corner_and_middle(&rendered);
+    assert!((corner - 0.1).abs().max_element() < 1e-6, "{corner}");
+    assert!(middle.min_element() > 0.1, "{middle}");
+}
+
+#[test]
+fn exposure_multiplies_light_before_it_is_encoded() {
+    let folder = folder(DARK);
+    let dim = rendered(
+        &folder,
+        "--view direct --environment constant:0.25 --exposure 1",
+    );
+    let bright = rendered(&folder, "--view direct --environment constant:0.5");
+    assert_eq!(dim.pixels(), bright.pixels());
+}
+
+#[test]
+fn the_integrator_of_a_scene_file_is_the_default_view() {
+    let folder = folder(&format!("<integrator type='normal'/>{DARK}"));
+    let pixels = |options: &str| rendered(&folder, options).pixels().into_owned();
+    assert_eq!(pixels(""), pixels("--view normal"));
+    assert_ne!(pixels(""), pixels("--view depth"));
+}
+
+#[test]
+fn the_depth_limit_is_that_of_the_file_unless_an_option_sets_it() {
+    // Mitsuba's depth of 1 shows emitters alone.
+    let depth = "<integer name='max_depth' value='1'/>";
+    let folder = folder(&format!(
+        "<integrator type='path'>{depth}</integrator><emitter type='constant'/>{DARK}"
+    ));
+    let middle = |options: &str| corner_and_middle(&rendered(&folder, options))[1];
+    assert_eq!(middle(""), Vec3::ZERO);
+    assert!(middle("--depth 1").min_element() > 0.4);
+}
+
+#[test]
+fn occlusion_ends_at_the_distance() {
+    let folder = folder(&format!(
+        "{DARK}<shape type='disk'><transform name='to_world'><scale value='9'/><translate z='-1'/></transform></shape>"
+    ));
+    // Beside the sphere, near its contact with the disk.
+    let mean = |options: &str| {
+        let rendered = rendered(&folder, &format!("--view ao {options}"));
+        let pixels = (0..256).map(|k| UVec2::new(k % 16, k / 16));
+        let light = pixels.map(|pixel| rendered.film.radiance(pixel).expect("traced").x);
+        light.sum::<f32>() / 256.0
+    };
+    assert!(mean("") < mean("--ao-distance 0.001"));
+}
+
+#[test]
+fn noise_is_that_of_the_samples() {
+    let folder = folder(DARK);
+    let even = rendered(
+        &folder,
+        "--view direct --environment constant:1 --eye 0,0,10 --target 0,0,20",
+    );
+    let expected = Noise {
+        mean: 0.0,
+        worst: 0.0,
+        worst_at: UVec2::ZERO,
+    };
+    assert_eq!(even.noise(), expected);
+    let noise = rendered(&folder, "--view direct --environment studio").noise();
+    assert!(noise.mean > 0.0 && noise.worst > noise.mean, "{noise}");
+}
+
+#[test]
+fn a_rotation_without_an_environment_map_is_refused() {
+    let folder = folder(DARK);
+    let args = folder.args::<RenderArgs>("@scene.xml -o @out.png --view path --rotation 90");
+    let error = args.trace().err().expect("refused");
+    assert!(error.is_usage());
+    assert_eq!(
+        error.to_string(),
+        "--rotation has no effect: the scene has no environment map"
+    );
+}
+
+#[test]
+fn options_that_the_view_of_a_scene_file_ignores_are_refused() {
+    let folder = folder(&format!("<integrator type='normal'/>{DARK}"));
+    let args = folder.args::<RenderArgs>("@scene.xml -o @out.png --environment studio");
+    let error = args.trace().err().expect("refused");
+    assert!(error.is_usage(), "{error}");
+    assert!(error.to_string().contains("the view “normal”"), "{error}");
+}
+
+#[test]
+fn info_lists_lights() {
+    let folder = folder(
+        r#"<emitter type="constant"><rgb name="radiance" value="1 2 3"/></emitter>
+           <emitter type="point"><point name="position" value="1 2 3"/></emitter>
+           <emitter type="directional"><vector name="direction" value="0 0 -2"/><float name="irradiance" value="4"/></emitter>
+           <shape type="rectangle"><emitter type="area"><float name="radiance" value="5"/></emitter></shape>
+           <shape type="rectangle"><emitter type="area"><float name="radiance" value="5"/></emitter>
+             <transform name="to_world"><translate z="1"/></transform></shape>
+           <shape type="disk"/>"#,
+    );
+    let info = folder.json(|f, out| f.args::<InfoArgs>("@scene.xml --json").run(out));
+    let expected = json!([
+        { "kind": "area", "radiance": [5.0, 5.0, 5.0], "emits_on_back": false, "primitives": 2, "area": 8.0 },
+        { "kind": "constant", "radiance": [1.0, 2.0, 3.0] },
+        { "kind": "point", "intensity": [1.0, 1.0, 1.0], "position": [1.0, 2.0, 3.0] },
+        { "kind": "directional", "irradiance": [4.0, 4.0, 4.0], "direction": [-0.0, -0.0, -1.0] },
+    ]);
+    assert_eq!(info["lights"], expected);
+    let text = folder.text(|f, out| f.args::<InfoArgs>("@scene.xml").run(out));
+    let line = "light               area: 2 primitives, radiance [5.0, 5.0, 5.0], front, area 8\n";
+    assert!(text.contains(line), "{text}");
+    let none = folder.json(|f, out| f.args::<InfoArgs>("@cube.obj --json").run(out));
+    assert_eq!(none["lights"], json!([]));
+}

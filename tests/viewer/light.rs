@@ -1,0 +1,180 @@
+//! Tests of views that need lights: their options, noise and limits.
+
+use crate::app::drop_file;
+use crate::harness::{Window, app, app_with, in_picture, pointer, wait};
+use egui::{Event, Modifiers, PointerButton};
+use egui_kittest::kittest::Queryable as _;
+use hitscope::app::App;
+use hitscope::look::noise_legend;
+use hitscope::settings::Settings;
+use hitscope_core::film::encode;
+use std::path::PathBuf;
+use std::time::{Duration, Instant};
+
+/// The view *Ambient occlusion*, which needs little time, without the side panel.
+fn ambient_occlusion(samples: u32) -> Settings {
+    Settings {
+        view: "ao".to_owned(),
+        samples,
+        shows_panel: false,
+        ..Settings::default()
+    }
+}
+
+/// Whether the window has a control or text with this label.
+fn shows(window: &Window, label: &str) -> bool {
+    window.query_all_by_label(label).next().is_some()
+}
+
+#[test]
+fn each_view_shows_the_options_that_it_uses() {
+    let Some(mut window) = app(None) else { return };
+    let options = [
+        "Spawn policy",
+        "Depth limit",
+        "Distance",
+        "Exposure",
+        "Open environment…",
+        "Stop after",
+        "Stop at noise",
+    ];
+    for (view, expected) in [
+        ("Path tracing", [true, true, false, true, true, true, true]),
+        ("Direct light", [true, false, false, true, true, true, true]),
+        (
+            "Ambient occlusion",
+            [true, false, true, false, false, true, true],
+        ),
+        ("Normal", [false; 7]),
+    ] {
+        window.get_by_label(view).click();
+        window.run_steps(3);
+        assert_eq!(window.state().settings().view().title, view);
+        let shown = options.map(|option| shows(&window, option));
+        assert_eq!(shown, expected, "{view}: {options:?}");
+    }
+}
+
+#[test]
+fn the_status_line_shows_samples_and_noise() {
+    let Some(mut window) = app_with(ambient_occlusion(16)) else {
+        return;
+    };
+    wait(&mut window, "all samples", App::is_settled);
+    window.run_steps(2);
+    window.get_by_label_contains("16 of 16 samples, noise ");
+    window.get_by_label_contains(" % (worst ");
+}
+
+/// Draws frames until none is requested.
+fn wait_for_rest(window: &mut Window) {
+    let start = Instant::now();
+    loop {
+        window.run_steps(2);
+        // Longer than a tile takes.
+        std::thread::sleep(Duration::from_millis(500));
+        if !window.ctx.has_requested_repaint() && window.state().is_settled() {
+            return;
+        }
+        assert!(start.elapsed() < Duration::from_secs(300), "it never rests");
+    }
+}
+
+#[test]
+fn at_the_wanted_noise_nothing_is_traced_and_no_frame_is_drawn() {
+    let settings = Settings {
+        has_noise_limit: true,
+        // The noise of numbers from 0 to 1 is less, and 16 samples are enough.
+        noise_limit_percent: 50.0,
+        ..ambient_occlusion(65536)
+    };
+    let Some(mut window) = app_with(settings) else {
+        return;
+    };
+    wait(&mut window, "the limit", App::is_settled);
+    wait_for_rest(&mut window);
+    let film = window.state().film();
+    assert!(film.samples() >= 16 && !film.is_complete());
+    let passes = film.passes_done();
+    std::thread::sleep(Duration::from_millis(500));
+    window.step();
+    assert_eq!(window.state().film().passes_done(), passes);
+    window.get_by_label_contains(", stopped by noise");
+}
+
+/// The pixels of the picture on the screen, with the pointer where it shows no tooltip.
+fn on_screen(window: &mut Window) -> Vec<[u8; 4]> {
+    let rect = window.get_by_label("Rendered picture").rect();
+    window.event(Event::PointerMoved(rect.center()));
+    window.run_steps(60);
+    let image = window.render().expect("an image");
+    let is_inside = |x: u32, y: u32| rect.contains(egui::pos2(x as f32 + 0.5, y as f32 + 0.5));
+    let inside = image
+        .enumerate_pixels()
+        .filter(|(x, y, _)| is_inside(*x, *y));
+    inside.map(|(_, _, pixel)| pixel.0).collect()
+}
+
+#[test]
+fn noise_is_shown_without_new_samples() {
+    let Some(mut window) = app_with(ambient_occlusion(4)) else {
+        return;
+    };
+    wait(&mut window, "all samples", App::is_settled);
+    let picture = on_screen(&mut window);
+    window.get_by_label("Noise").click();
+    window.run_steps(2);
+    assert!(window.state().settings().shows_noise && window.state().is_settled());
+    let noise = on_screen(&mut window);
+    // Where all samples agree, the colour is the lowest of the legend.
+    let (least, _) = noise_legend()[0][0].clone();
+    let least = encode(least);
+    let calm = noise.iter().filter(|&&pixel| pixel == least).count();
+    assert!(calm > picture.len() / 100 && calm < picture.len(), "{calm}");
+    window.get_by_label("Noise").click();
+    window.run_steps(2);
+    assert!(on_screen(&mut window) == picture);
+}
+
+#[test]
+fn a_drag_with_ctrl_rotates_the_environment_of_views_with_light() {
+    for (view, rotates) in [("direct", true), ("shaded", false)] {
+        let settings = Settings {
+            view: view.to_owned(),
+            ..ambient_occlusion(1)
+        };
+        let Some(mut window) = app_with(settings) else {
+            return;
+        };
+        let camera = *window.state().turntable();
+        let from = in_picture(&window, 0.5, 0.5);
+        let ctrl = Modifiers::COMMAND;
+        window.event(Event::PointerMoved(from));
+        pointer(&window, from, PointerButton::Primary, true, ctrl);
+        window.step();
+        let to = from + egui::vec2(60.0, 0.0);
+        window.event_modifiers(Event::PointerMoved(to), ctrl);
+        window.step();
+        pointer(&window, to, PointerButton::Primary, false, ctrl);
+        window.run_steps(2);
+        let app = window.state();
+        assert_eq!(app.settings().environment_degrees > 0.0, rotates, "{view}");
+        assert_eq!(*app.turntable() == camera, rotates, "{view}");
+    }
+}
+
+#[test]
+fn a_dropped_environment_does_not_replace_the_scene() {
+    let Some(mut window) = app_with(ambient_occlusion(1)) else {
+        return;
+    };
+    let name = window.state().document().name().to_owned();
+    drop_file(&mut window, PathBuf::from("sky.HDR"));
+    window.run_steps(2);
+    let app = window.state();
+    assert_eq!(
+        app.notice(),
+        Some("sky.HDR: environments can't be read from files yet")
+    );
+    assert_eq!(app.document().name(), name);
+}
