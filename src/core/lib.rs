@@ -19,6 +19,7 @@
 //! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
 //! | [`barycentric`] | barycentric coordinates and interpolation |
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
+//! | `appearance` | the material at a hit, with textures and vertex colours |
 //! | [`bsdf`] | how surfaces scatter light, one file a model |
 //! | [`light`] | lights, one file a kind |
 //! | [`integrator`] | the views: from a hit to a colour |
@@ -35,6 +36,7 @@
 
 pub mod aabb;
 mod algebra;
+mod appearance;
 pub mod barycentric;
 pub mod bsdf;
 pub mod bvh;

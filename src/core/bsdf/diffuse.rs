@@ -38,26 +38,35 @@ pub(crate) fn cosine_direction(at: Vec2) -> Vec3 {
     Vec3::new(disk.x as f32, disk.y as f32, z as f32)
 }
 
+/// The density of [`cosine_direction`] for light that comes from `incoming`; 0 unless both directions are on the front.
+pub(super) fn cosine_density(outgoing: Vec3, incoming: Vec3) -> f32 {
+    if outgoing.z > 0.0 && incoming.z > 0.0 {
+        FRAC_1_PI * incoming.z
+    } else {
+        0.0
+    }
+}
+
 impl Scatter for Diffuse {
+    fn model(&self) -> &'static Model {
+        &DIFFUSE
+    }
+
+    fn colour(&self) -> Vec3 {
+        self.reflectance
+    }
+
     fn evaluate(&self, outgoing: Vec3, incoming: Vec3) -> Vec3 {
-        self.reflectance * self.density(outgoing, incoming)
+        self.reflectance * cosine_density(outgoing, incoming)
     }
 
     fn sample(&self, outgoing: Vec3, at: Vec2, _: f32) -> Option<Scattered> {
         let incoming = cosine_direction(at);
-        let density = self.density(outgoing, incoming);
-        (density > 0.0).then_some(Scattered {
-            incoming,
-            weight: self.reflectance,
-            density: Some(density),
-        })
+        let density = cosine_density(outgoing, incoming);
+        (density > 0.0).then(|| Scattered::reflected(incoming, self.reflectance, Some(density)))
     }
 
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
-        if outgoing.z > 0.0 && incoming.z > 0.0 {
-            FRAC_1_PI * incoming.z
-        } else {
-            0.0
-        }
+        cosine_density(outgoing, incoming)
     }
 }

@@ -1,20 +1,52 @@
 //! How surfaces scatter light: one file a model.
 //!
 //! Directions are unit vectors in the frame of the shading normal, its z axis; both point away from the surface. To add
-//! a model, write its file, and add it to [`Bsdf`] and an example of it to [`MODELS`], with which one suite of tests
+//! a model, write its file with its row, and add it to [`Bsdf`] and to [`MODELS`], with whose examples one suite of tests
 //! checks reciprocity, energy and sampling.
 
+mod black;
+mod conductor;
+mod dielectric;
 mod diffuse;
 mod frame;
+mod metal_rough;
+mod microfacets;
+mod optics;
+mod phong;
+mod plastic;
+mod polished;
+mod rough_conductor;
+mod rough_dielectric;
+mod rough_plastic;
+mod thin_dielectric;
 
+pub use black::Black;
+pub use conductor::Conductor;
+pub use dielectric::Dielectric;
 pub use diffuse::Diffuse;
 pub(crate) use diffuse::cosine_direction;
 pub use frame::Frame;
+pub use metal_rough::MetalRough;
+pub use microfacets::{Law, Microfacets};
+pub use phong::Phong;
+pub use plastic::Plastic;
+pub use polished::{Gain, Polished};
+pub use rough_conductor::RoughConductor;
+pub use rough_dielectric::RoughDielectric;
+pub use rough_plastic::RoughPlastic;
+pub use thin_dielectric::ThinDielectric;
 
 use glam::{Vec2, Vec3};
 
 /// A way to scatter light.
 pub trait Scatter {
+    /// The model's row of the table.
+    fn model(&self) -> &'static Model;
+
+    /// A colour for views without global light: about the part of light from everywhere that the surface reflects or lets
+    /// pass.
+    fn colour(&self) -> Vec3;
+
     /// The BSDF times |cos θ| of the incoming direction, for light that comes from `incoming` and leaves to `outgoing`.
     /// Zero where the model scatters into single directions only.
     fn evaluate(&self, outgoing: Vec3, incoming: Vec3) -> Vec3;
@@ -32,41 +64,115 @@ pub trait Scatter {
 pub struct Scattered {
     /// The direction that the light comes from.
     pub incoming: Vec3,
-    /// The BSDF times |cos θ|, divided by the density.
+    /// The BSDF times |cos θ|, divided by the density. Light that is refracted is scaled by 1/`eta`².
     pub weight: Vec3,
     /// The probability density per solid angle; `None` for a single direction, as of a mirror.
     pub density: Option<f32>,
+    /// The index of refraction where the light comes from, relative to where it leaves to; 1 unless it is refracted.
+    pub eta: f32,
+}
+
+impl Scattered {
+    /// A direction without refraction.
+    fn reflected(incoming: Vec3, weight: Vec3, density: Option<f32>) -> Self {
+        Self {
+            incoming,
+            weight,
+            density,
+            eta: 1.0,
+        }
+    }
+
+    /// A direction without refraction that one of several lobes sampled; `None` if its density is 0.
+    fn by_density(model: &impl Scatter, outgoing: Vec3, incoming: Vec3) -> Option<Self> {
+        let density = model.density(outgoing, incoming);
+        (density > 0.0).then(|| {
+            let weight = model.evaluate(outgoing, incoming) / density;
+            Self::reflected(incoming, weight, Some(density))
+        })
+    }
 }
 
 /// Any model.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Bsdf {
+    /// Absorbs all light.
+    Black(Black),
     /// Lambert's.
     Diffuse(Diffuse),
-    /// Absorbs all light.
-    Black,
+    /// A smooth metal or a mirror.
+    Conductor(Conductor),
+    /// A rough metal.
+    RoughConductor(RoughConductor),
+    /// The surface of a transparent medium.
+    Dielectric(Dielectric),
+    /// The rough surface of a transparent medium.
+    RoughDielectric(RoughDielectric),
+    /// A thin pane.
+    ThinDielectric(ThinDielectric),
+    /// Smooth plastic.
+    Plastic(Plastic),
+    /// Rough plastic.
+    RoughPlastic(RoughPlastic),
+    /// Diffuse with a glossy highlight.
+    Phong(Phong),
+    /// Diffuse with a mirror.
+    Polished(Polished),
+    /// By base colour, metalness and roughness.
+    MetalRough(MetalRough),
+}
+
+impl Bsdf {
+    /// The model with its diffuse reflectance multiplied by a colour.
+    pub fn tinted(mut self, colour: Vec3) -> Self {
+        match &mut self {
+            Self::Diffuse(Diffuse {
+                reflectance: diffuse,
+            })
+            | Self::Plastic(Plastic { diffuse, .. })
+            | Self::RoughPlastic(RoughPlastic { diffuse, .. }) => *diffuse *= colour,
+            _ => {}
+        }
+        self
+    }
+
+    fn scatter(&self) -> &dyn Scatter {
+        match self {
+            Self::Black(model) => model,
+            Self::Diffuse(model) => model,
+            Self::Conductor(model) => model,
+            Self::RoughConductor(model) => model,
+            Self::Dielectric(model) => model,
+            Self::RoughDielectric(model) => model,
+            Self::ThinDielectric(model) => model,
+            Self::Plastic(model) => model,
+            Self::RoughPlastic(model) => model,
+            Self::Phong(model) => model,
+            Self::Polished(model) => model,
+            Self::MetalRough(model) => model,
+        }
+    }
 }
 
 impl Scatter for Bsdf {
+    fn model(&self) -> &'static Model {
+        self.scatter().model()
+    }
+
+    fn colour(&self) -> Vec3 {
+        self.scatter().colour()
+    }
+
     fn evaluate(&self, outgoing: Vec3, incoming: Vec3) -> Vec3 {
-        match self {
-            Self::Diffuse(model) => model.evaluate(outgoing, incoming),
-            Self::Black => Vec3::ZERO,
-        }
+        self.scatter().evaluate(outgoing, incoming)
     }
 
     fn sample(&self, outgoing: Vec3, at: Vec2, choice: f32) -> Option<Scattered> {
-        match self {
-            Self::Diffuse(model) => model.sample(outgoing, at, choice),
-            Self::Black => None,
-        }
+        self.scatter().sample(outgoing, at, choice)
     }
 
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
-        match self {
-            Self::Diffuse(model) => model.density(outgoing, incoming),
-            Self::Black => 0.0,
-        }
+        self.scatter().density(outgoing, incoming)
     }
 }
 
@@ -85,4 +191,20 @@ pub struct Model {
 }
 
 /// All models.
-pub static MODELS: &[&Model] = &[&diffuse::DIFFUSE];
+pub static MODELS: &[&Model] = &[
+    &black::BLACK,
+    &diffuse::DIFFUSE,
+    &conductor::CONDUCTOR,
+    &rough_conductor::ROUGH_CONDUCTOR,
+    &dielectric::DIELECTRIC,
+    &rough_dielectric::ROUGH_DIELECTRIC,
+    &thin_dielectric::THIN_DIELECTRIC,
+    &plastic::PLASTIC,
+    &rough_plastic::ROUGH_PLASTIC,
+    &phong::PHONG,
+    &polished::POLISHED,
+    &metal_rough::METAL_ROUGH,
+];
+
+#[cfg(test)]
+mod tests;

@@ -19,8 +19,6 @@ mod spawning;
 mod transport;
 mod triangle;
 
-pub(crate) use shaded::diffuse as diffuse_colour;
-
 use crate::camera::Camera;
 use crate::intersector::Intersector;
 use crate::kernel::{KernelChoice, exact_triangle_kernel};

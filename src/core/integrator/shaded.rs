@@ -1,14 +1,13 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
 use super::{Context, Integrator, Needs, Setting};
-use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
+use crate::appearance::Appearance;
+use crate::interaction::SurfaceInteraction;
 use crate::light::studio::{self, AMBIENT, Lamp};
-use crate::mesh::{Illumination, Material};
+use crate::mesh::Illumination;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
-use crate::scene::Scene;
 use crate::spawn::{Departure, default_spawn_policy};
-use crate::srgb::from_display;
 use glam::Vec3;
 
 /// The row of the view.
@@ -24,8 +23,6 @@ pub(super) static SHADED: Integrator = Integrator {
     radiance,
 };
 
-/// Reflectance of faces without a material.
-const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
 /// Maximum number of transparent surfaces along a ray; behind the last one it sees the background.
 const MOST_LAYERS: usize = 32;
 /// Transmittance below which a ray is ended: half a step of 8 bits.
@@ -68,11 +65,16 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let mesh = context.scene.mesh();
     let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
-    let diffuse = diffuse(&context.scene, material, &hit);
+    let appearance = Appearance::new(&context.scene, material, &hit);
+    let diffuse = appearance.diffuse();
     let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
-    let emitting = material.filter(|material| is_front || material.emits_on_back);
-    let emission = emitting.map_or(Vec3::ZERO, |material| material.emission);
-    let opacity = material.map_or(1.0, |m| m.opacity);
+    let emits = is_front || material.is_none_or(|material| material.emits_on_back);
+    let emission = if emits {
+        appearance.emission()
+    } else {
+        Vec3::ZERO
+    };
+    let opacity = appearance.opacity();
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
     if illumination == Illumination::Constant {
         return (diffuse + emission, opacity);
@@ -84,7 +86,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();
     let mut sum = light * diffuse + emission;
     if let Some(material) = material
-        && illumination == Illumination::Highlights
+        && illumination.has_highlights()
         && material.specular != Vec3::ZERO
         // Programs write an exponent of 0 for matt materials; taken literally, it would light everything.
         && material.shininess > 0.0
@@ -96,26 +98,9 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
             let size = normal.dot(halfway).max(0.0).powf(material.shininess);
             if is_lit { lamp.strength * size } else { 0.0 }
         };
-        sum += material.specular * lamps.into_iter().map(highlight).sum::<f32>();
+        sum += appearance.specular() * lamps.into_iter().map(highlight).sum::<f32>();
     }
     (sum, opacity)
-}
-
-/// The product of the colours of material, texture and vertices; clay if there are none.
-pub(crate) fn diffuse(scene: &Scene, material: Option<&Material>, hit: &Hit) -> Vec3 {
-    let mesh = scene.mesh();
-    let map = material.and_then(|material| material.diffuse_map.as_ref());
-    // A face without texture coordinates shows no texture.
-    let of_texture = map
-        .zip(texture_coordinates(scene, hit))
-        .map(|(map, uv)| map.colour(&mesh.attributes().textures, uv));
-    let of_vertices = vertex_colour(scene, hit).map(from_display);
-    let of_material = material.and_then(|material| material.diffuse);
-    [of_material, of_texture, of_vertices]
-        .into_iter()
-        .flatten()
-        .reduce(|a, b| a * b)
-        .unwrap_or(CLAY)
 }
 
 #[cfg(test)]
@@ -124,7 +109,9 @@ mod tests {
     use crate::camera::{Camera, Projection};
     use crate::integrator::Lighting;
     use crate::kernel::default_triangle_kernel;
-    use crate::mesh::{Assigned, Attributes, CornerValues, Runs, Texture, TextureMap, shapes};
+    use crate::mesh::{
+        Assigned, Attributes, CornerValues, Material, Runs, Texture, TextureMap, shapes,
+    };
     use crate::scene::Shading;
     use glam::{DVec3, UVec2, Vec2};
     use std::sync::Arc;

@@ -1,7 +1,8 @@
 //! What the views that transport light have in common: the surface that a ray hits, and the light that reaches it.
 
-use super::{Context, shaded};
-use crate::bsdf::{Bsdf, Diffuse, Frame, Scatter, Scattered, cosine_direction};
+use super::Context;
+use crate::appearance::Appearance;
+use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
 use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
@@ -16,7 +17,7 @@ pub(super) struct ShadingPoint<'a> {
     ray: Ray,
     hit: Hit,
     surface: SurfacePoint,
-    /// About the shading normal, on the side that the ray comes from if the surface has two equal sides.
+    /// About the shading normal, on the side that the ray comes from unless light passes through the surface.
     frame: Frame,
     /// The geometric normal on the same side.
     normal: Vec3,
@@ -39,17 +40,22 @@ impl<'a> ShadingPoint<'a> {
             .materials
             .get(interaction.material);
         let is_front = interaction.geometric_normal.dot(ray.dir) <= 0.0;
-        let is_two_sided = material.is_none_or(|material| material.is_two_sided);
-        let side = if is_front || !is_two_sided { 1.0 } else { -1.0 };
-        let frame = Frame::about(side * interaction.shading_normal);
-        let emission = material.filter(|material| is_front || material.emits_on_back);
-        let bsdf = if is_front || is_two_sided {
-            Bsdf::Diffuse(Diffuse {
-                reflectance: shaded::diffuse(scene, material, &hit),
-            })
+        let appearance = Appearance::new(scene, material, &hit);
+        let bsdf = appearance.bsdf(is_front);
+        let has_medium_behind = bsdf.model().transmits;
+        let side = if is_front || has_medium_behind {
+            1.0
         } else {
-            Bsdf::Black
+            -1.0
         };
+        let frame = Frame::about(side * interaction.shading_normal);
+        let emits = is_front || material.is_none_or(|material| material.emits_on_back);
+        let emission = if emits {
+            appearance.emission()
+        } else {
+            Vec3::ZERO
+        };
+        let opacity = appearance.opacity();
         Self {
             context,
             ray: *ray,
@@ -59,8 +65,8 @@ impl<'a> ShadingPoint<'a> {
             frame,
             normal: side * interaction.geometric_normal,
             bsdf,
-            emission: emission.map_or(Vec3::ZERO, |material| material.emission),
-            opacity: material.map_or(1.0, |material| material.opacity),
+            emission,
+            opacity,
         }
     }
 

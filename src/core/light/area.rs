@@ -1,6 +1,7 @@
 //! Primitives whose material emits light.
 
 use super::LightSample;
+use crate::appearance::Appearance;
 use crate::mesh::Material;
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
@@ -73,9 +74,16 @@ impl AreaLight {
                 surface,
                 corners: scene.corners(self.primitive),
             }),
-            weight: self.radiance / density,
+            weight: self.radiance_at(scene, &hit) / density,
             density: Some(density),
         })
+    }
+
+    /// The light at a hit, which a texture may dim.
+    fn radiance_at(&self, scene: &Scene, hit: &Hit) -> Vec3 {
+        let materials = &scene.mesh().attributes().materials;
+        let material = materials.get(scene.material(self.primitive));
+        Appearance::new(scene, material, hit).emission()
     }
 
     /// The density of the point that a ray hits, as seen from a point on its line.

@@ -19,6 +19,7 @@ pub use environment::{
 pub use point::PointLight;
 pub use studio::studio;
 
+use crate::mesh::Material;
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
 use crate::spawn::Endpoint;
@@ -82,14 +83,17 @@ impl Lights {
         let kept = others.into_iter().enumerate();
         let kept = kept.filter(|(k, light)| !is_environment(light) || Some(*k) == last);
         lights.extend(kept.map(|(_, light)| light));
-        let materials = &scene.mesh().attributes().materials;
+        let attributes = scene.mesh().attributes();
+        let mut materials = attributes.materials.entries().iter();
+        let has_coverage = |material: &Material| material.has_coverage(&attributes.textures);
+        let has_coverage = materials.any(has_coverage);
         let radius = radius_for_power(scene);
         let power = |light: &Light| f64::from(luminance(light.power(radius)));
         Self {
             choice: AliasTable::new(&lights.iter().map(power).collect::<Vec<_>>()),
             environment: lights.iter().position(is_environment).map(|k| k as u32),
             of_primitive,
-            has_coverage: materials.entries().iter().any(|m| m.opacity < 1.0),
+            has_coverage,
             lights,
         }
     }

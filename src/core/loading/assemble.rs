@@ -1,11 +1,11 @@
 //! A scene from the description of a scene file.
 
 use super::lights::{self, EmittingMaterials};
+use super::materials::materials;
 use super::merge::{Part, merged};
 use super::placed::{Groups, Placed, Refusal, placed};
 use super::{LoadedScene, StartView, size_warning};
 use crate::light::{EnvironmentMap, LoadedMap};
-use crate::mesh::{Illumination, Material};
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
@@ -235,18 +235,6 @@ impl Contents {
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
     }
-}
-
-/// The materials of a scene file; the first stands for none.
-fn materials(file: &SceneFile) -> Vec<Material> {
-    let material = |material: &scene_file::Material| Material {
-        name: material.id.clone().unwrap_or_default(),
-        diffuse: Some(material.front.as_vec3()),
-        illumination: Illumination::Diffuse,
-        ..Material::default()
-    };
-    let none = std::iter::once(Material::default());
-    none.chain(file.materials.iter().map(material)).collect()
 }
 
 fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {

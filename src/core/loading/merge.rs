@@ -85,9 +85,9 @@ impl Merged {
             self.materials
                 .extend(attributes.materials.entries().iter().map(|material| {
                     let mut material = material.clone();
-                    if let Some(map) = &mut material.diffuse_map {
-                        map.texture += first_texture;
-                    }
+                    material
+                        .maps_mut()
+                        .for_each(|map| map.texture += first_texture);
                     material
                 }));
         }

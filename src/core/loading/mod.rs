@@ -4,6 +4,7 @@
 //! |---|---|
 //! | **a scene from the description of a scene file** | `assemble` |
 //! | the shapes of the core that a transformed shape becomes | `placed` |
+//! | its materials | `materials` |
 //! | all meshes as one | `merge` |
 //! | the sensor as a view | `view` |
 //! | emitters as lights, and materials that emit light | `lights` |
@@ -13,6 +14,7 @@
 
 mod assemble;
 mod lights;
+mod materials;
 mod merge;
 mod placed;
 mod saving;

@@ -23,7 +23,7 @@ pub(crate) use area::{aspect, two_sum};
 pub use attributes::{Assigned, Attributes, CornerValues};
 pub use faces::Faces;
 pub use health::{FLAWS, Flaw, FlawInfo, FlawLocations, Health, SLIVER_ASPECT};
-pub use material::{Illumination, Material, TextureMap};
+pub use material::{Illumination, Material, Property, Sides, TextureMap};
 pub use normals::{Crease, VertexNormals};
 pub use per_triangle::PerTriangle;
 pub use runs::Runs;

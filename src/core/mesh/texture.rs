@@ -11,6 +11,8 @@ pub struct Texture {
     size: UVec2,
     /// sRGB, three bytes per texel, row by row from the top.
     texels: Vec<u8>,
+    /// The alpha channel, a byte per texel; empty if all texels are opaque.
+    alpha: Vec<u8>,
 }
 
 impl Texture {
@@ -22,7 +24,21 @@ impl Texture {
             name: name.to_owned(),
             size,
             texels,
+            alpha: Vec::new(),
         })
+    }
+
+    /// The texture with an alpha channel, a byte per texel in the same order. Without effect if their number doesn't match.
+    pub fn with_alpha(mut self, alpha: Vec<u8>) -> Self {
+        if 3 * alpha.len() == self.texels.len() {
+            self.alpha = alpha;
+        }
+        self
+    }
+
+    /// Whether the texture has an alpha channel.
+    pub fn has_alpha(&self) -> bool {
+        !self.alpha.is_empty()
     }
 
     /// A checkerboard, the replacement for a missing image.
@@ -42,11 +58,34 @@ impl Texture {
             name: String::new(),
             size: UVec2::splat(SIDE),
             texels: (0..SIDE * SIDE).flat_map(texel).collect(),
+            alpha: Vec::new(),
         }
     }
 
     /// The colour at `uv` in linear RGB, bilinearly interpolated. A coordinate that isn't finite counts as 0.
     pub fn colour(&self, uv: Vec2) -> Vec3 {
+        self.interpolated(uv, |k| from_texel(self.texel(k)))
+    }
+
+    /// The values at `uv`, from 0 to 1, without conversion from sRGB; otherwise as [`colour`](Self::colour).
+    pub fn values(&self, uv: Vec2) -> Vec3 {
+        self.interpolated(uv, |k| {
+            Vec3::from_array(self.texel(k).map(f32::from)) / 255.0
+        })
+    }
+
+    /// The alpha channel at `uv`, from 0 to 1; `None` if there is none.
+    pub fn alpha(&self, uv: Vec2) -> Option<f32> {
+        let texel = |k: usize| Vec3::splat(f32::from(self.alpha[k]) / 255.0);
+        self.has_alpha().then(|| self.interpolated(uv, texel).x)
+    }
+
+    fn texel(&self, index: usize) -> [u8; 3] {
+        [0, 1, 2].map(|channel| self.texels[3 * index + channel])
+    }
+
+    /// The values of texels, by their index, interpolated at `uv`.
+    fn interpolated(&self, uv: Vec2, value: impl Fn(usize) -> Vec3) -> Vec3 {
         let size = self.size.as_vec2();
         // Texel centres are at half-integers; rows are counted from the top.
         let uv = uv.map(|x| if x.is_finite() { x } else { 0.0 });
@@ -56,8 +95,7 @@ impl Texture {
         let texel = |dx: i32, dy: i32| {
             let x = (corner.x as i32 + dx).rem_euclid(self.size.x as i32);
             let y = (corner.y as i32 + dy).rem_euclid(self.size.y as i32);
-            let at = 3 * (y as usize * self.size.x as usize + x as usize);
-            from_texel([self.texels[at], self.texels[at + 1], self.texels[at + 2]])
+            value(y as usize * self.size.x as usize + x as usize)
         };
         let above = texel(0, 0).lerp(texel(1, 0), part.x);
         let below = texel(0, 1).lerp(texel(1, 1), part.x);
@@ -66,7 +104,7 @@ impl Texture {
 
     /// Size in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.texels[..])
+        size_of_val(&self.texels[..]) + size_of_val(&self.alpha[..])
     }
 }
 
@@ -95,6 +133,16 @@ mod tests {
         }
         let (nan, huge) = (Vec2::NAN, Vec2::splat(f32::MAX));
         assert!(texture.colour(nan).is_finite() && texture.colour(huge).is_finite());
+    }
+
+    #[test]
+    fn the_alpha_channel_is_interpolated_and_values_are_not_decoded() {
+        let texture = texture().with_alpha(vec![0, 255, 51, 255]);
+        assert_eq!(texture.alpha(Vec2::new(0.25, 0.75)), Some(0.0));
+        assert_eq!(texture.alpha(Vec2::new(0.25, 0.25)), Some(0.2));
+        let grey = Texture::new("t", UVec2::ONE, vec![51; 3]).expect("a texel");
+        assert_eq!(grey.values(Vec2::ZERO), Vec3::splat(0.2));
+        assert!(!grey.has_alpha() && grey.alpha(Vec2::ZERO).is_none());
     }
 
     #[test]

@@ -2,7 +2,9 @@
 //!
 //! Source: Open Image Denoise, "Open Image Denoise API", RT filter, <https://www.openimagedenoise.org/documentation.html>.
 
-use crate::integrator::{Context, diffuse_colour};
+use crate::appearance::Appearance;
+use crate::bsdf::Scatter as _;
+use crate::integrator::Context;
 use crate::interaction::SurfaceInteraction;
 use crate::lane::PACKET;
 use crate::obj::fenced;
@@ -150,7 +152,8 @@ impl Sum {
         let interaction = SurfaceInteraction::new(scene, ray, hit, context.shading);
         let materials = &scene.mesh().attributes().materials;
         let material = materials.get(interaction.material);
-        self.albedo += diffuse_colour(scene, material, &hit).as_dvec3();
+        let appearance = Appearance::new(scene, material, &hit);
+        self.albedo += appearance.bsdf(true).colour().as_dvec3();
         self.normal += interaction.facing_normal(ray).as_dvec3();
         // Camera rays have unit length.
         self.depth += f64::from(hit.t);

@@ -2,6 +2,7 @@
 
 pub use crate::group::CsgOperation;
 
+use super::bsdf::Bsdf;
 use super::emitter::Emitter;
 use super::integrators::Integrator;
 use super::sensor::Sensor;
@@ -162,15 +163,17 @@ pub struct Quadric {
     pub max: DVec3,
 }
 
-/// A diffuse material. Colours are linear RGB from 0 to 1.
+/// A material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
     /// The start of its element.
     pub place: Place,
     /// The `id` attribute.
     pub id: Option<String>,
-    /// The reflectance of the front, the side of the normal.
-    pub front: DVec3,
-    /// The reflectance of the back; `None` if it is black, which Mitsuba's `diffuse` is outside `twosided`.
-    pub back: Option<DVec3>,
+    /// The front, the side of the normal.
+    pub front: Bsdf,
+    /// The back; `None` outside `twosided`: then it is black, unless light passes through the front.
+    pub back: Option<Bsdf>,
+    /// The part of the surface that is there, from 0 to 1: `mask`.
+    pub opacity: f64,
 }

@@ -1,18 +1,15 @@
 //! Materials: `<bsdf>` elements and references to them.
 
+use super::bsdf::Bsdf;
+use super::bsdfs::{self, PLAIN};
 use super::description::{Material, Place, Shape, ShapeKind};
 use super::element::Element;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
-use super::plugin::Value;
 use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
-use glam::DVec3;
 use std::collections::HashMap;
-
-/// The reflectance of Mitsuba's `diffuse` without parameters.
-const DEFAULT_REFLECTANCE: DVec3 = DVec3::splat(0.5);
 
 /// The BSDFs of Mitsuba 3.9.1.
 const BSDFS: [&str; 23] = [
@@ -39,6 +36,17 @@ const BSDFS: [&str; 23] = [
     "roughdielectric",
     "roughplastic",
     "thindielectric",
+];
+
+/// BSDFs that aren't supported, and the most similar one that is.
+const MOST_SIMILAR: [(&str, &str); 7] = [
+    ("blendbsdf", "diffuse"),
+    ("bumpmap", "diffuse"),
+    ("measured", "roughconductor"),
+    ("normalmap", "diffuse"),
+    ("pplastic", "plastic"),
+    ("principled", "roughplastic"),
+    ("principledthin", "thindielectric"),
 ];
 
 /// Marks an index into the list of materials without identifier.
@@ -169,96 +177,116 @@ fn bsdf(reader: &mut Reader, element: Element) -> Result<Material, Problem> {
     let mut material = Material {
         place: element.place,
         id: head.id,
-        front: DEFAULT_REFLECTANCE,
+        front: Bsdf::GREY,
         back: None,
+        opacity: 1.0,
     };
     match head.kind.as_str() {
-        "diffuse" => material.front = reflectance(reader, element)?,
+        kind if PLAIN.contains(&kind) => material.front = bsdfs::plain(reader, element, kind)?,
+        "mask" => {
+            let (opacity, masked) = masked(reader, element)?;
+            (material.front, material.back) = (masked.front, masked.back);
+            material.opacity = opacity * masked.opacity;
+        }
         "twosided" => {
             let (front, back) = both_sides(reader, element)?;
             material.front = front;
             material.back = Some(back);
         }
         kind if BSDFS.contains(&kind) => {
+            let similar = MOST_SIMILAR.iter().find(|(name, _)| *name == kind);
+            let similar = similar.map_or(String::new(), |(_, similar)| {
+                let similar = quoted(similar);
+                format!("; the most similar one that is supported is {similar}")
+            });
             let kind = quoted(kind);
-            let message =
-                format!("bsdf {kind} isn't supported; a diffuse reflectance of 0.5 is used");
+            let message = format!(
+                "bsdf {kind} isn't supported; a diffuse reflectance of 0.5 is used{similar}"
+            );
             reader.warnings.add(element.place, message);
-            material.back = Some(DEFAULT_REFLECTANCE);
+            material.back = Some(Bsdf::GREY);
         }
         kind => return Err(element.problem(unknown("bsdf", kind, &BSDFS))),
     }
     Ok(material)
 }
 
-/// The reflectance of a `diffuse` BSDF.
-fn reflectance(reader: &mut Reader, element: Element) -> Result<DVec3, Problem> {
-    let mut parameters = Parameters::new("bsdf", "diffuse", element.place);
+/// A nested BSDF, or the one that a nested reference names, which must be defined before; `None` for other elements.
+fn nested(reader: &mut Reader, child: Element) -> Result<Option<Material>, Problem> {
+    match child.tag() {
+        "bsdf" => {
+            let nested = bsdf(reader, child)?;
+            if nested.id.is_some() {
+                reader.materials.define(nested.clone());
+            }
+            Ok(Some(nested))
+        }
+        "ref" => {
+            let id = objects::reference(reader, child)?;
+            let index = reader.materials.by_id.get(&id);
+            let named = index.and_then(|&index| {
+                let named = &reader.materials.named[index as usize];
+                named.material.clone()
+            });
+            match named {
+                Some(named) => Ok(Some(named)),
+                None => {
+                    let id = quoted(&id);
+                    Err(child.problem(format!("no bsdf {id} is defined before this line")))
+                }
+            }
+        }
+        _ => Ok(None),
+    }
+}
+
+/// The opacity of a `mask` BSDF and the BSDF that it contains.
+fn masked(reader: &mut Reader, element: Element) -> Result<(f64, Material), Problem> {
+    let mut parameters = Parameters::new("bsdf", "mask", element.place);
+    let mut inner = None;
     reader.each_child(element, &mut |reader, child| {
         if let Some(parameter) = properties::parameter(reader, child)? {
             return parameters.add(parameter);
         }
-        if child.tag() == "ref" {
-            objects::reference(reader, child)?;
-            let message = "textures aren't supported; a diffuse reflectance of 0.5 is used";
-            reader.warnings.add(child.place, message.to_owned());
-            return Ok(());
+        match nested(reader, child)? {
+            Some(_) if inner.is_some() => Err(child.problem("bsdf “mask” contains two BSDFs")),
+            Some(found) => {
+                inner = Some(found);
+                Ok(())
+            }
+            None => objects::skip(reader, child, &parameters.object()),
         }
-        objects::skip(reader, child, &parameters.object())
     })?;
-    let Some(given) = parameters.take("reflectance") else {
-        parameters.finish()?;
-        return Ok(DEFAULT_REFLECTANCE);
-    };
-    let at = |message: String| Err(Problem::at(given.place, message));
-    let rgb = match given.value {
-        Value::Rgb(rgb) => rgb,
-        Value::Spectrum(all) | Value::Float(all) => DVec3::splat(all),
-        other => {
-            let element = other.element();
-            return at(format!("“reflectance” must be <rgb>, not <{element}>"));
+    let opacity = match parameters.float("opacity")? {
+        Some((opacity, place)) if !(0.0..=1.0).contains(&opacity) => {
+            let message = "“opacity” must be from 0 to 1".to_owned();
+            return Err(Problem::at(place, message));
         }
+        found => found.map_or(0.5, |(opacity, _)| opacity),
     };
-    if rgb.min_element() < 0.0 || rgb.max_element() > 1.0 {
-        return at("“reflectance” must be from 0 to 1".to_owned());
-    }
+    let Some(inner) = inner else {
+        return Err(parameters.problem("a nested bsdf is missing"));
+    };
     parameters.finish()?;
-    Ok(rgb)
+    Ok((opacity, inner))
 }
 
-/// The reflectances of the front and the back of a `twosided` BSDF, which contains one BSDF for both or two.
-fn both_sides(reader: &mut Reader, element: Element) -> Result<(DVec3, DVec3), Problem> {
+/// The front and the back of a `twosided` BSDF, which contains one BSDF for both or two.
+fn both_sides(reader: &mut Reader, element: Element) -> Result<(Bsdf, Bsdf), Problem> {
     let parameters = Parameters::new("bsdf", "twosided", element.place);
     let mut sides = Vec::new();
     reader.each_child(element, &mut |reader, child| {
-        let side = match child.tag() {
-            "bsdf" => {
-                let nested = bsdf(reader, child)?;
-                let front = nested.front;
-                if nested.id.is_some() {
-                    reader.materials.define(nested);
-                }
-                front
-            }
-            "ref" => {
-                let id = objects::reference(reader, child)?;
-                let index = reader.materials.by_id.get(&id);
-                let named = index.and_then(|&index| {
-                    let named = &reader.materials.named[index as usize];
-                    named.material.as_ref()
-                });
-                let Some(named) = named else {
-                    let id = quoted(&id);
-                    return Err(child.problem(format!("no bsdf {id} is defined before this line")));
-                };
-                named.front
-            }
-            _ => return objects::skip(reader, child, &parameters.object()),
+        let Some(side) = nested(reader, child)? else {
+            return objects::skip(reader, child, &parameters.object());
         };
+        if side.front.transmits() {
+            let message = "bsdf “twosided” can't contain one that light passes through";
+            return Err(child.problem(message));
+        }
         if sides.len() == 2 {
             return Err(child.problem("bsdf “twosided” contains more than two BSDFs"));
         }
-        sides.push(side);
+        sides.push(side.front);
         Ok(())
     })?;
     match *sides {

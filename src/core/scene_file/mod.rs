@@ -10,11 +10,11 @@
 //! | **the file and its includes are parsed**, and their objects read | `include`, `reader` |
 //! | elements, attributes, `$name` | `element`, `defaults` |
 //! | properties: numbers, vectors, transforms | `properties`, `number`, `transform`, `parameters` |
-//! | objects | `shapes`, `materials`, `emitters`, `sensors`, `integrators`; others: `objects` |
-//! | the result | `description`, `emitter`, `sensor`, `plugin` |
+//! | objects | `shapes`, `materials`, `bsdfs`, `emitters`, `sensors`, `integrators`; others: `objects` |
+//! | the result | `description`, `bsdf`, `emitter`, `sensor`, `plugin` |
 //! | errors, warnings, memory limit | `problem`, `warnings`, `memory` |
 //! | files on the disk | `stored` |
-//! | writer | `writer`, `shape_writer`, `emitter_writer`, `xml` |
+//! | writer | `writer`, `shape_writer`, `bsdf_writer`, `emitter_writer`, `xml` |
 //!
 //! # Format
 //!
@@ -80,9 +80,15 @@
 //! | bsdf | parameters and defaults |
 //! |---|---|
 //! | `diffuse` | `reflectance` = 0.5: `rgb` (linear), `spectrum` or `float`, from 0 to 1. The back is black |
-//! | `twosided` | one nested `bsdf` for both sides, or two for front and back |
+//! | `conductor` | `material` = none, a mirror; or `eta` and `k`; `specular_reflectance` = 1. The back is black |
+//! | `dielectric`, `thindielectric` | `int_ior` = bk7, `ext_ior` = air: a number or a name; `specular_reflectance` = `specular_transmittance` = 1 |
+//! | `plastic` | `int_ior` = polypropylene, `ext_ior` = air, `diffuse_reflectance` = 0.5, `specular_reflectance` = 1, `nonlinear` = false. The back is black |
+//! | `roughconductor`, `roughdielectric`, `roughplastic` | the same, and `distribution` = beckmann or `ggx`, `alpha` = 0.1 |
+//! | `mask` | `opacity` = 0.5 and a nested `bsdf` |
+//! | `twosided` | one nested `bsdf` for both sides, or two for front and back; light mustn't pass through them |
 //!
-//! Mitsuba's other BSDFs and textures give a warning and a diffuse reflectance of 0.5.
+//! Metals are Ag, Al, Au, Be, Cr, Cu, Hg, Ir, Rh, TiN and W. Different `alpha_u` and `alpha_v` give a warning. Mitsuba's
+//! other BSDFs give a warning and a diffuse reflectance of 0.5, textures a warning and the parameter's default.
 //!
 //! ## Sensors
 //!
@@ -119,6 +125,9 @@
 //!
 //! Mitsuba's other objects give a warning and aren't kept. An element, type, attribute or parameter that Mitsuba doesn't know either is an error.
 
+mod bsdf;
+mod bsdf_writer;
+mod bsdfs;
 mod defaults;
 mod description;
 mod element;
@@ -149,6 +158,7 @@ mod warnings;
 mod writer;
 mod xml;
 
+pub use bsdf::{Bsdf, Form, Roughness};
 pub use description::{CsgOperation, Material, Place, Quadric, SceneFile, Shape, ShapeKind};
 pub use emitter::{Emitter, EmitterKind};
 pub use integrators::Integrator;

@@ -162,30 +162,6 @@ impl Writer<'_> {
         self.transform("to_world", to_world)
     }
 
-    pub(super) fn material(
-        &mut self,
-        material: &Material,
-        id: Option<&str>,
-    ) -> Result<(), WriteError> {
-        let Some(back) = material.back else {
-            return self.diffuse(material.front, id);
-        };
-        self.xml.open("bsdf", &attributes("twosided", id, None))?;
-        self.diffuse(material.front, None)?;
-        if back != material.front {
-            self.diffuse(back, None)?;
-        }
-        self.xml.close();
-        Ok(())
-    }
-
-    fn diffuse(&mut self, reflectance: DVec3, id: Option<&str>) -> Result<(), WriteError> {
-        self.xml.open("bsdf", &attributes("diffuse", id, None))?;
-        self.property("rgb", "reflectance", &vector(reflectance))?;
-        self.xml.close();
-        Ok(())
-    }
-
     fn sensor(&mut self, sensor: &Sensor) -> Result<(), WriteError> {
         let kind = match sensor.kind {
             SensorKind::Perspective(_) => "perspective",

@@ -27,7 +27,7 @@ fn unusual_materials_are_read_and_skipped_statements_are_reported() {
     // Half of texel.png is red, half is green; (0.375, 0) of the surface maps to u = 1.25.
     let colour = map.colour(&loaded.mesh.attributes().textures, Vec2::new(0.375, 0.0));
     assert_eq!(colour, Vec3::X);
-    let skipped = ["Kd", "Pr", "Pm", "map_Ke", "illum", "map_Kd", "map_Kd -bm"];
+    let skipped = ["Kd", "Ps", "Pc", "map_Ns", "illum", "map_Kd", "map_Kd -bm"];
     let warnings = warnings(&loaded);
     assert_eq!(warnings.len(), skipped.len(), "{warnings:?}");
     for (warning, keyword) in warnings.iter().zip(skipped) {

@@ -2,7 +2,7 @@
 
 use super::{parse, parse_bytes, scene, warnings};
 use glam::{DMat4, DVec3};
-use hitscope_core::scene_file::{CsgOperation, Place, SceneFile, ShapeKind};
+use hitscope_core::scene_file::{Bsdf, CsgOperation, Place, SceneFile, ShapeKind};
 use std::path::PathBuf;
 
 pub(super) fn read(contents: &str) -> SceneFile {
@@ -197,12 +197,13 @@ fn materials_are_found_before_and_after_their_definition() {
         .map(|m| (m.id.as_deref(), m.front, m.back))
         .collect();
     let (half, early) = (DVec3::splat(0.5), DVec3::new(0.1, 0.2, 0.3));
+    let of = |reflectance| Bsdf::Diffuse { reflectance };
     let expected = [
-        (Some("late"), DVec3::ONE, Some(DVec3::ONE)),
-        (Some("early"), early, None),
-        (Some("inner"), half, None),
-        (None, DVec3::splat(0.25), None),
-        (None, half, Some(early)),
+        (Some("late"), of(DVec3::ONE), Some(of(DVec3::ONE))),
+        (Some("early"), of(early), None),
+        (Some("inner"), of(half), None),
+        (None, of(DVec3::splat(0.25)), None),
+        (None, of(half), Some(of(early))),
     ];
     assert_eq!(materials, expected);
     let used: Vec<_> = scene.shapes.iter().map(|shape| shape.material).collect();
@@ -212,7 +213,7 @@ fn materials_are_found_before_and_after_their_definition() {
 #[test]
 fn other_bsdfs_and_textures_are_replaced_with_a_warning() {
     let scene = read(
-        "<bsdf type='roughplastic' id='a'><float name='alpha' value='0.1'/></bsdf>
+        "<bsdf type='principled' id='a'><float name='roughness' value='0.1'/></bsdf>
          <texture type='bitmap' id='t'/>
          <shape type='disk'><bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf></shape>
          <shape type='disk'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'/></bsdf></shape>
@@ -220,15 +221,14 @@ fn other_bsdfs_and_textures_are_replaced_with_a_warning() {
          <shape type='disk'><medium type='homogeneous'/><ref id='a'/></shape>
          words",
     );
-    let half = Some(DVec3::splat(0.5));
     assert_eq!(
-        (Some(scene.materials[0].front), scene.materials[0].back),
-        (half, half)
+        (scene.materials[0].front, scene.materials[0].back),
+        (Bsdf::GREY, Some(Bsdf::GREY))
     );
     let expected = [
-        "line 2: bsdf “roughplastic” isn't supported; a diffuse reflectance of 0.5 is used",
+        "line 2: bsdf “principled” isn't supported; a diffuse reflectance of 0.5 is used; the most similar one that is supported is “roughplastic”",
         "line 3: texture “bitmap” in scene isn't used",
-        "line 4: textures aren't supported; a diffuse reflectance of 0.5 is used",
+        "line 4: textures aren't supported; the parameter's default is used",
         "line 5: texture “bitmap” in bsdf “diffuse” isn't used",
         "line 6: bsdf “diffuse” in scene without id isn't used",
         "line 7: medium “homogeneous” in shape “disk” isn't used",

@@ -36,6 +36,13 @@ const ALL: &str = r##"
 <shape type="rectangle"><transform name="to_world"><rotate value="0.6 0.8 0" angle="17"/><translate x="0.1"/></transform>
   <emitter type="area"><rgb name="radiance" value="1 2 3"/></emitter></shape>
 <shape type="cube"><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>
+<shape type="cube"><bsdf type="twosided"><bsdf type="conductor"><string name="material" value="Au"/></bsdf><bsdf type="plastic"/></bsdf></shape>
+<shape type="cube"><bsdf type="roughconductor"><rgb name="eta" value="0.1 1 2"/><float name="k" value="3"/><string name="distribution" value="ggx"/>
+  <float name="alpha" value="0.3"/><rgb name="specular_reflectance" value="0.9"/></bsdf></shape>
+<shape type="cube"><bsdf type="dielectric"><string name="int_ior" value="diamond"/><rgb name="specular_transmittance" value="0.1 1 1"/></bsdf></shape>
+<shape type="cube"><bsdf type="thindielectric"/></shape><shape type="cube"><bsdf type="roughdielectric"><float name="int_ior" value="1.7"/></bsdf></shape>
+<shape type="cube"><bsdf type="mask" id="half"><bsdf type="roughplastic"><boolean name="nonlinear" value="true"/></bsdf></bsdf></shape>
+<shape type="cube"><bsdf type="mask"><float name="opacity" value="0.1"/><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></bsdf></shape>
 <shape type="plane"><point name="point" value="1"/><vector name="normal" value="1 1 0"/></shape>
 <shape type="box"><point name="max" value="2"/></shape>
 <shape type="cone"><boolean name="capped" value="true"/></shape>

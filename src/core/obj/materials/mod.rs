@@ -60,6 +60,12 @@ pub(super) fn resolve(
         };
         let map = definition.diffuse_map.as_ref();
         material.diffuse_map = map.map(|map| textures.map(map, folder));
+        for (property, map) in &definition.further_maps {
+            let map = textures.optional_map(map, folder);
+            material
+                .further_maps
+                .extend(map.map(|map| (*property, map)));
+        }
         materials.push(material);
         is_invisible_by_tr.push(definition.is_invisible_only_by_tr());
     }

@@ -6,7 +6,7 @@
 
 use super::map_file::{self, MapFile};
 use crate::counts::counted;
-use crate::mesh::{Illumination, Material};
+use crate::mesh::{Illumination, Material, Property};
 use crate::obj::chunks::each_statement;
 use crate::obj::error::{Problem, Warning};
 use crate::obj::statement::Statement;
@@ -22,6 +22,7 @@ use std::ops::ControlFlow;
 pub(super) struct Definition {
     pub material: Material,
     pub diffuse_map: Option<MapFile>,
+    pub further_maps: Vec<(Property, MapFile)>,
     line: usize,
     /// Whether a `d` statement was read. It overrides `Tr`.
     has_opacity: bool,
@@ -37,7 +38,7 @@ impl Definition {
 }
 
 /// Keywords that programs write for every material but shading doesn't use. Warnings about them would hide others.
-const IGNORED: [&str; 3] = ["ka", "ni", "sharpness"];
+const IGNORED: [&str; 2] = ["ka", "sharpness"];
 
 /// The number of statements between cancellation checks: a millisecond's work.
 const STATEMENTS_PER_CHECK: usize = 1 << 12;
@@ -152,6 +153,11 @@ pub(super) fn parse(
     }
     for definition in &mut parser.found {
         let material = &mut definition.material;
+        let mut further = definition.further_maps.iter();
+        if material.emission == Vec3::ZERO && further.any(|(of, _)| *of == Property::Emission) {
+            // A texture alone says what is emitted.
+            material.emission = Vec3::ONE;
+        }
         if material.diffuse == Some(Vec3::ZERO) && definition.diffuse_map.is_some() {
             material.diffuse = Some(Vec3::ONE);
             let name = shortened(&material.name);
@@ -237,7 +243,9 @@ impl Parser {
         }
         // A file name may contain a #.
         let rest = match lower_case.as_str() {
-            "map_kd" => rest.trim().to_owned(),
+            "map_kd" | "map_ks" | "map_ke" | "map_d" | "map_opacity" | "map_pr" | "map_pm" => {
+                rest.trim().to_owned()
+            }
             _ => name(without_comment(rest.as_bytes())),
         };
         let current = self.current.as_mut();
@@ -306,18 +314,44 @@ impl Definition {
                 material.illumination = match rest.parse().ok()? {
                     0u8 => Illumination::Constant,
                     1 => Illumination::Diffuse,
-                    2..=10 => Illumination::Highlights,
+                    3 => Illumination::Mirror,
+                    4 | 6 | 7 | 9 => Illumination::Glass,
+                    5 => Illumination::FresnelMirror,
+                    2 | 8 | 10 => Illumination::Highlights,
                     _ => return None,
                 };
             }
-            "map_kd" => {
-                let (map, skipped) = map_file::parse(rest)?;
-                self.diffuse_map = Some(map);
-                return Some(skipped.into_iter().map(str::to_owned).collect());
-            }
-            _ => return None,
+            // Some programs write 0 for all materials.
+            "ni" => material.refraction = number(rest).filter(|x| *x > 0.0).unwrap_or(1.0),
+            "tf" => material.filter = Some(clamped(colour(rest)?, &mut self.is_clamped)),
+            "pr" => material.roughness = Some(number(rest).filter(|x| *x >= 0.0)?.min(1.0)),
+            "pm" => material.metalness = Some(number(rest).filter(|x| *x >= 0.0)?.min(1.0)),
+            _ => return self.apply_map(keyword, rest),
         }
         Some(Vec::new())
+    }
+
+    /// Applies a statement with a texture. Returns its skipped options, or `None` if the statement is malformed or
+    /// unknown.
+    fn apply_map(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
+        let property = match keyword {
+            "map_kd" => None,
+            "map_ks" => Some(Property::Specular),
+            "map_ke" => Some(Property::Emission),
+            "map_d" | "map_opacity" => Some(Property::Opacity),
+            "map_pr" => Some(Property::Roughness),
+            "map_pm" => Some(Property::Metalness),
+            _ => return None,
+        };
+        let (map, skipped) = map_file::parse(rest)?;
+        match property {
+            None => self.diffuse_map = Some(map),
+            Some(property) => {
+                self.further_maps.retain(|(other, _)| *other != property);
+                self.further_maps.push((property, map));
+            }
+        }
+        Some(skipped.into_iter().map(str::to_owned).collect())
     }
 }
 

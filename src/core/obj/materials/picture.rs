@@ -7,13 +7,11 @@ use glam::UVec2;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 
-/// A decoded picture, without its alpha channel.
+/// A decoded picture.
 pub(super) struct Picture {
     pub texture: Texture,
     /// Whether the file is truncated.
     pub is_truncated: bool,
-    /// Whether any pixel isn't opaque.
-    pub is_transparent: bool,
 }
 
 /// Decodes a picture with at most `max_bytes` of memory, not counting the file's bytes.
@@ -21,18 +19,17 @@ pub(super) struct Picture {
 /// # Errors
 /// The reason. It never quotes the content of a file that isn't a picture.
 pub(super) fn decode(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
-    let (picture, is_transparent) = fenced("decoding", || pixels(bytes, max_bytes))??;
+    let (picture, alpha) = fenced("decoding", || pixels(bytes, max_bytes))??;
     let size = UVec2::new(picture.width(), picture.height());
     let texture = Texture::new(name, size, picture.into_raw());
     Ok(Picture {
-        texture: texture.ok_or("the picture is empty")?,
-        is_transparent,
+        texture: texture.ok_or("the picture is empty")?.with_alpha(alpha),
         is_truncated: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
     })
 }
 
-/// The pixels, and whether any isn't opaque.
-fn pixels(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), String> {
+/// The pixels, and their alpha values unless all are opaque.
+fn pixels(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, Vec<u8>), String> {
     // Some messages end with a newline.
     let message = |error: image::ImageError| printable(error.to_string().trim());
     let mut reader = ImageReader::new(Cursor::new(bytes))
@@ -59,17 +56,21 @@ fn pixels(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, bool), Strin
         return Err(format!("can't allocate {megabytes} MB"));
     }
     let decoded = DynamicImage::from_decoder(decoder).map_err(message)?;
-    let is_transparent = match &decoded {
-        DynamicImage::ImageRgba8(picture) => picture.pixels().any(|p| p[3] < u8::MAX),
-        DynamicImage::ImageLumaA8(picture) => picture.pixels().any(|p| p[1] < u8::MAX),
-        DynamicImage::ImageRgba16(picture) => picture.pixels().any(|p| p[3] < u16::MAX),
-        DynamicImage::ImageLumaA16(picture) => picture.pixels().any(|p| p[1] < u16::MAX),
-        _ => false,
+    let of_16_bits = |alpha: u16| (alpha >> 8) as u8;
+    let mut alpha: Vec<u8> = match &decoded {
+        DynamicImage::ImageRgba8(picture) => picture.pixels().map(|p| p[3]).collect(),
+        DynamicImage::ImageLumaA8(picture) => picture.pixels().map(|p| p[1]).collect(),
+        DynamicImage::ImageRgba16(picture) => picture.pixels().map(|p| of_16_bits(p[3])).collect(),
+        DynamicImage::ImageLumaA16(picture) => picture.pixels().map(|p| of_16_bits(p[1])).collect(),
+        _ => Vec::new(),
     };
-    Ok((decoded.into_rgb8(), is_transparent))
+    if alpha.iter().all(|&alpha| alpha == u8::MAX) {
+        alpha = Vec::new();
+    }
+    Ok((decoded.into_rgb8(), alpha))
 }
 
-/// The peak memory of decoding and of the conversion to 8-bit RGB, in bytes.
+/// The peak memory of decoding and of the conversion to 8-bit RGB with an alpha channel, in bytes.
 fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u64) -> u64 {
     /// 16-bit coefficients of up to four components. A progressive JPEG keeps them for the whole picture.
     const JPEG_BYTES_PER_PIXEL: u64 = 8;
@@ -78,7 +79,7 @@ fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u6
     let decoded = decoder.total_bytes();
     let converted = match decoder.color_type() {
         ColorType::Rgb8 => 0,
-        _ => 3 * pixels,
+        _ => 4 * pixels,
     };
     let working = match format {
         // The decoder copies the file.

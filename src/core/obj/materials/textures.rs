@@ -17,8 +17,8 @@ pub(super) struct Textures<'a> {
     /// The memory left for further textures, in bytes.
     max_memory: u64,
     pub list: Vec<Texture>,
-    /// Texture indices by the library's folder and the name.
-    by_name: HashMap<(String, String), u32>,
+    /// Texture indices by the library's folder and the name; `None` for an unreadable one.
+    by_name: HashMap<(String, String), Option<u32>>,
     /// Texture indices by path.
     by_path: HashMap<PathBuf, u32>,
     /// The checkerboard that replaces every unreadable texture.
@@ -41,24 +41,36 @@ impl<'a> Textures<'a> {
 
     /// The map of a file in the library's folder or in the OBJ's, or the checkerboard if the file can't be read.
     pub(super) fn map(&mut self, map: &MapFile, folder: &str) -> TextureMap {
+        let found = self.texture(map, folder, "shown as a checkerboard");
+        placed(map, found.unwrap_or_else(|| self.checker()))
+    }
+
+    /// The map of a file in the library's folder or in the OBJ's, or `None` if the file can't be read.
+    pub(super) fn optional_map(&mut self, map: &MapFile, folder: &str) -> Option<TextureMap> {
+        let found = self.texture(map, folder, "ignored");
+        found.map(|texture| placed(map, texture))
+    }
+
+    /// A texture; `None` if it can't be read, with a warning that names the `consequence`, at the first look-up.
+    fn texture(&mut self, map: &MapFile, folder: &str, consequence: &str) -> Option<u32> {
         let key = (folder.to_owned(), map.name.clone());
-        let texture = match self.by_name.get(&key) {
-            Some(&texture) => texture,
-            None => {
-                let texture = self.texture(&map.name, folder);
-                self.by_name.insert(key, texture);
-                texture
-            }
-        };
-        TextureMap {
-            texture,
-            scale: map.scale,
-            offset: map.offset,
+        if let Some(&known) = self.by_name.get(&key) {
+            return known;
         }
+        let found = self.new_texture(&map.name, folder);
+        if let Err(why) = &found {
+            self.warn(&map.name, &format!("{why}; {consequence}"));
+        }
+        let found = found.ok();
+        self.by_name.insert(key, found);
+        found
     }
 
     /// Looks up the texture of a new name.
-    fn texture(&mut self, name: &str, folder: &str) -> u32 {
+    ///
+    /// # Errors
+    /// Why it can't be read.
+    fn new_texture(&mut self, name: &str, folder: &str) -> Result<u32, String> {
         let mut why = String::new();
         let mut names = Vec::new();
         // A # is part of the name or starts a comment.
@@ -71,43 +83,35 @@ impl<'a> Textures<'a> {
         for name_in_folder in &names {
             let path = self.files.find(name_in_folder);
             if let Some(&texture) = self.by_path.get(&path) {
-                return texture;
+                return Ok(texture);
             }
             match self.files.read(&path, self.max_memory) {
                 Ok(bytes) => {
-                    let texture = self.decode(name, &bytes);
+                    let texture = self.decode(name, &bytes)?;
                     self.by_path.insert(path, texture);
-                    return texture;
+                    return Ok(texture);
                 }
                 Err(error) => why = reason(&error),
             }
         }
-        self.checker(name, &why)
+        Err(why)
     }
 
-    fn decode(&mut self, name: &str, bytes: &[u8]) -> u32 {
+    fn decode(&mut self, name: &str, bytes: &[u8]) -> Result<u32, String> {
         let left = self.max_memory.saturating_sub(bytes.len() as u64);
         let Picture {
             texture,
             is_truncated,
-            is_transparent,
-        } = match picture::decode(name, bytes, left) {
-            Ok(picture) => picture,
-            Err(why) => return self.checker(name, &why),
-        };
-        if is_transparent {
-            self.warn(name, "transparent pixels are shown opaque");
-        }
+        } = picture::decode(name, bytes, left)?;
         if is_truncated {
             self.warn(name, "truncated file: part of the picture is missing");
         }
         self.max_memory = self.max_memory.saturating_sub(texture.bytes() as u64);
-        self.push(texture)
+        Ok(self.push(texture))
     }
 
-    /// The checkerboard that replaces an unreadable texture; adds a warning with the reason.
-    fn checker(&mut self, name: &str, why: &str) -> u32 {
-        self.warn(name, &format!("{why}; shown as a checkerboard"));
+    /// The checkerboard that replaces an unreadable texture.
+    fn checker(&mut self) -> u32 {
         if let Some(checker) = self.checker {
             return checker;
         }
@@ -125,5 +129,13 @@ impl<'a> Textures<'a> {
     fn push(&mut self, texture: Texture) -> u32 {
         self.list.push(texture);
         self.list.len() as u32 - 1
+    }
+}
+
+fn placed(map: &MapFile, texture: u32) -> TextureMap {
+    TextureMap {
+        texture,
+        scale: map.scale,
+        offset: map.offset,
     }
 }

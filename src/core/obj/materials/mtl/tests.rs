@@ -14,7 +14,7 @@ fn messages(text: &str) -> (Vec<Definition>, Vec<String>) {
 #[test]
 fn unusual_statements_do_not_affect_other_materials() {
     let (materials, warnings) = messages(
-        "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\nPr 1\n",
+        "newmtl a #1\rKd 0.5 # grey\r\nKd spectral f.rfl\nillum 999\nmap_Kd\nnewmtl c\nKd 1 0 0\nKd\nnewmtl d\nKd nan 0 0\nPs 1\n",
     );
     let named: Vec<&str> = materials.iter().map(|m| m.material.name.as_str()).collect();
     assert_eq!(named, ["a #1", "c", "d"]);
@@ -36,7 +36,7 @@ fn unusual_statements_do_not_affect_other_materials() {
             skipped(3, "Kd", 3),
             skipped(1, "illum", 4),
             skipped(1, "map_Kd", 5),
-            skipped(1, "Pr", 11)
+            skipped(1, "Ps", 11)
         ]
     );
 }
@@ -53,10 +53,10 @@ fn a_file_that_is_not_a_library_is_not_quoted() {
             .expect("an empty library");
         assert_eq!(library.warnings, [], "{text}");
     }
-    let (_, warnings) = messages("newmtl a\nsecret 1\nroot:x\nPR 1\n");
+    let (_, warnings) = messages("newmtl a\nsecret 1\nroot:x\nPS 1\n");
     let expected = [
         "material library “m.mtl”: 2 unknown statements skipped, the first on line 2",
-        "material library “m.mtl”: 1 “PR” statement skipped, on line 4",
+        "material library “m.mtl”: 1 “PS” statement skipped, on line 4",
     ];
     assert_eq!(warnings, expected);
 }
@@ -77,6 +77,52 @@ fn every_property_used_by_shading_is_read() {
     };
     assert_eq!(materials[0].material, expected);
     assert_eq!(materials[1].material.opacity, 0.5);
+}
+
+#[test]
+fn every_property_used_by_light_is_read() {
+    let (materials, warnings) = messages(
+        "newmtl glass\nillum 7\nNi 1.5\nTf 1 .5 2\nnewmtl metal\nPr .25\nPm 1\nillum 3\nmap_Pr r.png\nmap_d #1.png\nNi 0\nnewmtl lamp\nmap_Ke old.png\nmap_Ke e.png\nnewmtl f\nillum 5\n",
+    );
+    let clamped =
+        "material library “m.mtl”: 1 “Tf” statement with a value above 1 clamped, on line 4";
+    assert_eq!(warnings, [clamped]);
+    let glass = &materials[0].material;
+    assert_eq!(
+        (glass.illumination, glass.refraction, glass.filter),
+        (Illumination::Glass, 1.5, Some(Vec3::new(1.0, 0.5, 1.0)))
+    );
+    let metal = &materials[1].material;
+    assert_eq!(
+        (
+            metal.roughness,
+            metal.metalness,
+            metal.illumination,
+            metal.refraction
+        ),
+        (Some(0.25), Some(1.0), Illumination::Mirror, 1.0)
+    );
+    let maps = |definition: &Definition| -> Vec<(Property, String)> {
+        let maps = definition.further_maps.iter();
+        maps.map(|(property, map)| (*property, map.name.clone()))
+            .collect()
+    };
+    assert_eq!(
+        maps(&materials[1]),
+        [
+            (Property::Roughness, "r.png".to_owned()),
+            (Property::Opacity, "#1.png".to_owned())
+        ]
+    );
+    assert_eq!(
+        maps(&materials[2]),
+        [(Property::Emission, "e.png".to_owned())]
+    );
+    assert_eq!(materials[2].material.emission, Vec3::ONE);
+    assert_eq!(
+        materials[3].material.illumination,
+        Illumination::FresnelMirror
+    );
 }
 
 #[test]

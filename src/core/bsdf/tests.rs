@@ -1,0 +1,328 @@
+//! One suite for all models of the table and their examples.
+
+use super::*;
+use crate::random::Random;
+use std::f64::consts::{PI, TAU};
+
+/// Each example with its model's name, seen along the normal, at angles, and from behind if light passes through.
+fn cases() -> Vec<(String, Bsdf, Vec3)> {
+    let mut cases = Vec::new();
+    for model in MODELS {
+        for (k, bsdf) in (model.examples)().into_iter().enumerate() {
+            assert_eq!(bsdf.model().name, model.name);
+            let sides: &[f64] = if model.transmits {
+                &[1.0, -1.0]
+            } else {
+                &[1.0]
+            };
+            for side in sides {
+                for cos in [1.0f64, 0.7, 0.2] {
+                    let sin = (1.0 - cos * cos).sqrt();
+                    let outgoing = glam::DVec3::new(0.6 * sin, 0.8 * sin, side * cos).as_vec3();
+                    cases.push((
+                        format!("{} {k}, z = {}", model.name, outgoing.z),
+                        bsdf,
+                        outgoing,
+                    ));
+                }
+            }
+        }
+    }
+    cases
+}
+
+fn sampled(bsdf: &Bsdf, outgoing: Vec3, random: &mut Random) -> Option<Scattered> {
+    let mut unit = || (random.bits() >> 40) as f32 / (1u32 << 24) as f32;
+    bsdf.sample(outgoing, Vec2::new(unit(), unit()), unit())
+}
+
+/// The index of refraction beyond the surface, relative to that on the side of a direction.
+fn index_beyond(bsdf: &Bsdf, outgoing: Vec3) -> f32 {
+    match bsdf {
+        Bsdf::RoughDielectric(model) => dielectric::index_beyond(model.media.eta, outgoing),
+        _ => 1.0,
+    }
+}
+
+#[test]
+fn exchanging_both_directions_gives_the_same_bsdf_but_for_the_squared_index() {
+    let mut random = Random::new(1);
+    for (name, bsdf, outgoing) in cases() {
+        for _ in 0..1000 {
+            let incoming = random.direction().as_vec3();
+            let (eta, transmits) = (index_beyond(&bsdf, outgoing), outgoing.z * incoming.z < 0.0);
+            // The normal of the facet that refracts.
+            let m = (outgoing + eta * incoming).normalize();
+            let grazes = outgoing.dot(m).abs().min(incoming.dot(m).abs()) < 0.02;
+            if incoming.z.abs() < 1e-3 || transmits && grazes {
+                continue;
+            }
+            let one = bsdf.evaluate(outgoing, incoming) / incoming.z.abs();
+            let other = bsdf.evaluate(incoming, outgoing) / outgoing.z.abs();
+            let scale = if transmits { eta * eta } else { 1.0 };
+            let difference = (scale * one - other).abs().max_element();
+            // Both orders compute the halfway direction to 1e-7, which changes the area of facets by 1e-7 times its
+            // logarithm's slope: 2/alpha, times the exponent of Beckmann's law, up to 80. A cosine beyond the interface of
+            // at least 0.02 is exact to 2e-7/(2 · 0.02²) of itself, and so is the part of light that is refracted.
+            let bound = 1e-3 * other.max_element() + 1e-12;
+            assert!(difference <= bound, "{name}, {incoming}: {one} {other}");
+        }
+    }
+}
+
+#[test]
+fn no_model_reflects_more_light_than_arrives() {
+    const N: u32 = 40_000;
+    for (name, bsdf, outgoing) in cases() {
+        let mut random = Random::new(2);
+        let (mut sum, mut squares) = (glam::DVec3::ZERO, glam::DVec3::ZERO);
+        for _ in 0..N {
+            // Refracted radiance is scaled by the squared index, its power isn't.
+            let weight = sampled(&bsdf, outgoing, &mut random)
+                .map_or(Vec3::ZERO, |s| s.weight * s.eta * s.eta);
+            assert!(
+                weight.is_finite() && weight.min_element() >= 0.0,
+                "{name}: {weight}"
+            );
+            sum += weight.as_dvec3();
+            squares += weight.as_dvec3() * weight.as_dvec3();
+        }
+        let n = f64::from(N);
+        let mean = sum / n;
+        let error = ((squares / n - mean * mean).max(glam::DVec3::ZERO) / n).powf(0.5);
+        // 4 standard errors: one in 30 000 such sums, of about 110, exceeds them by chance. 1e-3: the transmittance of
+        // rough coats is a table.
+        let excess = (mean - 4.0 * error).max_element();
+        assert!(excess <= 1.0 + 1e-3, "{name}: {mean} ± {error}, n = {N}");
+    }
+}
+
+#[test]
+fn weights_are_the_bsdf_over_the_density_and_single_directions_have_none() {
+    for (name, bsdf, outgoing) in cases() {
+        let mut random = Random::new(3);
+        let mut has_density = false;
+        for _ in 0..5000 {
+            let Some(scattered) = sampled(&bsdf, outgoing, &mut random) else {
+                continue;
+            };
+            let Scattered {
+                incoming,
+                weight,
+                density,
+                eta,
+            } = scattered;
+            assert!((incoming.length() - 1.0).abs() < 1e-4, "{name}: {incoming}");
+            assert!(eta == 1.0 || outgoing.z * incoming.z < 0.0, "{name}");
+            let Some(density) = density else { continue };
+            has_density = true;
+            let found = bsdf.density(outgoing, incoming);
+            let value = bsdf.evaluate(outgoing, incoming);
+            // Where two roundings of the direction meet a steep density, both differ; see the reciprocity.
+            let is_steep = incoming.z.abs() < 0.01;
+            if is_steep {
+                continue;
+            }
+            assert!(
+                (found / density - 1.0).abs() < 1e-2,
+                "{name}: {incoming} {found} {density}"
+            );
+            let difference = (value / found - weight).abs().max_element();
+            assert!(
+                difference < 1e-3 * weight.max_element().max(1.0),
+                "{name}: {incoming} {value} {found} {weight}"
+            );
+        }
+        for _ in 0..100 {
+            let incoming = random.direction().as_vec3();
+            let value = bsdf.evaluate(outgoing, incoming);
+            let density = bsdf.density(outgoing, incoming);
+            assert!(
+                has_density || (value == Vec3::ZERO && density == 0.0),
+                "{name}"
+            );
+            // Where light is scattered to, it can be sampled.
+            assert!(
+                density > 0.0 || value == Vec3::ZERO,
+                "{name}: {incoming} {value}"
+            );
+        }
+    }
+}
+
+const ROWS: usize = 12;
+const COLUMNS: usize = 16;
+
+/// The polar angle by row, from 0 to 1: rows are narrow at the poles, about which refracted light is concentrated.
+fn polar_angle(row: f64) -> f64 {
+    PI * row * row * (3.0 - 2.0 * row)
+}
+
+/// The number of the cell that contains a direction.
+fn cell(dir: Vec3) -> usize {
+    let dir = dir.as_dvec3();
+    let angle = libm::acos(dir.z.clamp(-1.0, 1.0));
+    // The inverse of the polar angle by row.
+    let row = (0.5 - libm::sin(libm::asin(1.0 - 2.0 * angle / PI) / 3.0)) * ROWS as f64;
+    let column = (libm::atan2(dir.y, dir.x) / TAU).rem_euclid(1.0) * COLUMNS as f64;
+    (row as usize).min(ROWS - 1) * COLUMNS + (column as usize).min(COLUMNS - 1)
+}
+
+/// The integral of the density over each cell, from a random point in each of 1600 parts: where facets are vertical, the
+/// density jumps, along a curve that a regular grid might follow.
+fn integrals(bsdf: &Bsdf, outgoing: Vec3) -> Vec<f64> {
+    const STEPS: usize = 40;
+    let mut random = Random::new(6);
+    let mut cells = vec![0.0; ROWS * COLUMNS];
+    let (rows, columns) = (ROWS * STEPS, COLUMNS * STEPS);
+    for i in 0..rows {
+        for j in 0..columns {
+            let row = (i as f64 + random.unit()) / rows as f64;
+            let (sin, cos) = libm::sincos(polar_angle(row));
+            let column = (j as f64 + random.unit()) / columns as f64;
+            let (sin_phi, cos_phi) = libm::sincos(column * TAU);
+            let step = PI * 6.0 * row * (1.0 - row) / rows as f64;
+            let area = sin * step * TAU / columns as f64;
+            let dir = glam::DVec3::new(sin * cos_phi, sin * sin_phi, cos).as_vec3();
+            let density = f64::from(bsdf.density(outgoing, dir));
+            cells[i / STEPS * COLUMNS + j / STEPS] += area * density;
+        }
+    }
+    cells
+}
+
+/// The quantile of the χ² distribution that is exceeded once in 100 000 times.
+///
+/// Source: Wilson, Hilferty, "The Distribution of Chi-Square", PNAS 17, 1931.
+fn chi_squared_bound(degrees: usize) -> f64 {
+    let x = 2.0 / (9.0 * degrees as f64);
+    // 4.265: the same quantile of the normal distribution.
+    degrees as f64 * (1.0 - x + 4.265 * x.sqrt()).powi(3)
+}
+
+#[test]
+fn directions_are_sampled_with_their_density_whose_integral_is_the_probability_of_any() {
+    // As many that the integrals' errors, below 1e-4 of the whole, are below the samples', √(n · integral).
+    const N: usize = 20_000;
+    for (name, bsdf, outgoing) in cases() {
+        let mut integrals = integrals(&bsdf, outgoing);
+        let sum: f64 = integrals.iter().sum();
+        assert!(sum <= 1.0 + 1e-3, "{name}: {sum}");
+        let mut counts = vec![0usize; integrals.len()];
+        let mut random = Random::new(4);
+        for _ in 0..N {
+            if let Some(Scattered {
+                incoming,
+                density: Some(_),
+                ..
+            }) = sampled(&bsdf, outgoing, &mut random)
+            {
+                counts[cell(incoming)] += 1;
+            }
+        }
+        // Single directions and none.
+        counts.push(N - counts.iter().sum::<usize>());
+        integrals.push((1.0 - sum).max(0.0));
+        // The test needs 5 expected samples a cell; the others are one.
+        let (mut statistic, mut degrees) = (0.0, 0);
+        let mut few = (0.0, 0.0);
+        let mut add = |expected: f64, count: f64| {
+            statistic += (count - expected).powi(2) / expected;
+            degrees += 1;
+        };
+        for (integral, count) in integrals.iter().zip(counts) {
+            let (expected, count) = (integral * N as f64, count as f64);
+            if expected >= 5.0 {
+                add(expected, count);
+            } else {
+                few = (few.0 + expected, few.1 + count);
+            }
+        }
+        if few.0 >= 5.0 {
+            add(few.0, few.1);
+        } else {
+            // 5 expected samples are exceeded by 25 once in 10¹⁰ times.
+            assert!(few.1 < 25.0, "{name}: {few:?}");
+        }
+        if degrees > 1 {
+            let bound = chi_squared_bound(degrees - 1);
+            assert!(
+                statistic < bound,
+                "{name}: χ² {statistic}, {degrees} cells, bound {bound}"
+            );
+        }
+    }
+}
+
+#[test]
+fn smooth_glass_refracts_by_snells_law_and_reflects_what_fresnel_says() {
+    let (eta, transmittance) = (1.5f32, Vec3::new(1.0, 0.5, 0.25));
+    let glass = Dielectric {
+        eta,
+        reflectance: Vec3::ONE,
+        transmittance,
+    };
+    for (z, eta) in [
+        (1.0f32, eta),
+        (0.5, eta),
+        (0.05, eta),
+        (-1.0, 1.0 / eta),
+        (-0.8, 1.0 / eta),
+    ] {
+        let outgoing = Vec3::new((1.0 - z * z).sqrt(), 0.0, z);
+        let refracted = glass
+            .sample(outgoing, Vec2::ZERO, 0.999_999)
+            .expect("light passes");
+        let incoming = refracted.incoming;
+        // Rounding of numbers of size 1.
+        assert!((eta * incoming.x + outgoing.x).abs() < 1e-6 && incoming.y == 0.0);
+        assert!(incoming.z * z < 0.0 && (incoming.length() - 1.0).abs() < 1e-6);
+        assert_eq!((refracted.eta, refracted.density), (eta, None));
+        assert!((refracted.weight * eta * eta - transmittance).length() < 1e-6);
+        let reflected = glass
+            .sample(outgoing, Vec2::ZERO, 0.0)
+            .expect("light is reflected");
+        assert_eq!(reflected.incoming, Vec3::new(-outgoing.x, 0.0, z));
+    }
+    // Along the normal, 4 % are reflected.
+    let at = |choice| {
+        glass
+            .sample(Vec3::Z, Vec2::ZERO, choice)
+            .expect("light")
+            .incoming
+            .z
+    };
+    assert!(at(0.039_99) > 0.0 && at(0.040_01) < 0.0);
+    // Inside, beyond 41.8° from the normal, everything is.
+    let inside = Vec3::new(0.7, 0.0, -(1.0 - 0.49f32).sqrt());
+    let reflected = glass.sample(inside, Vec2::ZERO, 0.999_999).expect("light");
+    assert_eq!(
+        (reflected.incoming.z, reflected.weight),
+        (inside.z, Vec3::ONE)
+    );
+}
+
+#[test]
+fn white_plastic_and_glass_lose_no_light() {
+    const N: u32 = 100_000;
+    let white = Vec3::ONE;
+    let plastic = Bsdf::Plastic(Plastic::new(white, white, 1.5, true));
+    let pane = Bsdf::ThinDielectric(ThinDielectric {
+        eta: 1.5,
+        reflectance: white,
+        transmittance: white,
+    });
+    let outgoing = Vec3::new(0.6, 0.0, 0.8);
+    for bsdf in [plastic, pane] {
+        let mut random = Random::new(5);
+        let weight =
+            |_| sampled(&bsdf, outgoing, &mut random).map_or(0.0, |s| f64::from(s.weight.x));
+        let weights: Vec<f64> = (0..N).map(weight).collect();
+        let mean = weights.iter().sum::<f64>() / f64::from(N);
+        // The weights' standard deviation is below 0.2: 4 standard errors.
+        assert!(
+            (mean - 1.0).abs() < 4.0 * 0.2 / f64::from(N).sqrt(),
+            "{mean}"
+        );
+    }
+}

@@ -1,0 +1,117 @@
+//! The materials of a scene file.
+
+use crate::bsdf::{
+    self, Conductor, Dielectric, Diffuse, Law, Microfacets, Plastic, RoughConductor,
+    RoughDielectric, RoughPlastic, Scatter, ThinDielectric,
+};
+use crate::mesh::{Illumination, Material, Sides};
+use crate::scene_file::{self, Bsdf, Form, Roughness, SceneFile};
+use glam::Vec3;
+
+/// The materials of a scene file; the first stands for none.
+pub(super) fn materials(file: &SceneFile) -> Vec<Material> {
+    let none = std::iter::once(Material::default());
+    none.chain(file.materials.iter().map(material)).collect()
+}
+
+fn material(material: &scene_file::Material) -> Material {
+    let front = bsdf(&material.front);
+    let sides = Sides {
+        front,
+        back: match &material.back {
+            Some(back) if *back == material.front => Some(front),
+            back => back.as_ref().map(bsdf),
+        },
+    };
+    let is_matt = matches!(material.front, Bsdf::Diffuse { .. });
+    // Views without global light show a highlight in place of reflections.
+    let (illumination, specular) = if is_matt {
+        (Illumination::Diffuse, Vec3::ZERO)
+    } else {
+        (Illumination::Highlights, Vec3::splat(0.25))
+    };
+    Material {
+        name: material.id.clone().unwrap_or_default(),
+        diffuse: Some(front.colour()),
+        specular,
+        shininess: 50.0,
+        illumination,
+        opacity: material.opacity as f32,
+        sides: Some(Box::new(sides)),
+        ..Material::default()
+    }
+}
+
+fn facets(roughness: Roughness) -> Microfacets {
+    let law = if roughness.is_ggx {
+        Law::Ggx
+    } else {
+        Law::Beckmann
+    };
+    Microfacets::new(law, roughness.alpha as f32)
+}
+
+fn bsdf(described: &Bsdf) -> bsdf::Bsdf {
+    match *described {
+        Bsdf::Diffuse { reflectance } => bsdf::Bsdf::Diffuse(Diffuse {
+            reflectance: reflectance.as_vec3(),
+        }),
+        Bsdf::Conductor {
+            eta,
+            k,
+            specular_reflectance,
+            roughness,
+        } => {
+            let metal = Conductor {
+                eta: eta.as_vec3(),
+                k: k.as_vec3(),
+                reflectance: specular_reflectance.as_vec3(),
+            };
+            match roughness.map(facets) {
+                None => bsdf::Bsdf::Conductor(metal),
+                Some(facets) => bsdf::Bsdf::RoughConductor(RoughConductor { metal, facets }),
+            }
+        }
+        Bsdf::Dielectric {
+            eta,
+            specular_reflectance,
+            specular_transmittance,
+            form,
+        } => {
+            let media = Dielectric {
+                eta: eta as f32,
+                reflectance: specular_reflectance.as_vec3(),
+                transmittance: specular_transmittance.as_vec3(),
+            };
+            match form {
+                Form::Smooth => bsdf::Bsdf::Dielectric(media),
+                Form::Thin => bsdf::Bsdf::ThinDielectric(ThinDielectric {
+                    eta: media.eta,
+                    reflectance: media.reflectance,
+                    transmittance: media.transmittance,
+                }),
+                Form::Rough(roughness) => {
+                    let facets = facets(roughness);
+                    bsdf::Bsdf::RoughDielectric(RoughDielectric { media, facets })
+                }
+            }
+        }
+        Bsdf::Plastic {
+            eta,
+            diffuse_reflectance,
+            specular_reflectance,
+            is_nonlinear,
+            roughness,
+        } => {
+            let colours = [diffuse_reflectance, specular_reflectance].map(|rgb| rgb.as_vec3());
+            let ([diffuse, specular], eta) = (colours, eta as f32);
+            match roughness.map(facets) {
+                None => bsdf::Bsdf::Plastic(Plastic::new(diffuse, specular, eta, is_nonlinear)),
+                Some(facets) => {
+                    let coated = RoughPlastic::new(diffuse, specular, eta, facets, is_nonlinear);
+                    bsdf::Bsdf::RoughPlastic(coated)
+                }
+            }
+        }
+    }
+}
