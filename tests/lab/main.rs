@@ -22,6 +22,9 @@ mod exact;
 // The commands on scene files with other shapes than triangles.
 mod scene_files;
 
+// The commands on combined solids.
+mod solids;
+
 // The table in docs/accuracy.md matches a new measurement.
 mod accuracy;
 

@@ -5,7 +5,7 @@ mod table;
 mod tree;
 
 pub(crate) use csg::CsgGroup;
-pub use csg::{CSG_KERNELS, CsgOperation, Solid};
+pub use csg::{CSG_KERNELS, CsgOperation, LineIntervals, Solid, SolidNode, SolidOperand};
 pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
 pub use tree::{FirstTree, SceneOptions};
 
@@ -69,6 +69,11 @@ pub trait Group: Debug + Send + Sync {
     /// The equations of a primitive with a ray's line substituted; see [`equations_along`]. None by default.
     fn equations(&self, _ray: &Ray, _index: u32) -> Vec<LineEquation> {
         Vec::new()
+    }
+
+    /// The solid with an index, if this is a group of solids.
+    fn solid(&self, _index: u32) -> Option<&Solid> {
+        None
     }
 
     /// The material of a primitive, as an index into the mesh's materials.

@@ -1,6 +1,6 @@
 //! Writer of shapes.
 
-use super::description::{CsgOperation, Shape, ShapeKind};
+use super::description::{Shape, ShapeKind};
 use super::writer::{Writer, attributes};
 use super::xml::{WriteError, vector};
 use glam::DVec3;
@@ -90,7 +90,7 @@ impl Writer<'_> {
                 operation,
                 children,
             } => {
-                self.property("string", "operation", operation_name(*operation))?;
+                self.property("string", "operation", operation.name())?;
                 children.iter().try_for_each(|child| self.shape(child))
             }
         }
@@ -134,14 +134,6 @@ fn shape_type(kind: &ShapeKind) -> &'static str {
         ShapeKind::Torus { .. } => "torus",
         ShapeKind::Quadric(_) => "quadric",
         ShapeKind::Csg { .. } => "csg",
-    }
-}
-
-fn operation_name(operation: CsgOperation) -> &'static str {
-    match operation {
-        CsgOperation::Union => "union",
-        CsgOperation::Intersection => "intersection",
-        CsgOperation::Difference => "difference",
     }
 }
 

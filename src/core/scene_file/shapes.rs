@@ -244,17 +244,13 @@ fn quadric(parameters: &mut Parameters) -> Result<Quadric, Problem> {
 }
 
 fn operation(parameters: &mut Parameters) -> Result<CsgOperation, Problem> {
-    const OPERATIONS: [(&str, CsgOperation); 3] = [
-        ("union", CsgOperation::Union),
-        ("intersection", CsgOperation::Intersection),
-        ("difference", CsgOperation::Difference),
-    ];
     let Some((name, place)) = parameters.text("operation")? else {
         return Err(parameters.problem("parameter “operation” is missing"));
     };
-    let found = OPERATIONS.iter().find(|(known, _)| *known == name);
-    let unknown = || Problem::at(place, unknown("operation", &name, &OPERATIONS.map(|o| o.0)));
-    found.map(|(_, operation)| *operation).ok_or_else(unknown)
+    let all = CsgOperation::ALL;
+    let found = all.into_iter().find(|operation| operation.name() == name);
+    let names = all.map(CsgOperation::name);
+    found.ok_or_else(|| Problem::at(place, unknown("operation", &name, &names)))
 }
 
 fn solids(parts: &mut Parts) -> Result<Vec<Shape>, Problem> {

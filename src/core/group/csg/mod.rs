@@ -6,18 +6,21 @@
 //! |---|---|
 //! | `solid` | solids as trees of operations over shapes |
 //! | `crossings` | the points at which a ray enters and leaves a solid |
+//! | `along_line` | the intervals of a line inside a solid, for display |
 //! | `intersector` | intersector of several solids |
 //! | `kernels` | one description per tier |
 //! | `lines` | wireframe lines |
 
+mod along_line;
 mod crossings;
 mod intersector;
 mod kernels;
 mod lines;
 mod solid;
 
+pub use along_line::LineIntervals;
 pub use kernels::CSG_KERNELS;
-pub use solid::{CsgOperation, Solid};
+pub use solid::{CsgOperation, Solid, SolidNode, SolidOperand};
 
 use super::Group;
 use crate::aabb::Aabb;
@@ -137,6 +140,10 @@ impl Group for CsgGroup {
     /// A solid isn't an operand of another: trees are flattened.
     fn interior(&self, _: u32, _: &Ray) -> Interior {
         Interior::Open
+    }
+
+    fn solid(&self, index: u32) -> Option<&Solid> {
+        self.solids.get(index as usize)
     }
 
     fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]> {
