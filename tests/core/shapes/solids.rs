@@ -287,6 +287,32 @@ fn where_surfaces_coincide_the_one_that_faces_the_ray_counts() {
 }
 
 #[test]
+fn a_coinciding_surface_that_bounds_nothing_is_not_hit() {
+    // The ray enters both boxes at z = 1; the first one is cut away there.
+    let cut = cube(Vec3::new(-1.0, -1.0, 0.0), Vec3::ONE);
+    let left = Plane {
+        point: Vec3::ZERO,
+        normal: Vec3::X,
+    };
+    let ball = Sphere {
+        centre: Vec3::new(0.5, 0.0, 0.5),
+        radius: 0.5,
+    };
+    let half = vec![Solid::of(cut), Solid::of(left)];
+    let half = Solid::combined(CsgOperation::Intersection, half);
+    let scene = scene_of(vec![Solid::combined(
+        CsgOperation::Union,
+        vec![half, Solid::of(ball)],
+    )]);
+    let ray = Ray::new(Vec3::new(0.5, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
+    let hit = intersector(&scene, Tier::Exact)
+        .closest_hit(&ray)
+        .expect("the ball");
+    // The third operand.
+    assert_eq!((hit.t, hit.v), (2.0, 2.0));
+}
+
+#[test]
 fn an_open_surface_encloses_nothing() {
     let open = Cylinder {
         p0: Vec3::ZERO,

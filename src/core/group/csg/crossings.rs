@@ -86,15 +86,11 @@ impl PackedSolid {
         let mut was_inside = self.solid.is_inside(&inside);
         let mut crossings = Vec::new();
         for mut equal in ends {
+            let before = inside.clone();
             pass(&equal, &mut inside);
             let is_inside = self.solid.is_inside(&inside);
             if is_inside != was_inside && equal[0].crossing.is_in_interval(ray) {
-                // The surface faces the ray if the solid is entered: so does that of an operand that changes likewise.
-                let changes_likewise = |event: &Event| {
-                    let operand = &self.solid.operands()[event.operand];
-                    (inside[event.operand] != operand.is_subtracted) == is_inside
-                };
-                let index = equal.iter().position(changes_likewise).unwrap_or(0);
+                let index = self.visible_of(&equal, &before, &inside);
                 let Event { crossing, operand } = equal.swap_remove(index);
                 let v = operand as f32;
                 crossings.push(crossing.with_hit(|hit| Hit { v, ..hit }));
@@ -102,6 +98,32 @@ impl PackedSolid {
             was_inside = is_inside;
         }
         crossings
+    }
+
+    /// The first of several ends at equal t whose operand's surface is the solid's there.
+    ///
+    /// The surface faces the ray if the solid is entered: so does that of an operand that changes likewise. It bounds the
+    /// solid only if the solid changes with that operand alone.
+    fn visible_of(&self, equal: &[Event], before: &[bool], after: &[bool]) -> usize {
+        if equal.len() == 1 {
+            return 0;
+        }
+        let is_inside = self.solid.is_inside(after);
+        let changes_likewise = |event: &Event| {
+            let is_subtracted = self.solid.operands()[event.operand].is_subtracted;
+            (after[event.operand] != is_subtracted) == is_inside
+        };
+        let bounds = |event: &Event| {
+            [before, after].iter().any(|state| {
+                let mut changed = state.to_vec();
+                changed[event.operand] ^= true;
+                self.solid.is_inside(&changed) != self.solid.is_inside(state)
+            })
+        };
+        let both = |event: &Event| changes_likewise(event) && bounds(event);
+        let found = equal.iter().position(both);
+        let found = found.or_else(|| equal.iter().position(changes_likewise));
+        found.unwrap_or(0)
     }
 
     /// The intervals of the ray's whole line inside each part, in the order of [`SolidNode::each`].

@@ -2,7 +2,8 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | `samples`, `flat` | random primitives |
+//! | `samples`, `flat`, `aligned` | random primitives |
+//! | `solids` | random combined solids |
 //! | `rays` | rays at them |
 //! | `cases`, `special` | the cases of every shape, and those of one shape alone |
 //! | `cells` | wrong decisions and errors of t |
@@ -16,6 +17,7 @@ mod cells;
 mod flat;
 mod rays;
 mod samples;
+mod solids;
 mod spawning;
 mod special;
 
@@ -23,4 +25,5 @@ pub use cases::{ShapeCase, shape_cases, shape_spawn_cases};
 pub use cells::ShapeCell;
 pub use rays::{Aim, aimed};
 pub use samples::Sampled;
+pub use solids::SampledSolid;
 pub use spawning::{ShapeSpawnCell, SpawnPlace, measure_spawning, spawn_places};
