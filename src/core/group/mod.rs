@@ -5,7 +5,9 @@ mod table;
 mod tree;
 
 pub(crate) use csg::CsgGroup;
-pub use csg::{CSG_KERNELS, CsgOperation, LineIntervals, Solid, SolidNode, SolidOperand};
+pub use csg::{
+    CSG_KERNELS, CsgOperation, INFO as SOLID_INFO, LineIntervals, Solid, SolidNode, SolidOperand,
+};
 pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
 pub use tree::{FirstTree, SceneOptions};
 

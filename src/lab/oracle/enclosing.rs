@@ -17,6 +17,8 @@ use hitscope_core::shape::{
     AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Plane, Quadric, Sphere, Torus,
 };
 use std::cmp::Ordering;
+use std::fmt::Debug;
+use std::sync::Arc;
 
 /// A shape that encloses points.
 pub trait Enclosing: Oracle + Grouped {
@@ -33,6 +35,44 @@ pub trait Enclosing: Oracle + Grouped {
     fn solid(&self) -> Solid {
         Solid::of(self.clone())
     }
+
+    /// The shapes that are the solid's operands.
+    fn operands(&self) -> Vec<Arc<dyn EnclosingShape>> {
+        vec![Arc::new(self.clone())]
+    }
+}
+
+/// [`Enclosing`] for a primitive of any shape.
+pub trait EnclosingShape: Debug + Send + Sync {
+    /// See [`Enclosing::side`]. All points are outside a primitive that encloses nothing.
+    fn side(&self, ray: &Ray, t: f64) -> Ordering;
+
+    /// See [`Enclosing::changes`].
+    fn changes(&self, ray: &Ray) -> Vec<ExactT>;
+
+    /// See [`Enclosing::solid`].
+    fn solid(&self) -> Solid;
+
+    /// See [`Enclosing::operands`].
+    fn operands(&self) -> Vec<Arc<dyn EnclosingShape>>;
+}
+
+impl<S: Enclosing> EnclosingShape for S {
+    fn side(&self, ray: &Ray, t: f64) -> Ordering {
+        S::side(self, ray, t).unwrap_or(Ordering::Greater)
+    }
+
+    fn changes(&self, ray: &Ray) -> Vec<ExactT> {
+        S::changes(self, ray)
+    }
+
+    fn solid(&self) -> Solid {
+        S::solid(self)
+    }
+
+    fn operands(&self) -> Vec<Arc<dyn EnclosingShape>> {
+        S::operands(self)
+    }
 }
 
 /// A point of a ray, and places, in a common unit.
@@ -45,7 +85,10 @@ impl IntegerPoint {
     /// `None` if a number isn't finite.
     fn new(ray: &Ray, t: f64, places: &[Vec3]) -> Option<Self> {
         let all = IntegerRay::new(ray, places)?;
-        let (mantissa, exponent) = decode(t)?;
+        let (mantissa, exponent) = match decode(t)? {
+            (0, _) => (0, all.exponent),
+            nonzero => nonzero,
+        };
         // t is in units of 2^exponent of the ray; a finer unit makes it an integer.
         let shift = exponent - all.exponent;
         let finer = shift.min(0).unsigned_abs() as usize;
@@ -200,16 +243,8 @@ impl Enclosing for Quadric {
 
     /// The crossings with the surface, also beyond the box, and those with the box.
     fn changes(&self, ray: &Ray) -> Vec<ExactT> {
-        let unbounded = Self {
-            half: Vec3::splat(1e30),
-            ..*self
-        };
-        let Vec3 { x, y, z } = self.half;
-        let cut = Cuboid {
-            centre: self.centre,
-            axes: [x * Vec3::X, y * Vec3::Y, z * Vec3::Z],
-        };
-        let mut changes = unbounded.crossings(ray);
+        let (surface, cut) = parts(self);
+        let mut changes = surface.crossings(ray);
         changes.extend(cut.crossings(ray));
         changes
     }
@@ -217,4 +252,20 @@ impl Enclosing for Quadric {
     fn solid(&self) -> Solid {
         Solid::of_quadric(*self)
     }
+
+    fn operands(&self) -> Vec<Arc<dyn EnclosingShape>> {
+        let (surface, cut) = parts(self);
+        vec![Arc::new(surface), Arc::new(cut)]
+    }
+}
+
+/// A quadric in a box that is larger than any scene, and its own box.
+fn parts(quadric: &Quadric) -> (Quadric, Cuboid) {
+    let Vec3 { x, y, z } = quadric.half;
+    let cut = Cuboid {
+        centre: quadric.centre,
+        axes: [x * Vec3::X, y * Vec3::Y, z * Vec3::Z],
+    };
+    let half = Vec3::splat(1e30);
+    (Quadric { half, ..*quadric }, cut)
 }

@@ -28,9 +28,9 @@ mod surd;
 mod torus;
 mod triangle;
 
-pub use enclosing::Enclosing;
+pub use enclosing::{Enclosing, EnclosingShape};
 pub use exact_t::ExactT;
 pub use fraction::Fraction;
 pub use shapes::{Oracle, crossings_in_f64};
-pub use solid::{Division, EnclosingShape, OracleSolid};
+pub use solid::{Division, OracleSolid};
 pub use triangle::{Crossing, ExactHit, crossings, intersect, nearest};

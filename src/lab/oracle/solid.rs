@@ -3,7 +3,7 @@
 //! Between two consecutive crossings with any shape, one point decides about all. The kernels instead count how often
 //! each shape is entered and left.
 
-use super::enclosing::Enclosing;
+use super::enclosing::{Enclosing, EnclosingShape};
 use super::exact_t::ExactT;
 use hitscope_core::Ray;
 use hitscope_core::group::{CsgOperation, Solid};
@@ -18,32 +18,6 @@ pub enum OracleSolid {
     Shape(Arc<dyn EnclosingShape>),
     /// A combination of solids, at least one.
     Combined(CsgOperation, Vec<OracleSolid>),
-}
-
-/// [`Enclosing`] for a primitive of any shape.
-pub trait EnclosingShape: Debug + Send + Sync {
-    /// See [`Enclosing::side`]. All points are outside a primitive that encloses nothing.
-    fn side(&self, ray: &Ray, t: f64) -> Ordering;
-
-    /// See [`Enclosing::changes`].
-    fn changes(&self, ray: &Ray) -> Vec<ExactT>;
-
-    /// See [`Enclosing::solid`].
-    fn solid(&self) -> Solid;
-}
-
-impl<S: Enclosing> EnclosingShape for S {
-    fn side(&self, ray: &Ray, t: f64) -> Ordering {
-        S::side(self, ray, t).unwrap_or(Ordering::Greater)
-    }
-
-    fn changes(&self, ray: &Ray) -> Vec<ExactT> {
-        S::changes(self, ray)
-    }
-
-    fn solid(&self) -> Solid {
-        S::solid(self)
-    }
 }
 
 /// A ray's points with t > 0, divided where it crosses a surface of any of a solid's shapes.
@@ -79,6 +53,12 @@ impl OracleSolid {
             Self::Shape(shape) => vec![&**shape],
             Self::Combined(_, parts) => parts.iter().flat_map(Self::shapes).collect(),
         }
+    }
+
+    /// The operands of [`solid`](Self::solid).
+    pub fn operands(&self) -> Vec<Arc<dyn EnclosingShape>> {
+        let shapes = self.shapes().into_iter();
+        shapes.flat_map(EnclosingShape::operands).collect()
     }
 
     /// Whether the point o + t·d is inside; `None` if it is on the surface of one of the shapes.

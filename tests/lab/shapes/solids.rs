@@ -15,7 +15,9 @@ use hitscope_core::shape::{
 };
 use hitscope_core::{Intersector, Ray, Scene};
 use hitscope_lab::measure::shapes::SampledSolid;
-use hitscope_lab::oracle::{Division, ExactT, OracleSolid};
+use hitscope_lab::oracle::{Division, EnclosingShape, ExactT, OracleSolid};
+use std::cmp::Ordering;
+use std::sync::Arc;
 use std::sync::atomic::{AtomicU64, Ordering::Relaxed};
 
 /// Rays per solid, because packing takes longer than tracing.
@@ -30,6 +32,7 @@ fn solid_count() -> u64 {
 /// A solid in a scene of its own, packed for the exact kernel.
 struct Checked<'a> {
     solid: &'a OracleSolid,
+    operands: Vec<Arc<dyn EnclosingShape>>,
     scene: Scene,
     intersector: Box<dyn Intersector>,
 }
@@ -42,6 +45,7 @@ impl<'a> Checked<'a> {
         added.expect("nobody cancels");
         let exact = kernel_named(Tier::Exact.name()).expect("a tier");
         Self {
+            operands: solid.operands(),
             solid,
             intersector: scene.intersector(exact),
             scene,
@@ -75,18 +79,11 @@ impl<'a> Checked<'a> {
     fn check_operand(&self, ray: &Ray, division: &Division, end: usize, operand: usize) {
         let (group, _) = self.scene.group_of(0);
         let is_subtracted = group.solid(0).expect("a solid").operands()[operand].is_subtracted;
-        // A quadric consists of two operands.
-        let mut first = 0;
-        for shape in self.solid.shapes() {
-            let count = shape.solid().operands().len();
-            if operand == first && count == 1 {
-                let [before, after] = [end, end + 1].map(|k| shape.side(ray, division.middles[k]));
-                assert_ne!(before, after, "{operand} of {:?} {ray:?}", self.solid);
-                let is_entered = (after == std::cmp::Ordering::Less) != is_subtracted;
-                assert_eq!(is_entered, division.inside[end + 1], "{operand} {ray:?}");
-            }
-            first += count;
-        }
+        let shape = &self.operands[operand];
+        let [before, after] = [end, end + 1].map(|k| shape.side(ray, division.middles[k]));
+        assert_ne!(before, after, "{operand} of {:?} {ray:?}", self.solid);
+        let is_entered = (after == Ordering::Less) != is_subtracted;
+        assert_eq!(is_entered, division.inside[end + 1], "{operand} {ray:?}");
     }
 
     /// The intervals of every part contain the points that are inside that part.
@@ -128,7 +125,7 @@ impl<'a> Checked<'a> {
                     self.check_part(ray, t, part, node, rest);
                 }
             }
-            // A quadric and its box.
+            // A quadric and its box: two operands.
             (OracleSolid::Shape(_), SolidNode::Operation(_, nodes)) => {
                 nodes.iter().for_each(|_| _ = rest.next());
             }

@@ -39,7 +39,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 /// The names of solids.
-pub(crate) static INFO: ShapeInfo = ShapeInfo {
+pub static INFO: ShapeInfo = ShapeInfo {
     name: "solid",
     plural: "solids",
     parameters: &[],
