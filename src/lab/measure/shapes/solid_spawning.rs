@@ -73,23 +73,24 @@ impl SpawnSurface for PackedSolid {
         self.scene.surface(ray, hit)
     }
 
-    /// The ray began beyond an edge if it began on the wrong side of the solid's surface, but on the right side of the
-    /// operand's that it left. Rounding near the seam of two operands causes that, or a part thinner than the rounding.
-    fn judge(&self, left: &Hit, is_outwards: bool, ray: &Ray, _: &Hit) -> Again {
+    /// The ray began beyond an edge if it hits another operand or part. So it did if it began on the wrong side of the
+    /// solid's surface, but on the right side of that of the operand that it left: close to a seam of two operands, or in a
+    /// part of the solid that is thinner than the rounding.
+    fn judge(&self, left: &Hit, is_outwards: bool, ray: &Ray, again: &Hit) -> Again {
         let (group, index) = self.scene.group_of(left.primitive);
-        let Some(solid) = group.solid(index) else {
-            return Again::Same;
+        let is_same_part = [left.u, left.v] == [again.u, again.v];
+        let Some(solid) = group.solid(index).filter(|_| is_same_part) else {
+            return Again::BeyondEdge;
         };
         let (number, operand) = solid.operand_of(left);
-        let expected = if is_outwards != operand.is_subtracted {
+        let right_side = if is_outwards != operand.is_subtracted {
             Ordering::Greater
         } else {
             Ordering::Less
         };
-        let is_on_right_side = self.operands[number].side(ray, 0.0) == expected;
-        let is_expected_inside = !is_outwards;
-        let is_at_right_place = self.solid.is_inside(ray, 0.0) == Some(is_expected_inside);
-        if is_on_right_side && !is_at_right_place {
+        let began_on_right_side = self.operands[number].side(ray, 0.0) == right_side;
+        let began_as_it_should = self.solid.is_inside(ray, 0.0) == Some(!is_outwards);
+        if began_on_right_side && !began_as_it_should {
             Again::BeyondEdge
         } else {
             Again::Same
