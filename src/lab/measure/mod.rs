@@ -8,11 +8,12 @@
 //! | [`boxes`] | hits lost by the tree's boxes |
 //! | [`spawning`] | self-hits of spawned rays |
 //! | [`shapes`] | errors of kernels and self-hits of spawned rays for single primitives of all shapes |
+//! | [`packing`] | time and memory of packing primitives of all shapes and solids |
 //! | [`speed`], [`workloads`] | rays per second |
 //! | [`scene`] | kernels in the user's scene |
 //! | [`lecture`] | the lecture's programs as printed |
 //!
-//! All results except speed depend only on the seed, not on the run or the machine.
+//! All results except speed and packing times depend only on the seed, not on the run or the machine.
 
 pub mod boxes;
 pub mod cases;
@@ -20,6 +21,7 @@ pub mod contestants;
 pub mod lecture;
 pub mod meshes;
 pub mod order;
+pub mod packing;
 pub mod scene;
 pub mod shapes;
 mod sizes;
@@ -38,6 +40,7 @@ use hitscope_core::sampler::mix;
 use hitscope_core::shape::Triangle;
 use meshes::{MeshCell, mesh_cases};
 use order::{ORDER_CASES, OrderCell};
+use packing::PackingCell;
 use rayon::prelude::*;
 use shapes::{ShapeCase, ShapeCell, ShapeSpawnCell, shape_cases, shape_spawn_cases};
 pub use sizes::Sizes;
@@ -64,6 +67,8 @@ pub struct Measurements {
     pub shapes: Vec<ShapeCell>,
     /// Rays spawned on single primitives of all shapes.
     pub shape_spawning: Vec<ShapeSpawnCell>,
+    /// Packing, one cell per kernel of every shape.
+    pub packing: Vec<PackingCell>,
     /// One row per kernel.
     pub speed: Vec<Speed>,
 }
@@ -154,7 +159,7 @@ pub struct RunProgress {
     pub left: Duration,
 }
 
-/// Runs the cases for which `is_wanted` holds. Measures speed only if all cases are wanted.
+/// Runs the cases for which `is_wanted` holds. Measures speed and packing only if the sizes have rays for speed.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -190,6 +195,8 @@ pub fn run(
     }
     if sizes.speed_rays > 0 {
         all.speed = speed_on_sphere(sizes, seed, progress)?;
+        let (count, rounds) = (sizes.packed_primitives, sizes.speed_rounds);
+        all.packing = packing::measure(count, rounds, seed, progress)?;
     }
     Ok(all)
 }

@@ -329,6 +329,25 @@ fn an_open_surface_encloses_nothing() {
 }
 
 #[test]
+fn the_size_of_a_packed_solid_includes_its_operands() {
+    let ball = |x: f32| {
+        Solid::of(Sphere {
+            centre: x * Vec3::X,
+            radius: 1.0,
+        })
+    };
+    let bytes = |count: u8| {
+        let balls = (0..count).map(|x| ball(x.into())).collect();
+        let scene = scene_of(vec![Solid::combined(CsgOperation::Union, balls)]);
+        intersector(&scene, Tier::Watertight).bytes()
+    };
+    let [one, two, three] = [1, 2, 3].map(bytes);
+    assert_eq!(three - two, two - one);
+    // The operand itself, its packed sphere of four numbers, and its tree.
+    assert!(two - one > 100, "{}", two - one);
+}
+
+#[test]
 fn many_solids_in_a_tree_give_the_nearest_of_each() {
     let mut random = Random::new(5);
     let dented = |random: &mut Random| {
