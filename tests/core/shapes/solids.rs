@@ -8,7 +8,7 @@ use hitscope_core::mesh::{Runs, TriangleMesh};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
-use hitscope_core::shape::{Cone, Cuboid, Cylinder, Plane, Quadric, Sphere, Torus};
+use hitscope_core::shape::{Cone, Cuboid, Cylinder, LineDetail, Plane, Quadric, Sphere, Torus};
 use hitscope_core::{Intersector, Ray, Scene};
 
 const OPERATIONS: [CsgOperation; 3] = [
@@ -326,6 +326,36 @@ fn an_open_surface_encloses_nothing() {
         crossings(&*exact, [-2.0, 0.0, 0.5], [1.0, 0.0, 0.0]),
         [0.0; 0]
     );
+}
+
+#[test]
+fn lines_end_at_the_seam_of_two_operands() {
+    let whole = cube(-Vec3::ONE, Vec3::ONE);
+    let dent = Sphere {
+        centre: Vec3::Z,
+        radius: 0.51,
+    };
+    let both = vec![Solid::of(whole), Solid::of(dent)];
+    let scene = scene_of(vec![Solid::combined(CsgOperation::Difference, both)]);
+    let detail = LineDetail {
+        segments: 64,
+        around: scene.bounds(),
+    };
+    let (mut nearest, mut sees_dent) = (f64::INFINITY, false);
+    scene.groups()[0].lines(0, &detail, &mut |line| {
+        for point in line {
+            let p = point.position;
+            sees_dent |= p.z < 0.99 && p.length() < 0.9;
+            // The middle line of the upper side.
+            if p.z == 1.0 && p.y == 0.0 {
+                nearest = nearest.min(p.x.abs());
+            }
+        }
+    });
+    // The line of length 2 has 64 pieces, of which the one at the seam is halved ten times; points are rounded to f32.
+    let slack = 2.0 / 64.0 / 1024.0 + 1e-6;
+    assert!((nearest - 0.51).abs() < slack, "{nearest}");
+    assert!(sees_dent);
 }
 
 #[test]
