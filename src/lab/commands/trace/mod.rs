@@ -60,9 +60,9 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
 --explain adds to each hit:
 
   parameters    of a shape other than a triangle, by name; points in the file's coordinates
-  solid         of a solid: the operand with its parameters, whether it is subtracted (the solid's normal is
-                then the opposite of its own), and the tree of operations with the intervals of t inside
-                each part, along the whole line; null is infinite
+  solid         of a solid: the operand with its parameters, whether it is subtracted (the solid's
+                normal is then the opposite of its own), and the tree of operations with the
+                intervals of t inside each part, along the whole line; null is infinite
   formula       derivation of t in f64 for the traced ray, which may start elsewhere on the line
 
 Numbers parse as doubles without loss.
