@@ -23,7 +23,7 @@ pub use solid::solid_tree;
 use glam::{DVec3, Vec3};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::LineEquation;
-use hitscope_core::shape::{AxisBox, Cuboid, Plane, Shape, Sphere};
+use hitscope_core::shape::{AxisBox, Cuboid, Parameter, Plane, Shape, Sphere};
 use hitscope_core::{Hit, Ray, Scene};
 use number::{point, polynomial, text};
 
@@ -118,18 +118,14 @@ impl Line {
 /// The parameters of a primitive.
 fn parameters(group: &dyn Group, index: u32) -> Vec<String> {
     let numbers = group.numbers(index);
-    let mut rest = &numbers[..];
-    let parameters = group.shape().parameters.iter();
-    let line = |parameter: &hitscope_core::shape::Parameter| {
-        let (own, others) = rest.split_at(parameter.width());
-        rest = others;
+    let line = |(parameter, own): (&Parameter, &[f32])| {
         let value = match own {
             &[x, y, z] => point(Vec3::new(x, y, z).as_dvec3()),
             own => text(own.iter().copied().map(f64::from).sum()),
         };
         format!("{} = {value}", parameter.symbol)
     };
-    parameters.map(line).collect()
+    group.shape().named(&numbers).map(line).collect()
 }
 
 /// Every equation of a shape, with the ray substituted, and its roots.

@@ -49,10 +49,7 @@ impl Parameters {
     /// The parameters of a primitive of a group.
     pub(super) fn of(group: &dyn Group, index: u32, mesh: &TriangleMesh) -> Self {
         let numbers = group.numbers(index);
-        let mut rest = &numbers[..];
-        let named = group.shape().parameters.iter().map(|parameter| {
-            let (own, others) = rest.split_at(parameter.width());
-            rest = others;
+        let named = group.shape().named(&numbers).map(|(parameter, own)| {
             let three = || [own[0], own[1], own[2]];
             ParameterReport {
                 name: parameter.name,
