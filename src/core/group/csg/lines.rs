@@ -36,11 +36,7 @@ impl PackedSolid {
         let size = bounds.radius();
         for (index, operand) in self.solid().operands().iter().enumerate() {
             let facing = |point: LinePoint| LinePoint {
-                normal: if operand.is_subtracted {
-                    -point.normal
-                } else {
-                    point.normal
-                },
+                normal: operand.outward(point.normal),
                 ..point
             };
             operand.surface.lines(0, detail, &mut |line| {

@@ -6,7 +6,7 @@ use crate::mesh::Runs;
 use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Cuboid, Quadric, SurfacePoint, UNBOUNDED};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::sync::Arc;
 
 /// An operation on solids.
@@ -64,6 +64,13 @@ pub struct SolidOperand {
     pub surface: Arc<dyn Group>,
     /// Whether it is subtracted, so that its normals are reversed.
     pub is_subtracted: bool,
+}
+
+impl SolidOperand {
+    /// The solid's normal where the shape's is `normal`.
+    pub fn outward(&self, normal: DVec3) -> DVec3 {
+        if self.is_subtracted { -normal } else { normal }
+    }
 }
 
 /// A part of a solid.
@@ -169,11 +176,7 @@ impl Solid {
         };
         let point = operand.surface.surface(ray, &own);
         SurfacePoint {
-            normal: if operand.is_subtracted {
-                -point.normal
-            } else {
-                point.normal
-            },
+            normal: operand.outward(point.normal),
             // A spawned ray may hit another operand.
             is_flat: false,
             ..point
