@@ -57,6 +57,25 @@ impl<L: Lane> RayLanes<L> {
     }
 }
 
+/// A ray's origin and the inverse of its direction.
+#[derive(Clone, Copy)]
+pub(super) struct InverseRay<L> {
+    pub origin: [L; 3],
+    pub inverse: [L; 3],
+}
+
+impl<L: Lane> From<RayLanes<L>> for InverseRay<L> {
+    #[inline(always)]
+    fn from(rays: RayLanes<L>) -> Self {
+        let one = L::of(rays.dir[0].token(), 1.0);
+        let [x, y, z] = rays.dir;
+        Self {
+            origin: rays.origin,
+            inverse: [one / x, one / y, one / z],
+        }
+    }
+}
+
 /// The axes of a direction; see [`RayLanes::axes`].
 #[inline(always)]
 pub(crate) fn axes_of(dir: [f32; 3]) -> [usize; 3] {

@@ -12,7 +12,7 @@
 use crate::kernel::crossings::Roots;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
-use crate::shape::{Shape as _, Sphere};
+use crate::shape::Sphere;
 
 /// See the [module](self).
 pub(super) struct MovedOrigin;
@@ -36,15 +36,6 @@ impl Kernel for MovedOrigin {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
-        sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(
