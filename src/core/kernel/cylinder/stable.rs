@@ -50,7 +50,7 @@ impl Kernel for Stable {
         let length_squared = dot(&w, &w);
         let r = shapes.value(6);
         let reach = r * r * length_squared;
-        let roots = Roots::at_distance(&from, &step, reach);
+        let roots = Roots::at_distance(&from, &step, dot(&step, &step), reach);
         let along = [dot(&f, &w), dot(&ray.dir, &w)];
         let mut nearest = Nearest::new(t_min, t_max);
         offer_side(&mut nearest, &roots, along, length_squared);
