@@ -41,6 +41,7 @@ use exact::Exact;
 use levels::{BaselineLevel, EveryLevel};
 use method::Method;
 use ranked::Ranked;
+use std::ops::AddAssign;
 use std::slice::from_ref;
 use std::sync::Arc;
 use tree::{Packets, TreeIntersector};
@@ -56,6 +57,15 @@ pub struct Cost {
     pub in_f64: u32,
     /// Decisions that the exact kernel took in integers.
     pub in_integers: u32,
+}
+
+impl AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.boxes += other.boxes;
+        self.primitives += other.primitives;
+        self.in_f64 += other.in_f64;
+        self.in_integers += other.in_integers;
+    }
 }
 
 /// A point where a ray crosses the surface: a hit, and other hits at the same t.

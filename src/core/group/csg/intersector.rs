@@ -89,25 +89,6 @@ impl CsgIntersector {
         self.bvh.walk(baseline(), ray, stack.get(), &mut visited);
         visited.cost
     }
-
-    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
-        let mut nearest: Option<RankedHit> = None;
-        let cost = self.each(ray, |primitive, crossings| {
-            if let Some(first) = crossings.into_iter().next() {
-                let first = first.with_hit(|hit| Hit { primitive, ..hit });
-                if nearest
-                    .as_ref()
-                    .is_none_or(|nearest| first.is_before(nearest))
-                {
-                    nearest = Some(first);
-                }
-            }
-            nearest
-                .as_ref()
-                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
-        });
-        (nearest, cost)
-    }
 }
 
 impl Intersector for CsgIntersector {
@@ -128,7 +109,7 @@ impl Intersector for CsgIntersector {
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         for (ray, is_hit) in rays.iter().zip(are_hits) {
-            *is_hit = self.nearest(ray).is_some();
+            *is_hit = self.nearest_with_cost(ray).0.is_some();
         }
     }
 
@@ -152,8 +133,23 @@ impl Intersector for CsgIntersector {
 }
 
 impl GroupIntersector for CsgIntersector {
-    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
-        self.nearest_with_cost(ray).0
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
+        let mut nearest: Option<RankedHit> = None;
+        let cost = self.each(ray, |primitive, crossings| {
+            if let Some(first) = crossings.into_iter().next() {
+                let first = first.with_hit(|hit| Hit { primitive, ..hit });
+                if nearest
+                    .as_ref()
+                    .is_none_or(|nearest| first.is_before(nearest))
+                {
+                    nearest = Some(first);
+                }
+            }
+            nearest
+                .as_ref()
+                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
+        });
+        (nearest, cost)
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
