@@ -3,28 +3,28 @@
 //! Kernel and CPU level are chosen when an intersector is made. A batch of rays then costs one virtual call,
 //! or two while a better tree is being built. `tree` is the intersector of primitives of one shape. It is
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
-//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once. `improving` forwards to an
-//! intersector that can be replaced when a better tree is ready. `several` orders the hits of several
-//! groups.
+//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once.
+//! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` orders the hits of
+//! a scene's groups.
 
 mod algebraic;
 mod blocks;
 mod exact;
+mod groups;
 pub(crate) mod improving;
 mod levels;
 mod method;
 mod order;
 mod packet;
 mod ranked;
-mod several;
 mod tree;
 mod visitors;
 
 pub use blocks::Packing;
 pub(crate) use blocks::candidates;
-use several::ExactT;
-pub use several::{GroupIntersector, RankedHit};
-pub(crate) use several::{crossings_of, several};
+use groups::ExactT;
+pub use groups::{GroupIntersector, RankedHit};
+pub(crate) use groups::{crossings_of, scene_intersector};
 
 use crate::algebra::Pieces;
 use crate::bvh::Bvh;

@@ -4,7 +4,7 @@ pub use crate::group::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
 use crate::group::{CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
-use crate::intersector::{Intersector, Packing, several};
+use crate::intersector::{Intersector, Packing, scene_intersector};
 use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, Runs, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
@@ -324,7 +324,7 @@ impl Scene {
     ) -> Box<dyn Intersector> {
         let kernel = kernel.into();
         let packed = |group: &Arc<dyn Group>| (group.count(), group.intersector(kernel, level));
-        several(kernel.info, self.groups.iter().map(packed).collect())
+        scene_intersector(kernel.info, self.groups.iter().map(packed).collect())
     }
 }
 

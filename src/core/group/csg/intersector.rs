@@ -23,7 +23,7 @@ pub(super) struct CsgIntersector {
 }
 
 /// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
-struct Visited<'a, F> {
+struct CrossingVisitor<'a, F> {
     intersector: &'a CsgIntersector,
     ray: &'a Ray,
     found: F,
@@ -31,7 +31,7 @@ struct Visited<'a, F> {
     cost: Cost,
 }
 
-impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for Visited<'_, F> {
+impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for CrossingVisitor<'_, F> {
     const IS_BEHIND: bool = true;
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<Baseline>) -> ControlFlow<(), f32> {
@@ -78,7 +78,7 @@ impl CsgIntersector {
 
     /// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
     fn each(&self, ray: &Ray, found: impl FnMut(u32, Vec<RankedHit>) -> f32) -> Cost {
-        let mut visited = Visited {
+        let mut visitor = CrossingVisitor {
             intersector: self,
             ray,
             found,
@@ -86,8 +86,8 @@ impl CsgIntersector {
             cost: Cost::default(),
         };
         let mut stack = LentStack::new();
-        self.bvh.walk(baseline(), ray, stack.get(), &mut visited);
-        visited.cost
+        self.bvh.walk(baseline(), ray, stack.get(), &mut visitor);
+        visitor.cost
     }
 }
 

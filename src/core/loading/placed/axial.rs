@@ -39,9 +39,13 @@ impl Axial {
         [a.min(b) - reach, a.max(b) + reach]
     }
 
-    fn why_open(&self, name: &str) -> Option<String> {
-        let message = || format!("an open {name} isn't a solid: set “capped” to true");
-        (!self.is_capped).then(message)
+    fn check_closed(&self, name: &str) -> Result<(), String> {
+        if self.is_capped {
+            return Ok(());
+        }
+        Err(format!(
+            "an open {name} isn't a solid: set “capped” to true"
+        ))
     }
 }
 
@@ -68,8 +72,8 @@ impl PlacedPrimitive for PlacedCylinder {
         }
     }
 
-    fn why_open(&self) -> Option<String> {
-        self.0.why_open("cylinder")
+    fn check_closed(&self) -> Result<(), String> {
+        self.0.check_closed("cylinder")
     }
 }
 
@@ -90,7 +94,7 @@ impl PlacedPrimitive for PlacedCone {
         }
     }
 
-    fn why_open(&self) -> Option<String> {
-        self.0.why_open("cone")
+    fn check_closed(&self) -> Result<(), String> {
+        self.0.check_closed("cone")
     }
 }

@@ -64,8 +64,8 @@ impl PlacedPrimitive for PlacedDisk {
         Disk(self.0.rounded(origin))
     }
 
-    fn why_open(&self) -> Option<String> {
-        Some("a disk isn't a solid".to_owned())
+    fn check_closed(&self) -> Result<(), String> {
+        Err("a disk isn't a solid".to_owned())
     }
 }
 
@@ -80,7 +80,7 @@ impl PlacedPrimitive for PlacedRectangle {
         Rectangle(self.0.rounded(origin))
     }
 
-    fn why_open(&self) -> Option<String> {
-        Some("a rectangle isn't a solid".to_owned())
+    fn check_closed(&self) -> Result<(), String> {
+        Err("a rectangle isn't a solid".to_owned())
     }
 }

@@ -33,8 +33,11 @@ pub(super) trait Placed: Debug {
     /// Adds the shape to its group, relative to an origin and rounded to f32.
     fn push_to(&self, groups: &mut Groups, origin: DVec3, material: u32);
 
-    /// Why the shape isn't a solid, if it isn't.
-    fn why_open(&self) -> Option<String>;
+    /// Checks that the surface is closed, so that the shape is a solid.
+    ///
+    /// # Errors
+    /// Why it isn't one.
+    fn check_closed(&self) -> Result<(), String>;
 
     /// The interior of the shape, relative to an origin and rounded to f32.
     fn solid(&self, origin: DVec3) -> Solid;
@@ -51,9 +54,9 @@ pub(super) trait PlacedPrimitive: Debug {
     /// The shape relative to an origin, rounded to f32.
     fn rounded(&self, origin: DVec3) -> Self::Shape;
 
-    /// See [`Placed::why_open`].
-    fn why_open(&self) -> Option<String> {
-        None
+    /// See [`Placed::check_closed`].
+    fn check_closed(&self) -> Result<(), String> {
+        Ok(())
     }
 
     /// The interior of a shape.
@@ -71,8 +74,8 @@ impl<P: PlacedPrimitive> Placed for P {
         groups.push(self.rounded(origin), material);
     }
 
-    fn why_open(&self) -> Option<String> {
-        P::why_open(self)
+    fn check_closed(&self) -> Result<(), String> {
+        P::check_closed(self)
     }
 
     fn solid(&self, origin: DVec3) -> Solid {

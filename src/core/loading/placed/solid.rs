@@ -26,11 +26,9 @@ impl PlacedSolid {
             };
             let operand = placed(shape, &(*to_world * shape.to_world))?;
             let operand =
-                operand.ok_or_else(|| refused("a mesh can't be part of a csg".to_owned()));
-            match operand.as_ref().ok().and_then(|operand| operand.why_open()) {
-                Some(message) => Err(refused(message)),
-                None => operand,
-            }
+                operand.ok_or_else(|| refused("a mesh can't be part of a csg".to_owned()))?;
+            operand.check_closed().map_err(refused)?;
+            Ok(operand)
         };
         Ok(Self {
             operation,
@@ -50,8 +48,8 @@ impl Placed for PlacedSolid {
         groups.solids.push(self.solid(origin), material);
     }
 
-    fn why_open(&self) -> Option<String> {
-        None
+    fn check_closed(&self) -> Result<(), String> {
+        Ok(())
     }
 
     fn solid(&self, origin: DVec3) -> Solid {

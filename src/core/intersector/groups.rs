@@ -49,7 +49,7 @@ pub trait GroupIntersector: Intersector {
 }
 
 /// The intersector of a scene's groups, given their numbers of primitives; that of the group if there is only one.
-pub(crate) fn several(
+pub(crate) fn scene_intersector(
     kernel: &'static KernelInfo,
     mut groups: Vec<(usize, Box<dyn GroupIntersector>)>,
 ) -> Box<dyn Intersector> {
@@ -66,7 +66,7 @@ pub(crate) fn several(
         first += count as u32;
         numbered
     };
-    Box::new(Several {
+    Box::new(SceneIntersector {
         kernel,
         groups: groups.into_iter().map(number).collect(),
     })
@@ -107,7 +107,7 @@ impl Numbered {
 }
 
 /// See the [module](self).
-struct Several {
+struct SceneIntersector {
     kernel: &'static KernelInfo,
     groups: Vec<Numbered>,
 }
@@ -177,7 +177,7 @@ pub(crate) fn crossings_of(mut hits: Vec<RankedHit>) -> Vec<Crossing> {
         .collect()
 }
 
-impl Several {
+impl SceneIntersector {
     fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
         let mut nearest: Option<RankedHit> = None;
         let mut sum = Cost::default();
@@ -201,7 +201,7 @@ impl Several {
     }
 }
 
-impl Intersector for Several {
+impl Intersector for SceneIntersector {
     fn kernel(&self) -> &'static KernelInfo {
         self.kernel
     }
