@@ -1,6 +1,6 @@
 //! A scene from the description of a scene file.
 
-use super::merge::{Part, merged};
+use super::merge::{Part, merged, positions_in_world};
 use super::placed::{Groups, Placed, Refusal, placed};
 use super::{LoadedScene, StartView, size_warning};
 use crate::mesh::{Illumination, Material};
@@ -85,6 +85,7 @@ impl Contents {
                 contents.take_report(path, loaded.report);
                 let name = shape.name.as_ref().or(shape.id.as_ref());
                 contents.parts.push(Part {
+                    positions: positions_in_world(&loaded.mesh, &shape.to_world),
                     mesh: loaded.mesh,
                     to_world: shape.to_world,
                     material,
@@ -158,23 +159,27 @@ impl Contents {
         }
         let of_shapes = self.shapes.iter().filter_map(|(shape, _)| shape.bounds());
         let corners = of_shapes.flatten();
-        let vertices = self.parts.iter().flat_map(Part::positions);
         let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let all = corners
-            .chain(vertices)
+            .chain(self.vertices())
             .filter(|p| p.is_finite())
             .fold(none, |[min, max], p| [min.min(p), max.max(p)]);
         obj::origin_near(all).unwrap_or(DVec3::ZERO)
     }
 
+    /// The vertices of all meshes in the world.
+    fn vertices(&self) -> impl Iterator<Item = DVec3> {
+        self.parts.iter().flat_map(|part| &part.positions).copied()
+    }
+
     /// The largest rounding of a vertex's coordinate.
     fn rounding(&self, origin: DVec3) -> f64 {
-        let vertices = self.parts.iter().flat_map(Part::positions);
         let rounding = |p: DVec3| {
             let near = p - origin;
             (near.as_vec3().as_dvec3() - near).abs().max_element()
         };
-        let finite = vertices
+        let finite = self
+            .vertices()
             .map(rounding)
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)

@@ -8,6 +8,8 @@ use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 /// A mesh of the scene before it is merged.
 pub(super) struct Part {
     pub mesh: TriangleMesh,
+    /// The mesh's vertices in the world.
+    pub positions: Vec<DVec3>,
     pub to_world: DMat4,
     /// Index of its material in the scene; `None` to keep the OBJ file's.
     pub material: Option<u32>,
@@ -17,15 +19,10 @@ pub(super) struct Part {
     pub has_face_normals: bool,
 }
 
-impl Part {
-    /// The vertices in the world.
-    pub fn positions(&self) -> impl Iterator<Item = DVec3> {
-        let in_world = |p: &Vec3| {
-            self.to_world
-                .transform_point3(self.mesh.in_file(p.as_dvec3()))
-        };
-        self.mesh.positions().iter().map(in_world)
-    }
+/// The vertices of a mesh in the world.
+pub(super) fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<DVec3> {
+    let in_world = |p: &Vec3| to_world.transform_point3(mesh.in_file(p.as_dvec3()));
+    mesh.positions().iter().map(in_world).collect()
 }
 
 /// Merges meshes relative to an origin. `materials` come first in the merged list.
@@ -38,8 +35,9 @@ pub(super) fn merged(parts: Vec<Part>, origin: DVec3, materials: Vec<Material>) 
     let has_colours = parts
         .iter()
         .any(|part| !part.mesh.attributes().colours.is_empty());
-    for part in &parts {
-        merged.append(part, origin, has_colours);
+    // Each part is freed once it is merged.
+    for part in parts {
+        merged.append(&part, origin, has_colours);
     }
     merged.mesh(origin)
 }
@@ -68,8 +66,8 @@ impl Merged {
     fn append(&mut self, part: &Part, origin: DVec3, has_colours: bool) {
         let (mesh, attributes) = (&part.mesh, part.mesh.attributes());
         let first_position = self.positions.len() as u32;
-        self.positions
-            .extend(part.positions().map(|p| (p - origin).as_vec3()));
+        let near = part.positions.iter().map(|&p| (p - origin).as_vec3());
+        self.positions.extend(near);
         if has_colours && attributes.colours.is_empty() {
             self.colours.resize(self.positions.len(), Vec3::ONE);
         }
