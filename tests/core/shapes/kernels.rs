@@ -271,6 +271,8 @@ fn every_shape_has_named_parameters_and_equations_whose_roots_are_its_crossings(
     describes_itself::<Cone>(7);
     describes_itself::<Torus>(8);
     describes_itself::<Quadric>(9);
+    describes_itself::<AxisBox>(10);
+    describes_itself::<AxisPlane>(11);
 }
 
 #[test]
