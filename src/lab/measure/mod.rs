@@ -231,6 +231,9 @@ fn seed_of(seed: u64, name: &str) -> u64 {
     name.bytes().fold(mix(seed), mixed)
 }
 
+/// The name of a case and its tasks.
+type NamedTasks = (String, Vec<Task>);
+
 fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> Vec<Task> {
     let seed_of = |name: &str| seed_of(seed, name);
     let triangles = cases::triangle_cases().into_iter().map(|case| {
@@ -240,17 +243,6 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
             ..Measurements::default()
         };
         (name, vec![Task::new(sizes.triangle_rays, 12e-6, run)])
-    });
-    let meshes = mesh_cases().into_iter().map(|case| {
-        let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
-        let task = |kernel: &'static TriangleKernel| {
-            let case = Arc::clone(&case);
-            Task::new(sizes.mesh_rays(kernel), 0.6e-6, move |n| Measurements {
-                meshes: vec![case.measure(kernel, n, seed)],
-                ..Measurements::default()
-            })
-        };
-        (name, TRIANGLE_KERNELS.iter().map(task).collect())
     });
     let order = ORDER_CASES.iter().map(|case| {
         let seed = seed_of(case.name);
@@ -274,8 +266,36 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
             vec![Task::new(sizes.box_hits, 60e-6, run)],
         )
     });
-    let spawning = spawn_cases().into_iter().map(|case| {
-        let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
+    let all = triangles
+        .chain(mesh_tasks(sizes, seed))
+        .chain(order)
+        .chain(boxes)
+        .chain(spawn_tasks(sizes, seed))
+        .chain(shape_tasks(sizes, seed));
+    all.filter(|(name, _)| is_wanted(name))
+        .flat_map(|(_, tasks)| tasks)
+        .collect()
+}
+
+/// The tasks of each mesh, one per kernel.
+fn mesh_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
+    mesh_cases().into_iter().map(move |case| {
+        let (name, seed, case) = (case.name.clone(), seed_of(seed, &case.name), Arc::new(case));
+        let task = |kernel: &'static TriangleKernel| {
+            let case = Arc::clone(&case);
+            Task::new(sizes.mesh_rays(kernel), 0.6e-6, move |n| Measurements {
+                meshes: vec![case.measure(kernel, n, seed)],
+                ..Measurements::default()
+            })
+        };
+        (name, TRIANGLE_KERNELS.iter().map(task).collect())
+    })
+}
+
+/// The tasks of each case of spawned rays, one per kernel.
+fn spawn_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
+    spawn_cases().into_iter().map(move |case| {
+        let (name, seed, case) = (case.name.clone(), seed_of(seed, &case.name), Arc::new(case));
         let task = |kernel: &'static TriangleKernel| {
             let case = Arc::clone(&case);
             Task::new(sizes.leaving_rays(kernel), 6e-6, move |n| Measurements {
@@ -284,20 +304,11 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
             })
         };
         (name, TRIANGLE_KERNELS.iter().map(task).collect())
-    });
-    let all = triangles
-        .chain(meshes)
-        .chain(order)
-        .chain(boxes)
-        .chain(spawning)
-        .chain(shape_tasks(sizes, seed));
-    all.filter(|(name, _)| is_wanted(name))
-        .flat_map(|(_, tasks)| tasks)
-        .collect()
+    })
 }
 
 /// The tasks of each case of single primitives.
-fn shape_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = (String, Vec<Task>)> {
+fn shape_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
     let hits = shape_cases().into_iter().map(move |case: ShapeCase<_>| {
         let (name, seed) = (case.name.clone(), seed_of(seed, &case.name));
         let run = move |n| Measurements {
