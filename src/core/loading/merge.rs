@@ -62,55 +62,94 @@ struct Merged {
     points: Vec<u32>,
 }
 
+/// The indices at which a part's values begin in the merged lists.
+struct Offsets {
+    position: u32,
+    normal: u32,
+    coordinate: u32,
+    material: u32,
+    group: u32,
+    /// Whether the part's transform turns the winding of triangles round.
+    is_mirrored: bool,
+}
+
+impl Offsets {
+    /// The indices of a triangle's corners in a merged list, with the winding of the transformed triangle.
+    fn shifted(&self, [a, b, c]: [u32; 3], first: u32) -> [u32; 3] {
+        let ordered = if self.is_mirrored {
+            [a, c, b]
+        } else {
+            [a, b, c]
+        };
+        ordered.map(|index| match index {
+            NO_INDEX => NO_INDEX,
+            index => first + index,
+        })
+    }
+}
+
 impl Merged {
     fn append(&mut self, part: &Part, origin: DVec3, has_colours: bool) {
-        let (mesh, attributes) = (&part.mesh, part.mesh.attributes());
-        let first_position = self.positions.len() as u32;
+        let attributes = part.mesh.attributes();
+        let linear = DMat3::from_mat4(part.to_world);
+        let offsets = Offsets {
+            position: self.positions.len() as u32,
+            normal: self.normals.len() as u32,
+            coordinate: self.coordinates.len() as u32,
+            material: self.materials.len() as u32,
+            group: self.groups.len() as u32,
+            is_mirrored: linear.determinant() < 0.0,
+        };
         let near = part.positions.iter().map(|&p| (p - origin).as_vec3());
         self.positions.extend(near);
         if has_colours && attributes.colours.is_empty() {
             self.colours.resize(self.positions.len(), Vec3::ONE);
         }
         self.colours.extend(&attributes.colours);
-
-        // Materials and textures of the file are used unless the scene names another material.
-        let first_material = self.materials.len() as u32;
         if part.material.is_none() {
-            let first_texture = self.textures.len() as u32;
-            self.textures.extend_from_slice(&attributes.textures);
-            self.materials
-                .extend(attributes.materials.entries().iter().map(|material| {
-                    let mut material = material.clone();
-                    if let Some(map) = &mut material.diffuse_map {
-                        map.texture += first_texture;
-                    }
-                    material
-                }));
+            self.append_materials(attributes);
         }
-        let first_group = self.groups.len() as u32;
         let names = attributes.groups.entries().iter();
         self.groups
             .extend(names.map(|group| named(&part.name, group)));
         if attributes.groups.entries().is_empty() {
             self.groups.push(part.name.clone());
         }
-
-        let linear = DMat3::from_mat4(part.to_world);
-        let for_normals = linear.inverse().transpose();
-        let is_mirrored = linear.determinant() < 0.0;
-        let [first_normal, first_coordinate] =
-            [self.normals.len() as u32, self.coordinates.len() as u32];
         if !part.has_face_normals {
+            let for_normals = linear.inverse().transpose();
             let turned = |n: &Vec3| (for_normals * n.as_dvec3()).normalize_or_zero().as_vec3();
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }
         self.coordinates
             .extend(attributes.texture_coordinates.values());
+        self.append_triangles(part, &offsets);
+        let vertex = |vertex: u32| offsets.position + vertex;
+        self.lines
+            .extend(attributes.lines.iter().map(|ends| ends.map(vertex)));
+        self.points
+            .extend(attributes.points.iter().map(|&p| vertex(p)));
+    }
 
-        let ordered = |[a, b, c]: [u32; 3]| if is_mirrored { [a, c, b] } else { [a, b, c] };
+    /// Appends the materials and textures of a file, which are used unless the scene names another material.
+    fn append_materials(&mut self, attributes: &Attributes) {
+        let first_texture = self.textures.len() as u32;
+        self.textures.extend_from_slice(&attributes.textures);
+        self.materials
+            .extend(attributes.materials.entries().iter().map(|material| {
+                let mut material = material.clone();
+                if let Some(map) = &mut material.diffuse_map {
+                    map.texture += first_texture;
+                }
+                material
+            }));
+    }
+
+    /// Appends the triangles that can be traced. Their corners' values are already there.
+    fn append_triangles(&mut self, part: &Part, offsets: &Offsets) {
+        let (mesh, attributes) = (&part.mesh, part.mesh.attributes());
         for (old, corners) in (0..).zip(mesh.triangles()) {
-            let corners = ordered(*corners).map(|vertex| first_position + vertex);
+            let corners = offsets.shifted(*corners, offsets.position);
             let positions = corners.map(|vertex| self.positions[vertex as usize]);
             let is_traceable =
                 positions.iter().all(|p| p.is_finite()) && !crate::mesh::has_zero_area(positions);
@@ -119,36 +158,25 @@ impl Merged {
             }
             let new = self.triangles.len() as u32;
             self.triangles.push(corners);
-            let outline = outline(attributes.faces.outline(old), is_mirrored);
+            let outline = outline(attributes.faces.outline(old), offsets.is_mirrored);
             let face = self.face_count + mesh.face_of(old);
             self.faces.push(new, face, outline);
-            let shifted = |corners: [u32; 3], first: u32| {
-                ordered(corners).map(|index| match index {
-                    NO_INDEX => NO_INDEX,
-                    index => first + index,
-                })
-            };
             let normals = if part.has_face_normals {
                 [NO_INDEX; 3]
             } else {
-                shifted(attributes.normals.indices(old), first_normal)
+                offsets.shifted(attributes.normals.indices(old), offsets.normal)
             };
             self.normal_corners.push(normals);
             let coordinates = attributes.texture_coordinates.indices(old);
             self.coordinate_corners
-                .push(shifted(coordinates, first_coordinate));
-            let own = || first_material + attributes.materials.index(old);
+                .push(offsets.shifted(coordinates, offsets.coordinate));
+            let own = || offsets.material + attributes.materials.index(old);
             self.material_runs
                 .begin(new, part.material.unwrap_or_else(own));
             let group = attributes.groups.index(old);
-            self.group_runs.begin(new, first_group + group);
+            self.group_runs.begin(new, offsets.group + group);
         }
         self.face_count += mesh.face_count() as u32;
-        let vertex = |vertex: u32| first_position + vertex;
-        self.lines
-            .extend(attributes.lines.iter().map(|ends| ends.map(vertex)));
-        self.points
-            .extend(attributes.points.iter().map(|&p| vertex(p)));
     }
 
     fn mesh(self, origin: DVec3) -> TriangleMesh {
