@@ -69,7 +69,7 @@ impl PackedSolid {
         let line = line_of(ray);
         let mut inside = Vec::new();
         for (shape, intersector) in self.solid.operands().iter().zip(&self.operands) {
-            let (ends, starts_inside) = ends(shape, &**intersector, &line);
+            let (ends, starts_inside) = interval_ends(shape, &**intersector, &line);
             let before = ends.iter().filter(|end| end.t_in_f64() < 0.0).count();
             inside.push(starts_inside != (before % 2 == 1));
         }
@@ -159,7 +159,7 @@ impl PackedSolid {
         let (mut events, mut inside) = (Vec::new(), Vec::new());
         let operands = self.solid.operands().iter().zip(&self.operands);
         for (operand, (shape, intersector)) in operands.enumerate() {
-            let (ends, starts_inside) = ends(shape, &**intersector, &line);
+            let (ends, starts_inside) = interval_ends(shape, &**intersector, &line);
             inside.push(starts_inside);
             events.extend(ends.into_iter().map(|crossing| Event { crossing, operand }));
         }
@@ -198,7 +198,7 @@ fn line_of(ray: &Ray) -> Ray {
 }
 
 /// The ends of an operand's intervals along a line, in ascending order, and whether the line starts inside.
-fn ends(
+fn interval_ends(
     operand: &SolidOperand,
     intersector: &dyn GroupIntersector,
     line: &Ray,
