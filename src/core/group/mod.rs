@@ -1,9 +1,11 @@
 //! Groups: the primitives of one shape with their tree.
 
+mod appearance;
 mod csg;
 mod table;
 mod tree;
 
+pub use appearance::Appearance;
 pub(crate) use csg::CsgGroup;
 pub use csg::{
     CSG_KERNELS, CsgOperation, INFO as SOLID_INFO, LineIntervals, Solid, SolidNode, SolidOperand,
@@ -17,7 +19,6 @@ use crate::intersector::GroupIntersector;
 use crate::kernel::{
     KernelChoice, KernelInfo, KernelList, LineEquation, equations_along, exact_answer,
 };
-use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{AddLine, Interior, LineDetail, Primitives, Shape, ShapeInfo, SurfacePoint};
@@ -96,8 +97,7 @@ pub(crate) struct ShapeGroup<S: 'static> {
     primitives: Arc<dyn Primitives<S>>,
     tree: Tree<S>,
     bounds: Aabb,
-    /// Each primitive's material.
-    materials: Runs,
+    appearance: Appearance,
 }
 
 impl<S: KernelList> ShapeGroup<S> {
@@ -112,13 +112,13 @@ impl<S: KernelList> ShapeGroup<S> {
             bounds: tree.bvh().bounds(),
             tree,
             primitives,
-            materials: Runs::default(),
+            appearance: Appearance::default(),
         })
     }
 
-    /// The group with a material for each primitive, as indices into the mesh's materials.
-    pub fn with_materials(self, materials: Runs) -> Self {
-        Self { materials, ..self }
+    /// The group with a material and a side for each primitive.
+    pub fn with_appearance(self, appearance: Appearance) -> Self {
+        Self { appearance, ..self }
     }
 }
 
@@ -162,11 +162,14 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        self.primitives.primitive(hit.primitive).surface(ray, hit)
+        let surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
+        self.appearance.surface(hit.primitive, surface)
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {
-        self.primitives.primitive(index).lines(detail, add);
+        let primitive = self.primitives.primitive(index);
+        let lines = |add: AddLine<'_>| primitive.lines(detail, add);
+        self.appearance.lines(index, lines, add);
     }
 
     fn interior(&self, index: u32, ray: &Ray) -> Interior {
@@ -182,7 +185,7 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn material(&self, index: u32) -> u32 {
-        self.materials.of(index)
+        self.appearance.materials.of(index)
     }
 
     fn numbers(&self, index: u32) -> Vec<f32> {
@@ -195,10 +198,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
         let primitives = indices
             .iter()
             .map(|&index| self.primitives.primitive(index));
-        let (materials, options) = (Runs::default(), SceneOptions::default());
+        let (appearance, options) = (self.appearance.sides_of(indices), SceneOptions::default());
         let group = S::group(
             primitives.collect(),
-            materials,
+            appearance,
             options,
             &Progress::default(),
         );

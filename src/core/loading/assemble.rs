@@ -1,13 +1,15 @@
 //! A scene from the description of a scene file.
 
 use super::merge::{Part, merged, positions_in_world};
-use super::placed::{Groups, Placed, Refusal, placed};
+use super::placed::{
+    Groups, Look, Placed, Refusal, is_flipped, is_mirroring, placed, require_invertible,
+};
 use super::{LoadedScene, StartView, size_warning};
-use crate::mesh::{Illumination, Material};
+use crate::mesh::{Illumination, Material, TriangleMesh};
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
-use crate::scene_file::{self, Place, SceneFile, ShapeKind};
+use crate::scene_file::{self, SceneFile, Shape, ShapeKind};
 use glam::DVec3;
 use std::path::Path;
 use std::sync::Arc;
@@ -44,8 +46,8 @@ pub(super) fn load(
 /// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
-    /// Shapes other than meshes and their materials.
-    shapes: Vec<(Box<dyn Placed>, u32)>,
+    /// Shapes other than meshes, with their materials and sides.
+    shapes: Vec<(Box<dyn Placed>, Look)>,
     report: LoadReport,
 }
 
@@ -65,49 +67,24 @@ impl Contents {
             },
         };
         for shape in &file.shapes {
+            let refused = |refusal| refused(file, refusal);
             // The first material stands for none.
             let material = shape.material.map(|material| material + 1);
-            if shape.flip_normals {
-                let message = "flip_normals has no effect".to_owned();
-                contents.warn(file, shape.place, message);
-            }
-            let placed = placed(shape, &shape.to_world);
-            let placed = placed.map_err(|refusal| refused(file, refusal))?;
-            if let Some(placed) = placed {
-                contents.shapes.push((placed, material.unwrap_or(0)));
-            } else if let ShapeKind::Obj {
-                file: path,
-                face_normals,
-                ..
-            } = &shape.kind
-            {
-                let loaded = obj::load(path, options, progress)?;
-                contents.take_report(path, loaded.report);
-                let name = shape.name.as_ref().or(shape.id.as_ref());
-                contents.parts.push(Part {
-                    positions: positions_in_world(&loaded.mesh, &shape.to_world),
-                    mesh: loaded.mesh,
-                    to_world: shape.to_world,
-                    material,
-                    name: name.cloned().unwrap_or_default(),
-                    has_face_normals: *face_normals,
-                });
+            if let ShapeKind::Obj(obj) = &shape.kind {
+                require_invertible(shape.place, &shape.to_world).map_err(refused)?;
+                let loaded = obj::load(&obj.file, options, progress)?;
+                contents.take_report(&obj.file, loaded.report);
+                contents.parts.push(part(shape, obj, loaded.mesh, material));
+            } else {
+                let placed = placed(shape, &shape.to_world).map_err(refused)?;
+                let look = Look {
+                    material: material.unwrap_or(0),
+                    is_flipped: is_flipped(shape),
+                };
+                contents.shapes.push((placed, look));
             }
         }
         Ok(contents)
-    }
-
-    fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
-        // Lines of included files are told with the file.
-        let message = if place.file == 0 {
-            message
-        } else {
-            format!("{}: {message}", shown(file.path_of(place)))
-        };
-        self.report.warnings.push(Warning {
-            line: Some(place.line as usize),
-            message,
-        });
     }
 
     /// Adds the report of an OBJ file.
@@ -143,8 +120,8 @@ impl Contents {
         let origin = self.origin(recentre);
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
-        for (shape, material) in &self.shapes {
-            shape.push_to(&mut groups, origin, *material);
+        for (shape, look) in self.shapes {
+            shape.push_to(&mut groups, origin, look);
         }
         let mesh = merged(self.parts, origin, materials(file));
         let mut scene = Scene::with_options(mesh, options, progress)?;
@@ -183,6 +160,21 @@ impl Contents {
             .map(rounding)
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
+    }
+}
+
+/// A mesh of a scene file.
+fn part(shape: &Shape, obj: &scene_file::Obj, mesh: TriangleMesh, material: Option<u32>) -> Part {
+    let name = shape.name.as_ref().or(shape.id.as_ref());
+    Part {
+        positions: positions_in_world(&mesh, &shape.to_world),
+        mesh,
+        to_world: shape.to_world,
+        material,
+        name: name.cloned().unwrap_or_default(),
+        has_face_normals: obj.face_normals,
+        is_mirrored: is_mirroring(&shape.to_world),
+        is_flipped: shape.flip_normals,
     }
 }
 

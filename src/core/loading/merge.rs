@@ -17,12 +17,29 @@ pub(super) struct Part {
     pub name: String,
     /// Whether the file's normals are ignored.
     pub has_face_normals: bool,
+    /// Whether the transform exchanges left and right.
+    pub is_mirrored: bool,
+    /// Whether the normals are reversed.
+    pub is_flipped: bool,
 }
 
 /// The vertices of a mesh in the world.
 pub(super) fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<DVec3> {
     let in_world = |p: &Vec3| to_world.transform_point3(mesh.in_file(p.as_dvec3()));
     mesh.positions().iter().map(in_world).collect()
+}
+
+impl Part {
+    /// Whether the file's normals are used.
+    fn has_normals(&self) -> bool {
+        !self.has_face_normals && !self.mesh.attributes().normals.is_empty()
+    }
+
+    /// Whether the order of corners is reversed. As in Mitsuba, a mirroring transform maps normals of the file to the
+    /// same side, which triangles then face, too; without normals, it turns triangles to the other side.
+    fn has_reversed_corners(&self) -> bool {
+        self.is_flipped != (self.is_mirrored && self.has_normals())
+    }
 }
 
 /// Merges meshes relative to an origin. `materials` come first in the merged list.
@@ -69,14 +86,14 @@ struct Offsets {
     coordinate: u32,
     material: u32,
     group: u32,
-    /// Whether the part's transform turns the winding of triangles round.
-    is_mirrored: bool,
+    /// Whether the order of corners is reversed.
+    is_reversed: bool,
 }
 
 impl Offsets {
-    /// The indices of a triangle's corners in a merged list, with the winding of the transformed triangle.
+    /// The indices of a triangle's corners in a merged list, in their new order.
     fn shifted(&self, [a, b, c]: [u32; 3], first: u32) -> [u32; 3] {
-        let ordered = if self.is_mirrored {
+        let ordered = if self.is_reversed {
             [a, c, b]
         } else {
             [a, b, c]
@@ -91,14 +108,13 @@ impl Offsets {
 impl Merged {
     fn append(&mut self, part: &Part, origin: DVec3, has_colours: bool) {
         let attributes = part.mesh.attributes();
-        let linear = DMat3::from_mat4(part.to_world);
         let offsets = Offsets {
             position: self.positions.len() as u32,
             normal: self.normals.len() as u32,
             coordinate: self.coordinates.len() as u32,
             material: self.materials.len() as u32,
             group: self.groups.len() as u32,
-            is_mirrored: linear.determinant() < 0.0,
+            is_reversed: part.has_reversed_corners(),
         };
         let near = part.positions.iter().map(|&p| (p - origin).as_vec3());
         self.positions.extend(near);
@@ -115,9 +131,13 @@ impl Merged {
         if attributes.groups.entries().is_empty() {
             self.groups.push(part.name.clone());
         }
-        if !part.has_face_normals {
-            let for_normals = linear.inverse().transpose();
-            let turned = |n: &Vec3| (for_normals * n.as_dvec3()).normalize_or_zero().as_vec3();
+        if part.has_normals() {
+            let for_normals = DMat3::from_mat4(part.to_world).inverse().transpose();
+            let side = if part.is_flipped { -1.0 } else { 1.0 };
+            let turned = |n: &Vec3| {
+                let normal = for_normals * n.as_dvec3();
+                (side * normal.normalize_or_zero()).as_vec3()
+            };
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }
@@ -158,13 +178,13 @@ impl Merged {
             }
             let new = self.triangles.len() as u32;
             self.triangles.push(corners);
-            let outline = outline(attributes.faces.outline(old), offsets.is_mirrored);
+            let outline = outline(attributes.faces.outline(old), offsets.is_reversed);
             let face = self.face_count + mesh.face_of(old);
             self.faces.push(new, face, outline);
-            let normals = if part.has_face_normals {
-                [NO_INDEX; 3]
-            } else {
+            let normals = if part.has_normals() {
                 offsets.shifted(attributes.normals.indices(old), offsets.normal)
+            } else {
+                [NO_INDEX; 3]
             };
             self.normal_corners.push(normals);
             let coordinates = attributes.texture_coordinates.indices(old);
@@ -196,9 +216,9 @@ impl Merged {
     }
 }
 
-/// The edges AB, BC, CA of an outline, after B and C are exchanged if the shape is mirrored.
-fn outline(edges: u8, is_mirrored: bool) -> u8 {
-    if is_mirrored {
+/// The edges AB, BC, CA of an outline, after B and C are exchanged if the order is reversed.
+fn outline(edges: u8, is_reversed: bool) -> u8 {
+    if is_reversed {
         (edges & 1) << 2 | edges & 2 | (edges & 4) >> 2
     } else {
         edges

@@ -1,7 +1,8 @@
 //! Materials: `<bsdf>` elements and references to them.
 
-use super::description::{Material, Place, Shape, ShapeKind};
+use super::description::{Material, Place, Shape};
 use super::element::Element;
+use super::kinds::ShapeKind;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
 use super::plugin::Value;
@@ -114,8 +115,8 @@ fn resolve(
     materials: &mut Vec<Material>,
 ) {
     for shape in shapes {
-        if let ShapeKind::Csg { children, .. } = &mut shape.kind {
-            resolve(children, unnamed, materials);
+        if let ShapeKind::Csg(csg) = &mut shape.kind {
+            resolve(&mut csg.children, unnamed, materials);
         }
         let Some(index) = shape.material.filter(|index| index & UNNAMED != 0) else {
             continue;

@@ -59,6 +59,15 @@ impl Parameters {
             .any(|other| names.contains(&other.name.as_str()))
     }
 
+    /// Where the first of these parameters stands, if one is given.
+    pub(super) fn place_of(&self, names: &[&str]) -> Option<Place> {
+        let named = |parameter: &&Parameter| names.contains(&parameter.name.as_str());
+        self.left
+            .iter()
+            .find(named)
+            .map(|parameter| parameter.place)
+    }
+
     /// Removes the parameter with a name.
     pub(super) fn take(&mut self, name: &'static str) -> Option<Parameter> {
         self.known.push(name);

@@ -4,7 +4,7 @@ use super::shapes::{Sampled, SampledSolid};
 use super::speed::median;
 use cpu_time::ThreadTime;
 use glam::DVec3;
-use hitscope_core::group::Group;
+use hitscope_core::group::{Appearance, Group};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::mesh::{Runs, TriangleMesh};
 use hitscope_core::progress::{Cancelled, Progress};
@@ -89,7 +89,7 @@ fn primitives<S: Sampled>(n: usize, random: &mut Random) -> Arc<dyn Group> {
     };
     let sampled = (0..n).map(sample).collect();
     let (options, progress) = (SceneOptions::default(), Progress::default());
-    S::group(sampled, Runs::default(), options, &progress).expect("nobody cancels")
+    S::group(sampled, Appearance::default(), options, &progress).expect("nobody cancels")
 }
 
 fn solids(n: usize, random: &mut Random) -> Arc<dyn Group> {

@@ -22,12 +22,11 @@ pub use along_line::LineIntervals;
 pub use kernels::CSG_KERNELS;
 pub use solid::{CsgOperation, Solid, SolidNode, SolidOperand};
 
-use super::Group;
+use super::{Appearance, Group};
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::GroupIntersector;
 use crate::kernel::{KernelChoice, KernelInfo, Tier};
-use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{AddLine, Interior, LineDetail, ShapeInfo, SurfacePoint};
@@ -53,8 +52,8 @@ pub(crate) struct CsgGroup {
     bvh: Arc<Bvh>,
     bounds: Aabb,
     build_time: Duration,
-    /// Each solid's material.
-    materials: Runs,
+    /// The material and the side of each solid.
+    appearance: Appearance,
     /// Each solid packed for the exact kernel, on first use.
     exact: Vec<OnceLock<PackedSolid>>,
 }
@@ -63,7 +62,7 @@ impl CsgGroup {
     /// Builds the tree.
     pub fn new(
         solids: Vec<Solid>,
-        materials: Runs,
+        appearance: Appearance,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         let start = Instant::now();
@@ -81,7 +80,7 @@ impl CsgGroup {
             build_time: start.elapsed(),
             exact: solids.iter().map(|_| OnceLock::new()).collect(),
             solids: Arc::new(solids),
-            materials,
+            appearance,
         })
     }
 
@@ -130,11 +129,13 @@ impl Group for CsgGroup {
 
     /// `hit.v` is the index of the operand whose surface is hit.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        self.solids[hit.primitive as usize].surface(ray, hit)
+        let surface = self.solids[hit.primitive as usize].surface(ray, hit);
+        self.appearance.surface(hit.primitive, surface)
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {
-        self.exact(index).lines(detail, add);
+        let lines = |add: AddLine<'_>| self.exact(index).lines(detail, add);
+        self.appearance.lines(index, lines, add);
     }
 
     /// A solid isn't an operand of another: trees are flattened.
@@ -152,7 +153,7 @@ impl Group for CsgGroup {
     }
 
     fn material(&self, index: u32) -> u32 {
-        self.materials.of(index)
+        self.appearance.materials.of(index)
     }
 
     fn numbers(&self, _: u32) -> Vec<f32> {
@@ -161,7 +162,8 @@ impl Group for CsgGroup {
 
     fn subset(&self, indices: &[u32]) -> Arc<dyn Group> {
         let solids = indices.iter().map(|&i| self.solids[i as usize].clone());
-        let group = Self::new(solids.collect(), Runs::default(), &Progress::default());
+        let sides = self.appearance.sides_of(indices);
+        let group = Self::new(solids.collect(), sides, &Progress::default());
         Arc::new(group.expect("nobody cancels"))
     }
 

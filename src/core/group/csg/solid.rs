@@ -1,8 +1,7 @@
 //! Solids: shapes combined by set operations.
 
 use crate::aabb::Aabb;
-use crate::group::{Group, Grouped, SceneOptions};
-use crate::mesh::Runs;
+use crate::group::{Appearance, Group, Grouped, SceneOptions};
 use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use crate::shape::{Cuboid, Quadric, SurfacePoint, UNBOUNDED};
@@ -225,7 +224,7 @@ impl SolidNode {
 /// A group of one primitive.
 fn group_of<S: Grouped>(shape: S) -> Arc<dyn Group> {
     let (options, progress) = (SceneOptions::default(), Progress::default());
-    let group = S::group(vec![shape], Runs::default(), options, &progress);
+    let group = S::group(vec![shape], Appearance::default(), options, &progress);
     group.expect("nobody cancels")
 }
 

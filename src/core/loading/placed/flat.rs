@@ -1,6 +1,7 @@
 //! Disks and rectangles.
 
-use super::PlacedPrimitive;
+use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::scene_file::{self, Place};
 use crate::shape::{Disk, Rectangle, Span};
 use glam::{DMat3, DMat4, DVec3};
 
@@ -36,20 +37,26 @@ impl PlacedSpan {
 }
 
 #[derive(Debug)]
-pub(super) struct PlacedDisk(PlacedSpan);
+struct PlacedDisk(PlacedSpan);
 
 #[derive(Debug)]
-pub(super) struct PlacedRectangle(PlacedSpan);
+struct PlacedRectangle(PlacedSpan);
 
-impl PlacedDisk {
-    pub fn new(to_world: &DMat4) -> Self {
-        Self(PlacedSpan::new(to_world))
+impl Placeable for scene_file::Disk {
+    /// The normal is u × v, which a mirroring transform turns away from the image of +z.
+    const FLIPS_WHEN_MIRRORED: bool = true;
+
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        Ok(Box::new(PlacedDisk(PlacedSpan::new(to_world))))
     }
 }
 
-impl PlacedRectangle {
-    pub fn new(to_world: &DMat4) -> Self {
-        Self(PlacedSpan::new(to_world))
+impl Placeable for scene_file::Rectangle {
+    /// As for a disk.
+    const FLIPS_WHEN_MIRRORED: bool = true;
+
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        Ok(Box::new(PlacedRectangle(PlacedSpan::new(to_world))))
     }
 }
 

@@ -1,39 +1,34 @@
 //! Combined solids.
 
-use super::{Groups, Placed, Refusal, placed};
+use super::{Groups, Look, Placeable, Placed, Refusal, placed};
 use crate::group::{CsgOperation, Solid};
-use crate::scene_file::Shape;
+use crate::scene_file::{self, Place, Shape};
 use glam::{DMat4, DVec3};
 
 #[derive(Debug)]
-pub(super) struct PlacedSolid {
+struct PlacedSolid {
     operation: CsgOperation,
     operands: Vec<Box<dyn Placed>>,
 }
 
-impl PlacedSolid {
+impl Placeable for scene_file::Csg {
     /// # Errors
     /// A nested shape can't be placed or isn't a solid.
-    pub fn new(
-        operation: CsgOperation,
-        shapes: &[Shape],
-        to_world: &DMat4,
-    ) -> Result<Self, Refusal> {
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let operand = |shape: &Shape| {
-            let refused = |message: String| Refusal {
-                place: shape.place,
-                message,
-            };
             let operand = placed(shape, &(*to_world * shape.to_world))?;
-            let operand =
-                operand.ok_or_else(|| refused("a mesh can't be part of a csg".to_owned()))?;
+            let refused = |message| Refusal::new(shape.place, message);
             operand.check_closed().map_err(refused)?;
             Ok(operand)
         };
-        Ok(Self {
-            operation,
-            operands: shapes.iter().map(operand).collect::<Result<_, _>>()?,
-        })
+        Ok(Box::new(PlacedSolid {
+            operation: self.operation,
+            operands: self
+                .children
+                .iter()
+                .map(operand)
+                .collect::<Result<_, _>>()?,
+        }))
     }
 }
 
@@ -44,8 +39,8 @@ impl Placed for PlacedSolid {
         boxes.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
     }
 
-    fn push_to(&self, groups: &mut Groups, origin: DVec3, material: u32) {
-        groups.solids.push(self.solid(origin), material);
+    fn push_to(&self, groups: &mut Groups, origin: DVec3, look: Look) {
+        groups.solids.push(self.solid(origin), look);
     }
 
     fn check_closed(&self) -> Result<(), String> {
