@@ -1,19 +1,32 @@
 //! A scene from the description of a scene file.
 
+use super::memory::Needs;
 use super::merge::{Part, merged, positions_in_world};
 use super::placed::{
     Groups, Look, Placed, Refusal, is_flipped, is_mirroring, placed, require_invertible,
 };
 use super::{LoadedScene, StartView, size_warning};
 use crate::mesh::{Illumination, Material, TriangleMesh};
-use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
-use crate::scene_file::{self, SceneFile, Shape, ShapeKind};
+use crate::scene_file::{self, Place, SceneFile, Shape, ShapeKind};
 use glam::DVec3;
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+
+/// An entry of the list of placed shapes, and two changes of material and side.
+const NEEDS_OF_ENTRY: Needs = Needs {
+    loaded: 0,
+    placed: size_of::<(Box<dyn Placed>, Look)>() as u64,
+    shapes: 2 * size_of::<(u32, u32)>() as u64,
+    merged: 0,
+    primitive_count: 0,
+};
+/// An entry of the map of OBJ files, with paths.
+const BYTES_PER_FILE: u64 = 1_000;
 
 /// Loads a scene file and the meshes that it names.
 ///
@@ -26,8 +39,8 @@ pub(super) fn load(
     progress: &Progress,
 ) -> Result<LoadedScene, LoadError> {
     let start = Instant::now();
-    let file = scene_file::load(path, load_options.max_memory, progress)?;
-    let mut contents = Contents::load(&file, load_options, progress)?;
+    let (file, held) = scene_file::load_counted(path, load_options.max_memory, progress)?;
+    let mut contents = Contents::load(&file, load_options, held, progress)?;
     contents.report.duration = start.elapsed();
     progress.enter(Phase::Building);
     let scene = contents.scene(&file, load_options.recentre, options, progress);
@@ -48,48 +61,122 @@ struct Contents {
     parts: Vec<Part>,
     /// Shapes other than meshes, with their materials and sides.
     shapes: Vec<(Box<dyn Placed>, Look)>,
+    /// The OBJ files, each loaded once, and their counts.
+    meshes: HashMap<PathBuf, (Arc<TriangleMesh>, LoadReport)>,
+    options: LoadOptions,
+    /// The memory of the scene file's description.
+    held: u64,
+    needs: Needs,
+    /// Whether the memory suffices. If not, shapes are only counted, for the message.
+    fits: bool,
     report: LoadReport,
 }
 
 impl Contents {
+    /// `held` is the memory of the description.
     fn load(
         file: &SceneFile,
         options: LoadOptions,
+        held: u64,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
         let mut contents = Self {
             parts: Vec::new(),
             shapes: Vec::new(),
+            meshes: HashMap::new(),
+            options,
+            held,
+            needs: Needs::default(),
+            fits: true,
             report: LoadReport {
                 warnings: file.warnings.clone(),
                 files: file.files.clone(),
                 ..LoadReport::default()
             },
         };
+        let main_file = || file.path_of(Place::default()).to_owned();
         for shape in &file.shapes {
-            let refused = |refusal| refused(file, refusal);
-            // The first material stands for none.
-            let material = shape.material.map(|material| material + 1);
-            if let ShapeKind::Obj(obj) = &shape.kind {
-                require_invertible(shape.place, &shape.to_world).map_err(refused)?;
-                let loaded = obj::load(&obj.file, options, progress)?;
-                contents.take_report(&obj.file, loaded.report);
-                contents.parts.push(part(shape, obj, loaded.mesh, material));
-            } else {
-                let placed = placed(shape, &shape.to_world).map_err(refused)?;
-                let look = Look {
-                    material: material.unwrap_or(0),
-                    is_flipped: is_flipped(shape),
-                };
-                contents.shapes.push((placed, look));
+            let cancelled = |Cancelled| LoadError::Cancelled { path: main_file() };
+            progress.check().map_err(cancelled)?;
+            contents.add(file, shape, progress)?;
+            if contents.fits && contents.bytes() > options.max_memory {
+                contents.fits = false;
+                (contents.shapes, contents.parts) = (Vec::new(), Vec::new());
             }
         }
-        Ok(contents)
+        if contents.fits {
+            return Ok(contents);
+        }
+        Err(LoadError::Content {
+            path: main_file(),
+            message: scene_file::exceeded("about", contents.bytes(), options.max_memory),
+        })
     }
 
-    /// Adds the report of an OBJ file.
-    fn take_report(&mut self, path: &Path, report: LoadReport) {
-        let told = report.warnings.into_iter().map(|warning| {
+    /// The memory of everything so far.
+    fn bytes(&self) -> u64 {
+        self.held + self.needs.bytes()
+    }
+
+    fn add(
+        &mut self,
+        file: &SceneFile,
+        shape: &Shape,
+        progress: &Progress,
+    ) -> Result<(), LoadError> {
+        let refused = |refusal| refused(file, refusal);
+        // The first material stands for none.
+        let material = shape.material.map(|material| material + 1);
+        if let ShapeKind::Obj(obj) = &shape.kind {
+            require_invertible(shape.place, &shape.to_world).map_err(refused)?;
+            if self.fits {
+                let mesh = self.mesh(&obj.file, progress)?;
+                let part = part(shape, obj, mesh, material);
+                self.needs.add(part.needs());
+                self.parts.push(part);
+            }
+            return Ok(());
+        }
+        let placed = placed(shape, &shape.to_world).map_err(refused)?;
+        self.needs.add(placed.needs());
+        self.needs.add(NEEDS_OF_ENTRY);
+        if self.fits {
+            let look = Look {
+                material: material.unwrap_or(0),
+                is_flipped: is_flipped(shape),
+            };
+            self.shapes.push((placed, look));
+        }
+        Ok(())
+    }
+
+    /// The mesh of an OBJ file, which is loaded unless it was before.
+    fn mesh(&mut self, path: &Path, progress: &Progress) -> Result<Arc<TriangleMesh>, LoadError> {
+        if !self.meshes.contains_key(path) {
+            let loaded = obj::load_besides(path, self.options, self.bytes(), progress)?;
+            let Loaded { mesh, mut report } = loaded;
+            let warnings = std::mem::take(&mut report.warnings);
+            let files = std::mem::take(&mut report.files);
+            self.take_messages(path, warnings, files);
+            let parts = mesh.bytes().map(|(_, bytes)| bytes as u64);
+            self.needs.loaded += parts.iter().sum::<u64>() + BYTES_PER_FILE;
+            self.meshes
+                .insert(path.to_owned(), (Arc::new(mesh), report));
+        }
+        let (mesh, report) = &self.meshes[path];
+        let sum = &mut self.report;
+        sum.dropped.zero_area += report.dropped.zero_area;
+        sum.dropped.non_finite += report.dropped.non_finite;
+        sum.dropped.bad_index += report.dropped.bad_index;
+        sum.dropped.elements += report.dropped.elements;
+        sum.vertex_count += report.vertex_count;
+        sum.max_rounding = sum.max_rounding.max(report.max_rounding);
+        Ok(Arc::clone(mesh))
+    }
+
+    /// Adds the warnings about an OBJ file, and the files that it names.
+    fn take_messages(&mut self, path: &Path, warnings: Vec<Warning>, files: Vec<PathBuf>) {
+        let told = warnings.into_iter().map(|warning| {
             let line = warning
                 .line
                 .map_or(String::new(), |line| format!(":{line}"));
@@ -98,16 +185,9 @@ impl Contents {
                 message: format!("{}{line}: {}", shown(path), warning.message),
             }
         });
-        let sum = &mut self.report;
-        sum.warnings.extend(told);
-        sum.dropped.zero_area += report.dropped.zero_area;
-        sum.dropped.non_finite += report.dropped.non_finite;
-        sum.dropped.bad_index += report.dropped.bad_index;
-        sum.dropped.elements += report.dropped.elements;
-        sum.vertex_count += report.vertex_count;
-        sum.max_rounding = sum.max_rounding.max(report.max_rounding);
-        sum.files.push(path.to_owned());
-        sum.files.extend(report.files);
+        self.report.warnings.extend(told);
+        self.report.files.push(path.to_owned());
+        self.report.files.extend(files);
     }
 
     fn scene(
@@ -123,6 +203,7 @@ impl Contents {
         for (shape, look) in self.shapes {
             shape.push_to(&mut groups, origin, look);
         }
+        drop(self.meshes);
         let mesh = merged(self.parts, origin, materials(file));
         let mut scene = Scene::with_options(mesh, options, progress)?;
         groups.add_to(&mut scene, options, progress)?;
@@ -164,7 +245,12 @@ impl Contents {
 }
 
 /// A mesh of a scene file.
-fn part(shape: &Shape, obj: &scene_file::Obj, mesh: TriangleMesh, material: Option<u32>) -> Part {
+fn part(
+    shape: &Shape,
+    obj: &scene_file::Obj,
+    mesh: Arc<TriangleMesh>,
+    material: Option<u32>,
+) -> Part {
     let name = shape.name.as_ref().or(shape.id.as_ref());
     Part {
         positions: positions_in_world(&mesh, &shape.to_world),

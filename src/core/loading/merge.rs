@@ -1,13 +1,16 @@
 //! All meshes of a scene as one, in the coordinates of the world.
 
+use super::memory::Needs;
 use crate::mesh::{
     Assigned, Attributes, CornerValues, Faces, Material, NO_INDEX, Runs, Texture, TriangleMesh,
 };
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
+use std::sync::Arc;
 
 /// A mesh of the scene before it is merged.
 pub(super) struct Part {
-    pub mesh: TriangleMesh,
+    /// Shared by all parts of the same file.
+    pub mesh: Arc<TriangleMesh>,
     /// The mesh's vertices in the world.
     pub positions: Vec<DVec3>,
     pub to_world: DMat4,
@@ -35,6 +38,48 @@ impl Part {
         !self.has_face_normals && !self.mesh.attributes().normals.is_empty()
     }
 
+    /// Whether the file has texture coordinates.
+    fn has_coordinates(&self) -> bool {
+        !self.mesh.attributes().texture_coordinates.is_empty()
+    }
+
+    /// The memory of the merged mesh for this part.
+    pub fn needs(&self) -> Needs {
+        /// Per triangle with normals or texture coordinates: the indices of its corners, twice while the lists are made.
+        const BYTES_PER_CORNER_LIST: usize = 2 * size_of::<[u32; 3]>();
+        /// Per triangle: its corners, face and outline.
+        const BYTES_PER_TRIANGLE: usize = size_of::<[u32; 3]>() + 4 + 1;
+        let (mesh, attributes) = (&self.mesh, self.mesh.attributes());
+        let mut bytes_per_triangle = BYTES_PER_TRIANGLE;
+        let mut bytes = size_of_val(mesh.positions())
+            + size_of_val(&attributes.colours[..])
+            + size_of_val(&attributes.lines[..])
+            + size_of_val(&attributes.points[..])
+            + attributes.groups.bytes()
+            + size_of::<String>()
+            + self.name.len();
+        if self.has_normals() {
+            bytes += size_of_val(attributes.normals.values());
+            bytes_per_triangle += BYTES_PER_CORNER_LIST;
+        }
+        if self.has_coordinates() {
+            bytes += size_of_val(attributes.texture_coordinates.values());
+            bytes_per_triangle += BYTES_PER_CORNER_LIST;
+        }
+        if self.material.is_none() {
+            let textures = attributes.textures.iter().map(Texture::bytes);
+            bytes += textures.sum::<usize>() + attributes.materials.bytes();
+        }
+        let triangle_count = mesh.triangles().len();
+        Needs {
+            placed: size_of::<Self>() as u64,
+            loaded: (size_of::<DVec3>() * mesh.positions().len()) as u64,
+            merged: (bytes + bytes_per_triangle * triangle_count) as u64,
+            primitive_count: triangle_count as u64,
+            ..Needs::default()
+        }
+    }
+
     /// Whether the order of corners is reversed. As in Mitsuba, a mirroring transform maps normals of the file to the
     /// same side, which triangles then face, too; without normals, it turns triangles to the other side.
     fn has_reversed_corners(&self) -> bool {
@@ -52,6 +97,8 @@ pub(super) fn merged(parts: Vec<Part>, origin: DVec3, materials: Vec<Material>) 
     let has_colours = parts
         .iter()
         .any(|part| !part.mesh.attributes().colours.is_empty());
+    merged.has_normals = parts.iter().any(Part::has_normals);
+    merged.has_coordinates = parts.iter().any(Part::has_coordinates);
     // Each part is freed once it is merged.
     for part in parts {
         merged.append(&part, origin, has_colours);
@@ -65,6 +112,9 @@ struct Merged {
     triangles: Vec<[u32; 3]>,
     faces: Faces,
     face_count: u32,
+    /// Whether a part has normals, and whether one has texture coordinates.
+    has_normals: bool,
+    has_coordinates: bool,
     normals: Vec<Vec3>,
     normal_corners: Vec<[u32; 3]>,
     coordinates: Vec<Vec2>,
@@ -181,15 +231,19 @@ impl Merged {
             let outline = outline(attributes.faces.outline(old), offsets.is_reversed);
             let face = self.face_count + mesh.face_of(old);
             self.faces.push(new, face, outline);
-            let normals = if part.has_normals() {
-                offsets.shifted(attributes.normals.indices(old), offsets.normal)
-            } else {
-                [NO_INDEX; 3]
-            };
-            self.normal_corners.push(normals);
-            let coordinates = attributes.texture_coordinates.indices(old);
-            self.coordinate_corners
-                .push(offsets.shifted(coordinates, offsets.coordinate));
+            if self.has_normals {
+                let normals = if part.has_normals() {
+                    offsets.shifted(attributes.normals.indices(old), offsets.normal)
+                } else {
+                    [NO_INDEX; 3]
+                };
+                self.normal_corners.push(normals);
+            }
+            if self.has_coordinates {
+                let coordinates = attributes.texture_coordinates.indices(old);
+                self.coordinate_corners
+                    .push(offsets.shifted(coordinates, offsets.coordinate));
+            }
             let own = || offsets.material + attributes.materials.index(old);
             self.material_runs
                 .begin(new, part.material.unwrap_or_else(own));

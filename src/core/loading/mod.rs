@@ -5,12 +5,14 @@
 //! | **a scene from the description of a scene file** | `assemble` |
 //! | the shapes of the core that a transformed shape becomes | `placed` |
 //! | all meshes as one | `merge` |
+//! | the memory that this takes | `memory` |
 //! | the sensor as a view | `view` |
 //! | what was loaded, as the text of a scene file | `saving` |
 //!
 //! Transforms are applied in f64 once; the results are rounded to f32 relative to one origin of the scene.
 
 mod assemble;
+mod memory;
 mod merge;
 mod placed;
 mod saving;

@@ -208,7 +208,7 @@ fn reflectance(reader: &mut Reader, element: Element) -> Result<DVec3, Problem> 
         objects::skip(reader, child, &parameters.object())
     })?;
     let Some(given) = parameters.take("reflectance") else {
-        parameters.finish()?;
+        parameters.finish(&mut reader.memory)?;
         return Ok(DEFAULT_REFLECTANCE);
     };
     let at = |message: String| Err(Problem::at(given.place, message));
@@ -223,7 +223,7 @@ fn reflectance(reader: &mut Reader, element: Element) -> Result<DVec3, Problem> 
     if rgb.min_element() < 0.0 || rgb.max_element() > 1.0 {
         return at("“reflectance” must be from 0 to 1".to_owned());
     }
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(rgb)
 }
 

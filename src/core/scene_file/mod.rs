@@ -144,7 +144,9 @@ pub use kinds::{
     Cone, Csg, Cube, Cuboid, Cylinder, Disk, Obj, Plane, Quadric, Rectangle, ShapeKind, Sphere,
     Torus,
 };
+pub(crate) use memory::exceeded;
 pub use plugin::{Parameter, Plugin, Value};
+pub(crate) use reader::load_counted;
 pub use reader::{load, parse};
 pub use sensor::{Crop, FieldOfView, Film, FovAxis, Sensor, SensorKind};
 pub use stored::ReadFile;

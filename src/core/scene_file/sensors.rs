@@ -96,7 +96,7 @@ pub(super) fn sensor(reader: &mut Reader, element: Element) -> Result<Option<Sen
         "principal_point_offset_y",
     ];
     parameters.warn_about(&unused, &mut reader.warnings);
-    parts.parameters.finish()?;
+    parts.parameters.finish(&mut reader.memory)?;
     Ok(Some(Sensor {
         place: element.place,
         id: head.id,
@@ -244,7 +244,7 @@ fn film(reader: &mut Reader, element: Element) -> Result<Film, Problem> {
         "banner",
     ];
     parameters.warn_about(&unused, &mut reader.warnings);
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(Film {
         width,
         height,
@@ -287,7 +287,7 @@ fn sampler(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
     )?;
     let sample_count = parameters.count("sample_count", 1)?;
     parameters.warn_about(&["seed", "jitter"], &mut reader.warnings);
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(sample_count.unwrap_or(SAMPLE_COUNT))
 }
 

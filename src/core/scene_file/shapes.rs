@@ -1,6 +1,6 @@
 //! Shapes: `<shape>` elements.
 
-use super::description::Shape;
+use super::description::{Place, Shape};
 use super::element::Element;
 use super::kinds::KINDS;
 use super::materials;
@@ -32,6 +32,8 @@ pub(super) struct Parts<'a> {
     /// The folder against which file names are resolved.
     pub folder: &'a Path,
     pub parameters: Parameters,
+    /// The start of the element.
+    pub place: Place,
     has_children: bool,
     pub children: Vec<Shape>,
     /// A temporary index; see [`materials`].
@@ -53,12 +55,10 @@ pub(super) fn shape(reader: &mut Reader, element: Element) -> Result<Shape, Prob
         let known: Vec<&str> = KINDS.iter().map(|row| row.name).collect();
         return Err(element.problem(unknown("shape", kind, &known)));
     };
-    reader
-        .memory
-        .take(2 * size_of::<Shape>() as u64, element.place)?;
     let mut parts = Parts {
         folder: &element.file.folder,
         parameters: Parameters::new("shape", kind, element.place),
+        place: element.place,
         has_children: row.has_children,
         children: Vec::new(),
         material: None,
@@ -70,7 +70,7 @@ pub(super) fn shape(reader: &mut Reader, element: Element) -> Result<Shape, Prob
     let unused = ["silhouette_sampling_weight"];
     parts.parameters.warn_about(&unused, &mut reader.warnings);
     let kind = (row.read)(&mut parts, reader)?;
-    parts.parameters.finish()?;
+    parts.parameters.finish(&mut reader.memory)?;
     Ok(Shape {
         place: element.place,
         id: head.id,
@@ -109,8 +109,7 @@ impl Parts<'_> {
             }
             "shape" if self.has_children => {
                 let nested = shape(reader, child)?;
-                self.children.push(nested);
-                Ok(())
+                reader.memory.push(&mut self.children, nested, child.place)
             }
             "shape" => Err(child.problem("a shape can only be nested in a csg")),
             _ => objects::skip(reader, child, &self.parameters.object()),

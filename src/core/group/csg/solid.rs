@@ -136,6 +136,14 @@ impl Solid {
         }
     }
 
+    /// Upper bound on the bytes of a solid in a group, with its boundaries' trees, and packed for a kernel.
+    pub(crate) fn bytes(operand_count: usize) -> u64 {
+        /// Measured with 20 000 solids of two operands and with one of 50 000 (2026-11).
+        const BYTES_PER_SOLID: usize = 1_000;
+        const BYTES_PER_OPERAND: usize = 2_400;
+        (BYTES_PER_SOLID + BYTES_PER_OPERAND * operand_count) as u64
+    }
+
     /// The box around it; `None` if it may be infinite.
     pub fn bounds(&self) -> Option<Aabb> {
         self.bounds

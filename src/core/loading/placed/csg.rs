@@ -2,6 +2,7 @@
 
 use super::{Groups, Look, Placeable, Placed, Refusal, placed};
 use crate::group::{CsgOperation, Solid};
+use crate::loading::memory::{BYTES_PER_ALLOCATION, Needs};
 use crate::scene_file::{self, Place, Shape};
 use glam::{DMat4, DVec3};
 
@@ -50,5 +51,26 @@ impl Placed for PlacedSolid {
     fn solid(&self, origin: DVec3) -> Solid {
         let operands = self.operands.iter().map(|operand| operand.solid(origin));
         Solid::combined(self.operation, operands.collect())
+    }
+
+    fn needs(&self) -> Needs {
+        let of_operand =
+            |operand: &dyn Placed| operand.needs().placed + size_of::<Box<dyn Placed>>() as u64;
+        let operands: u64 = self
+            .operands
+            .iter()
+            .map(|operand| of_operand(&**operand))
+            .sum();
+        Needs {
+            placed: operands + (size_of::<Self>() + BYTES_PER_ALLOCATION) as u64,
+            shapes: Solid::bytes(self.operand_count()),
+            primitive_count: 1,
+            ..Needs::default()
+        }
+    }
+
+    fn operand_count(&self) -> usize {
+        let counts = self.operands.iter().map(|operand| operand.operand_count());
+        counts.sum()
     }
 }

@@ -15,6 +15,7 @@ mod torus;
 
 pub(super) use groups::{Groups, Look};
 
+use super::memory::{BYTES_PER_ALLOCATION, Needs};
 use crate::group::{Grouped, Solid};
 use crate::scene_file::{self, Place, Shape, ShapeKind, with_kinds};
 use glam::{DMat3, DMat4, DVec3};
@@ -64,6 +65,12 @@ pub(super) trait Placed: Debug {
 
     /// The interior of the shape, relative to an origin and rounded to f32.
     fn solid(&self, origin: DVec3) -> Solid;
+
+    /// The memory of the shape.
+    fn needs(&self) -> Needs;
+
+    /// The number of operands of [`solid`](Self::solid).
+    fn operand_count(&self) -> usize;
 }
 
 /// A shape in the world's coordinates that becomes a primitive.
@@ -81,6 +88,9 @@ pub(super) trait PlacedPrimitive: Debug {
     fn check_closed(&self) -> Result<(), String> {
         Ok(())
     }
+
+    /// The number of operands of [`solid`](Self::solid).
+    const OPERAND_COUNT: usize = 1;
 
     /// The interior of a shape.
     fn solid(shape: Self::Shape) -> Solid {
@@ -103,6 +113,19 @@ impl<P: PlacedPrimitive> Placed for P {
 
     fn solid(&self, origin: DVec3) -> Solid {
         P::solid(self.rounded(origin))
+    }
+
+    fn needs(&self) -> Needs {
+        Needs {
+            placed: (size_of::<P>() + BYTES_PER_ALLOCATION) as u64,
+            shapes: size_of::<P::Shape>() as u64,
+            primitive_count: 1,
+            ..Needs::default()
+        }
+    }
+
+    fn operand_count(&self) -> usize {
+        P::OPERAND_COUNT
     }
 }
 

@@ -87,6 +87,8 @@ impl PlacedPrimitive for PlacedQuadric {
         }
     }
 
+    const OPERAND_COUNT: usize = 2;
+
     fn solid(quadric: Quadric) -> Solid {
         Solid::of_quadric(quadric)
     }

@@ -29,6 +29,8 @@ impl Kind for Obj {
             return Err(parameters.problem("parameter “filename” is missing"));
         };
         let file = reader.named_file(&name, parts.folder, place)?;
+        let length = file.as_os_str().len();
+        reader.memory.take(length as u64, place)?;
         let main_folder = reader.scene.files[0].parent().unwrap_or(parts.folder);
         if main_folder.join(&name) != file {
             let name = quoted(&name);

@@ -26,7 +26,7 @@ pub struct Quadric {
 impl Kind for Quadric {
     const NAME: &'static str = "quadric";
 
-    fn read(parts: &mut Parts, _: &mut Reader) -> Result<Self, Problem> {
+    fn read(parts: &mut Parts, reader: &mut Reader) -> Result<Self, Problem> {
         let parameters = &mut parts.parameters;
         let mut coefficients = [0.0; 10];
         for (coefficient, name) in coefficients.iter_mut().zip(NAMES) {
@@ -36,6 +36,8 @@ impl Kind for Quadric {
             return Err(parameters.problem("the coefficients “a” to “i” are all zero"));
         }
         let [min, max] = corners(parameters)?;
+        let bytes = size_of_val(&coefficients) as u64;
+        reader.memory.take(bytes, parts.place)?;
         Ok(Self {
             coefficients: Box::new(coefficients),
             min,
