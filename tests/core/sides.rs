@@ -134,7 +134,8 @@ fn each_shape_has_the_side_that_mitsuba_gives_it() {
             let hits = [false, true].map(|is_flipped| {
                 let loaded = load(&folder, &shape(kind, parameters, scale, is_flipped));
                 let warnings = &loaded.report.warnings;
-                assert!(warnings.is_empty(), "{warnings:?}");
+                let is_told = warnings.iter().any(|w| w.message.contains("flip_normals"));
+                assert!(!is_told, "{warnings:?}");
                 let scene = &loaded.scene;
                 let intersector = scene.intersector(exact_triangle_kernel());
                 let hit = intersector.closest_hit(&ray).expect("a hit");
