@@ -4,13 +4,18 @@
 
 use glam::{DVec3, Vec3};
 
+/// Δ(ABC), the signed area of a triangle in a plane with a unit normal: positive if, seen from the side of the normal,
+/// its corners run counterclockwise. With a longer normal it is multiplied by the normal's length.
+pub fn signed_area([a, b, c]: [DVec3; 3], normal: DVec3) -> f64 {
+    0.5 * (b - a).cross(c - a).dot(normal)
+}
+
 /// The weights of a triangle's corners at a point of its plane, as ratios of signed areas: λ₁ = Δ(BCP)/Δ(ABC) and so
 /// on. A weight is negative beyond the opposite edge. Not finite for a triangle without area.
 pub fn weights_by_areas([a, b, c]: [DVec3; 3], p: DVec3) -> [f64; 3] {
     let normal = (b - a).cross(c - a);
-    let area = |[a, b, c]: [DVec3; 3]| (b - a).cross(c - a).dot(normal);
-    let whole = area([a, b, c]);
-    [[b, c, p], [c, a, p], [a, b, p]].map(|part| area(part) / whole)
+    let whole = signed_area([a, b, c], normal);
+    [[b, c, p], [c, a, p], [a, b, p]].map(|part| signed_area(part, normal) / whole)
 }
 
 /// The same weights in the coordinate plane onto which the triangle's projection is largest: with b = C − A, c = B − A and

@@ -129,8 +129,8 @@ impl Ray {
     }
 
     /// Converts a distance to units of the length of the direction that the ray was created with.
-    pub fn t_as_given(&self, t: f32) -> f64 {
-        f64::from(t) * 2f64.powi(self.scale)
+    pub fn t_as_given(&self, t: impl Into<f64>) -> f64 {
+        t.into() * 2f64.powi(self.scale)
     }
 }
 

@@ -44,6 +44,9 @@ mod scene_file;
 // Scene files become scenes.
 mod loading;
 
+// Normals that `flip_normals` or a mirroring transform reverses.
+mod sides;
+
 // Saved scenes are the same when they are loaded again.
 mod saving;
 

@@ -4,7 +4,8 @@
 //! `cargo test -p hitscope-core --test memory`. It is a program of its own because it starts itself for each
 //! load.
 
-use hitscope_core::loading::LoadedScene;
+use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::loading::{LoadedScene, is_scene_file};
 use hitscope_core::obj::LoadOptions;
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::SceneOptions;
@@ -33,11 +34,16 @@ fn main() -> ExitCode {
         return ExitCode::SUCCESS;
     }
     let folder = tempfile::tempdir().expect("a folder");
-    let path = folder.path().join("x.obj");
     let mut is_good = true;
+    let path = folder.path().join("base.obj");
     std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
     let base = loaded(&path, u64::MAX).expect("no limit");
-    for (name, text) in meshes() {
+    let small = grid(9, |[a, b, c, d]| format!("f {a} {b} {d} {c}\n"));
+    std::fs::write(folder.path().join("small.obj"), small).expect("written");
+    let meshes = meshes().into_iter().map(|mesh| ("x.obj", mesh));
+    let scenes = scenes().into_iter().map(|scene| ("x.xml", scene));
+    for (file, (name, text)) in meshes.chain(scenes) {
+        let path = folder.path().join(file);
         std::fs::write(&path, text).expect("written");
         let peak = loaded(&path, u64::MAX).expect("no limit") - base;
         let limit = |factor: f64| (peak as f64 * factor) as u64;
@@ -52,7 +58,8 @@ fn main() -> ExitCode {
     ExitCode::from(u8::from(!is_good))
 }
 
-/// Loads a file and prints the process's peak memory; prints nothing if the memory limit refuses the file.
+/// Loads a file and prints the process's peak memory; prints nothing if the memory limit refuses the file. Shapes of a
+/// scene file are also packed.
 fn load(path: &Path, max_memory: u64) {
     let options = LoadOptions {
         max_memory,
@@ -60,7 +67,11 @@ fn load(path: &Path, max_memory: u64) {
     };
     let progress = Progress::default();
     match LoadedScene::load(path, options, SceneOptions::default(), &progress) {
-        Ok(_) => out(&peak().expect("Linux").to_string()),
+        Ok(loaded) => {
+            let pack = || loaded.scene.intersector(default_triangle_kernel());
+            let _packed = is_scene_file(path).then(pack);
+            out(&peak().expect("Linux").to_string());
+        }
         Err(error) => assert!(error.to_string().contains("--max-memory"), "{error}"),
     }
 }
@@ -114,6 +125,54 @@ fn meshes() -> Vec<(&'static str, String)> {
         ),
         ("soup", soup(150_000)),
         ("polygon", star(100_000)),
+    ]
+}
+
+/// Scenes of many shapes.
+fn scenes() -> Vec<(&'static str, String)> {
+    let repeated = |count: usize, shape: &dyn Fn(usize) -> String| {
+        (0..count).map(shape).collect::<Vec<String>>().join("\n")
+    };
+    let scene = |contents: &str| format!("<scene version='3.0.0'>\n{contents}\n</scene>\n");
+    let at =
+        |x: usize| format!("<transform name='to_world'><translate x='{x}' y='0.25'/></transform>");
+    let sphere = |k: usize| {
+        let (x, y) = (k % 1000, k / 1000);
+        format!(
+            "<shape type='sphere'><point name='center' x='{x}.25' y='{y}.5' z='0.1'/><float name='radius' value='0.4'/></shape>"
+        )
+    };
+    let ellipsoid = |k: usize| {
+        format!(
+            "<shape type='sphere'><transform name='to_world'><scale x='1' y='2' z='3'/><translate x='{}'/></transform></shape>",
+            9 * k
+        )
+    };
+    let instance = |k: usize| {
+        let name = "<string name='filename' value='small.obj'/>";
+        format!("<shape type='obj'>{name}{}</shape>", at(10 * k))
+    };
+    let difference = |k: usize| {
+        let operation = "<string name='operation' value='difference'/>";
+        let operands = "<shape type='cube'/><shape type='sphere'/>";
+        format!(
+            "<shape type='csg'>{operation}{operands}{}</shape>",
+            at(4 * k)
+        )
+    };
+    let union = format!(
+        "<shape type='csg'><string name='operation' value='union'/>{}</shape>",
+        repeated(30_000, &|k| format!(
+            "<shape type='sphere'>{}</shape>",
+            at(3 * k)
+        ))
+    );
+    vec![
+        ("spheres", scene(&repeated(300_000, &sphere))),
+        ("ellipsoids", scene(&repeated(150_000, &ellipsoid))),
+        ("instances", scene(&repeated(4_000, &instance))),
+        ("solids", scene(&repeated(20_000, &difference))),
+        ("one solid", scene(&union)),
     ]
 }
 

@@ -391,8 +391,8 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
             .emitter
             .iter_mut()
             .for_each(|emitter| of_emitter(emitter));
-        if let ShapeKind::Csg { children, .. } = &mut shape.kind {
-            children.iter_mut().for_each(of_shape);
+        if let ShapeKind::Csg(csg) = &mut shape.kind {
+            csg.children.iter_mut().for_each(of_shape);
         }
     }
     scene.shapes.iter_mut().for_each(of_shape);

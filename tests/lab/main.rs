@@ -24,6 +24,8 @@ mod scene_files;
 
 // Options of light, and the list of lights.
 mod light;
+// The commands on combined solids.
+mod solids;
 
 // The table in docs/accuracy.md matches a new measurement.
 mod accuracy;

@@ -135,6 +135,29 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
     window.get_by_label("radius r");
 }
 
+/// A cube with a dent in the side that faces the sensor.
+const DENTED: &str = r#"<scene version="3.0.0">
+<sensor type="perspective"><float name="fov" value="30"/><string name="fov_axis" value="y"/>
+  <transform name="to_world"><lookat origin="0,0,10" target="0,0,0" up="0,1,0"/></transform></sensor>
+<shape type="csg"><string name="operation" value="difference"/><shape type="cube"/>
+  <shape type="sphere"><point name="center" x="0" y="0" z="1"/><float name="radius" value="0.5"/></shape></shape>
+</scene>"#;
+
+#[test]
+fn a_picked_solid_shows_the_operand_that_is_hit_and_the_tree_of_operations() {
+    let Some((mut window, _folder)) = opened("dented.xml", DENTED) else {
+        return;
+    };
+    let middle = in_picture(&window, 0.5, 0.5);
+    click(&mut window, middle);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+    window.run_steps(2);
+    window.get_by_label("1 (0-based), sphere");
+    window.get_by_label("reversed: the operand is subtracted");
+    window.get_by_label("radius r");
+    window.get_by_label_contains("difference of: ");
+}
+
 #[test]
 fn a_scene_of_one_shape_is_packed_once_for_a_kernel_that_its_table_lacks() {
     let sphere = r#"<scene version="3.0.0"><shape type="sphere"/></scene>"#;

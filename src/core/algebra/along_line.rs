@@ -1,8 +1,8 @@
 //! The equations of a shape along a line, rounded to f64 for display.
 
-use super::crossing::{ExactPiece, Piece, Pieces, RayIn};
+use super::crossing::{Piece, Pieces, RayIn};
 use super::dyadic::Dyadic;
-use super::ring::vector;
+use super::exact_piece::ExactPiece;
 use crate::ray::Ray;
 
 /// The equation of one part of a shape's surface along a line: a polynomial in t that is 0 where the line meets it.
@@ -27,17 +27,9 @@ pub struct LineRoot {
 
 /// The equations of all parts of a shape, with a ray's line substituted.
 pub fn line_equations<P: Pieces>(ray: &Ray, shape: &P) -> Vec<LineEquation> {
-    let line = RayIn {
-        origin: vector(ray.origin),
-        dir: vector(ray.dir),
-    };
     let mut equations = Vec::new();
-    shape.pieces(&line, &mut |piece: Piece<Dyadic>| {
-        let piece = ExactPiece {
-            part: piece.part,
-            surface: piece.surface.clone(),
-            conditions: piece.conditions.to_vec(),
-        };
+    shape.pieces(&RayIn::of(ray), &mut |piece: Piece<Dyadic>| {
+        let piece = ExactPiece::new(&piece);
         let coefficients = piece.surface.significant().iter().map(|coefficient| {
             let bounds = coefficient.enclosure();
             0.5 * bounds.lo + 0.5 * bounds.hi

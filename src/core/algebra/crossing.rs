@@ -7,8 +7,8 @@
 //!
 //! Long functions are never inlined: each would be compiled into several copies of a tree's walk.
 
-use super::algebraic::{Algebraic, Root};
-use super::dyadic::Dyadic;
+use super::algebraic::Algebraic;
+use super::exact_piece::ExactPiece;
 use super::interval::Interval;
 use super::interval_roots::isolated_roots;
 use super::polynomial::Polynomial;
@@ -22,6 +22,15 @@ use std::cmp::Ordering;
 pub struct RayIn<R> {
     pub origin: [R; 3],
     pub dir: [R; 3],
+}
+
+impl<R: Ring> RayIn<R> {
+    pub fn of(ray: &Ray) -> Self {
+        Self {
+            origin: vector(ray.origin),
+            dir: vector(ray.dir),
+        }
+    }
 }
 
 /// A part of a shape's surface along a ray.
@@ -238,8 +247,7 @@ impl<'a> CrossingSolver<'a> {
     }
 
     fn shifted_ray(&self, shift: f64) -> RayIn<Interval> {
-        let dir = vector(self.ray.dir);
-        let origin: [Interval; 3] = vector(self.ray.origin);
+        let RayIn { origin, dir } = RayIn::<Interval>::of(self.ray);
         let shift = Interval::point(shift);
         RayIn {
             origin: std::array::from_fn(|i| origin[i] + shift * dir[i]),
@@ -343,55 +351,4 @@ impl<'a> CrossingSolver<'a> {
 pub fn is_between(t: &Algebraic, [start, end]: [f64; 2]) -> bool {
     t.compare_with(&start.into()) == Ordering::Greater
         && t.compare_with(&end.into()) == Ordering::Less
-}
-
-/// A piece of a shape in exact numbers.
-pub(super) struct ExactPiece {
-    pub part: u8,
-    pub surface: Polynomial<Dyadic>,
-    pub conditions: Vec<Polynomial<Dyadic>>,
-}
-
-impl ExactPiece {
-    /// The piece with the given index. If the shape emits fewer, it has no roots.
-    #[inline(never)]
-    fn of<P: Pieces>(ray: &Ray, shape: &P, index: usize) -> Self {
-        let ray = RayIn {
-            origin: vector(ray.origin),
-            dir: vector(ray.dir),
-        };
-        let mut result = Self {
-            part: 0,
-            surface: Polynomial::constant(Dyadic::zero()),
-            conditions: Vec::new(),
-        };
-        let mut next = 0;
-        shape.pieces(&ray, &mut |piece: Piece<Dyadic>| {
-            if next == index {
-                result = Self {
-                    part: piece.part,
-                    surface: piece.surface.clone(),
-                    conditions: piece.conditions.to_vec(),
-                };
-            }
-            next += 1;
-        });
-        result
-    }
-
-    pub fn roots(&self) -> Vec<Root> {
-        Root::all(&self.surface)
-    }
-
-    /// Whether no condition is negative at `t`, which is within the bounds.
-    pub fn contains(&self, t: &Algebraic, bounds: Interval) -> bool {
-        let sign = |condition: &Polynomial<Dyadic>| {
-            // The exact sign costs a sequence of remainders.
-            let value = condition.enclosure().at(&bounds);
-            value.sign().unwrap_or_else(|| t.sign_of(condition))
-        };
-        self.conditions
-            .iter()
-            .all(|condition| sign(condition) != Ordering::Less)
-    }
 }

@@ -14,12 +14,14 @@
 //! | `isolation` | intervals that contain one root of an integer polynomial each |
 //! | `algebraic` | exact roots: comparison, signs of polynomials, rounding |
 //! | `crossing` | crossings of a ray with a shape |
+//! | `exact_piece` | a part of a shape's surface along a ray in exact numbers |
 //! | `along_line` | a shape's equations along a line, for display |
 
 mod algebraic;
 mod along_line;
 mod crossing;
 mod dyadic;
+mod exact_piece;
 mod interval;
 mod interval_roots;
 mod isolation;

@@ -1,11 +1,15 @@
 //! Groups: the primitives of one shape with their tree.
 
+mod appearance;
 mod csg;
 mod table;
 mod tree;
 
+pub use appearance::Appearance;
 pub(crate) use csg::CsgGroup;
-pub use csg::{CSG_KERNELS, CsgOperation, Solid};
+pub use csg::{
+    CSG_KERNELS, CsgOperation, INFO as SOLID_INFO, LineIntervals, Solid, SolidNode, SolidOperand,
+};
 pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
 pub use tree::{FirstTree, SceneOptions};
 
@@ -15,7 +19,6 @@ use crate::intersector::GroupIntersector;
 use crate::kernel::{
     KernelChoice, KernelInfo, KernelList, LineEquation, equations_along, exact_answer,
 };
-use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{
@@ -84,6 +87,11 @@ pub trait Group: Debug + Send + Sync {
         Vec::new()
     }
 
+    /// The solid with an index, if this is a group of solids.
+    fn solid(&self, _index: u32) -> Option<&Solid> {
+        None
+    }
+
     /// The material of a primitive, as an index into the mesh's materials.
     fn material(&self, index: u32) -> u32;
 
@@ -102,8 +110,7 @@ pub(crate) struct ShapeGroup<S: 'static> {
     primitives: Arc<dyn Primitives<S>>,
     tree: Tree<S>,
     bounds: Aabb,
-    /// Each primitive's material.
-    materials: Runs,
+    appearance: Appearance,
 }
 
 impl<S: KernelList> ShapeGroup<S> {
@@ -118,13 +125,13 @@ impl<S: KernelList> ShapeGroup<S> {
             bounds: tree.bvh().bounds(),
             tree,
             primitives,
-            materials: Runs::default(),
+            appearance: Appearance::default(),
         })
     }
 
-    /// The group with a material for each primitive, as indices into the mesh's materials.
-    pub fn with_materials(self, materials: Runs) -> Self {
-        Self { materials, ..self }
+    /// The group with a material and a side for each primitive.
+    pub fn with_appearance(self, appearance: Appearance) -> Self {
+        Self { appearance, ..self }
     }
 }
 
@@ -168,7 +175,8 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        self.primitives.primitive(hit.primitive).surface(ray, hit)
+        let surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
+        self.appearance.surface(hit.primitive, surface)
     }
 
     fn area(&self, index: u32) -> f64 {
@@ -180,7 +188,9 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {
-        self.primitives.primitive(index).lines(detail, add);
+        let primitive = self.primitives.primitive(index);
+        let lines = |add: AddLine<'_>| primitive.lines(detail, add);
+        self.appearance.lines(index, lines, add);
     }
 
     fn interior(&self, index: u32, ray: &Ray) -> Interior {
@@ -196,7 +206,7 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn material(&self, index: u32) -> u32 {
-        self.materials.of(index)
+        self.appearance.materials.of(index)
     }
 
     fn numbers(&self, index: u32) -> Vec<f32> {
@@ -209,10 +219,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
         let primitives = indices
             .iter()
             .map(|&index| self.primitives.primitive(index));
-        let (materials, options) = (Runs::default(), SceneOptions::default());
+        let (appearance, options) = (self.appearance.sides_of(indices), SceneOptions::default());
         let group = S::group(
             primitives.collect(),
-            materials,
+            appearance,
             options,
             &Progress::default(),
         );

@@ -1,8 +1,7 @@
 //! The table of shapes that scenes can hold.
 
-use super::{CSG_KERNELS, Group, SceneOptions, ShapeGroup, csg};
+use super::{Appearance, CSG_KERNELS, Group, SceneOptions, ShapeGroup, csg};
 use crate::kernel::{KernelChoice, KernelInfo, KernelTable};
-use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::shape::{
     AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Shape as _,
@@ -14,13 +13,13 @@ use std::sync::Arc;
 ///
 /// Its methods aren't generic, so that the code of all kernels is compiled once, in this crate.
 pub trait Grouped: KernelTable {
-    /// A group of primitives, and their materials as indices into the mesh's.
+    /// A group of primitives with their materials and sides.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
     fn group(
         primitives: Vec<Self>,
-        materials: Runs,
+        appearance: Appearance,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Arc<dyn Group>, Cancelled>;
@@ -57,12 +56,12 @@ macro_rules! shapes {
         impl Grouped for $shape {
             fn group(
                 primitives: Vec<Self>,
-                materials: Runs,
+                appearance: Appearance,
                 options: SceneOptions,
                 progress: &Progress,
             ) -> Result<Arc<dyn Group>, Cancelled> {
                 let group = ShapeGroup::<Self>::new(Arc::new(primitives), options, progress)?;
-                Ok(Arc::new(group.with_materials(materials)))
+                Ok(Arc::new(group.with_appearance(appearance)))
             }
         }
     )*};

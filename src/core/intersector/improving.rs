@@ -90,8 +90,8 @@ impl Intersector for Improving {
 }
 
 impl GroupIntersector for Improving {
-    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
-        self.current.get().nearest(ray)
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
+        self.current.get().nearest_with_cost(ray)
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {

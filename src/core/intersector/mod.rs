@@ -3,28 +3,28 @@
 //! Kernel and CPU level are chosen when an intersector is made. A batch of rays then costs one virtual call,
 //! or two while a better tree is being built. `tree` is the intersector of primitives of one shape. It is
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
-//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once. `improving` forwards to an
-//! intersector that can be replaced when a better tree is ready. `several` orders the hits of several
-//! groups.
+//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once.
+//! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` orders the hits of
+//! a scene's groups.
 
 mod algebraic;
 mod blocks;
 mod exact;
+mod groups;
 pub(crate) mod improving;
 mod levels;
 mod method;
 mod order;
 mod packet;
 mod ranked;
-mod several;
 mod tree;
 mod visitors;
 
 pub use blocks::Packing;
 pub(crate) use blocks::candidates;
-use several::ExactT;
-pub use several::{GroupIntersector, RankedHit};
-pub(crate) use several::{crossings_of, several};
+use groups::ExactT;
+pub use groups::{GroupIntersector, RankedHit};
+pub(crate) use groups::{crossings_of, scene_intersector};
 
 use crate::algebra::Pieces;
 use crate::bvh::Bvh;
@@ -41,6 +41,7 @@ use exact::Exact;
 use levels::{BaselineLevel, EveryLevel};
 use method::Method;
 use ranked::Ranked;
+use std::ops::AddAssign;
 use std::slice::from_ref;
 use std::sync::Arc;
 use tree::{Packets, TreeIntersector};
@@ -56,6 +57,15 @@ pub struct Cost {
     pub in_f64: u32,
     /// Decisions that the exact kernel took in integers.
     pub in_integers: u32,
+}
+
+impl AddAssign for Cost {
+    fn add_assign(&mut self, other: Self) {
+        self.boxes += other.boxes;
+        self.primitives += other.primitives;
+        self.in_f64 += other.in_f64;
+        self.in_integers += other.in_integers;
+    }
 }
 
 /// A point where a ray crosses the surface: a hit, and other hits at the same t.

@@ -170,7 +170,7 @@ impl<K: Kernel> TreeIntersector<Ranked<K, f32, EveryLevel>> {
             all: rays,
             blocks: &self.blocks,
             scratch,
-            rays: K::prepare(&lanes),
+            rays: K::Prepared::from(lanes),
             t_min: packet.t_min,
             end: packet.t_max,
             rank: packet.t_max,

@@ -95,7 +95,7 @@ impl<K: Kernel, N: Number, V: Levels> Method for Ranked<K, N, V> {
             token,
             blocks,
             scratch,
-            prepared: K::prepare(&RayLanes::of(token, ray)),
+            prepared: K::Prepared::from(RayLanes::of(token, ray)),
             t_min: Lane::of(token, ray.t_min),
             end: N::from(ray.t_max),
             ray,

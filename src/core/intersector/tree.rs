@@ -224,12 +224,12 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 }
 
 impl<M: Method> GroupIntersector for TreeIntersector<M> {
-    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
         let mut hit = None;
-        self.each(ray, Query::Nearest, &mut |tester, mut found| {
+        let cost = self.each(ray, Query::Nearest, &mut |tester, mut found| {
             hit = found.pop().map(|found| tester.ranked(found));
         });
-        hit
+        (hit, cost)
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {

@@ -4,7 +4,7 @@ use super::{KernelInfo, RayLanes};
 use crate::aabb::Planes;
 use crate::lane::{Lane, LaneMask, Number, Stored, Values};
 use crate::ray::Ray;
-use crate::shape::Shape;
+use crate::shape::{Shape, numbers_of};
 
 /// The result of a test: the lanes that hit, with t, u and v. Other lanes are undefined.
 #[derive(Clone, Copy)]
@@ -46,9 +46,9 @@ pub trait Kernel: Send + Sync + 'static {
     /// The number of values stored per primitive; by default, its parameters.
     const VALUES: usize = Self::Shape::NUMBERS;
     /// The type of the stored values when computing in `N`.
-    type Stored<N: Number>: Stored<N> + Stored<f32>;
-    /// Rays prepared for many tests.
-    type Prepared<L: Lane>: Copy;
+    type Stored<N: Number>: Stored<N> + Stored<f32> + From<f32>;
+    /// Rays prepared for many tests, once per ray.
+    type Prepared<L: Lane>: Copy + From<RayLanes<L>>;
 
     /// Whether lanes can be doubtful. If so, lanes without a primitive hold a copy of another one: NaN values
     /// would always be doubtful.
@@ -63,8 +63,13 @@ pub trait Kernel: Send + Sync + 'static {
         }
     }
 
-    /// Packs a primitive into [`VALUES`](Self::VALUES) numbers, once.
-    fn pack<N: Number>(shape: &Self::Shape, values: &mut [Self::Stored<N>]);
+    /// Packs a primitive into [`VALUES`](Self::VALUES) numbers, once; by default, its parameters.
+    fn pack<N: Number>(shape: &Self::Shape, values: &mut [Self::Stored<N>]) {
+        let values = &mut values[..Self::Shape::NUMBERS];
+        for (value, number) in values.iter_mut().zip(numbers_of(shape)) {
+            *value = number.into();
+        }
+    }
 
     /// The exact box around each primitive as packed by `pack::<N>`; it lies within [`Shape::bounds`]. By default, of
     /// values that are parameters.
@@ -72,9 +77,6 @@ pub trait Kernel: Send + Sync + 'static {
     fn bounds<N: Number, L: Lane>(primitives: &impl Values<L>) -> Planes<L> {
         Self::Shape::planes(primitives)
     }
-
-    /// Prepares rays, once per ray.
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> Self::Prepared<L>;
 
     /// Tests a ray against a primitive in each lane: one ray against many primitives, or many rays against one.
     ///

@@ -30,13 +30,13 @@ impl<L: Lane> Roots<L> {
         Self::ordered(discriminant, c / q, q / a)
     }
 
-    /// t of the points f + t·d at the distance r from 0, given r².
+    /// t of the points f + t·d at the distance r from 0, given a = d·d and r².
     ///
     /// Source: Haines, Günther, Akenine-Möller, "Precision Improvements for Ray/Sphere Intersection", Ray Tracing Gems,
     /// 2019: the discriminant r² − l·l, where l is the point nearest to 0, is a difference of numbers of the size of r.
     #[inline(always)]
-    pub fn at_distance(f: &[L; 3], d: &[L; 3], r_squared: L) -> Self {
-        let (a, b) = (dot(d, d), dot(f, d));
+    pub fn at_distance(f: &[L; 3], d: &[L; 3], a: L, r_squared: L) -> Self {
+        let b = dot(f, d);
         let l = plus(f, &times(-b / a, d));
         let discriminant = a * (r_squared - dot(&l, &l));
         Self::press(a, b, dot(f, f) - r_squared, discriminant)

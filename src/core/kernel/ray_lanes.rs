@@ -1,6 +1,6 @@
 //! Rays in SIMD lanes.
 
-use crate::lane::{Lane, LaneMask, longest_axis};
+use crate::lane::{Lane, LaneMask, dot, longest_axis};
 use crate::ray::Ray;
 
 /// One ray in every lane, or a different ray in each lane, all with the same dominant axis and direction
@@ -54,6 +54,44 @@ impl<L: Lane> RayLanes<L> {
             interval,
             axes: axes_along(z, is_backward.any()),
         })
+    }
+}
+
+/// A ray's origin and the inverse of its direction.
+#[derive(Clone, Copy)]
+pub(super) struct InverseRay<L> {
+    pub origin: [L; 3],
+    pub inverse: [L; 3],
+}
+
+impl<L: Lane> From<RayLanes<L>> for InverseRay<L> {
+    #[inline(always)]
+    fn from(rays: RayLanes<L>) -> Self {
+        let one = L::of(rays.dir[0].token(), 1.0);
+        let [x, y, z] = rays.dir;
+        Self {
+            origin: rays.origin,
+            inverse: [one / x, one / y, one / z],
+        }
+    }
+}
+
+/// A ray's origin, direction, and the square of the direction's length.
+#[derive(Clone, Copy)]
+pub(super) struct SquaredRay<L> {
+    pub origin: [L; 3],
+    pub dir: [L; 3],
+    pub dir_squared: L,
+}
+
+impl<L: Lane> From<RayLanes<L>> for SquaredRay<L> {
+    #[inline(always)]
+    fn from(rays: RayLanes<L>) -> Self {
+        Self {
+            origin: rays.origin,
+            dir: rays.dir,
+            dir_squared: dot(&rays.dir, &rays.dir),
+        }
     }
 }
 

@@ -140,7 +140,7 @@ fn intersect_one<K: Kernel, N: Number>(ray: &Ray, shape: &K::Shape) -> Option<Hi
     let mut values = [K::Stored::<N>::default(); MAX_VALUES];
     let values = &mut values[..K::VALUES];
     K::pack::<N>(shape, values);
-    let prepared = K::prepare::<N>(&RayLanes::of((), ray));
+    let prepared = K::Prepared::<N>::from(RayLanes::of((), ray));
     let [t_min, t_max] = [ray.t_min, ray.t_max].map(N::from);
     let hit = K::intersect(&prepared, &&*values, t_min, t_max)?;
     let [t, u, v] = if hit.doubtful {

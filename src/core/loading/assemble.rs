@@ -2,18 +2,34 @@
 
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
-use super::merge::{Part, merged};
-use super::placed::{Groups, Placed, Refusal, placed};
+use super::memory::Needs;
+use super::merge::{Part, merged, positions_in_world};
+use super::placed::{
+    Groups, Look, Placed, Refusal, is_flipped, is_mirroring, placed, require_invertible,
+};
 use super::{LoadedScene, StartView, size_warning};
 use crate::light::{EnvironmentMap, LoadedMap};
-use crate::obj::{self, LoadError, LoadOptions, LoadReport, Recentre, Warning, shown};
+use crate::mesh::TriangleMesh;
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
 use crate::scene_file::{self, EmitterKind, Place, SceneFile, Shape, ShapeKind};
 use glam::DVec3;
-use std::path::Path;
+use std::collections::HashMap;
+use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
+
+/// An entry of the list of placed shapes, and two changes of material and side.
+const NEEDS_OF_ENTRY: Needs = Needs {
+    loaded: 0,
+    placed: size_of::<(Box<dyn Placed>, Look)>() as u64,
+    shapes: 2 * size_of::<(u32, u32)>() as u64,
+    merged: 0,
+    primitive_count: 0,
+};
+/// An entry of the map of OBJ files, with paths.
+const BYTES_PER_FILE: u64 = 1_000;
 
 /// Loads a scene file and the meshes that it names.
 ///
@@ -26,8 +42,8 @@ pub(super) fn load(
     progress: &Progress,
 ) -> Result<LoadedScene, LoadError> {
     let start = Instant::now();
-    let file = scene_file::load(path, load_options.max_memory, progress)?;
-    let mut contents = Contents::load(&file, load_options, progress)?;
+    let (file, held) = scene_file::load_counted(path, load_options.max_memory, progress)?;
+    let mut contents = Contents::load(&file, load_options, held, progress)?;
     let map = contents.map.take();
     contents.report.duration = start.elapsed();
     progress.enter(Phase::Building);
@@ -49,8 +65,16 @@ pub(super) fn load(
 /// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
-    /// Shapes other than meshes and their materials.
-    shapes: Vec<(Box<dyn Placed>, u32)>,
+    /// Shapes other than meshes, with their materials and sides.
+    shapes: Vec<(Box<dyn Placed>, Look)>,
+    /// The OBJ files, each loaded once, and their counts.
+    meshes: HashMap<PathBuf, (Arc<TriangleMesh>, LoadReport)>,
+    options: LoadOptions,
+    /// The memory of the scene file's description.
+    held: u64,
+    needs: Needs,
+    /// Whether the memory suffices. If not, shapes are only counted, for the message.
+    fits: bool,
     /// Materials that come after those of the file.
     emitting: EmittingMaterials,
     /// The picture of the environment.
@@ -59,9 +83,11 @@ struct Contents {
 }
 
 impl Contents {
+    /// `held` is the memory of the description.
     fn load(
         file: &SceneFile,
         options: LoadOptions,
+        held: u64,
         progress: &Progress,
     ) -> Result<Self, LoadError> {
         let mut contents = Self {
@@ -69,51 +95,85 @@ impl Contents {
             shapes: Vec::new(),
             emitting: EmittingMaterials::default(),
             map: None,
+            meshes: HashMap::new(),
+            options,
+            held,
+            needs: Needs::default(),
+            fits: true,
             report: LoadReport {
                 warnings: file.warnings.clone(),
                 files: file.files.clone(),
                 ..LoadReport::default()
             },
         };
+        let main_file = || file.path_of(Place::default()).to_owned();
         for shape in &file.shapes {
-            let material = contents.material(file, shape);
-            contents.warn_about(file, shape);
-            let placed = placed(shape, &shape.to_world);
-            let placed = placed.map_err(|refusal| refused(file, refusal))?;
-            if let Some(placed) = placed {
-                contents.shapes.push((placed, material.unwrap_or(0)));
-            } else if let ShapeKind::Obj {
-                file: path,
-                face_normals,
-                ..
-            } = &shape.kind
-            {
-                let loaded = obj::load(path, options, progress)?;
-                contents.take_report(path, loaded.report);
-                let name = shape.name.as_ref().or(shape.id.as_ref());
-                contents.parts.push(Part {
-                    mesh: loaded.mesh,
-                    to_world: shape.to_world,
-                    material,
-                    name: name.cloned().unwrap_or_default(),
-                    has_face_normals: *face_normals,
-                    flips_normals: shape.flip_normals,
-                });
+            let cancelled = |Cancelled| LoadError::Cancelled { path: main_file() };
+            progress.check().map_err(cancelled)?;
+            contents.add(file, shape, progress)?;
+            if contents.fits && contents.bytes() > options.max_memory {
+                contents.fits = false;
+                (contents.shapes, contents.parts) = (Vec::new(), Vec::new());
             }
         }
+        if contents.fits {
+            contents.load_environment(file, progress)?;
+            return Ok(contents);
+        }
+        Err(LoadError::Content {
+            path: main_file(),
+            message: scene_file::exceeded("about", contents.bytes(), options.max_memory),
+        })
+    }
+
+    /// The memory of everything so far.
+    fn bytes(&self) -> u64 {
+        self.held + self.needs.bytes()
+    }
+
+    fn add(
+        &mut self,
+        file: &SceneFile,
+        shape: &Shape,
+        progress: &Progress,
+    ) -> Result<(), LoadError> {
+        let refused = |refusal| refused(file, refusal);
+        let material = self.material(file, shape);
+        self.warn_about(file, shape);
+        if let ShapeKind::Obj(obj) = &shape.kind {
+            require_invertible(shape.place, &shape.to_world).map_err(refused)?;
+            if self.fits {
+                let mesh = self.mesh(&obj.file, progress)?;
+                let part = part(shape, obj, mesh, material);
+                self.needs.add(part.needs());
+                self.parts.push(part);
+            }
+            return Ok(());
+        }
+        let placed = placed(shape, &shape.to_world).map_err(refused)?;
+        self.needs.add(placed.needs());
+        self.needs.add(NEEDS_OF_ENTRY);
+        if self.fits {
+            let look = Look {
+                material: material.unwrap_or(0),
+                is_flipped: is_flipped(shape),
+            };
+            self.shapes.push((placed, look));
+        }
+        Ok(())
+    }
+
+    /// Loads the picture of the environment.
+    fn load_environment(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), LoadError> {
         for emitter in &file.emitters {
             if let EmitterKind::Envmap { file: path, .. } = &emitter.kind {
-                let LoadedMap { map, warnings } =
-                    EnvironmentMap::load(path, options.max_memory, progress)?;
-                contents.map = Some(map);
-                let report = LoadReport {
-                    warnings,
-                    ..LoadReport::default()
-                };
-                contents.take_report(path, report);
+                let limit = self.options.max_memory.saturating_sub(self.bytes());
+                let LoadedMap { map, warnings } = EnvironmentMap::load(path, limit, progress)?;
+                self.map = Some(map);
+                self.take_messages(path, warnings, Vec::new());
             }
         }
-        Ok(contents)
+        Ok(())
     }
 
     /// The index of a shape's material; `None` for none, or for those of an OBJ file.
@@ -131,16 +191,8 @@ impl Contents {
 
     /// Warns about parts of a shape that have no effect.
     fn warn_about(&mut self, file: &SceneFile, shape: &Shape) {
-        let has_direction = matches!(
-            shape.kind,
-            ShapeKind::Obj { .. } | ShapeKind::Disk | ShapeKind::Rectangle
-        );
-        if shape.flip_normals && !has_direction {
-            let message = "flip_normals has no effect on this shape".to_owned();
-            self.warn(file, shape.place, message);
-        }
-        if let ShapeKind::Csg { children, .. } = &shape.kind {
-            for child in children {
+        if let ShapeKind::Csg(csg) = &shape.kind {
+            for child in &csg.children {
                 if let Some(emitter) = &child.emitter {
                     let message = "an emitter of a part of a csg has no effect".to_owned();
                     self.warn(file, emitter.place, message);
@@ -163,9 +215,33 @@ impl Contents {
         });
     }
 
-    /// Adds the report of a file that the scene file names.
-    fn take_report(&mut self, path: &Path, report: LoadReport) {
-        let told = report.warnings.into_iter().map(|warning| {
+    /// The mesh of an OBJ file, which is loaded unless it was before.
+    fn mesh(&mut self, path: &Path, progress: &Progress) -> Result<Arc<TriangleMesh>, LoadError> {
+        if !self.meshes.contains_key(path) {
+            let loaded = obj::load_besides(path, self.options, self.bytes(), progress)?;
+            let Loaded { mesh, mut report } = loaded;
+            let warnings = std::mem::take(&mut report.warnings);
+            let files = std::mem::take(&mut report.files);
+            self.take_messages(path, warnings, files);
+            let parts = mesh.bytes().map(|(_, bytes)| bytes as u64);
+            self.needs.loaded += parts.iter().sum::<u64>() + BYTES_PER_FILE;
+            self.meshes
+                .insert(path.to_owned(), (Arc::new(mesh), report));
+        }
+        let (mesh, report) = &self.meshes[path];
+        let sum = &mut self.report;
+        sum.dropped.zero_area += report.dropped.zero_area;
+        sum.dropped.non_finite += report.dropped.non_finite;
+        sum.dropped.bad_index += report.dropped.bad_index;
+        sum.dropped.elements += report.dropped.elements;
+        sum.vertex_count += report.vertex_count;
+        sum.max_rounding = sum.max_rounding.max(report.max_rounding);
+        Ok(Arc::clone(mesh))
+    }
+
+    /// Adds the warnings about an OBJ file, and the files that it names.
+    fn take_messages(&mut self, path: &Path, warnings: Vec<Warning>, files: Vec<PathBuf>) {
+        let told = warnings.into_iter().map(|warning| {
             let line = warning
                 .line
                 .map_or(String::new(), |line| format!(":{line}"));
@@ -174,16 +250,9 @@ impl Contents {
                 message: format!("{}{line}: {}", shown(path), warning.message),
             }
         });
-        let sum = &mut self.report;
-        sum.warnings.extend(told);
-        sum.dropped.zero_area += report.dropped.zero_area;
-        sum.dropped.non_finite += report.dropped.non_finite;
-        sum.dropped.bad_index += report.dropped.bad_index;
-        sum.dropped.elements += report.dropped.elements;
-        sum.vertex_count += report.vertex_count;
-        sum.max_rounding = sum.max_rounding.max(report.max_rounding);
-        sum.files.push(path.to_owned());
-        sum.files.extend(report.files);
+        self.report.warnings.extend(told);
+        self.report.files.push(path.to_owned());
+        self.report.files.extend(files);
     }
 
     fn scene(
@@ -196,11 +265,12 @@ impl Contents {
         let origin = self.origin(recentre);
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
-        for (shape, material) in &self.shapes {
-            shape.push_to(&mut groups, origin, *material);
+        for (shape, look) in self.shapes {
+            shape.push_to(&mut groups, origin, look);
         }
         let mut materials = materials(file);
         self.emitting.append_to(&mut materials);
+        drop(self.meshes);
         let mesh = merged(self.parts, origin, materials);
         let mut scene = Scene::with_options(mesh, options, progress)?;
         groups.add_to(&mut scene, options, progress)?;
@@ -214,26 +284,50 @@ impl Contents {
         }
         let of_shapes = self.shapes.iter().filter_map(|(shape, _)| shape.bounds());
         let corners = of_shapes.flatten();
-        let vertices = self.parts.iter().flat_map(Part::positions);
         let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         let all = corners
-            .chain(vertices)
+            .chain(self.vertices())
             .filter(|p| p.is_finite())
             .fold(none, |[min, max], p| [min.min(p), max.max(p)]);
         obj::origin_near(all).unwrap_or(DVec3::ZERO)
     }
 
+    /// The vertices of all meshes in the world.
+    fn vertices(&self) -> impl Iterator<Item = DVec3> {
+        self.parts.iter().flat_map(|part| &part.positions).copied()
+    }
+
     /// The largest rounding of a vertex's coordinate.
     fn rounding(&self, origin: DVec3) -> f64 {
-        let vertices = self.parts.iter().flat_map(Part::positions);
         let rounding = |p: DVec3| {
             let near = p - origin;
             (near.as_vec3().as_dvec3() - near).abs().max_element()
         };
-        let finite = vertices
+        let finite = self
+            .vertices()
             .map(rounding)
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
+    }
+}
+
+/// A mesh of a scene file.
+fn part(
+    shape: &Shape,
+    obj: &scene_file::Obj,
+    mesh: Arc<TriangleMesh>,
+    material: Option<u32>,
+) -> Part {
+    let name = shape.name.as_ref().or(shape.id.as_ref());
+    Part {
+        positions: positions_in_world(&mesh, &shape.to_world),
+        mesh,
+        to_world: shape.to_world,
+        material,
+        name: name.cloned().unwrap_or_default(),
+        has_face_normals: obj.face_normals,
+        is_mirrored: is_mirroring(&shape.to_world),
+        is_flipped: shape.flip_normals,
     }
 }
 

@@ -1,13 +1,18 @@
 //! All meshes of a scene as one, in the coordinates of the world.
 
+use super::memory::Needs;
 use crate::mesh::{
     Assigned, Attributes, CornerValues, Faces, Material, NO_INDEX, Runs, Texture, TriangleMesh,
 };
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
+use std::sync::Arc;
 
 /// A mesh of the scene before it is merged.
 pub(super) struct Part {
-    pub mesh: TriangleMesh,
+    /// Shared by all parts of the same file.
+    pub mesh: Arc<TriangleMesh>,
+    /// The mesh's vertices in the world.
+    pub positions: Vec<DVec3>,
     pub to_world: DMat4,
     /// Index of its material in the scene; `None` to keep the OBJ file's.
     pub material: Option<u32>,
@@ -15,18 +20,70 @@ pub(super) struct Part {
     pub name: String,
     /// Whether the file's normals are ignored.
     pub has_face_normals: bool,
-    /// Whether front and back are exchanged.
-    pub flips_normals: bool,
+    /// Whether the transform exchanges left and right.
+    pub is_mirrored: bool,
+    /// Whether the normals are reversed.
+    pub is_flipped: bool,
+}
+
+/// The vertices of a mesh in the world.
+pub(super) fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<DVec3> {
+    let in_world = |p: &Vec3| to_world.transform_point3(mesh.in_file(p.as_dvec3()));
+    mesh.positions().iter().map(in_world).collect()
 }
 
 impl Part {
-    /// The vertices in the world.
-    pub fn positions(&self) -> impl Iterator<Item = DVec3> {
-        let in_world = |p: &Vec3| {
-            self.to_world
-                .transform_point3(self.mesh.in_file(p.as_dvec3()))
-        };
-        self.mesh.positions().iter().map(in_world)
+    /// Whether the file's normals are used.
+    fn has_normals(&self) -> bool {
+        !self.has_face_normals && !self.mesh.attributes().normals.is_empty()
+    }
+
+    /// Whether the file has texture coordinates.
+    fn has_coordinates(&self) -> bool {
+        !self.mesh.attributes().texture_coordinates.is_empty()
+    }
+
+    /// The memory of the merged mesh for this part.
+    pub fn needs(&self) -> Needs {
+        /// Per triangle with normals or texture coordinates: the indices of its corners, twice while the lists are made.
+        const BYTES_PER_CORNER_LIST: usize = 2 * size_of::<[u32; 3]>();
+        /// Per triangle: its corners, face and outline.
+        const BYTES_PER_TRIANGLE: usize = size_of::<[u32; 3]>() + 4 + 1;
+        let (mesh, attributes) = (&self.mesh, self.mesh.attributes());
+        let mut bytes_per_triangle = BYTES_PER_TRIANGLE;
+        let mut bytes = size_of_val(mesh.positions())
+            + size_of_val(&attributes.colours[..])
+            + size_of_val(&attributes.lines[..])
+            + size_of_val(&attributes.points[..])
+            + attributes.groups.bytes()
+            + size_of::<String>()
+            + self.name.len();
+        if self.has_normals() {
+            bytes += size_of_val(attributes.normals.values());
+            bytes_per_triangle += BYTES_PER_CORNER_LIST;
+        }
+        if self.has_coordinates() {
+            bytes += size_of_val(attributes.texture_coordinates.values());
+            bytes_per_triangle += BYTES_PER_CORNER_LIST;
+        }
+        if self.material.is_none() {
+            let textures = attributes.textures.iter().map(Texture::bytes);
+            bytes += textures.sum::<usize>() + attributes.materials.bytes();
+        }
+        let triangle_count = mesh.triangles().len();
+        Needs {
+            placed: size_of::<Self>() as u64,
+            loaded: (size_of::<DVec3>() * mesh.positions().len()) as u64,
+            merged: (bytes + bytes_per_triangle * triangle_count) as u64,
+            primitive_count: triangle_count as u64,
+            ..Needs::default()
+        }
+    }
+
+    /// Whether the order of corners is reversed. As in Mitsuba, a mirroring transform maps normals of the file to the
+    /// same side, which triangles then face, too; without normals, it turns triangles to the other side.
+    fn has_reversed_corners(&self) -> bool {
+        self.is_flipped != (self.is_mirrored && self.has_normals())
     }
 }
 
@@ -40,8 +97,11 @@ pub(super) fn merged(parts: Vec<Part>, origin: DVec3, materials: Vec<Material>) 
     let has_colours = parts
         .iter()
         .any(|part| !part.mesh.attributes().colours.is_empty());
-    for part in &parts {
-        merged.append(part, origin, has_colours);
+    merged.has_normals = parts.iter().any(Part::has_normals);
+    merged.has_coordinates = parts.iter().any(Part::has_coordinates);
+    // Each part is freed once it is merged.
+    for part in parts {
+        merged.append(&part, origin, has_colours);
     }
     merged.mesh(origin)
 }
@@ -52,6 +112,9 @@ struct Merged {
     triangles: Vec<[u32; 3]>,
     faces: Faces,
     face_count: u32,
+    /// Whether a part has normals, and whether one has texture coordinates.
+    has_normals: bool,
+    has_coordinates: bool,
     normals: Vec<Vec3>,
     normal_corners: Vec<[u32; 3]>,
     coordinates: Vec<Vec2>,
@@ -66,57 +129,97 @@ struct Merged {
     points: Vec<u32>,
 }
 
+/// The indices at which a part's values begin in the merged lists.
+struct Offsets {
+    position: u32,
+    normal: u32,
+    coordinate: u32,
+    material: u32,
+    group: u32,
+    /// Whether the order of corners is reversed.
+    is_reversed: bool,
+}
+
+impl Offsets {
+    /// The indices of a triangle's corners in a merged list, in their new order.
+    fn shifted(&self, [a, b, c]: [u32; 3], first: u32) -> [u32; 3] {
+        let ordered = if self.is_reversed {
+            [a, c, b]
+        } else {
+            [a, b, c]
+        };
+        ordered.map(|index| match index {
+            NO_INDEX => NO_INDEX,
+            index => first + index,
+        })
+    }
+}
+
 impl Merged {
     fn append(&mut self, part: &Part, origin: DVec3, has_colours: bool) {
-        let (mesh, attributes) = (&part.mesh, part.mesh.attributes());
-        let first_position = self.positions.len() as u32;
-        self.positions
-            .extend(part.positions().map(|p| (p - origin).as_vec3()));
+        let attributes = part.mesh.attributes();
+        let offsets = Offsets {
+            position: self.positions.len() as u32,
+            normal: self.normals.len() as u32,
+            coordinate: self.coordinates.len() as u32,
+            material: self.materials.len() as u32,
+            group: self.groups.len() as u32,
+            is_reversed: part.has_reversed_corners(),
+        };
+        let near = part.positions.iter().map(|&p| (p - origin).as_vec3());
+        self.positions.extend(near);
         if has_colours && attributes.colours.is_empty() {
             self.colours.resize(self.positions.len(), Vec3::ONE);
         }
         self.colours.extend(&attributes.colours);
-
-        // Materials and textures of the file are used unless the scene names another material.
-        let first_material = self.materials.len() as u32;
         if part.material.is_none() {
-            let first_texture = self.textures.len() as u32;
-            self.textures.extend_from_slice(&attributes.textures);
-            self.materials
-                .extend(attributes.materials.entries().iter().map(|material| {
-                    let mut material = material.clone();
-                    material
-                        .maps_mut()
-                        .for_each(|map| map.texture += first_texture);
-                    material
-                }));
+            self.append_materials(attributes);
         }
-        let first_group = self.groups.len() as u32;
         let names = attributes.groups.entries().iter();
         self.groups
             .extend(names.map(|group| named(&part.name, group)));
         if attributes.groups.entries().is_empty() {
             self.groups.push(part.name.clone());
         }
-
-        let linear = DMat3::from_mat4(part.to_world);
-        let for_normals = linear.inverse().transpose();
-        let is_mirrored = (linear.determinant() < 0.0) != part.flips_normals;
-        let sign = if part.flips_normals { -1.0 } else { 1.0 };
-        let [first_normal, first_coordinate] =
-            [self.normals.len() as u32, self.coordinates.len() as u32];
-        if !part.has_face_normals {
-            let turned =
-                |n: &Vec3| sign * (for_normals * n.as_dvec3()).normalize_or_zero().as_vec3();
+        if part.has_normals() {
+            let for_normals = DMat3::from_mat4(part.to_world).inverse().transpose();
+            let side = if part.is_flipped { -1.0 } else { 1.0 };
+            let turned = |n: &Vec3| {
+                let normal = for_normals * n.as_dvec3();
+                (side * normal.normalize_or_zero()).as_vec3()
+            };
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }
         self.coordinates
             .extend(attributes.texture_coordinates.values());
+        self.append_triangles(part, &offsets);
+        let vertex = |vertex: u32| offsets.position + vertex;
+        self.lines
+            .extend(attributes.lines.iter().map(|ends| ends.map(vertex)));
+        self.points
+            .extend(attributes.points.iter().map(|&p| vertex(p)));
+    }
 
-        let ordered = |[a, b, c]: [u32; 3]| if is_mirrored { [a, c, b] } else { [a, b, c] };
+    /// Appends the materials and textures of a file, which are used unless the scene names another material.
+    fn append_materials(&mut self, attributes: &Attributes) {
+        let first_texture = self.textures.len() as u32;
+        self.textures.extend_from_slice(&attributes.textures);
+        self.materials
+            .extend(attributes.materials.entries().iter().map(|material| {
+                let mut material = material.clone();
+                if let Some(map) = &mut material.diffuse_map {
+                    map.texture += first_texture;
+                }
+                material
+            }));
+    }
+
+    /// Appends the triangles that can be traced. Their corners' values are already there.
+    fn append_triangles(&mut self, part: &Part, offsets: &Offsets) {
+        let (mesh, attributes) = (&part.mesh, part.mesh.attributes());
         for (old, corners) in (0..).zip(mesh.triangles()) {
-            let corners = ordered(*corners).map(|vertex| first_position + vertex);
+            let corners = offsets.shifted(*corners, offsets.position);
             let positions = corners.map(|vertex| self.positions[vertex as usize]);
             let is_traceable =
                 positions.iter().all(|p| p.is_finite()) && !crate::mesh::has_zero_area(positions);
@@ -125,36 +228,29 @@ impl Merged {
             }
             let new = self.triangles.len() as u32;
             self.triangles.push(corners);
-            let outline = outline(attributes.faces.outline(old), is_mirrored);
+            let outline = outline(attributes.faces.outline(old), offsets.is_reversed);
             let face = self.face_count + mesh.face_of(old);
             self.faces.push(new, face, outline);
-            let shifted = |corners: [u32; 3], first: u32| {
-                ordered(corners).map(|index| match index {
-                    NO_INDEX => NO_INDEX,
-                    index => first + index,
-                })
-            };
-            let normals = if part.has_face_normals {
-                [NO_INDEX; 3]
-            } else {
-                shifted(attributes.normals.indices(old), first_normal)
-            };
-            self.normal_corners.push(normals);
-            let coordinates = attributes.texture_coordinates.indices(old);
-            self.coordinate_corners
-                .push(shifted(coordinates, first_coordinate));
-            let own = || first_material + attributes.materials.index(old);
+            if self.has_normals {
+                let normals = if part.has_normals() {
+                    offsets.shifted(attributes.normals.indices(old), offsets.normal)
+                } else {
+                    [NO_INDEX; 3]
+                };
+                self.normal_corners.push(normals);
+            }
+            if self.has_coordinates {
+                let coordinates = attributes.texture_coordinates.indices(old);
+                self.coordinate_corners
+                    .push(offsets.shifted(coordinates, offsets.coordinate));
+            }
+            let own = || offsets.material + attributes.materials.index(old);
             self.material_runs
                 .begin(new, part.material.unwrap_or_else(own));
             let group = attributes.groups.index(old);
-            self.group_runs.begin(new, first_group + group);
+            self.group_runs.begin(new, offsets.group + group);
         }
         self.face_count += mesh.face_count() as u32;
-        let vertex = |vertex: u32| first_position + vertex;
-        self.lines
-            .extend(attributes.lines.iter().map(|ends| ends.map(vertex)));
-        self.points
-            .extend(attributes.points.iter().map(|&p| vertex(p)));
     }
 
     fn mesh(self, origin: DVec3) -> TriangleMesh {
@@ -174,9 +270,9 @@ impl Merged {
     }
 }
 
-/// The edges AB, BC, CA of an outline, after B and C are exchanged if the shape is mirrored.
-fn outline(edges: u8, is_mirrored: bool) -> u8 {
-    if is_mirrored {
+/// The edges AB, BC, CA of an outline, after B and C are exchanged if the order is reversed.
+fn outline(edges: u8, is_reversed: bool) -> u8 {
+    if is_reversed {
         (edges & 1) << 2 | edges & 2 | (edges & 4) >> 2
     } else {
         edges

@@ -6,6 +6,7 @@
 //! | the shapes of the core that a transformed shape becomes | `placed` |
 //! | its materials | `materials` |
 //! | all meshes as one | `merge` |
+//! | the memory that this takes | `memory` |
 //! | the sensor as a view | `view` |
 //! | emitters as lights, and materials that emit light | `lights` |
 //! | what was loaded, as the text of a scene file | `saving` |
@@ -15,6 +16,7 @@
 mod assemble;
 mod lights;
 mod materials;
+mod memory;
 mod merge;
 mod placed;
 mod saving;

@@ -2,7 +2,8 @@
 
 use super::StartView;
 use crate::scene_file::{
-    self, EmitterKind, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Value, WriteError,
+    self, EmitterKind, Obj, Parameter, Place, Plugin, SceneFile, Shape, ShapeKind, Value,
+    WriteError,
 };
 use glam::DMat4;
 use std::path::Path;
@@ -50,11 +51,11 @@ fn of_mesh(path: &Path) -> SceneFile {
             place: Place::default(),
             id: None,
             name: None,
-            kind: ShapeKind::Obj {
+            kind: ShapeKind::Obj(Obj {
                 file: path.to_owned(),
                 face_normals: false,
                 flip_tex_coords: true,
-            },
+            }),
             to_world: DMat4::IDENTITY,
             flip_normals: false,
             material: None,

@@ -133,6 +133,16 @@ pub struct Loaded {
 /// # Errors
 /// See [`LoadError`], which gives the reason and the line.
 pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Loaded, LoadError> {
+    load_besides(path, options, 0, progress)
+}
+
+/// Like [`load`], if `held` bytes of the allowed memory are in use.
+pub(crate) fn load_besides(
+    path: &Path,
+    options: LoadOptions,
+    held: u64,
+    progress: &Progress,
+) -> Result<Loaded, LoadError> {
     let unreadable = |source| LoadError::Unreadable {
         path: path.to_owned(),
         source,
@@ -150,7 +160,7 @@ pub fn load(path: &Path, options: LoadOptions, progress: &Progress) -> Result<Lo
     progress.set_total(before.len());
     let folder = Folder::of(path);
     let opened = File::open(path).map_err(unreadable)?;
-    let parsed = parse_with(opened, path, options, &folder, progress);
+    let parsed = parse_with(opened, path, (options, held), &folder, progress);
     if matches!(parsed, Err(LoadError::Cancelled { .. })) {
         return parsed;
     }
@@ -211,24 +221,24 @@ pub fn parse(
     read_file: ReadFile,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
-    parse_with(bytes, path, options, &NamedFiles(read_file), progress)
+    parse_with(bytes, path, (options, 0), &NamedFiles(read_file), progress)
 }
 
 fn parse_with(
     bytes: impl Read,
     path: &Path,
-    options: LoadOptions,
+    (options, held): (LoadOptions, u64),
     files: &dyn ReferencedFiles,
     progress: &Progress,
 ) -> Result<Loaded, LoadError> {
     let start = Instant::now();
     let parse = || {
         progress.enter(Phase::Reading);
-        let read = || parallel::read(bytes, CHUNK_SIZE, &options, progress);
+        let read = || parallel::read(bytes, CHUNK_SIZE, (&options, held), progress);
         let contents = fenced("reading", read);
         let contents = contents.map_err(Problem::Content)??;
         // Textures get the remaining memory.
-        let held = memory::bytes(&contents);
+        let held = held + memory::bytes(&contents);
         let options = LoadOptions {
             max_memory: options.max_memory.saturating_sub(held),
             ..options

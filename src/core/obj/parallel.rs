@@ -21,14 +21,14 @@ const CHUNKS_PER_THREAD: usize = 3;
 /// to 16 bytes each, but only a hundredth of the allowed memory is pending.
 const BYTES_PER_PENDING_BYTE: u64 = 5;
 
-/// Reads a file in chunks of `chunk_size` bytes.
+/// Reads a file in chunks of `chunk_size` bytes, if `held` bytes of the allowed memory are in use.
 ///
 /// # Errors
 /// The first error in the file.
 pub(super) fn read(
     bytes: impl Read,
     chunk_size: usize,
-    options: &LoadOptions,
+    (options, held): (&LoadOptions, u64),
     progress: &Progress,
 ) -> Result<Contents, Problem> {
     let mut chunks = Chunks::new(bytes, chunk_size, progress)?;
@@ -65,7 +65,7 @@ pub(super) fn read(
                 }
             }
             let memory = BYTES_PER_PENDING_BYTE * pending_bytes as u64;
-            contents.check_size(options.max_memory, memory)?;
+            contents.check_size(options.max_memory, held + memory)?;
             let Some((first, bytes)) = pending.pop_front() else {
                 return end.unwrap_or(Ok(()));
             };

@@ -238,7 +238,8 @@ fn in_chunks(text: &str, chunk_size: usize) -> String {
         faults: FaultPolicy::Lenient,
         ..LoadOptions::default()
     };
-    let contents = parallel::read(text.as_bytes(), chunk_size, &options, &progress).expect("good");
+    let contents =
+        parallel::read(text.as_bytes(), chunk_size, (&options, 0), &progress).expect("good");
     let none = NamedFiles(&|_| Err(io::ErrorKind::NotFound.into()));
     let loaded = assemble::assemble(contents, &options, &none, &progress).expect("a mesh");
     let Loaded { mesh, report } = loaded;

@@ -3,10 +3,10 @@
 pub use crate::group::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
-use crate::group::{CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
-use crate::intersector::{Intersector, Packing, several};
+use crate::group::{Appearance, CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
+use crate::intersector::{Intersector, Packing, scene_intersector};
 use crate::kernel::KernelChoice;
-use crate::mesh::{Crease, Runs, TriangleMesh, VertexNormals};
+use crate::mesh::{Crease, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{SampledPoint, SurfacePoint};
@@ -96,32 +96,37 @@ impl Scene {
         self.crease
     }
 
-    /// Adds a group of primitives of one shape, and their materials as indices into the mesh's.
+    /// Adds a group of primitives of one shape, with their materials as indices into the mesh's, or with their materials
+    /// and sides.
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn add_group<S: Grouped>(
         &mut self,
         primitives: Vec<S>,
-        materials: Runs,
+        appearance: impl Into<Appearance>,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
-        self.push(S::group(primitives, materials, options, progress)?);
+        self.push(S::group(primitives, appearance.into(), options, progress)?);
         Ok(())
     }
 
-    /// Adds a group of solids, and their materials as indices into the mesh's.
+    /// Adds a group of solids; see [`add_group`](Self::add_group).
     ///
     /// # Errors
     /// [`Cancelled`] if `progress` was cancelled.
     pub fn add_solids(
         &mut self,
         solids: Vec<Solid>,
-        materials: Runs,
+        appearance: impl Into<Appearance>,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
-        self.push(Arc::new(CsgGroup::new(solids, materials, progress)?));
+        self.push(Arc::new(CsgGroup::new(
+            solids,
+            appearance.into(),
+            progress,
+        )?));
         Ok(())
     }
 
@@ -347,7 +352,7 @@ impl Scene {
     ) -> Box<dyn Intersector> {
         let kernel = kernel.into();
         let packed = |group: &Arc<dyn Group>| (group.count(), group.intersector(kernel, level));
-        several(kernel.info, self.groups.iter().map(packed).collect())
+        scene_intersector(kernel.info, self.groups.iter().map(packed).collect())
     }
 }
 

@@ -120,7 +120,7 @@ pub(super) fn plain(reader: &mut Reader, element: Element, kind: &str) -> Result
         objects::skip(reader, child, &parameters.object())
     })?;
     let bsdf = bsdf(reader, &mut parameters, kind)?;
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(bsdf)
 }
 

@@ -15,6 +15,10 @@ pub(super) struct OpenFile {
     /// The folder against which the names in the file are resolved.
     pub folder: PathBuf,
     pub lines: Lines,
+    /// The offset in the file of the text that is parsed: a piece of the file after `added` bytes.
+    pub offset: usize,
+    /// The length of what is added before the piece.
+    pub added: usize,
 }
 
 /// An element of a file.
@@ -27,8 +31,9 @@ pub(super) struct Element<'a> {
 }
 
 impl OpenFile {
-    /// The place of an offset in the file.
+    /// The place of an offset in the text that is parsed.
     pub(super) fn place_at(&self, offset: usize) -> Place {
+        let offset = self.offset + offset.saturating_sub(self.added);
         Place {
             file: self.index,
             line: self.lines.line(offset),

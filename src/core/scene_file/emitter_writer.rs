@@ -1,7 +1,7 @@
 //! Writer of emitters.
 
 use super::emitter::{Emitter, EmitterKind};
-use super::shape_writer::name_of;
+use super::kinds::name_of;
 use super::writer::{Writer, attributes};
 use super::xml::{WriteError, vector};
 use glam::DVec3;

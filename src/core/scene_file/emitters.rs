@@ -75,7 +75,7 @@ pub(super) fn emitter(
     let kind = kind_of(&head.kind, &mut parameters, element, reader)?;
     // It changes noise, not the picture.
     parameters.warn_about(&["sampling_weight"], &mut reader.warnings);
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(Emitter {
         place: element.place,
         id: head.id,

@@ -1,6 +1,6 @@
 //! Files of a scene: the main one and those that are included.
 
-use super::description::Place;
+use super::description::{Place, Shape};
 use super::element::{Element, OpenFile};
 use super::outline::Outline;
 use super::problem::{Problem, quoted};
@@ -8,6 +8,7 @@ use super::reader::{Reader, Visit};
 use super::text::{Lines, decoded, decoded_bytes};
 use crate::obj::shown;
 use roxmltree::{Document, ParsingOptions};
+use std::borrow::Cow;
 use std::io;
 use std::path::{Component, Path, PathBuf};
 
@@ -96,7 +97,7 @@ impl<'r> Reader<'r> {
         self.includes.bytes += bytes.len() as u64;
         if self.includes.bytes > self.memory.limit() {
             // Bounds the time for a large file that is included often.
-            return Err(self.memory.exceeded(start));
+            return Err(self.memory.exceeded(bytes.len() as u64, start));
         }
         let mut held = bytes.len() as u64 + decoded_bytes(bytes);
         self.memory.take(held, start)?;
@@ -111,25 +112,85 @@ impl<'r> Reader<'r> {
             let line = lines.line(excess.offset);
             Problem::at(Place { file: index, line }, excess.message)
         })?;
-        self.memory.take(outline.bytes, start)?;
-        held += outline.bytes;
-        let document = document(&text, index)?;
-        let file = OpenFile {
+        let shapes = if self.includes.open.is_empty() {
+            outline.shape_count
+        } else {
+            0
+        };
+        let shape_bytes = (shapes * size_of::<Shape>()) as u64;
+        self.memory.take(outline.piece_bytes + shape_bytes, start)?;
+        self.scene.shapes.reserve_exact(shapes);
+        held += outline.piece_bytes;
+        let mut file = OpenFile {
             index,
             folder: path.parent().unwrap_or(Path::new("")).to_owned(),
             lines,
+            offset: 0,
+            added: 0,
         };
-        let root = Element::new(document.root_element(), &file);
-        require_scene(root)?;
         self.includes.open.push(normal(path));
-        self.each_child(root, visit)?;
+        for piece in 0..outline.pieces.len() {
+            self.read_piece(&text, (&outline, piece), &mut file, visit)?;
+        }
         self.includes.open.pop();
         self.memory.give_back(held);
         Ok(())
     }
+
+    /// Calls `visit` for the children of `<scene>` in a piece of the text.
+    fn read_piece(
+        &mut self,
+        text: &str,
+        (outline, index): (&Outline, usize),
+        file: &mut OpenFile,
+        visit: Visit<'_, 'r>,
+    ) -> Result<(), Problem> {
+        let piece = outline.pieces[index].clone();
+        let [before, after] = outline.ends(index);
+        (file.offset, file.added) = (piece.start, before.len());
+        let piece = match &outline.pieces[..] {
+            [_] => Cow::Borrowed(text),
+            _ => Cow::Owned(before + &text[piece] + &after),
+        };
+        let document = document(&piece).map_err(|error| error.in_file(text, file))?;
+        let root = Element::new(document.root_element(), file);
+        if index == 0 {
+            require_scene(root)?;
+        }
+        self.each_child(root, visit)
+    }
 }
 
-fn document(text: &str, file: u32) -> Result<Document<'_>, Problem> {
+/// Why a piece of a file isn't well-formed XML.
+struct Malformed {
+    /// Row and column in the piece, counted from 1.
+    row: u32,
+    column: u32,
+    message: String,
+}
+
+impl Malformed {
+    /// The problem in the file with a text.
+    fn in_file(self, text: &str, file: &OpenFile) -> Problem {
+        let mut column = self.column as usize;
+        if self.row == 1 {
+            // The piece starts within a line.
+            let line = text[..file.offset].rsplit('\n').next();
+            column += line.map_or(0, |line| line.chars().count());
+            column = column.saturating_sub(file.added).max(1);
+        }
+        Problem::Line {
+            place: Place {
+                file: file.index,
+                line: self.row + file.lines.line(file.offset) - 1,
+            },
+            column: Some(column),
+            message: self.message,
+        }
+    }
+}
+
+fn document(text: &str) -> Result<Document<'_>, Malformed> {
     let options = ParsingOptions {
         allow_dtd: false,
         ..ParsingOptions::default()
@@ -139,12 +200,9 @@ fn document(text: &str, file: u32) -> Result<Document<'_>, Problem> {
         // The position stands before the message.
         let message = error.to_string();
         let message = message.replacen(&format!(" at {position}"), "", 1);
-        Problem::Line {
-            place: Place {
-                file,
-                line: position.row,
-            },
-            column: Some(position.col as usize),
+        Malformed {
+            row: position.row,
+            column: position.col,
             message: shown(Path::new(&message)),
         }
     })

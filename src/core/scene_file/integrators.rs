@@ -67,7 +67,7 @@ pub(super) fn integrator(reader: &mut Reader, element: Element) -> Result<Integr
 
     let view = match OTHERS.iter().find(|(name, _)| *name == plugin.kind) {
         None => {
-            parameters.finish()?;
+            parameters.finish(&mut reader.memory)?;
             integrator::integrator(&plugin.kind).map(|view| view.name)
         }
         Some((_, view)) => {

@@ -2,8 +2,9 @@
 
 use super::bsdf::Bsdf;
 use super::bsdfs::{self, PLAIN};
-use super::description::{Material, Place, Shape, ShapeKind};
+use super::description::{Material, Place, Shape};
 use super::element::Element;
+use super::kinds::ShapeKind;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
 use super::problem::{Problem, quoted, unknown};
@@ -122,8 +123,8 @@ fn resolve(
     materials: &mut Vec<Material>,
 ) {
     for shape in shapes {
-        if let ShapeKind::Csg { children, .. } = &mut shape.kind {
-            resolve(children, unnamed, materials);
+        if let ShapeKind::Csg(csg) = &mut shape.kind {
+            resolve(&mut csg.children, unnamed, materials);
         }
         let Some(index) = shape.material.filter(|index| index & UNNAMED != 0) else {
             continue;
@@ -267,7 +268,7 @@ fn masked(reader: &mut Reader, element: Element) -> Result<(f64, Material), Prob
     let Some(inner) = inner else {
         return Err(parameters.problem("a nested bsdf is missing"));
     };
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok((opacity, inner))
 }
 

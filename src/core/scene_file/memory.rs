@@ -2,6 +2,7 @@
 
 use super::description::Place;
 use super::problem::Problem;
+use crate::counts::grouped;
 
 /// The memory held by the description and by the files that are being read.
 pub(super) struct Memory {
@@ -23,26 +24,59 @@ impl Memory {
         self.limit
     }
 
+    /// Bytes that are held.
+    pub(super) fn held(&self) -> u64 {
+        self.held
+    }
+
     /// # Errors
     /// The limit is exceeded.
     pub(super) fn take(&mut self, bytes: u64, place: Place) -> Result<(), Problem> {
         if bytes > self.left() {
-            return Err(self.exceeded(place));
+            return Err(self.exceeded(bytes, place));
         }
         self.held += bytes;
         Ok(())
     }
 
-    /// The problem that the limit is exceeded.
-    pub(super) fn exceeded(&self, place: Place) -> Problem {
-        let megabytes = self.limit >> 20;
-        let message =
-            format!("loading needs more than the {megabytes} MB of memory allowed (--max-memory)");
+    /// The problem that `bytes` more exceed the limit.
+    pub(super) fn exceeded(&self, bytes: u64, place: Place) -> Problem {
+        let message = exceeded("at least", self.held.saturating_add(bytes), self.limit);
         Problem::of_file(place.file, message)
+    }
+
+    /// Appends to a list, and takes the memory for its growth.
+    ///
+    /// # Errors
+    /// The limit is exceeded.
+    pub(super) fn push<T>(
+        &mut self,
+        list: &mut Vec<T>,
+        item: T,
+        place: Place,
+    ) -> Result<(), Problem> {
+        if list.len() == list.capacity() {
+            let (old, more) = (list.capacity(), list.capacity().max(4));
+            let bytes = |count: usize| (count * size_of::<T>()) as u64;
+            // The entries may be copied.
+            self.take(bytes(old) + bytes(old + more), place)?;
+            list.reserve_exact(more);
+            self.give_back(2 * bytes(old));
+        }
+        list.push(item);
+        Ok(())
     }
 
     /// Returns memory that was taken before.
     pub(super) fn give_back(&mut self, bytes: u64) {
         self.held = self.held.saturating_sub(bytes);
     }
+}
+
+/// The message that loading needs more memory than allowed. `how` says how the need is known.
+pub(crate) fn exceeded(how: &str, needed: u64, limit: u64) -> String {
+    let [needed, limit] = [needed.div_ceil(1 << 20), limit >> 20].map(|mb| grouped(mb as usize));
+    format!(
+        "loading needs {how} {needed} MB of memory, more than the {limit} MB allowed (--max-memory)"
+    )
 }

@@ -10,7 +10,7 @@
 //! | **the file and its includes are parsed**, and their objects read | `include`, `reader` |
 //! | elements, attributes, `$name` | `element`, `defaults` |
 //! | properties: numbers, vectors, transforms | `properties`, `number`, `transform`, `parameters` |
-//! | objects | `shapes`, `materials`, `bsdfs`, `emitters`, `sensors`, `integrators`; others: `objects` |
+//! | objects | `shapes` and `kinds`, `materials`, `bsdfs`, `emitters`, `sensors`, `integrators`; others: `objects` |
 //! | the result | `description`, `bsdf`, `emitter`, `sensor`, `plugin` |
 //! | errors, warnings, memory limit | `problem`, `warnings`, `memory` |
 //! | files on the disk | `stored` |
@@ -75,6 +75,20 @@
 //!
 //! Radii are positive here. Mitsuba also accepts 0 and negative ones.
 //!
+//! A `bsdf` and `flip_normals` of a shape nested in a `csg` have no effect: those of the outermost `csg` apply to its
+//! whole surface. They give a warning unless the `bsdf` is the same.
+//!
+//! ### The side of normals
+//!
+//! Normals point outwards, to +z of a flat shape, along the normal of a plane, and for a mesh to the side of its file's
+//! normals or, without these, to the side from which its corners are counter-clockwise. `flip_normals` reverses them.
+//! Under a transform that mirrors (its determinant is negative), they stay on the image of this side, with two
+//! exceptions, as in Mitsuba: normals of a `sphere` then point inwards, and those of an `obj` without normals (or with
+//! `face_normals`) are reversed.
+//!
+//! Mitsuba has two normals, on different sides for a mirrored `cube`, `rectangle` and `obj` with normals. Here, both are
+//! on the side of Mitsuba's shading normal, on which it evaluates materials and emitters.
+//!
 //! ## Materials
 //!
 //! | bsdf | parameters and defaults |
@@ -95,8 +109,8 @@
 //! `perspective` has `fov` in degrees along `fov_axis` = x, or `focal_length` = 50mm, which determines the diagonal of
 //! a film of 36 mm × 24 mm. `thinlens` also has `aperture_radius`, which has no default, and `focus_distance` = 10
 //! 000. `orthographic` spans x from −1 to 1, so that the scale of `to_world` determines its extent. `<film>` has
-//! `width` = 768, `height` = 576 and a crop window; `<sampler>` has `sample_count` = 4. `near_clip`, `far_clip` and
-//! other parameters give a warning.
+//! `width` = 768, `height` = 576 and a crop window; `<sampler>` has `sample_count` = 4. The crop window is kept, but isn't
+//! used, and gives a warning; so do `near_clip`, `far_clip` and other parameters.
 //!
 //! ## Emitters
 //!
@@ -136,13 +150,13 @@ mod emitter_writer;
 mod emitters;
 mod include;
 mod integrators;
+mod kinds;
 mod materials;
 mod memory;
 mod number;
 mod objects;
 mod outline;
 mod parameters;
-mod plane;
 mod plugin;
 mod problem;
 mod properties;
@@ -158,11 +172,19 @@ mod warnings;
 mod writer;
 mod xml;
 
+pub use crate::group::CsgOperation;
 pub use bsdf::{Bsdf, Form, Roughness};
-pub use description::{CsgOperation, Material, Place, Quadric, SceneFile, Shape, ShapeKind};
+pub use description::{Material, Place, SceneFile, Shape};
 pub use emitter::{Emitter, EmitterKind};
 pub use integrators::Integrator;
+pub(crate) use kinds::with_kinds;
+pub use kinds::{
+    Cone, Csg, Cube, Cuboid, Cylinder, Disk, Obj, Plane, Quadric, Rectangle, ShapeKind, Sphere,
+    Torus,
+};
+pub(crate) use memory::exceeded;
 pub use plugin::{Parameter, Plugin, Value};
+pub(crate) use reader::load_counted;
 pub use reader::{load, parse};
 pub use sensor::{Crop, FieldOfView, Film, FovAxis, Sensor, SensorKind};
 pub use stored::ReadFile;

@@ -1,8 +1,10 @@
 //! The parameters of an object, looked up by name and type.
 
 use super::description::Place;
+use super::memory::Memory;
 use super::plugin::{Parameter, Value};
 use super::problem::{Problem, quoted, unknown};
+use super::properties;
 use super::warnings::Warnings;
 use glam::{DMat4, DVec3};
 
@@ -15,6 +17,8 @@ pub(super) struct Parameters {
     left: Vec<Parameter>,
     /// The names looked up.
     known: Vec<&'static str>,
+    /// The memory taken for the parameters.
+    bytes: u64,
 }
 
 impl Parameters {
@@ -25,6 +29,7 @@ impl Parameters {
             place,
             left: Vec::new(),
             known: Vec::new(),
+            bytes: 0,
         }
     }
 
@@ -47,6 +52,7 @@ impl Parameters {
             let message = format!("{} has more than {MAX_COUNT} parameters", self.object());
             return Err(Problem::at(*place, message));
         }
+        self.bytes += properties::bytes(&parameter);
         self.left.push(parameter);
         Ok(())
     }
@@ -57,6 +63,15 @@ impl Parameters {
         self.left
             .iter()
             .any(|other| names.contains(&other.name.as_str()))
+    }
+
+    /// Where the first of these parameters stands, if one is given.
+    pub(super) fn place_of(&self, names: &[&str]) -> Option<Place> {
+        let named = |parameter: &&Parameter| names.contains(&parameter.name.as_str());
+        self.left
+            .iter()
+            .find(named)
+            .map(|parameter| parameter.place)
     }
 
     /// Removes the parameter with a name.
@@ -183,9 +198,12 @@ impl Parameters {
         }
     }
 
+    /// Gives the memory of the parameters back.
+    ///
     /// # Errors
     /// There is a parameter that wasn't looked up.
-    pub(super) fn finish(mut self) -> Result<(), Problem> {
+    pub(super) fn finish(mut self, memory: &mut Memory) -> Result<(), Problem> {
+        memory.give_back(self.bytes);
         self.known.sort_unstable();
         match self.left.first() {
             Some(Parameter { place, name, .. }) => {

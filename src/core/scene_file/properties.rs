@@ -33,17 +33,23 @@ pub(super) fn parameter(
     }
     let name = element.required("name", &reader.defaults)?.into_owned();
     let value = value(reader, element)?;
-    let text_length = match &value {
-        Value::Text(text) => text.len(),
-        _ => 0,
-    };
-    let bytes = size_of::<Parameter>() + name.len() + text_length;
-    reader.memory.take(bytes as u64, element.place)?;
-    Ok(Some(Parameter {
+    let parameter = Parameter {
         place: element.place,
         name,
         value,
-    }))
+    };
+    reader.memory.take(bytes(&parameter), element.place)?;
+    Ok(Some(parameter))
+}
+
+/// The memory of a parameter in a list, which may have room for twice as many.
+pub(super) fn bytes(parameter: &Parameter) -> u64 {
+    let value = match &parameter.value {
+        Value::Text(text) => text.len(),
+        Value::Transform(matrix) => size_of_val(&**matrix),
+        _ => 0,
+    };
+    (2 * size_of::<Parameter>() + parameter.name.len() + value) as u64
 }
 
 fn value(reader: &mut Reader, element: Element) -> Result<Value, Problem> {

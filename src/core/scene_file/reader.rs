@@ -26,13 +26,22 @@ use std::path::{Path, PathBuf};
 /// # Errors
 /// See [`LoadError`].
 pub fn load(path: &Path, max_memory: u64, progress: &Progress) -> Result<SceneFile, LoadError> {
+    Ok(load_counted(path, max_memory, progress)?.0)
+}
+
+/// Like [`load`]; also returns the bytes that the result takes.
+pub(crate) fn load_counted(
+    path: &Path,
+    max_memory: u64,
+    progress: &Progress,
+) -> Result<(SceneFile, u64), LoadError> {
     let bytes = stored::read(path, max_memory).map_err(|source| LoadError::Unreadable {
         path: path.to_owned(),
         source,
     })?;
     progress.set_total(bytes.len() as u64);
     progress.add_read(bytes.len() as u64);
-    parse(&bytes, path, max_memory, &stored::read, progress)
+    parse_counted(&bytes, path, max_memory, &stored::read, progress)
 }
 
 /// Parses a scene file. Error messages use `path`; included files are read by `read_file`, which is given their paths.
@@ -46,6 +55,17 @@ pub fn parse(
     read_file: ReadFile,
     progress: &Progress,
 ) -> Result<SceneFile, LoadError> {
+    Ok(parse_counted(bytes, path, max_memory, read_file, progress)?.0)
+}
+
+/// Like [`parse`]; also returns the bytes that the result takes.
+fn parse_counted(
+    bytes: &[u8],
+    path: &Path,
+    max_memory: u64,
+    read_file: ReadFile,
+    progress: &Progress,
+) -> Result<(SceneFile, u64), LoadError> {
     let mut reader = Reader {
         scene: SceneFile::default(),
         defaults: Defaults::default(),
@@ -67,7 +87,7 @@ pub fn parse(
     let mut scene = reader.scene;
     finished.map_err(|problem| problem.with_path(&scene.files))?;
     scene.warnings = reader.warnings.finish(&scene.files);
-    Ok(scene)
+    Ok((scene, reader.memory.held()))
 }
 
 /// The state of reading.
@@ -138,7 +158,8 @@ impl<'r> Reader<'r> {
         match element.tag() {
             "shape" => {
                 let shape = shapes::shape(self, element)?;
-                self.scene.shapes.push(shape);
+                let shapes = &mut self.scene.shapes;
+                self.memory.push(shapes, shape, element.place)?;
             }
             "bsdf" if !element.node.has_attribute("id") => {
                 objects::skip(self, element, "scene without id")?;

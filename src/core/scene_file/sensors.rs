@@ -36,6 +36,14 @@ const FILTERS: [&str; 6] = [
     "tent",
 ];
 
+/// The parameters of a film's crop window.
+const CROP: [&str; 4] = [
+    "crop_offset_x",
+    "crop_offset_y",
+    "crop_width",
+    "crop_height",
+];
+
 /// Mitsuba's default of `sample_count`.
 const SAMPLE_COUNT: u32 = 4;
 /// Mitsuba's default of `focus_distance`: that of `far_clip`.
@@ -88,7 +96,7 @@ pub(super) fn sensor(reader: &mut Reader, element: Element) -> Result<Option<Sen
         "principal_point_offset_y",
     ];
     parameters.warn_about(&unused, &mut reader.warnings);
-    parts.parameters.finish()?;
+    parts.parameters.finish(&mut reader.memory)?;
     Ok(Some(Sensor {
         place: element.place,
         id: head.id,
@@ -218,7 +226,15 @@ fn film(reader: &mut Reader, element: Element) -> Result<Film, Problem> {
     let default = Film::default();
     let width = parameters.count("width", 1)?.unwrap_or(default.width);
     let height = parameters.count("height", 1)?.unwrap_or(default.height);
+    let crop_place = parameters.place_of(&CROP);
     let crop = crop(&mut parameters, width, height)?;
+    if let (Some(crop), Some(place)) = (crop, crop_place)
+        && [crop.width, crop.height] != [width, height]
+    {
+        let object = parameters.object();
+        let message = format!("{object}: the crop window isn't used; the whole film is shown");
+        reader.warnings.add(place, message);
+    }
     let unused = [
         "file_format",
         "pixel_format",
@@ -228,7 +244,7 @@ fn film(reader: &mut Reader, element: Element) -> Result<Film, Problem> {
         "banner",
     ];
     parameters.warn_about(&unused, &mut reader.warnings);
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(Film {
         width,
         height,
@@ -237,10 +253,11 @@ fn film(reader: &mut Reader, element: Element) -> Result<Film, Problem> {
 }
 
 fn crop(parameters: &mut Parameters, width: u32, height: u32) -> Result<Option<Crop>, Problem> {
-    let x = parameters.count("crop_offset_x", 0)?;
-    let y = parameters.count("crop_offset_y", 0)?;
-    let crop_width = parameters.count("crop_width", 1)?;
-    let crop_height = parameters.count("crop_height", 1)?;
+    let [x, y, crop_width, crop_height] = CROP;
+    let x = parameters.count(x, 0)?;
+    let y = parameters.count(y, 0)?;
+    let crop_width = parameters.count(crop_width, 1)?;
+    let crop_height = parameters.count(crop_height, 1)?;
     if [x, y, crop_width, crop_height] == [None; 4] {
         return Ok(None);
     }
@@ -270,7 +287,7 @@ fn sampler(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
     )?;
     let sample_count = parameters.count("sample_count", 1)?;
     parameters.warn_about(&["seed", "jitter"], &mut reader.warnings);
-    parameters.finish()?;
+    parameters.finish(&mut reader.memory)?;
     Ok(sample_count.unwrap_or(SAMPLE_COUNT))
 }
 

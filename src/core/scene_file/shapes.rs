@@ -1,33 +1,17 @@
 //! Shapes: `<shape>` elements.
 
-use super::description::{CsgOperation, Quadric, Shape, ShapeKind};
+use super::description::{Place, Shape};
 use super::element::Element;
 use super::emitter::Emitter;
 use super::emitters::{self, Parent};
+use super::kinds::KINDS;
 use super::materials;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
-use super::plane::plane;
 use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
-use glam::DVec3;
-
-/// The shapes that are read: Mitsuba's, then our own.
-const SHAPES: [&str; 12] = [
-    "obj",
-    "sphere",
-    "cylinder",
-    "disk",
-    "rectangle",
-    "cube",
-    "plane",
-    "box",
-    "cone",
-    "torus",
-    "quadric",
-    "csg",
-];
+use std::path::Path;
 
 /// Other shapes of Mitsuba 3.9.1.
 const UNSUPPORTED: [&str; 11] = [
@@ -45,11 +29,16 @@ const UNSUPPORTED: [&str; 11] = [
 ];
 
 /// The parts of a shape that are read so far.
-struct Parts {
-    parameters: Parameters,
-    is_csg: bool,
-    children: Vec<Shape>,
-    material: Option<u32>,
+pub(super) struct Parts<'a> {
+    /// The folder against which file names are resolved.
+    pub folder: &'a Path,
+    pub parameters: Parameters,
+    /// The start of the element.
+    pub place: Place,
+    has_children: bool,
+    pub children: Vec<Shape>,
+    /// A temporary index; see [`materials`].
+    pub material: Option<u32>,
     emitter: Option<Box<Emitter>>,
 }
 
@@ -63,15 +52,15 @@ pub(super) fn shape(reader: &mut Reader, element: Element) -> Result<Shape, Prob
     if UNSUPPORTED.contains(&kind) {
         return Err(element.problem(format!("shape {} isn't supported", quoted(kind))));
     }
-    if !SHAPES.contains(&kind) {
-        return Err(element.problem(unknown("shape", kind, &SHAPES)));
-    }
-    reader
-        .memory
-        .take(2 * size_of::<Shape>() as u64, element.place)?;
+    let Some(row) = KINDS.iter().find(|row| row.name == kind) else {
+        let known: Vec<&str> = KINDS.iter().map(|row| row.name).collect();
+        return Err(element.problem(unknown("shape", kind, &known)));
+    };
     let mut parts = Parts {
+        folder: &element.file.folder,
         parameters: Parameters::new("shape", kind, element.place),
-        is_csg: kind == "csg",
+        place: element.place,
+        has_children: row.has_children,
         children: Vec::new(),
         material: None,
         emitter: None,
@@ -81,8 +70,8 @@ pub(super) fn shape(reader: &mut Reader, element: Element) -> Result<Shape, Prob
     let flip_normals = parts.parameters.boolean("flip_normals", false)?;
     let unused = ["silhouette_sampling_weight"];
     parts.parameters.warn_about(&unused, &mut reader.warnings);
-    let kind = kind_of(kind, &mut parts, element, reader)?;
-    parts.parameters.finish()?;
+    let kind = (row.read)(&mut parts, reader)?;
+    parts.parameters.finish(&mut reader.memory)?;
     Ok(Shape {
         place: element.place,
         id: head.id,
@@ -95,7 +84,7 @@ pub(super) fn shape(reader: &mut Reader, element: Element) -> Result<Shape, Prob
     })
 }
 
-impl Parts {
+impl Parts<'_> {
     fn add(&mut self, reader: &mut Reader, child: Element) -> Result<(), Problem> {
         if let Some(parameter) = properties::parameter(reader, child)? {
             return self.parameters.add(parameter);
@@ -120,142 +109,12 @@ impl Parts {
                 self.emitter = Some(Box::new(emitter));
                 Ok(())
             }
-            "shape" if self.is_csg => {
+            "shape" if self.has_children => {
                 let nested = shape(reader, child)?;
-                self.children.push(nested);
-                Ok(())
+                reader.memory.push(&mut self.children, nested, child.place)
             }
             "shape" => Err(child.problem("a shape can only be nested in a csg")),
             _ => objects::skip(reader, child, &self.parameters.object()),
         }
     }
-}
-
-fn kind_of(
-    kind: &str,
-    parts: &mut Parts,
-    element: Element,
-    reader: &mut Reader,
-) -> Result<ShapeKind, Problem> {
-    let parameters = &mut parts.parameters;
-    Ok(match kind {
-        "obj" => obj(parameters, element, reader)?,
-        "sphere" => ShapeKind::Sphere {
-            center: parameters.point("center", DVec3::ZERO)?,
-            radius: parameters.positive("radius", 1.0)?,
-        },
-        "cylinder" => {
-            let (p0, p1) = axis(parameters)?;
-            ShapeKind::Cylinder {
-                p0,
-                p1,
-                radius: parameters.positive("radius", 1.0)?,
-                is_capped: parameters.boolean("capped", false)?,
-            }
-        }
-        "disk" => ShapeKind::Disk,
-        "rectangle" => ShapeKind::Rectangle,
-        "cube" => ShapeKind::Cube,
-        "plane" => plane(parameters)?,
-        "box" => {
-            let (min, max) = extent(parameters)?;
-            ShapeKind::Box { min, max }
-        }
-        "cone" => {
-            let (p0, p1) = axis(parameters)?;
-            ShapeKind::Cone {
-                p0,
-                p1,
-                radius: parameters.positive("radius", 1.0)?,
-                is_capped: parameters.boolean("capped", false)?,
-            }
-        }
-        "torus" => ShapeKind::Torus {
-            center: parameters.point("center", DVec3::ZERO)?,
-            axis: parameters.direction("axis", DVec3::Z)?,
-            major: parameters.positive("major", 1.0)?,
-            minor: parameters.positive("minor", 0.25)?,
-        },
-        "quadric" => ShapeKind::Quadric(Box::new(quadric(parameters)?)),
-        _ => ShapeKind::Csg {
-            operation: operation(parameters)?,
-            children: solids(parts)?,
-        },
-    })
-}
-
-fn obj(
-    parameters: &mut Parameters,
-    element: Element,
-    reader: &mut Reader,
-) -> Result<ShapeKind, Problem> {
-    let Some((name, place)) = parameters.text("filename")? else {
-        return Err(parameters.problem("parameter “filename” is missing"));
-    };
-    let file = reader.data_file(&name, element, place)?;
-    Ok(ShapeKind::Obj {
-        file,
-        face_normals: parameters.boolean("face_normals", false)?,
-        flip_tex_coords: parameters.boolean("flip_tex_coords", true)?,
-    })
-}
-
-/// The ends of an axis.
-fn axis(parameters: &mut Parameters) -> Result<(DVec3, DVec3), Problem> {
-    let p0 = parameters.point("p0", DVec3::ZERO)?;
-    let p1 = parameters.point("p1", DVec3::Z)?;
-    if p0 == p1 {
-        return Err(parameters.problem("p0 and p1 are the same point"));
-    }
-    Ok((p0, p1))
-}
-
-/// The corners of a box.
-fn extent(parameters: &mut Parameters) -> Result<(DVec3, DVec3), Problem> {
-    let min = parameters.point("min", DVec3::NEG_ONE)?;
-    let max = parameters.point("max", DVec3::ONE)?;
-    if !min.cmplt(max).all() {
-        return Err(parameters.problem("“min” must be less than “max” in each coordinate"));
-    }
-    Ok((min, max))
-}
-
-fn quadric(parameters: &mut Parameters) -> Result<Quadric, Problem> {
-    const NAMES: [&str; 10] = ["a", "b", "c", "d", "e", "f", "g", "h", "i", "j"];
-    let mut coefficients = [0.0; 10];
-    for (coefficient, name) in coefficients.iter_mut().zip(NAMES) {
-        *coefficient = parameters.float(name)?.map_or(0.0, |(number, _)| number);
-    }
-    if coefficients[..9].iter().all(|&c| c == 0.0) {
-        return Err(parameters.problem("the coefficients “a” to “i” are all zero"));
-    }
-    let (min, max) = extent(parameters)?;
-    Ok(Quadric {
-        coefficients,
-        min,
-        max,
-    })
-}
-
-fn operation(parameters: &mut Parameters) -> Result<CsgOperation, Problem> {
-    const OPERATIONS: [(&str, CsgOperation); 3] = [
-        ("union", CsgOperation::Union),
-        ("intersection", CsgOperation::Intersection),
-        ("difference", CsgOperation::Difference),
-    ];
-    let Some((name, place)) = parameters.text("operation")? else {
-        return Err(parameters.problem("parameter “operation” is missing"));
-    };
-    let found = OPERATIONS.iter().find(|(known, _)| *known == name);
-    let unknown = || Problem::at(place, unknown("operation", &name, &OPERATIONS.map(|o| o.0)));
-    found.map(|(_, operation)| *operation).ok_or_else(unknown)
-}
-
-fn solids(parts: &mut Parts) -> Result<Vec<Shape>, Problem> {
-    if parts.children.len() < 2 {
-        return Err(parts
-            .parameters
-            .problem("at least two nested shapes are needed"));
-    }
-    Ok(std::mem::take(&mut parts.children))
 }

@@ -1,5 +1,6 @@
 //! Reader of scene files from the disk.
 
+use crate::counts::grouped;
 use crate::obj;
 use std::io;
 use std::path::Path;
@@ -12,22 +13,25 @@ pub type ReadFile<'a> = &'a dyn Fn(&Path, u64) -> io::Result<Vec<u8>>;
 /// # Errors
 /// The file can't be read, is larger than `max_bytes`, or isn't a stored file.
 pub(super) fn read(path: &Path, max_bytes: u64) -> io::Result<Vec<u8>> {
-    if std::fs::metadata(path)?.is_dir() {
+    let metadata = std::fs::metadata(path)?;
+    if metadata.is_dir() {
         return Err(io::Error::other("this is a directory, not a scene file"));
+    }
+    if metadata.len() > max_bytes {
+        return Err(too_large(metadata.len(), max_bytes));
     }
     let bytes = obj::read_past(path, max_bytes)?;
     if bytes.len() as u64 > max_bytes {
-        return Err(too_large(max_bytes));
+        return Err(too_large(bytes.len() as u64, max_bytes));
     }
     Ok(bytes)
 }
 
 /// The error about a file larger than the limit.
-fn too_large(max_bytes: u64) -> io::Error {
-    let message = format!(
-        "larger than the {} MB of memory left (--max-memory)",
-        max_bytes >> 20
-    );
+fn too_large(bytes: u64, max_bytes: u64) -> io::Error {
+    let [size, left] = [bytes.div_ceil(1 << 20), max_bytes >> 20].map(|mb| grouped(mb as usize));
+    let message =
+        format!("its {size} MB are more than the {left} MB of memory left (--max-memory)");
     io::Error::other(message)
 }
 
@@ -44,7 +48,7 @@ mod tests {
         let error = |path: &Path, limit| read(path, limit).expect_err("refused").to_string();
         assert_eq!(
             error(&path, 4),
-            "larger than the 0 MB of memory left (--max-memory)"
+            "its 1 MB are more than the 0 MB of memory left (--max-memory)"
         );
         assert_eq!(
             error(folder.path(), 5),

@@ -1,7 +1,8 @@
 //! Writer of scene files. What it writes reads back to the same description.
 
-use super::description::{Material, SceneFile, Shape, ShapeKind};
+use super::description::{Material, SceneFile, Shape};
 use super::emitter::{Emitter, EmitterKind};
+use super::kinds::ShapeKind;
 use super::plugin::{Plugin, Value};
 use super::sensor::{FieldOfView, FovAxis, Sensor, SensorKind};
 use super::xml::{Attribute, WriteError, Xml, matrix, number, vector};
@@ -84,8 +85,8 @@ fn count_uses(shapes: &[Shape], uses: &mut [usize], ids: &mut HashSet<String>) {
             .emitter
             .iter()
             .for_each(|emitter| collect_emitter_ids(emitter, ids));
-        if let ShapeKind::Csg { children, .. } = &shape.kind {
-            count_uses(children, uses, ids);
+        if let ShapeKind::Csg(csg) = &shape.kind {
+            count_uses(&csg.children, uses, ids);
         }
     }
 }
@@ -122,6 +123,10 @@ impl Writer<'_> {
 
     pub(super) fn point(&mut self, name: &str, value: DVec3) -> Result<(), WriteError> {
         self.property("point", name, &vector(value))
+    }
+
+    pub(super) fn vector(&mut self, name: &str, value: DVec3) -> Result<(), WriteError> {
+        self.property("vector", name, &vector(value))
     }
 
     pub(super) fn boolean(&mut self, name: &str, value: bool) -> Result<(), WriteError> {

@@ -1,6 +1,6 @@
 //! How crossings divide a line into parts inside and outside a primitive.
 
-use crate::algebra::{Dyadic, Piece, Pieces, RayIn, vector};
+use crate::algebra::{Dyadic, Piece, Pieces, RayIn};
 use crate::ray::Ray;
 use std::cmp::Ordering;
 
@@ -28,14 +28,10 @@ pub enum Interior {
 
 /// The interior of a surface of one piece, on the side where its polynomial is negative.
 pub(super) fn negative_side<S: Pieces>(shape: &S, ray: &Ray) -> Interior {
-    let line = RayIn::<Dyadic> {
-        origin: vector(ray.origin),
-        dir: vector(ray.dir),
-    };
     let reach = f64::from(UNBOUNDED) / f64::from(ray.dir.abs().max_element());
     let reach = reach.min(f64::from(f32::MAX));
     let mut ends = [false; 2];
-    shape.pieces(&line, &mut |piece: Piece<'_, Dyadic>| {
+    shape.pieces(&RayIn::of(ray), &mut |piece: Piece<'_, Dyadic>| {
         let is_inside = |t: f64| piece.surface.at(&Dyadic::from(t)).sign() == Ordering::Less;
         ends = [-reach, reach].map(is_inside);
     });

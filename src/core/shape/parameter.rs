@@ -1,5 +1,7 @@
 //! Names of the parameters of shapes.
 
+use super::ShapeInfo;
+
 /// A named parameter of a shape, made of one or three of its numbers.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub struct Parameter {
@@ -67,5 +69,35 @@ impl Parameter {
             ParameterKind::Point | ParameterKind::Vector => 3,
             ParameterKind::Number | ParameterKind::Flag => 1,
         }
+    }
+}
+
+impl ShapeInfo {
+    /// Each parameter with its numbers, from the numbers of a primitive.
+    ///
+    /// # Panics
+    /// If there are fewer numbers than the parameters consist of.
+    pub fn named<'n>(
+        &self,
+        mut numbers: &'n [f32],
+    ) -> impl Iterator<Item = (&'static Parameter, &'n [f32])> {
+        self.parameters.iter().map(move |parameter| {
+            let (own, rest) = numbers.split_at(parameter.width());
+            numbers = rest;
+            (parameter, own)
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::shape::{Shape as _, Sphere};
+
+    #[test]
+    fn numbers_are_split_by_parameter() {
+        let named = Sphere::INFO.named(&[1.0, 2.0, 3.0, 4.0]);
+        let named = named.map(|(parameter, own)| (parameter.name, own.to_vec()));
+        let expected = [("centre", vec![1.0, 2.0, 3.0]), ("radius", vec![4.0])];
+        assert_eq!(named.collect::<Vec<_>>(), expected);
     }
 }

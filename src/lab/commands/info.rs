@@ -250,6 +250,35 @@ impl Info {
         writeln!(out, "materials           {}", self.materials)?;
         writeln!(out, "groups              {}", self.groups)?;
         writeln!(out, "lines, points       {}, {}", self.lines, self.points)?;
+        self.print_shapes(out)?;
+        for light in &self.lights {
+            writeln!(out, "light               {light}")?;
+        }
+        writeln!(out, "bounds              {:?}", self.bounds.min)?;
+        writeln!(out, "                    {:?}", self.bounds.max)?;
+        writeln!(out, "origin              {:?}", self.origin)?;
+        writeln!(out, "rounded by          {}", at_most(self.max_rounding))?;
+        self.print_memory(out)?;
+        for (reason, count) in &self.dropped {
+            writeln!(out, "dropped             {count} {reason}")?;
+        }
+        self.print_health(out)?;
+        writeln!(
+            out,
+            "load, build         {:.1} ms, {:.1} ms",
+            self.load_ms, self.build_ms
+        )?;
+        writeln!(out, "tier                {}", self.tier.tier)?;
+        for reason in &self.tier.reasons {
+            writeln!(out, "                    {reason}")?;
+        }
+        match &self.check {
+            Some(check) => print_check(check, out),
+            None => Ok(()),
+        }
+    }
+
+    fn print_shapes(&self, out: &mut dyn Write) -> std::io::Result<()> {
         for group in &self.shapes {
             writeln!(
                 out,
@@ -264,22 +293,20 @@ impl Info {
                 None => writeln!(out, "                    no bounds")?,
             }
         }
-        for light in &self.lights {
-            writeln!(out, "light               {light}")?;
-        }
-        writeln!(out, "bounds              {:?}", self.bounds.min)?;
-        writeln!(out, "                    {:?}", self.bounds.max)?;
-        writeln!(out, "origin              {:?}", self.origin)?;
-        writeln!(out, "rounded by          {}", at_most(self.max_rounding))?;
+        Ok(())
+    }
+
+    fn print_memory(&self, out: &mut dyn Write) -> std::io::Result<()> {
         for (part, bytes) in &self.bytes {
             writeln!(out, "bytes               {bytes} {part}")?;
         }
         for (way, bytes) in &self.bytes_as {
             writeln!(out, "{:<20}{bytes} bytes", format!("as {way}"))?;
         }
-        for (reason, count) in &self.dropped {
-            writeln!(out, "dropped             {count} {reason}")?;
-        }
+        Ok(())
+    }
+
+    fn print_health(&self, out: &mut dyn Write) -> std::io::Result<()> {
         for info in &FLAWS {
             let title = info.title.to_lowercase();
             match self.health.flaws[info.name] {
@@ -287,30 +314,22 @@ impl Info {
                 None => writeln!(out, "{title:<20}not checked: too many border edges")?,
             }
         }
-        writeln!(out, "max aspect ratio    {:.1}", self.health.max_aspect)?;
-        writeln!(
-            out,
-            "load, build         {:.1} ms, {:.1} ms",
-            self.load_ms, self.build_ms
-        )?;
-        writeln!(out, "tier                {}", self.tier.tier)?;
-        for reason in &self.tier.reasons {
-            writeln!(out, "                    {reason}")?;
-        }
-        if let Some(check) = &self.check {
-            match &check.refused {
-                Some(why) => writeln!(out, "check               tobj can't read the file: {why}")?,
-                None => writeln!(
-                    out,
-                    "check               {} compared with tobj, {}",
-                    counted(check.triangles, "triangle"),
-                    counted(check.difference_count, "difference")
-                )?,
-            }
-            for difference in &check.differences {
-                writeln!(out, "                    {difference}")?;
-            }
-        }
-        Ok(())
+        writeln!(out, "max aspect ratio    {:.1}", self.health.max_aspect)
     }
+}
+
+fn print_check(check: &SecondOpinion, out: &mut dyn Write) -> std::io::Result<()> {
+    match &check.refused {
+        Some(why) => writeln!(out, "check               tobj can't read the file: {why}")?,
+        None => writeln!(
+            out,
+            "check               {} compared with tobj, {}",
+            counted(check.triangles, "triangle"),
+            counted(check.difference_count, "difference")
+        )?,
+    }
+    for difference in &check.differences {
+        writeln!(out, "                    {difference}")?;
+    }
+    Ok(())
 }

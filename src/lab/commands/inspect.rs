@@ -4,7 +4,7 @@ use super::CommandError;
 use super::args::{CreaseArg, KernelArg, MeshArgs};
 use super::camera::CameraArgs;
 use super::picture::ShadingArg;
-use crate::inspection::{CrossingReport, HitReport, Inspection};
+use crate::inspection::{CrossingReport, HitReport, Inspection, OperandName, SolidReport};
 use clap::Args;
 use glam::UVec2;
 use hitscope_core::counts::{counted, counted_as};
@@ -28,6 +28,9 @@ Values, in the text and in JSON:
   side               front if the corners run counterclockwise as seen from the ray's origin, else back
   position           in the file's coordinates
   parameters         of a shape other than a triangle, by name; points in the file's coordinates
+  solid              of a solid (csg): the operand that is hit, with its parameters, and the tree of
+                     operations with the intervals of t inside each part
+  is_subtracted      whether an operand is subtracted: the solid's normal is the opposite of its own
   formula            derivation of t in f64 for the ray r(t) = o + t d
   crossings          all points where the ray crosses a surface, by the chosen kernel, ordered by t
   t_error_ulps       error of t, in ulps of f32
@@ -216,6 +219,7 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
             rows.push((parameter.name, parameter.value.to_string()));
         }
     }
+    rows.extend(hit.solid.iter().flat_map(operand_rows));
     if let Some(uv) = hit.surface_uv {
         rows.push(("u, v", format!("{uv:?}")));
     }
@@ -232,6 +236,21 @@ fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std:
         .try_for_each(|line| writeln!(out, "  {line}"))
 }
 
+/// The operand of a solid that is hit.
+fn operand_rows(solid: &SolidReport) -> Vec<(&'static str, String)> {
+    let operand = &solid.operand;
+    let OperandName { index, shape } = operand.name;
+    let subtracted = if operand.is_subtracted {
+        ", subtracted: the solid's normal is the opposite of its own"
+    } else {
+        ""
+    };
+    let mut rows = vec![("operand", format!("{index}, {shape}{subtracted}"))];
+    let parameters = operand.parameters.0.iter();
+    rows.extend(parameters.map(|parameter| (parameter.name, parameter.value.to_string())));
+    rows
+}
+
 fn print_crossings(crossings: &[CrossingReport], out: &mut dyn Write) -> std::io::Result<()> {
     writeln!(out, "{}", counted(crossings.len(), "crossing"))?;
     for (index, crossing) in (1..).zip(crossings) {
@@ -242,13 +261,16 @@ fn print_crossings(crossings: &[CrossingReport], out: &mut dyn Write) -> std::io
             side,
             ..
         } = crossing;
+        let operand = crossing.operand.map_or_else(String::new, |operand| {
+            format!(", operand {}, {}", operand.index, operand.shape)
+        });
         let also = match crossing.also.len() {
             0 => String::new(),
             count => format!(" and {count} more"),
         };
         writeln!(
             out,
-            "  {index:>3}  t {t:<14} {side:<5} of {shape} {primitive}{also}"
+            "  {index:>3}  t {t:<14} {side:<5} of {shape} {primitive}{operand}{also}"
         )?;
     }
     Ok(())

@@ -34,7 +34,7 @@ Examples:
   hitscope lab --case closed --case order --seed 7
   hitscope lab --scene bunny.obj --eye 3,2,4
 
-All results except speed are the same on every machine for the same seed. Uses one thread per core."
+All results except times are the same on every machine for the same seed. Uses one thread per core."
 )]
 pub struct LabArgs {
     /// Measure fewer rays: half a minute instead of several minutes
@@ -43,7 +43,7 @@ pub struct LabArgs {
     /// Write report.html, lab.json and accuracy.md to this directory
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
-    /// Measure only cases whose names begin with NAME, and no speed; repeat the option for several
+    /// Measure only cases whose names begin with NAME, and neither speed nor packing; repeat the option for several
     #[arg(long, value_name = "NAME")]
     pub case: Vec<String>,
     /// Print one JSON object

@@ -24,8 +24,8 @@ pub struct PictureArgs {
     /// Camera.
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Samples per pixel, 1 to 4096, rounded up to a power of two
-    #[arg(long, value_name = "N", default_value_t = 16, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=4096))]
+    /// Samples per pixel, 1 to 65536, rounded up to a power of two
+    #[arg(long, value_name = "N", default_value_t = 16, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: u32,
     /// Shading of triangles
     #[arg(long, default_value = "flat")]

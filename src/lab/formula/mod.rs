@@ -8,29 +8,34 @@
 //! | this file | the ray, the parameters, and for every shape its equations along the ray |
 //! | `triangle` | plane equation and signed areas |
 //! | `sphere`, `plane`, `cuboid` | the lecture's formulas for these shapes |
+//! | `solid` | the intervals inside a solid's parts |
 //! | `number` | numbers, vectors and polynomials as text |
 
 mod cuboid;
 mod number;
 mod plane;
+mod solid;
 mod sphere;
 mod triangle;
+
+pub use solid::solid_tree;
 
 use glam::{DVec3, Vec3};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::LineEquation;
-use hitscope_core::shape::{AxisBox, Cuboid, Plane, Shape, Sphere};
-use hitscope_core::{Ray, Scene};
+use hitscope_core::shape::{AxisBox, Cuboid, Parameter, Plane, Shape, Sphere};
+use hitscope_core::{Hit, Ray, Scene};
 use number::{point, polynomial, text};
 
-/// The derivation of a ray's first hit of a primitive.
+/// The derivation of a ray's first hit of a primitive; of this hit, if it is one of a solid. The ray is relative to
+/// `origin`, which is the scene's unless only triangles are hit.
 ///
 /// # Panics
 /// If the scene has no such primitive.
-pub fn lines(scene: &Scene, ray: &Ray, primitive: u32) -> Vec<String> {
+pub fn lines(scene: &Scene, origin: DVec3, ray: &Ray, hit: &Hit) -> Vec<String> {
     let line = Line::of(ray);
+    let mesh = scene.mesh();
     let mut lines = vec!["r(t) = o + t d".to_owned()];
-    let origin = scene.mesh().origin();
     if origin != DVec3::ZERO {
         let origin = point(origin);
         lines.push(format!(
@@ -39,30 +44,49 @@ pub fn lines(scene: &Scene, ray: &Ray, primitive: u32) -> Vec<String> {
     }
     lines.push(format!("o = {}", point(line.origin)));
     lines.push(format!("d = {}", point(line.dir)));
+    let primitive = hit.primitive;
     if scene.is_triangle(primitive) {
-        let corners = scene.mesh().corners(primitive).map(Vec3::as_dvec3);
+        let is_own = origin == mesh.origin();
+        let corner = |p: Vec3| {
+            if is_own {
+                p.as_dvec3()
+            } else {
+                mesh.vertex_in_file(p) - origin
+            }
+        };
+        let corners = mesh.corners(primitive).map(corner);
         lines.extend(triangle::lines(&line, corners));
         return lines;
     }
     let (group, index) = scene.group_of(primitive);
-    lines.extend(parameters(group, index));
+    if let Some(solid) = group.solid(index) {
+        lines.extend(solid::lines(&line, ray, solid, hit));
+        return lines;
+    }
+    lines.extend(of_primitive(&line, ray, group, index));
+    lines.push(match scene.exact_answer(ray, primitive) {
+        Some([t, ..]) => line.hit(t),
+        None => "In exact arithmetic the ray misses this primitive.".to_owned(),
+    });
+    lines
+}
+
+/// The parameters of a primitive that is neither a triangle nor a solid, and its equations along the ray.
+fn of_primitive(line: &Line, ray: &Ray, group: &dyn Group, index: u32) -> Vec<String> {
+    let mut lines = parameters(group, index);
     let equations = group.equations(ray, index);
     let numbers = group.numbers(index);
     let (shape, numbers) = (group.shape(), &numbers[..]);
     lines.extend(if *shape == Sphere::INFO {
-        sphere::lines(&line, &Sphere::read(&numbers), &equations)
+        sphere::lines(line, &Sphere::read(&numbers), &equations)
     } else if *shape == Plane::INFO {
-        plane::lines(&line, &Plane::read(&numbers))
+        plane::lines(line, &Plane::read(&numbers))
     } else if *shape == Cuboid::INFO {
         cuboid::lines(&cuboid::CUBOID, &equations)
     } else if *shape == AxisBox::INFO {
         cuboid::lines(&cuboid::AXIS_BOX, &equations)
     } else {
         of_equations(shape.equations, &equations)
-    });
-    lines.push(match scene.exact_answer(ray, primitive) {
-        Some([t, ..]) => line.hit(t),
-        None => "In exact arithmetic the ray misses this primitive.".to_owned(),
     });
     lines
 }
@@ -94,18 +118,14 @@ impl Line {
 /// The parameters of a primitive.
 fn parameters(group: &dyn Group, index: u32) -> Vec<String> {
     let numbers = group.numbers(index);
-    let mut rest = &numbers[..];
-    let parameters = group.shape().parameters.iter();
-    let line = |parameter: &hitscope_core::shape::Parameter| {
-        let (own, others) = rest.split_at(parameter.width());
-        rest = others;
+    let line = |(parameter, own): (&Parameter, &[f32])| {
         let value = match own {
             &[x, y, z] => point(Vec3::new(x, y, z).as_dvec3()),
             own => text(own.iter().copied().map(f64::from).sum()),
         };
         format!("{} = {value}", parameter.symbol)
     };
-    parameters.map(line).collect()
+    group.shape().named(&numbers).map(line).collect()
 }
 
 /// Every equation of a shape, with the ray substituted, and its roots.

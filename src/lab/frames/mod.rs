@@ -49,7 +49,7 @@ pub struct PlacedRay {
 
 impl PlacedRay {
     /// The given ray's t for a t of the traced ray.
-    pub fn t_as_given(&self, t: f32) -> f64 {
+    pub fn t_as_given(&self, t: impl Into<f64>) -> f64 {
         self.start + self.ray.t_as_given(t)
     }
 }
@@ -91,6 +91,14 @@ impl<'a> Frames<'a> {
         match placed.frame {
             FrameKind::Mesh => &*self.mesh,
             FrameKind::File => self.file().expect("rays are placed in frames that exist"),
+        }
+    }
+
+    /// The point of the file to which a placed ray is relative.
+    pub fn origin(&self, placed: &PlacedRay) -> DVec3 {
+        match placed.frame {
+            FrameKind::Mesh => self.scene.mesh().origin(),
+            FrameKind::File => DVec3::ZERO,
         }
     }
 

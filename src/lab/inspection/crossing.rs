@@ -1,5 +1,6 @@
 //! The points where a ray crosses surfaces.
 
+use super::OperandName;
 use super::hit::side;
 use crate::surface::SurfacePoint;
 use hitscope_core::interaction::SurfaceInteraction;
@@ -17,6 +18,9 @@ pub struct CrossingReport {
     pub shape: &'static str,
     /// Index of the primitive in the scene, counted from 0; the lowest of several at the same t.
     pub primitive: u32,
+    /// The operand whose surface is crossed, if the primitive is a solid.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub operand: Option<OperandName>,
     /// Other primitives at the same t.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub also: Vec<u32>,
@@ -34,6 +38,7 @@ impl CrossingReport {
             t: hit.t,
             shape: scene.group_of(hit.primitive).0.shape().name,
             primitive: hit.primitive,
+            operand: OperandName::of_hit(scene, &hit),
             also,
             side: side(ray, surface.geometric_normal),
             position: SurfacePoint::in_file(scene, ray, &hit).position,

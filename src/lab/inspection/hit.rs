@@ -1,6 +1,6 @@
 //! A hit, and the surface at its point.
 
-use super::Parameters;
+use super::{Parameters, SolidReport};
 use crate::formula;
 use crate::surface::SurfacePoint;
 use glam::Vec3;
@@ -21,9 +21,12 @@ pub struct HitReport {
     /// The triangle, if it is one.
     #[serde(flatten)]
     pub triangle: Option<TriangleReport>,
-    /// The primitive's parameters by name, if it isn't a triangle.
+    /// The primitive's parameters by name, if it is neither a triangle nor a solid.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub parameters: Option<Parameters>,
+    /// The solid, if it is one.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub solid: Option<SolidReport>,
     /// The surface coordinates, if it isn't a triangle.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub surface_uv: Option<[f64; 2]>,
@@ -65,7 +68,7 @@ impl HitReport {
     pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
         let mesh = scene.mesh();
         let surface = SurfaceInteraction::new(scene, ray, hit, shading);
-        let (group, index) = scene.group_of(hit.primitive);
+        let (group, _) = scene.group_of(hit.primitive);
         let is_triangle = scene.is_triangle(hit.primitive);
         let materials = &mesh.attributes().materials;
         let material = materials.get(scene.material(hit.primitive));
@@ -83,7 +86,8 @@ impl HitReport {
                     .corners(hit.primitive)
                     .map(|p| mesh.vertex_in_file(p).to_array()),
             }),
-            parameters: (!is_triangle).then(|| Parameters::of(group, index, mesh)),
+            parameters: Parameters::of_primitive(scene, hit.primitive),
+            solid: SolidReport::new(scene, ray, &hit, |t| t),
             surface_uv: (!is_triangle).then(|| scene.surface(ray, &hit).uv.to_array()),
             side: side(ray, surface.geometric_normal),
             position: SurfacePoint::in_file(scene, ray, &hit).position,
@@ -91,7 +95,7 @@ impl HitReport {
             shading_normal: surface.shading_normal.to_array(),
             material: material.map_or_else(String::new, |material| material.name.clone()),
             group: name.flatten().cloned().unwrap_or_default(),
-            formula: formula::lines(scene, ray, hit.primitive),
+            formula: formula::lines(scene, mesh.origin(), ray, &hit),
         }
     }
 }

@@ -5,12 +5,14 @@ mod exact;
 mod hit;
 mod kernel_row;
 mod parameters;
+mod solid;
 
 pub use crossing::CrossingReport;
 pub use exact::{ExactReport, ExactTriangle};
 pub use hit::{HitReport, TriangleReport, weights};
 pub use kernel_row::KernelRow;
 pub use parameters::{ParameterReport, ParameterValue, Parameters};
+pub use solid::{OperandName, OperandReport, SolidPart, SolidPartKind, SolidReport};
 
 use crate::frames;
 use crate::json;

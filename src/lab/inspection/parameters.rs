@@ -1,8 +1,8 @@
 //! The parameters of a primitive by name.
 
-use hitscope_core::TriangleMesh;
 use hitscope_core::group::Group;
 use hitscope_core::shape::ParameterKind;
+use hitscope_core::{Scene, TriangleMesh};
 use serde::{Serialize, Serializer};
 use std::fmt::{self, Display, Formatter};
 
@@ -36,13 +36,20 @@ pub enum ParameterValue {
 }
 
 impl Parameters {
+    /// The parameters of a primitive of a scene, if it is neither a triangle nor a solid.
+    pub fn of_primitive(scene: &Scene, primitive: u32) -> Option<Self> {
+        if scene.is_triangle(primitive) {
+            return None;
+        }
+        let (group, index) = scene.group_of(primitive);
+        let is_solid = group.solid(index).is_some();
+        (!is_solid).then(|| Self::of(group, index, scene.mesh()))
+    }
+
     /// The parameters of a primitive of a group.
     pub(super) fn of(group: &dyn Group, index: u32, mesh: &TriangleMesh) -> Self {
         let numbers = group.numbers(index);
-        let mut rest = &numbers[..];
-        let named = group.shape().parameters.iter().map(|parameter| {
-            let (own, others) = rest.split_at(parameter.width());
-            rest = others;
+        let named = group.shape().named(&numbers).map(|(parameter, own)| {
             let three = || [own[0], own[1], own[2]];
             ParameterReport {
                 name: parameter.name,

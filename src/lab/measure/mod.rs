@@ -8,11 +8,12 @@
 //! | [`boxes`] | hits lost by the tree's boxes |
 //! | [`spawning`] | self-hits of spawned rays |
 //! | [`shapes`] | errors of kernels and self-hits of spawned rays for single primitives of all shapes |
+//! | [`packing`] | time and memory of packing primitives of all shapes and solids |
 //! | [`speed`], [`workloads`] | rays per second |
 //! | [`scene`] | kernels in the user's scene |
 //! | [`lecture`] | the lecture's programs as printed |
 //!
-//! All results except speed depend only on the seed, not on the run or the machine.
+//! All results except speed and packing times depend only on the seed, not on the run or the machine.
 
 pub mod boxes;
 pub mod cases;
@@ -20,6 +21,7 @@ pub mod contestants;
 pub mod lecture;
 pub mod meshes;
 pub mod order;
+pub mod packing;
 pub mod scene;
 pub mod shapes;
 mod sizes;
@@ -38,6 +40,7 @@ use hitscope_core::sampler::mix;
 use hitscope_core::shape::Triangle;
 use meshes::{MeshCell, mesh_cases};
 use order::{ORDER_CASES, OrderCell};
+use packing::PackingCell;
 use rayon::prelude::*;
 use shapes::{ShapeCase, ShapeCell, ShapeSpawnCell, shape_cases, shape_spawn_cases};
 pub use sizes::Sizes;
@@ -64,6 +67,8 @@ pub struct Measurements {
     pub shapes: Vec<ShapeCell>,
     /// Rays spawned on single primitives of all shapes.
     pub shape_spawning: Vec<ShapeSpawnCell>,
+    /// Packing, one cell per kernel of every shape.
+    pub packing: Vec<PackingCell>,
     /// One row per kernel.
     pub speed: Vec<Speed>,
 }
@@ -154,7 +159,7 @@ pub struct RunProgress {
     pub left: Duration,
 }
 
-/// Runs the cases for which `is_wanted` holds. Measures speed only if all cases are wanted.
+/// Runs the cases for which `is_wanted` holds. Measures speed and packing only if the sizes have rays for speed.
 ///
 /// # Errors
 /// [`Cancelled`] if `progress` was cancelled.
@@ -190,6 +195,8 @@ pub fn run(
     }
     if sizes.speed_rays > 0 {
         all.speed = speed_on_sphere(sizes, seed, progress)?;
+        let (count, rounds) = (sizes.packed_primitives, sizes.speed_rounds);
+        all.packing = packing::measure(count, rounds, seed, progress)?;
     }
     Ok(all)
 }
@@ -224,6 +231,9 @@ fn seed_of(seed: u64, name: &str) -> u64 {
     name.bytes().fold(mix(seed), mixed)
 }
 
+/// The name of a case and its tasks.
+type NamedTasks = (String, Vec<Task>);
+
 fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> Vec<Task> {
     let seed_of = |name: &str| seed_of(seed, name);
     let triangles = cases::triangle_cases().into_iter().map(|case| {
@@ -233,17 +243,6 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
             ..Measurements::default()
         };
         (name, vec![Task::new(sizes.triangle_rays, 12e-6, run)])
-    });
-    let meshes = mesh_cases().into_iter().map(|case| {
-        let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
-        let task = |kernel: &'static TriangleKernel| {
-            let case = Arc::clone(&case);
-            Task::new(sizes.mesh_rays(kernel), 0.6e-6, move |n| Measurements {
-                meshes: vec![case.measure(kernel, n, seed)],
-                ..Measurements::default()
-            })
-        };
-        (name, TRIANGLE_KERNELS.iter().map(task).collect())
     });
     let order = ORDER_CASES.iter().map(|case| {
         let seed = seed_of(case.name);
@@ -267,8 +266,36 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
             vec![Task::new(sizes.box_hits, 60e-6, run)],
         )
     });
-    let spawning = spawn_cases().into_iter().map(|case| {
-        let (name, seed, case) = (case.name.clone(), seed_of(&case.name), Arc::new(case));
+    let all = triangles
+        .chain(mesh_tasks(sizes, seed))
+        .chain(order)
+        .chain(boxes)
+        .chain(spawn_tasks(sizes, seed))
+        .chain(shape_tasks(sizes, seed));
+    all.filter(|(name, _)| is_wanted(name))
+        .flat_map(|(_, tasks)| tasks)
+        .collect()
+}
+
+/// The tasks of each mesh, one per kernel.
+fn mesh_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
+    mesh_cases().into_iter().map(move |case| {
+        let (name, seed, case) = (case.name.clone(), seed_of(seed, &case.name), Arc::new(case));
+        let task = |kernel: &'static TriangleKernel| {
+            let case = Arc::clone(&case);
+            Task::new(sizes.mesh_rays(kernel), 0.6e-6, move |n| Measurements {
+                meshes: vec![case.measure(kernel, n, seed)],
+                ..Measurements::default()
+            })
+        };
+        (name, TRIANGLE_KERNELS.iter().map(task).collect())
+    })
+}
+
+/// The tasks of each case of spawned rays, one per kernel.
+fn spawn_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
+    spawn_cases().into_iter().map(move |case| {
+        let (name, seed, case) = (case.name.clone(), seed_of(seed, &case.name), Arc::new(case));
         let task = |kernel: &'static TriangleKernel| {
             let case = Arc::clone(&case);
             Task::new(sizes.leaving_rays(kernel), 6e-6, move |n| Measurements {
@@ -277,20 +304,11 @@ fn tasks(sizes: Sizes, seed: u64, is_wanted: &(dyn Fn(&str) -> bool + Sync)) -> 
             })
         };
         (name, TRIANGLE_KERNELS.iter().map(task).collect())
-    });
-    let all = triangles
-        .chain(meshes)
-        .chain(order)
-        .chain(boxes)
-        .chain(spawning)
-        .chain(shape_tasks(sizes, seed));
-    all.filter(|(name, _)| is_wanted(name))
-        .flat_map(|(_, tasks)| tasks)
-        .collect()
+    })
 }
 
 /// The tasks of each case of single primitives.
-fn shape_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = (String, Vec<Task>)> {
+fn shape_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
     let hits = shape_cases().into_iter().map(move |case: ShapeCase<_>| {
         let (name, seed) = (case.name.clone(), seed_of(seed, &case.name));
         let run = move |n| Measurements {

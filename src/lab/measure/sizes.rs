@@ -21,7 +21,9 @@ pub struct Sizes {
     pub shape_rays: u64,
     /// Spawned rays per case and kernel of all shapes.
     pub shape_spawn_rays: u64,
-    /// Rays per workload; 0 skips measuring speed.
+    /// Primitives per shape for measuring packing.
+    pub packed_primitives: usize,
+    /// Rays per workload; 0 skips measuring speed and packing.
     pub speed_rays: usize,
     /// Rounds per workload, of which the median counts.
     pub speed_rounds: usize,
@@ -40,6 +42,7 @@ impl Sizes {
         spawn_rays: 20_000,
         shape_rays: 1_000,
         shape_spawn_rays: 500,
+        packed_primitives: 2_000,
         speed_rays: 100_000,
         speed_rounds: 3,
         speed_cells: 83,
@@ -56,6 +59,7 @@ impl Sizes {
         spawn_rays: 1_000_000,
         shape_rays: 20_000,
         shape_spawn_rays: 20_000,
+        packed_primitives: 20_000,
         speed_rays: 500_000,
         speed_rounds: 5,
         speed_cells: 300,

@@ -38,6 +38,14 @@ impl ExactT {
         }
     }
 
+    /// A number between this one and a larger one; `None` if they are closer than f64 numbers are.
+    pub fn between(&mut self, larger: &mut Self) -> Option<f64> {
+        let [low, high] = [self.to_f64(), larger.to_f64()];
+        let middle = 0.5 * low + 0.5 * high;
+        // An end is at most half way to the next f64.
+        (low < middle && middle < high).then_some(middle)
+    }
+
     /// The nearest f64, ties to even.
     pub fn to_f64(&mut self) -> f64 {
         self.rounded(Fraction::to_f64, f64::next_up)

@@ -111,7 +111,7 @@ pub(super) fn between_slabs(
 
 /// Solutions of x₀·columns₀ + x₁·columns₁ + x₂·columns₂ = right for several right sides, as numerators and their
 /// denominator; `None` if the columns lie in a plane.
-fn solve<const N: usize>(
+pub(super) fn solve<const N: usize>(
     columns: &[[IBig; 3]; 3],
     rights: [[IBig; 3]; N],
 ) -> Option<([[IBig; 3]; N], IBig)> {

@@ -145,7 +145,7 @@ impl Oracle for Quadric {
 }
 
 /// The numbers as integers, in a common unit.
-fn with_common_exponent(numbers: &[f32; 10]) -> Option<Vec<IBig>> {
+pub(super) fn with_common_exponent(numbers: &[f32; 10]) -> Option<Vec<IBig>> {
     let decoded: Vec<(IBig, i32)> = numbers
         .iter()
         .map(|&x| integer_of(x))
@@ -167,7 +167,7 @@ fn with_common_exponent(numbers: &[f32; 10]) -> Option<Vec<IBig>> {
 }
 
 /// The left side of the quadric's equation at a point in units of 1/one, times one².
-fn equation(coefficients: &[IBig], [x, y, z]: &[IBig; 3], one: &IBig) -> IBig {
+pub(super) fn equation(coefficients: &[IBig], [x, y, z]: &[IBig; 3], one: &IBig) -> IBig {
     let [a, b, c, d, e, f, g, h, i, j] = coefficients else {
         return IBig::ZERO;
     };

@@ -78,6 +78,7 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
         "shape_kernels": shapes::kernels_json(),
         "shapes": all.shapes,
         "shape_spawning": all.shape_spawning,
+        "packing": all.packing,
     })
 }
 

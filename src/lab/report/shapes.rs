@@ -1,4 +1,4 @@
-//! Tables of shapes other than triangles.
+//! Tables of all shapes: single primitives, spawned rays and packing.
 
 use super::text::{header, print_table};
 use crate::measure::Measurements;
@@ -15,7 +15,30 @@ use std::io::{self, Write};
 /// Prints the results for single primitives of all shapes.
 pub(super) fn print(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_hits(all, out)?;
-    print_spawning(all, out)
+    print_spawning(all, out)?;
+    print_packing(all, out)
+}
+
+fn print_packing(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
+    if all.packing.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "Packing primitives of every shape; CPU time in ns and memory in bytes per primitive"
+    )?;
+    let mut rows = header(&["shape", "kernel", "n", "ns", "bytes", "tree bytes"]);
+    for cell in &all.packing {
+        rows.push(vec![
+            cell.shape.to_owned(),
+            cell.kernel.to_owned(),
+            cell.n.to_string(),
+            short(cell.ns_per_primitive),
+            short(cell.bytes_per_primitive),
+            short(cell.tree_bytes_per_primitive),
+        ]);
+    }
+    print_table(out, &rows)
 }
 
 fn print_hits(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {

@@ -147,7 +147,7 @@ impl App {
         let findings = self.document.known_findings();
         let health = findings.as_ref().map(|findings| &findings.health);
         let is_moving = is_dragging || self.tracer.is_moving();
-        if is_moving && self.overlay.rests_while_moving(&scene) {
+        if is_moving && self.overlay.omits_lines_while_moving(&scene) {
             options = Options::NOTHING;
         }
         let (overlay, error) = match self

@@ -77,9 +77,19 @@ impl App {
     }
 
     fn switches_ui(&self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        for (label, is_on, action, hint, is_enabled) in self.switches() {
+            let button = egui::Button::selectable(is_on, label);
+            let response = ui.add_enabled(is_enabled, button);
+            if response.on_hover_text(hint).clicked() {
+                actions.push(action);
+            }
+        }
+    }
+
+    /// The switches of the tool bar: label, state, action, tooltip, whether it is enabled.
+    fn switches(&self) -> [(&'static str, bool, Action, &'static str, bool); 9] {
         let settings = &self.settings;
-        // Label, state, action, tooltip, whether it is enabled.
-        let switches = [
+        [
             (
                 "Smooth",
                 settings.is_smooth,
@@ -143,14 +153,7 @@ impl App {
                 "Side panel (I)",
                 true,
             ),
-        ];
-        for (label, is_on, action, hint, is_enabled) in switches {
-            let button = egui::Button::selectable(is_on, label);
-            let response = ui.add_enabled(is_enabled, button);
-            if response.on_hover_text(hint).clicked() {
-                actions.push(action);
-            }
-        }
+        ]
     }
 
     pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {

@@ -22,55 +22,10 @@ impl App {
             .default_size(self.settings.panel_width)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {
-                ui.add_space(4.0);
-                ui.horizontal(|ui| {
-                    for (tab, label) in [
-                        (Tab::Inspect, "Inspect"),
-                        (Tab::Display, "Display"),
-                        (Tab::Mesh, "Mesh"),
-                        (Tab::Trade, "Trade"),
-                    ] {
-                        ui.selectable_value(&mut self.settings.tab, tab, label);
-                    }
-                });
-                ui.separator();
+                self.tabs_ui(ui);
                 // In a narrow window the contents are wider than the panel.
                 egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-                    match self.settings.tab {
-                        Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
-                            ui.label("No file is open.");
-                        }
-                        Tab::Inspect => {
-                            let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
-                            let pick = self.pick.as_ref();
-                            let is_reading = self.face_lookup.is_some();
-                            let view = pick.map(|pick| pick.view(&self.document, is_reading));
-                            let selected = panels::inspect::inspect_ui(ui, view, is_busy);
-                            if let Some((pick, crossing)) = self.pick.as_mut().zip(selected) {
-                                pick.select(crossing);
-                            }
-                        }
-                        Tab::Display => {
-                            panels::view::view_ui(
-                                ui,
-                                &mut self.settings,
-                                &mut self.turntable,
-                                &self.document.loaded.scene.kernels(),
-                                actions,
-                            );
-                        }
-                        Tab::Mesh => {
-                            let (document, settings) = (&mut self.document, &mut self.settings);
-                            panels::mesh::mesh_ui(
-                                ui,
-                                document,
-                                settings,
-                                self.flaw.as_ref(),
-                                actions,
-                            );
-                        }
-                        Tab::Trade => self.trade_ui(ui),
-                    }
+                    self.tab_ui(ui, actions);
                 });
             });
         self.settings.shows_panel = is_expanded;
@@ -81,6 +36,55 @@ impl App {
             if last == width && width < limit && PANEL_WIDTHS.contains(&width) {
                 self.settings.panel_width = width;
             }
+        }
+    }
+
+    /// The names of the tabs.
+    fn tabs_ui(&mut self, ui: &mut egui::Ui) {
+        ui.add_space(4.0);
+        ui.horizontal(|ui| {
+            for (tab, label) in [
+                (Tab::Inspect, "Inspect"),
+                (Tab::Display, "Display"),
+                (Tab::Mesh, "Mesh"),
+                (Tab::Trade, "Trade"),
+            ] {
+                ui.selectable_value(&mut self.settings.tab, tab, label);
+            }
+        });
+        ui.separator();
+    }
+
+    /// The contents of the selected tab.
+    fn tab_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+        match self.settings.tab {
+            Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
+                ui.label("No file is open.");
+            }
+            Tab::Inspect => {
+                let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
+                let pick = self.pick.as_ref();
+                let is_reading = self.face_lookup.is_some();
+                let view = pick.map(|pick| pick.view(&self.document, is_reading));
+                let selected = panels::inspect::inspect_ui(ui, view, is_busy);
+                if let Some((pick, crossing)) = self.pick.as_mut().zip(selected) {
+                    pick.select(crossing);
+                }
+            }
+            Tab::Display => {
+                panels::view::view_ui(
+                    ui,
+                    &mut self.settings,
+                    &mut self.turntable,
+                    &self.document.loaded.scene.kernels(),
+                    actions,
+                );
+            }
+            Tab::Mesh => {
+                let (document, settings) = (&mut self.document, &mut self.settings);
+                panels::mesh::mesh_ui(ui, document, settings, self.flaw.as_ref(), actions);
+            }
+            Tab::Trade => self.trade_ui(ui),
         }
     }
 

@@ -218,8 +218,8 @@ impl Overlay {
                     ..Default::default()
                 });
                 pass.set_bind_group(0, self.view.group(), &[]);
-                if let Some((group, style)) = traced.as_ref().filter(|_| is_first(load)) {
-                    self.traced.draw_depth(&mut pass, group, style);
+                if let Some(group) = traced.as_ref().filter(|_| is_first(load)) {
+                    self.traced.draw_depth(&mut pass, group);
                 }
                 self.depth.draw(&mut pass, &drawing.mesh, &slice);
             }
@@ -252,7 +252,8 @@ impl Overlay {
             .iter()
             .map(|&(set, k)| drawing.sets[set].lines.buffers()[k].1);
         let mut slices = Slices::new(sizes.collect());
-        let traced = self.traced_group(drawing);
+        let outline_style = drawing.outline.map(|s| self.lines.style(&self.device, &s));
+        let outline = self.traced_group(drawing).zip(outline_style);
         let mut load = wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT);
         let colour = view_of(canvas.targets.colour(canvas.colour));
         let depth = view_of(&canvas.targets.depth);
@@ -271,8 +272,7 @@ impl Overlay {
                     ..Default::default()
                 });
                 pass.set_bind_group(0, self.view.group(), &[]);
-                let outline = traced.as_ref().filter(|_| drawing.outline.is_some());
-                if let Some((group, style)) = outline.filter(|_| is_first(load)) {
+                if let Some((group, style)) = outline.as_ref().filter(|_| is_first(load)) {
                     self.traced.draw_outline(&mut pass, group, style);
                 }
                 for (part, range) in slice {
@@ -293,11 +293,10 @@ impl Overlay {
         }
     }
 
-    /// The traced pixels and the style of outlines, ready to be drawn.
-    fn traced_group(&self, drawing: &Drawing) -> Option<(TracedGroup, LineStyle)> {
-        let group = self.traced.group(&self.device, drawing.traced.as_deref()?);
-        let style = drawing.outline.unwrap_or(StyleUniform::INVISIBLE);
-        Some((group, self.lines.style(&self.device, &style)))
+    /// The traced pixels, bound.
+    fn traced_group(&self, drawing: &Drawing) -> Option<TracedGroup> {
+        let traced = drawing.traced.as_deref()?;
+        Some(self.traced.group(&self.device, traced))
     }
 
     fn encoder(&self) -> wgpu::CommandEncoder {

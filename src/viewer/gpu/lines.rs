@@ -39,15 +39,6 @@ pub struct StyleUniform {
 }
 
 impl StyleUniform {
-    /// Nothing is drawn.
-    pub const INVISIBLE: Self = Self {
-        colour: [0.0; 4],
-        half_width_px: 0.0,
-        stretch: 1.0,
-        fade: 0.0,
-        padding: 0.0,
-    };
-
     /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
     pub(super) const OFFSETS: [usize; 4] = [

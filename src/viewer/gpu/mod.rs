@@ -124,6 +124,7 @@ fn shader(device: &wgpu::Device, label: &str, source: &str) -> wgpu::ShaderModul
 #[cfg(test)]
 mod tests {
     use super::lines::{self, StyleUniform};
+    use super::traced;
     use super::view::{self, ViewUniform};
 
     /// Size of a structure in WGSL, and the offsets of its members.
@@ -149,5 +150,10 @@ mod tests {
         let (size, offsets) = layout(&lines, "Style");
         assert_eq!(size, size_of::<StyleUniform>());
         assert_eq!(offsets, StyleUniform::OFFSETS);
+        // Outlines use the colour alone; the other members are one there.
+        let traced = format!("{}\n{}", view::SHADER, traced::SHADER);
+        let (size, offsets) = layout(&traced, "Outline");
+        assert_eq!(size, size_of::<StyleUniform>());
+        assert_eq!(offsets, StyleUniform::OFFSETS[..2]);
     }
 }

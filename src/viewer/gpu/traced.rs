@@ -69,67 +69,24 @@ impl TracedPipelines {
         lines: &LinePipelines,
         [colour_format, depth_format]: [wgpu::TextureFormat; 2],
     ) -> Self {
-        let layout = device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
-            label: Some("traced"),
-            entries: &[wgpu::BindGroupLayoutEntry {
-                binding: 0,
-                visibility: wgpu::ShaderStages::FRAGMENT,
-                ty: wgpu::BindingType::Texture {
-                    sample_type: wgpu::TextureSampleType::Float { filterable: false },
-                    view_dimension: wgpu::TextureViewDimension::D2,
-                    multisampled: false,
-                },
-                count: None,
-            }],
-        });
-        let module = shader(device, "traced", SHADER);
-        let pipelines = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
-            label: Some("traced"),
-            bind_group_layouts: &[
-                Some(view.layout()),
-                Some(&layout),
-                Some(lines.style_layout()),
-            ],
-            immediate_size: 0,
-        });
-        let pipeline = |entry_point, colour: Option<wgpu::ColorTargetState>| {
-            let (targets, writes_depth) = ([colour.clone()], colour.is_none());
-            device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
-                label: Some(entry_point),
-                layout: Some(&pipelines),
-                vertex: wgpu::VertexState {
-                    module: &module,
-                    entry_point: Some("vs_main"),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    buffers: &[],
-                },
-                primitive: wgpu::PrimitiveState::default(),
-                depth_stencil: Some(wgpu::DepthStencilState {
-                    format: depth_format,
-                    depth_write_enabled: Some(writes_depth),
-                    depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
-                    stencil: wgpu::StencilState::default(),
-                    bias: wgpu::DepthBiasState::default(),
-                }),
-                multisample: wgpu::MultisampleState::default(),
-                fragment: Some(wgpu::FragmentState {
-                    module: &module,
-                    entry_point: Some(entry_point),
-                    compilation_options: wgpu::PipelineCompilationOptions::default(),
-                    targets: if writes_depth { &[] } else { &targets },
-                }),
-                multiview_mask: None,
-                cache: None,
-            })
-        };
+        let layout = pixels_layout(device);
+        let (view, pixels) = (Some(view.layout()), Some(&layout));
         let colour = wgpu::ColorTargetState {
             format: colour_format,
             blend: Some(wgpu::BlendState::PREMULTIPLIED_ALPHA_BLENDING),
             write_mask: wgpu::ColorWrites::ALL,
         };
+        let module = shader(device, "traced", SHADER);
+        let pipeline = |entry_point, groups: &[_], targets: &[_]| {
+            pipeline(device, &module, entry_point, groups, targets, depth_format)
+        };
         Self {
-            depth: pipeline("fs_depth", None),
-            outline: pipeline("fs_outline", Some(colour)),
+            depth: pipeline("fs_depth", &[view, pixels], &[]),
+            outline: pipeline(
+                "fs_outline",
+                &[view, pixels, Some(lines.style_layout())],
+                &[Some(colour)],
+            ),
             layout,
         }
     }
@@ -146,14 +103,11 @@ impl TracedPipelines {
         }))
     }
 
-    /// Draws the depth. The style isn't used.
-    pub fn draw_depth(
-        &self,
-        pass: &mut wgpu::RenderPass<'_>,
-        group: &TracedGroup,
-        style: &LineStyle,
-    ) {
-        draw(pass, &self.depth, group, style);
+    /// Draws the depth.
+    pub fn draw_depth(&self, pass: &mut wgpu::RenderPass<'_>, group: &TracedGroup) {
+        pass.set_pipeline(&self.depth);
+        pass.set_bind_group(1, &group.0, &[]);
+        pass.draw(0..3, 0..1);
     }
 
     /// Draws the outlines.
@@ -163,18 +117,69 @@ impl TracedPipelines {
         group: &TracedGroup,
         style: &LineStyle,
     ) {
-        draw(pass, &self.outline, group, style);
+        pass.set_pipeline(&self.outline);
+        pass.set_bind_group(1, &group.0, &[]);
+        pass.set_bind_group(2, style.group(), &[]);
+        pass.draw(0..3, 0..1);
     }
 }
 
-fn draw(
-    pass: &mut wgpu::RenderPass<'_>,
-    pipeline: &wgpu::RenderPipeline,
-    group: &TracedGroup,
-    style: &LineStyle,
-) {
-    pass.set_pipeline(pipeline);
-    pass.set_bind_group(1, &group.0, &[]);
-    pass.set_bind_group(2, style.group(), &[]);
-    pass.draw(0..3, 0..1);
+/// The layout of the traced pixels' bind group.
+fn pixels_layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
+    device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
+        label: Some("traced"),
+        entries: &[wgpu::BindGroupLayoutEntry {
+            binding: 0,
+            visibility: wgpu::ShaderStages::FRAGMENT,
+            ty: wgpu::BindingType::Texture {
+                sample_type: wgpu::TextureSampleType::Float { filterable: false },
+                view_dimension: wgpu::TextureViewDimension::D2,
+                multisampled: false,
+            },
+            count: None,
+        }],
+    })
+}
+
+/// The pipeline of a fragment shader that sets the depth of each pixel. Depth is stored if there is no colour target.
+fn pipeline(
+    device: &wgpu::Device,
+    module: &wgpu::ShaderModule,
+    entry_point: &str,
+    groups: &[Option<&wgpu::BindGroupLayout>],
+    targets: &[Option<wgpu::ColorTargetState>],
+    depth_format: wgpu::TextureFormat,
+) -> wgpu::RenderPipeline {
+    let layout = device.create_pipeline_layout(&wgpu::PipelineLayoutDescriptor {
+        label: Some(entry_point),
+        bind_group_layouts: groups,
+        immediate_size: 0,
+    });
+    device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
+        label: Some(entry_point),
+        layout: Some(&layout),
+        vertex: wgpu::VertexState {
+            module,
+            entry_point: Some("vs_main"),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            buffers: &[],
+        },
+        primitive: wgpu::PrimitiveState::default(),
+        depth_stencil: Some(wgpu::DepthStencilState {
+            format: depth_format,
+            depth_write_enabled: Some(targets.is_empty()),
+            depth_compare: Some(wgpu::CompareFunction::GreaterEqual),
+            stencil: wgpu::StencilState::default(),
+            bias: wgpu::DepthBiasState::default(),
+        }),
+        multisample: wgpu::MultisampleState::default(),
+        fragment: Some(wgpu::FragmentState {
+            module,
+            entry_point: Some(entry_point),
+            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            targets,
+        }),
+        multiview_mask: None,
+        cache: None,
+    })
 }

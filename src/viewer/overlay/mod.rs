@@ -203,7 +203,7 @@ impl OverlayLayer {
     }
 
     /// Whether lines are omitted while the camera moves, so that the picture can keep up.
-    pub fn rests_while_moving(&self, scene: &Scene) -> bool {
+    pub fn omits_lines_while_moving(&self, scene: &Scene) -> bool {
         // Each view of shapes takes one traced ray per pixel.
         self.is_software || scene.has_other_shapes()
     }

@@ -18,13 +18,13 @@ pub struct Shapes(Arc<OnceLock<Box<dyn Intersector>>>);
 
 /// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss.
 #[derive(Clone, Copy, PartialEq)]
-struct Seen {
+struct VisibleSurface {
     depth: f32,
     surface: Option<[u32; 2]>,
 }
 
-impl Seen {
-    const NOTHING: Self = Self {
+impl VisibleSurface {
+    const NONE: Self = Self {
         depth: 0.0,
         surface: None,
     };
@@ -39,13 +39,13 @@ impl Shapes {
                 .intersector(default_triangle_kernel())
         });
         let size = camera.resolution();
-        let mut seen = vec![Seen::NOTHING; (size.x * size.y) as usize];
-        let rows = seen.par_chunks_mut(size.x as usize).enumerate();
+        let mut visible = vec![VisibleSurface::NONE; (size.x * size.y) as usize];
+        let rows = visible.par_chunks_mut(size.x as usize).enumerate();
         rows.for_each(|(y, row)| trace_row(&**intersector, camera, view, y as u32, row));
-        let hides = farthest_around(&seen, size);
+        let hides = farthest_around(&visible, size);
         let outline = |(index, hides)| TracedPixel {
             hides,
-            outline: outline(&seen, size, index),
+            outline: outline(&visible, size, index),
         };
         hides.into_iter().enumerate().map(outline).collect()
     }
@@ -56,15 +56,15 @@ fn trace_row(
     camera: &Camera,
     view: &ViewUniform,
     y: u32,
-    row: &mut [Seen],
+    row: &mut [VisibleSurface],
 ) {
     let ray = |x: u32| camera.ray(UVec2::new(x, y), Vec2::splat(0.5));
     let rays: Vec<Ray> = (0..row.len() as u32).map(ray).collect();
     let mut hits = vec![None; rays.len()];
     intersector.coherent_hits(&rays, &mut hits);
-    for ((seen, hit), ray) in row.iter_mut().zip(hits).zip(&rays) {
+    for ((visible, hit), ray) in row.iter_mut().zip(hits).zip(&rays) {
         if let Some(hit) = hit {
-            *seen = Seen {
+            *visible = VisibleSurface {
                 depth: view.depth_of(ray.at(hit.t)),
                 // v tells the operands of a solid apart.
                 surface: Some([hit.primitive, hit.v.to_bits()]),
@@ -74,21 +74,21 @@ fn trace_row(
 }
 
 /// The least depth, which is the farthest point, near each pixel.
-fn farthest_around(seen: &[Seen], size: UVec2) -> Vec<f32> {
+fn farthest_around(visible: &[VisibleSurface], size: UVec2) -> Vec<f32> {
     let (width, height) = (size.x as usize, size.y as usize);
     let least = |of: &dyn Fn(usize) -> f32, at: usize, count: usize| {
         let near = at.saturating_sub(REACH_PX)..count.min(at + REACH_PX + 1);
         near.map(of).fold(f32::INFINITY, f32::min)
     };
     let at = |index: usize| (index % width, index / width);
-    let in_rows: Vec<f32> = (0..seen.len())
+    let in_rows: Vec<f32> = (0..visible.len())
         .into_par_iter()
         .map(|index| {
             let (x, y) = at(index);
-            least(&|x| seen[y * width + x].depth, x, width)
+            least(&|x| visible[y * width + x].depth, x, width)
         })
         .collect();
-    (0..seen.len())
+    (0..visible.len())
         .into_par_iter()
         .map(|index| {
             let (x, y) = at(index);
@@ -99,7 +99,7 @@ fn farthest_around(seen: &[Seen], size: UVec2) -> Vec<f32> {
 
 /// The depth of the outline in a pixel, or −1 if there is none: the nearer of two neighbouring pixels that show different
 /// surfaces has it; both do if they are equally near.
-fn outline(seen: &[Seen], size: UVec2, index: usize) -> f32 {
+fn outline(visible: &[VisibleSurface], size: UVec2, index: usize) -> f32 {
     let width = size.x as usize;
     let (x, y) = (index % width, index / width);
     let neighbours = [
@@ -108,9 +108,9 @@ fn outline(seen: &[Seen], size: UVec2, index: usize) -> f32 {
         (y > 0).then(|| index - width),
         (y + 1 < size.y as usize).then_some(index + width),
     ];
-    let own = seen[index];
+    let own = visible[index];
     let is_outline = |other: &usize| {
-        let other = seen[*other];
+        let other = visible[*other];
         other.surface != own.surface && other.depth <= own.depth
     };
     if own.surface.is_some() && neighbours.iter().flatten().any(is_outline) {
@@ -124,25 +124,27 @@ fn outline(seen: &[Seen], size: UVec2, index: usize) -> f32 {
 mod tests {
     use super::*;
 
-    fn row(depths: &[f32]) -> Vec<Seen> {
-        let seen = |&depth: &f32| Seen {
+    fn row(depths: &[f32]) -> Vec<VisibleSurface> {
+        let visible = |&depth: &f32| VisibleSurface {
             depth,
             surface: (depth > 0.0).then_some([(10.0 * depth) as u32, 0]),
         };
-        depths.iter().map(seen).collect()
+        depths.iter().map(visible).collect()
     }
 
     #[test]
     fn the_nearer_surface_has_the_outline_and_a_surface_hides_nothing_at_its_border() {
-        let seen = row(&[0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.2, 0.2]);
+        let visible = row(&[0.0, 0.0, 0.0, 0.5, 0.5, 0.5, 0.5, 0.5, 0.2, 0.2]);
         let size = UVec2::new(10, 1);
-        let outlines: Vec<f32> = (0..10).map(|index| outline(&seen, size, index)).collect();
+        let outlines: Vec<f32> = (0..10)
+            .map(|index| outline(&visible, size, index))
+            .collect();
         let none = -1.0;
         assert_eq!(
             outlines,
             [none, none, none, 0.5, none, none, none, 0.5, none, none]
         );
-        let hides = farthest_around(&seen, size);
+        let hides = farthest_around(&visible, size);
         assert_eq!(hides, [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.2, 0.2, 0.2, 0.2]);
     }
 }

@@ -7,8 +7,8 @@ use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_lab::inspection::{
-    CrossingReport, ExactReport, ExactTriangle, HitReport, Inspection, KernelRow, ParameterReport,
-    ParameterValue, TriangleReport,
+    CrossingReport, ExactReport, ExactTriangle, HitReport, Inspection, KernelRow, OperandName,
+    ParameterReport, ParameterValue, Parameters, SolidReport, TriangleReport,
 };
 
 /// The contents of the tab for a pick.
@@ -115,28 +115,50 @@ fn hit_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &HitReport) {
     });
 }
 
-/// Shows a shape other than a triangle.
+/// Shows a shape other than a triangle; of a solid, the operand that is hit and the tree of operations.
 fn shape_ui(ui: &mut egui::Ui, hit: &HitReport) {
     section_ui(ui, "Shape", |ui| {
         row_ui(ui, "shape", hit.shape);
         row_ui(ui, "primitive", format!("{} (0-based)", hit.primitive));
-        for parameter in hit.parameters.iter().flat_map(|parameters| &parameters.0) {
-            let ParameterReport { name, symbol, .. } = parameter;
-            let name = name.replace('_', " ");
-            let name = if name == *symbol {
-                name
+        parameters_ui(ui, hit.parameters.as_ref());
+        if let Some(SolidReport { operand, .. }) = &hit.solid {
+            let OperandName { index, shape } = operand.name;
+            row_ui(ui, "operand", format!("{index} (0-based), {shape}"));
+            let normal = if operand.is_subtracted {
+                "reversed: the operand is subtracted"
             } else {
-                format!("{name} {symbol}")
+                "as the operand's"
             };
-            let value = match parameter.value {
-                ParameterValue::Point(p) => lines(p),
-                ParameterValue::Vector(v) => lines(v),
-                ParameterValue::Number(x) => number(x),
-                ParameterValue::Flag(_) => parameter.value.to_string(),
-            };
-            row_ui(ui, &name, value);
+            row_ui(ui, "normal", normal);
+            parameters_ui(ui, Some(&operand.parameters));
         }
     });
+    if let Some(solid) = &hit.solid {
+        ui.label(RichText::new("Solid").strong())
+            .on_hover_text("The operations, and the intervals of t inside each part");
+        let text = RichText::new(solid.lines.join("\n")).monospace().size(10.5);
+        ui.add(egui::Label::new(text).wrap());
+        ui.add_space(4.0);
+    }
+}
+
+fn parameters_ui(ui: &mut egui::Ui, parameters: Option<&Parameters>) {
+    for parameter in parameters.iter().flat_map(|parameters| &parameters.0) {
+        let ParameterReport { name, symbol, .. } = parameter;
+        let name = name.replace('_', " ");
+        let name = if name == *symbol {
+            name
+        } else {
+            format!("{name} {symbol}")
+        };
+        let value = match parameter.value {
+            ParameterValue::Point(p) => lines(p),
+            ParameterValue::Vector(v) => lines(v),
+            ParameterValue::Number(x) => number(x),
+            ParameterValue::Flag(_) => parameter.value.to_string(),
+        };
+        row_ui(ui, &name, value);
+    }
 }
 
 /// Shows the derivation of t.
@@ -191,6 +213,9 @@ fn crossings_ui(
             "primitive",
             format!("{shape} {primitive}, {side}{also}"),
         );
+        if let Some(OperandName { index, shape }) = crossing.operand {
+            row_ui(ui, "operand", format!("{index}, {shape}"));
+        }
         row_ui(ui, "position", lines(crossing.position));
     });
     (selected != marked).then_some(selected)

@@ -106,9 +106,14 @@ fn mrays_per_s(row: &SceneRow) -> f64 {
     (rates.primary + rates.bounce + rates.random) / 3.0
 }
 
-fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut Settings) {
-    let axis = trade.axis;
-    let height = |row: &SceneRow| axis.value(row).max(axis.floor()).log10();
+/// A row's place in the plot.
+fn place(axis: Axis, row: &SceneRow) -> PlotPoint {
+    let height = axis.value(row).max(axis.floor()).log10();
+    PlotPoint::new(speed(row), height)
+}
+
+/// The plot without its contents; all rows are visible.
+fn empty_plot(axis: Axis, rows: &[SceneRow]) -> Plot<'static> {
     let label = match axis {
         Axis::ErrorOfT => "p99 error of t, ulps",
         Axis::Wrong => "wrong per million rays",
@@ -116,8 +121,9 @@ fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut S
     let floor = axis.floor().log10();
     let fastest = rows.iter().map(speed).fold(0.0, f64::max);
     let slowest = rows.iter().map(speed).fold(fastest, f64::min);
-    let highest = rows.iter().map(height).fold(floor + 1.0, f64::max);
-    let plot = Plot::new("trade")
+    let heights = rows.iter().map(|row| place(axis, row).y);
+    let highest = heights.fold(floor + 1.0, f64::max);
+    Plot::new("trade")
         .height(240.0)
         .custom_x_axes(vec![
             AxisHints::new_x()
@@ -136,29 +142,33 @@ fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut S
         .allow_scroll(false)
         .allow_boxed_zoom(false)
         .show_x(false)
-        .show_y(false);
+        .show_y(false)
+}
+
+fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut Settings) {
+    let axis = trade.axis;
     let theme = ui.theme();
     let mut labelled: Vec<(&KernelInfo, Pos2)> = Vec::new();
     let mut points: Vec<Pos2> = Vec::new();
-    let response = plot.show(ui, |plot| {
+    let response = empty_plot(axis, rows).show(ui, |plot| {
+        let floor = axis.floor().log10();
         plot.hline(HLine::new("zero", floor).color(Color32::GRAY.gamma_multiply(0.5)));
         for row in rows {
             let is_current = trade.is_used(settings.kernel(), row);
-            draw_point(plot, row, [speed(row), height(row)], is_current, theme);
+            draw_point(plot, row, place(axis, row), is_current, theme);
+            let on_screen = plot.screen_from_plot(place(axis, row));
             // A tier has the same place for every shape.
             let name = info(row).short_name();
             let is_labelled = labelled.iter().any(|(info, _)| info.short_name() == name);
             if (info(row).tier.is_some() || is_current) && !is_labelled {
-                let at = PlotPoint::new(speed(row), height(row));
-                labelled.push((info(row), plot.screen_from_plot(at)));
+                labelled.push((info(row), on_screen));
             }
-            let at = PlotPoint::new(speed(row), height(row));
-            points.push(plot.screen_from_plot(at));
+            points.push(on_screen);
         }
         let pointer = plot.response().hover_pos()?;
         let distance = |row: &SceneRow| {
-            let at = PlotPoint::new(speed(row), height(row));
-            plot.screen_from_plot(at).distance(pointer)
+            let on_screen = plot.screen_from_plot(place(axis, row));
+            on_screen.distance(pointer)
         };
         let nearest = rows
             .iter()
@@ -182,9 +192,15 @@ fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut S
     }
 }
 
-fn draw_point(plot: &mut PlotUi<'_>, row: &SceneRow, at: [f64; 2], is_current: bool, theme: Theme) {
+fn draw_point(
+    plot: &mut PlotUi<'_>,
+    row: &SceneRow,
+    at: PlotPoint,
+    is_current: bool,
+    theme: Theme,
+) {
     let info = info(row);
-    let points = Points::new(info.short_name(), PlotPoints::from(vec![at]))
+    let points = Points::new(info.short_name(), PlotPoints::from(vec![[at.x, at.y]]))
         .radius(if is_current { 7.0 } else { 4.5 })
         .color(kernel_colour(info.tier, theme));
     plot.points(points);

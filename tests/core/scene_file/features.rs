@@ -2,7 +2,10 @@
 
 use super::{parse, parse_bytes, scene, warnings};
 use glam::{DMat4, DVec3};
-use hitscope_core::scene_file::{Bsdf, CsgOperation, Place, SceneFile, ShapeKind};
+use hitscope_core::scene_file::{
+    Bsdf, Cone, Csg, CsgOperation, Cube, Cuboid, Cylinder, Disk, Obj, Place, Plane, Rectangle,
+    SceneFile, ShapeKind, Sphere, Torus,
+};
 use std::path::PathBuf;
 
 pub(super) fn read(contents: &str) -> SceneFile {
@@ -24,23 +27,23 @@ fn shapes_have_mitsubas_defaults() {
     for (name, expected) in [
         (
             "sphere",
-            ShapeKind::Sphere {
+            ShapeKind::Sphere(Sphere {
                 center: DVec3::ZERO,
                 radius: 1.0,
-            },
+            }),
         ),
         (
             "cylinder",
-            ShapeKind::Cylinder {
+            ShapeKind::Cylinder(Cylinder {
                 p0: DVec3::ZERO,
                 p1: DVec3::Z,
                 radius: 1.0,
                 is_capped: false,
-            },
+            }),
         ),
-        ("disk", ShapeKind::Disk),
-        ("rectangle", ShapeKind::Rectangle),
-        ("cube", ShapeKind::Cube),
+        ("disk", ShapeKind::Disk(Disk)),
+        ("rectangle", ShapeKind::Rectangle(Rectangle)),
+        ("cube", ShapeKind::Cube(Cube)),
     ] {
         let scene = read(&format!("<shape type='{name}'/>"));
         let shape = &scene.shapes[0];
@@ -59,29 +62,29 @@ fn shapes_of_our_own_have_defaults() {
     for (name, expected) in [
         (
             "plane",
-            ShapeKind::Plane {
+            ShapeKind::Plane(Plane {
                 point: zero,
                 normal: z,
-            },
+            }),
         ),
-        ("box", ShapeKind::Box { min, max }),
+        ("box", ShapeKind::Cuboid(Cuboid { min, max })),
         (
             "cone",
-            ShapeKind::Cone {
+            ShapeKind::Cone(Cone {
                 p0: zero,
                 p1: z,
                 radius: 1.0,
                 is_capped: false,
-            },
+            }),
         ),
         (
             "torus",
-            ShapeKind::Torus {
+            ShapeKind::Torus(Torus {
                 center: zero,
                 axis: z,
                 major: 1.0,
                 minor: 0.25,
-            },
+            }),
         ),
     ] {
         assert_eq!(kind(&format!("<shape type='{name}'/>")), expected);
@@ -94,23 +97,23 @@ fn parameters_of_shapes_are_read() {
         "<shape type='cylinder'><point name='p0' value='1,2,3'/><vector name='p1' x='4' y='5' z='6'/>
          <integer name='radius' value='2'/><boolean name='capped' value='true'/></shape>",
     );
-    let expected = ShapeKind::Cylinder {
+    let expected = ShapeKind::Cylinder(Cylinder {
         p0: DVec3::new(1.0, 2.0, 3.0),
         p1: DVec3::new(4.0, 5.0, 6.0),
         radius: 2.0,
         is_capped: true,
-    };
+    });
     assert_eq!(cylinder, expected);
     let torus = kind(
         "<shape type='torus'><point name='center' value='1 2 3'/><vector name='axis' value='0,2,0'/>
          <float name='major' value='3.5'/><float name='minor' value='1e-1'/></shape>",
     );
-    let expected = ShapeKind::Torus {
+    let expected = ShapeKind::Torus(Torus {
         center: DVec3::new(1.0, 2.0, 3.0),
         axis: DVec3::new(0.0, 2.0, 0.0),
         major: 3.5,
         minor: 0.1,
-    };
+    });
     assert_eq!(torus, expected);
     let quadric = kind(
         "<shape type='quadric'><float name='a' value='1'/><float name='d' value='2'/>
@@ -120,7 +123,7 @@ fn parameters_of_shapes_are_read() {
         panic!("{quadric:?}");
     };
     let coefficients = [1.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 0.0, 0.0, -1.0];
-    assert_eq!(quadric.coefficients, coefficients);
+    assert_eq!(*quadric.coefficients, coefficients);
     assert_eq!(
         (quadric.min, quadric.max),
         (DVec3::splat(-2.0), DVec3::splat(3.0))
@@ -129,11 +132,11 @@ fn parameters_of_shapes_are_read() {
         "<shape type='obj'><string name='filename' value=' sub/a b.obj '/>
          <boolean name='face_normals' value='True'/></shape>",
     );
-    let expected = ShapeKind::Obj {
+    let expected = ShapeKind::Obj(Obj {
         file: PathBuf::from("sub/a b.obj"),
         face_normals: true,
         flip_tex_coords: true,
-    };
+    });
     assert_eq!(obj, expected);
 }
 
@@ -155,28 +158,58 @@ fn solids_are_nested_in_csg() {
         (Some("c"), Some("n"))
     );
     assert_eq!(shape.to_world, DMat4::from_scale(DVec3::splat(2.0)));
-    let ShapeKind::Csg {
+    let ShapeKind::Csg(Csg {
         operation,
         children,
-    } = &shape.kind
+    }) = &shape.kind
     else {
         panic!("{shape:?}");
     };
     assert_eq!((*operation, children.len()), (CsgOperation::Difference, 2));
     assert_eq!(
         (&children[0].kind, children[0].material),
-        (&ShapeKind::Cube, Some(0))
+        (&ShapeKind::Cube(Cube), Some(0))
     );
-    let ShapeKind::Csg {
+    let ShapeKind::Csg(Csg {
         operation,
         children,
-    } = &children[1].kind
+    }) = &children[1].kind
     else {
         panic!("{children:?}");
     };
     assert_eq!((*operation, children.len()), (CsgOperation::Union, 2));
     assert!(children[0].flip_normals && !children[1].flip_normals);
     assert_eq!(children[0].place, at(6));
+}
+
+#[test]
+fn what_has_no_effect_in_a_nested_shape_gives_a_warning() {
+    let solid = |own: &str, nested: &str| {
+        let scene = read(&format!(
+            "<bsdf type='diffuse' id='a'/><bsdf type='diffuse' id='b'/>
+             <shape type='csg'><string name='operation' value='union'/>{own}
+             <shape type='cube'/>
+             <shape type='sphere'>{nested}</shape></shape>"
+        ));
+        warnings(&scene)
+    };
+    let (a, b) = ("<ref id='a'/>", "<ref id='b'/>");
+    let flipped = "<boolean name='flip_normals' value='true'/>";
+    for (own, nested, expected) in [
+        ("", "", None),
+        (a, "", None),
+        (a, a, None),
+        (flipped, "", None),
+        (a, b, Some("the bsdf")),
+        ("", a, Some("the bsdf")),
+        (flipped, flipped, Some("flip_normals")),
+    ] {
+        let expected = expected.map(|what| {
+            format!("line 5: {what} of a shape in a csg isn't used: the csg's own applies")
+        });
+        let found = solid(own, nested);
+        assert_eq!(found, Vec::from_iter(expected), "{own} {nested}");
+    }
 }
 
 #[test]
@@ -246,10 +279,10 @@ fn defaults_are_inserted_into_any_attribute() {
          <transform name='to_world'><translate value='$twice 1'/></transform></shape>",
     );
     let shape = &scene.shapes[0];
-    let expected = ShapeKind::Sphere {
+    let expected = ShapeKind::Sphere(Sphere {
         center: DVec3::ZERO,
         radius: 2.5,
-    };
+    });
     assert_eq!((&shape.kind, shape.id.as_deref()), (&expected, Some("s2")));
     assert_eq!(
         shape.to_world,

@@ -2,7 +2,7 @@
 
 use super::{message, parse_files, scene, warnings};
 use hitscope_core::progress::Progress;
-use hitscope_core::scene_file::{self, Place, ShapeKind};
+use hitscope_core::scene_file::{self, Cube, Place, ShapeKind, Sphere};
 use std::io;
 use std::path::{Path, PathBuf};
 
@@ -27,12 +27,15 @@ fn names_are_relative_to_the_file_with_the_name() {
     let [sphere, obj, cube] = &scene.shapes[..] else {
         panic!("{:?}", scene.shapes);
     };
-    assert!(matches!(sphere.kind, ShapeKind::Sphere { radius: 2.0, .. }));
-    let ShapeKind::Obj { file, .. } = &obj.kind else {
+    assert!(matches!(
+        sphere.kind,
+        ShapeKind::Sphere(Sphere { radius: 2.0, .. })
+    ));
+    let ShapeKind::Obj(mesh) = &obj.kind else {
         panic!("{obj:?}");
     };
-    assert_eq!(*file, Path::new("dir/sub/m.obj"));
-    assert_eq!(cube.kind, ShapeKind::Cube);
+    assert_eq!(mesh.file, Path::new("dir/sub/m.obj"));
+    assert_eq!(cube.kind, ShapeKind::Cube(Cube));
     let files = ["dir/x.xml", "dir/sub/a.xml", "dir/sub/./b.xml"].map(PathBuf::from);
     assert_eq!(scene.files, files);
     assert_eq!(obj.place, Place { file: 1, line: 3 });
@@ -51,7 +54,7 @@ fn a_part_of_a_shape_can_be_included() {
     let scene = parse_files(&[("x.xml", &main), ("a.xml", &part)]).expect("good");
     assert!(matches!(
         scene.shapes[0].kind,
-        ShapeKind::Sphere { radius: 3.0, .. }
+        ShapeKind::Sphere(Sphere { radius: 3.0, .. })
     ));
 }
 
@@ -148,10 +151,10 @@ fn files_are_read_from_the_disk() {
     write("folder.xml", &scene("<include filename='sub'/>"));
     let load = |name: &str| scene_file::load(&at(name), 1 << 20, &Progress::default());
     let scene = load("x.xml").expect("good");
-    let ShapeKind::Obj { file, .. } = &scene.shapes[0].kind else {
+    let ShapeKind::Obj(mesh) = &scene.shapes[0].kind else {
         panic!("{:?}", scene.shapes);
     };
-    assert_eq!(*file, at("sub/m.obj"));
+    assert_eq!(mesh.file, at("sub/m.obj"));
     let shown = |name: &str| at(name).display().to_string();
     let directory = "this is a directory, not a scene file";
     assert_eq!(

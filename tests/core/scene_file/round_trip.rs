@@ -3,7 +3,7 @@
 use super::{parse, parse_files, scene};
 use glam::{DMat4, DVec3};
 use hitscope_core::scene_file::{
-    self, Emitter, EmitterKind, Place, Plugin, SceneFile, Shape, ShapeKind,
+    self, Emitter, EmitterKind, Obj, Place, Plugin, SceneFile, Shape, ShapeKind,
 };
 use std::path::{Path, PathBuf};
 
@@ -77,8 +77,8 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
             .emitter
             .iter_mut()
             .for_each(|emitter| of_emitter(emitter));
-        if let ShapeKind::Csg { children, .. } = &mut shape.kind {
-            children.iter_mut().for_each(of_shape);
+        if let ShapeKind::Csg(csg) = &mut shape.kind {
+            csg.children.iter_mut().for_each(of_shape);
         }
     }
     scene.shapes.iter_mut().for_each(of_shape);
@@ -119,11 +119,11 @@ fn a_mesh_and_a_camera_are_written_as_a_scene() {
         place: Place::default(),
         id: None,
         name: None,
-        kind: ShapeKind::Obj {
+        kind: ShapeKind::Obj(Obj {
             file: PathBuf::from("scenes/mesh.obj"),
             face_normals: false,
             flip_tex_coords: true,
-        },
+        }),
         to_world: DMat4::from_translation(DVec3::X),
         flip_normals: false,
         material: None,
@@ -179,10 +179,10 @@ fn names_without_a_form_are_refused() {
         let mut described = parse(&scene(text)).expect("good");
         let shape = &mut described.shapes[0];
         shape.id = Some(id.to_owned());
-        let ShapeKind::Obj { file: named, .. } = &mut shape.kind else {
+        let ShapeKind::Obj(obj) = &mut shape.kind else {
             panic!("{shape:?}");
         };
-        *named = PathBuf::from(file);
+        obj.file = PathBuf::from(file);
         described
     };
     for (id, file, expected) in [

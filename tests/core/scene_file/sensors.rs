@@ -60,6 +60,7 @@ fn sensors_are_read() {
     );
     let expected = [
         "line 9: rfilter “gaussian” isn't supported; “box” is used",
+        "line 8: film “hdrfilm”: the crop window isn't used; the whole film is shown",
         "line 9: film “hdrfilm”: parameter “pixel_format” isn't used",
         "line 5: sensor “thinlens”: parameter “near_clip” isn't used",
         "line 13: sensor “radiancemeter” isn't supported",

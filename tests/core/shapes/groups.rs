@@ -200,6 +200,26 @@ fn the_nearest_hit_of_several_groups_counts() {
 }
 
 #[test]
+fn groups_behind_the_nearest_hit_so_far_cost_no_tests_of_primitives() {
+    let mesh = soup(&[[[-2.0, -2.0], [2.0, -2.0], [0.0, 3.0]].map(|[x, y]| Vec3::new(x, y, -2.0))]);
+    let mut shapes: Vec<Sphere> = samples(&mut Random::new(4), 100);
+    shapes.push(Sphere {
+        centre: Vec3::ZERO,
+        radius: 0.5,
+    });
+    let behind = scene_of(mesh.clone(), shapes.clone(), Packing::Full);
+    let alone = scene_of(TriangleMesh::default(), shapes, Packing::Full);
+    let mesh = hitscope_core::scene::scene(mesh);
+    let ray = Ray::new(Vec3::NEG_Z * 3.0, Vec3::Z).expect("a ray");
+    for row in TRIANGLE_KERNELS.iter() {
+        let cost = |scene: &Scene| scene.intersector(row).closest_hit_with_cost(&ray).1;
+        let [behind, alone, mesh] = [&behind, &alone, &mesh].map(cost);
+        assert!(alone.primitives > 0, "{}", row.info.name);
+        assert_eq!(behind.primitives, mesh.primitives, "{}", row.info.name);
+    }
+}
+
+#[test]
 fn a_triangle_that_touches_a_sphere_at_the_hit_counts_as_one_crossing_of_the_exact_kernel() {
     // The plane z = −1 touches the unit sphere at its pole, where the ray comes down.
     let corners = [[-2.0, -2.0], [2.0, -2.0], [0.0, 3.0]];

@@ -8,7 +8,7 @@ use hitscope_core::mesh::{Runs, TriangleMesh};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
-use hitscope_core::shape::{Cone, Cuboid, Cylinder, Plane, Quadric, Sphere, Torus};
+use hitscope_core::shape::{Cone, Cuboid, Cylinder, LineDetail, Plane, Quadric, Sphere, Torus};
 use hitscope_core::{Intersector, Ray, Scene};
 
 const OPERATIONS: [CsgOperation; 3] = [
@@ -81,6 +81,11 @@ fn expected(intervals: &[Option<[f64; 2]>; 3], [inner, outer]: [CsgOperation; 2]
 
 #[test]
 fn crossings_are_those_of_the_combined_intervals() {
+    /// A bound for chords longer than `CHORD`. The fast kernel errs most: it computes half a chord h by
+    /// h² = r² − (l·l − s²), where l and s are at most 5. With u = 2⁻²⁴, l·l errs by 3u·25 and s by 5.5u·5, so s² by
+    /// 275u; hence h by 350u / 2h < 8.4e-5. s itself, the middle of the chord, errs by 28u.
+    const ERROR: f64 = 1e-4;
+    const CHORD: f64 = 0.25;
     let mut random = Random::new(1);
     for tier in [Tier::Fast, Tier::Watertight, Tier::Precise, Tier::Exact] {
         let mut count = 0;
@@ -98,14 +103,16 @@ fn crossings_are_those_of_the_combined_intervals() {
                 let ray = ray_near(&mut random, Vec3::ZERO, 1.0, 4.0);
                 let intervals = [0, 1, 2].map(|k| inside_ball(&ray, &spheres[k]));
                 let expected = expected(&intervals, operations);
-                let is_clear = intervals.iter().flatten().all(|[a, b]| b - a > 1e-2)
-                    && expected.windows(2).all(|pair| pair[1] - pair[0] > 1e-4);
+                let is_clear = intervals.iter().flatten().all(|[a, b]| b - a > CHORD)
+                    && expected
+                        .windows(2)
+                        .all(|pair| pair[1] - pair[0] > 2.0 * ERROR);
                 let found = intersector.all_hits(&ray);
                 if is_clear && expected.iter().all(|&t| t > 0.0) {
                     assert_eq!(found.len(), expected.len(), "{tier:?} {ray:?} {spheres:?}");
                     for (crossing, t) in found.iter().zip(&expected) {
                         let error = (f64::from(crossing.hit.t) - t).abs();
-                        assert!(error < 1e-4, "{tier:?} {error}");
+                        assert!(error < ERROR, "{tier:?} {error}");
                     }
                     count += expected.len();
                 }
@@ -213,20 +220,23 @@ fn half_spaces_and_quadrics_are_solids_and_subtracted_normals_point_outwards() {
         let hit = drilled.closest_hit(&across).expect("the wall of the hole");
         assert_eq!(hit.t, 0.5);
         let normal = scene.surface(&across, &hit).normal;
-        assert!((normal - DVec3::NEG_X).length() < 1e-6, "{normal}");
+        // All numbers are exact.
+        assert_eq!(normal, DVec3::NEG_X);
 
         let scene = scene_of(vec![filled.clone()]);
         let filled = intersector(&scene, tier);
         // The ray enters through the box's upper side and leaves where z = x².
         let slanted = [0.5, 0.0, -1.0];
         for (origin, expected) in [
-            ([0.0, 0.0, 2.0], vec![1.0, 12f32.sqrt() - 2.0]),
-            ([0.0, 0.0, 0.5], vec![6f32.sqrt() - 2.0]),
+            ([0.0, 0.0, 2.0], vec![1.0, 12f64.sqrt() - 2.0]),
+            ([0.0, 0.0, 0.5], vec![6f64.sqrt() - 2.0]),
         ] {
             let found = crossings(&*filled, origin, slanted);
             assert_eq!(found.len(), expected.len(), "{tier:?} {found:?}");
             for (t, expected) in found.iter().zip(expected) {
-                assert!((t - expected).abs() < 1e-6, "{tier:?} {t} {expected}");
+                // Ten roundings of numbers below 4, of 2⁻²³ each, over the slope of the equation at its root, 1.2.
+                let error = (f64::from(*t) - expected).abs();
+                assert!(error < 1e-6, "{tier:?} {t} {expected}");
             }
         }
     }
@@ -287,6 +297,32 @@ fn where_surfaces_coincide_the_one_that_faces_the_ray_counts() {
 }
 
 #[test]
+fn a_coinciding_surface_that_bounds_nothing_is_not_hit() {
+    // The ray enters both boxes at z = 1; the first one is cut away there.
+    let cut = cube(Vec3::new(-1.0, -1.0, 0.0), Vec3::ONE);
+    let left = Plane {
+        point: Vec3::ZERO,
+        normal: Vec3::X,
+    };
+    let ball = Sphere {
+        centre: Vec3::new(0.5, 0.0, 0.5),
+        radius: 0.5,
+    };
+    let half = vec![Solid::of(cut), Solid::of(left)];
+    let half = Solid::combined(CsgOperation::Intersection, half);
+    let scene = scene_of(vec![Solid::combined(
+        CsgOperation::Union,
+        vec![half, Solid::of(ball)],
+    )]);
+    let ray = Ray::new(Vec3::new(0.5, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
+    let hit = intersector(&scene, Tier::Exact)
+        .closest_hit(&ray)
+        .expect("the ball");
+    // The third operand.
+    assert_eq!((hit.t, hit.v), (2.0, 2.0));
+}
+
+#[test]
 fn an_open_surface_encloses_nothing() {
     let open = Cylinder {
         p0: Vec3::ZERO,
@@ -300,6 +336,55 @@ fn an_open_surface_encloses_nothing() {
         crossings(&*exact, [-2.0, 0.0, 0.5], [1.0, 0.0, 0.0]),
         [0.0; 0]
     );
+}
+
+#[test]
+fn lines_end_at_the_seam_of_two_operands() {
+    let whole = cube(-Vec3::ONE, Vec3::ONE);
+    let dent = Sphere {
+        centre: Vec3::Z,
+        radius: 0.51,
+    };
+    let both = vec![Solid::of(whole), Solid::of(dent)];
+    let scene = scene_of(vec![Solid::combined(CsgOperation::Difference, both)]);
+    let detail = LineDetail {
+        segments: 64,
+        around: scene.bounds(),
+    };
+    let (mut nearest, mut sees_dent) = (f64::INFINITY, false);
+    scene.groups()[0].lines(0, &detail, &mut |line| {
+        for point in line {
+            let p = point.position;
+            sees_dent |= p.z < 0.99 && p.length() < 0.9;
+            // The middle line of the upper side.
+            if p.z == 1.0 && p.y == 0.0 {
+                nearest = nearest.min(p.x.abs());
+            }
+        }
+    });
+    // The line of length 2 has 64 pieces, of which the one at the seam is halved ten times; points are rounded to f32.
+    let slack = 2.0 / 64.0 / 1024.0 + 1e-6;
+    assert!((nearest - 0.51).abs() < slack, "{nearest}");
+    assert!(sees_dent);
+}
+
+#[test]
+fn the_size_of_a_packed_solid_includes_its_operands() {
+    let ball = |x: f32| {
+        Solid::of(Sphere {
+            centre: x * Vec3::X,
+            radius: 1.0,
+        })
+    };
+    let bytes = |count: u8| {
+        let balls = (0..count).map(|x| ball(x.into())).collect();
+        let scene = scene_of(vec![Solid::combined(CsgOperation::Union, balls)]);
+        intersector(&scene, Tier::Watertight).bytes()
+    };
+    let [one, two, three] = [1, 2, 3].map(bytes);
+    assert_eq!(three - two, two - one);
+    // The operand itself, its packed sphere of four numbers, and its tree.
+    assert!(two - one > 100, "{}", two - one);
 }
 
 #[test]

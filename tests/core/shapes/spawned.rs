@@ -23,6 +23,10 @@ fn spawned_rays_miss<S: Sample + Shape>(size: f32, offset: f32, seed: u64) {
             };
             let surface = shape.surface(&arrived_by, &hit);
             let scattered = (surface.normal + random.direction()).normalize_or(surface.normal);
+            // The far side of a sphere is met at the same angle α. Roundings move the ray by up to 14u of the sample's
+            // size, so the crossing by 14u / sin α; a radius of 0.1 then turns the normal by 140u / sin α, which is less
+            // than sin α.
+            let is_steep = scattered.dot(surface.normal) > 1e-2;
             for (dir, is_outwards) in [(scattered, true), (-scattered, false)] {
                 let departure = Departure {
                     arrived_by: &arrived_by,
@@ -36,10 +40,10 @@ fn spawned_rays_miss<S: Sample + Shape>(size: f32, offset: f32, seed: u64) {
                 count += 1;
                 if is_outwards {
                     assert_eq!(again, None, "{shape:?} {arrived_by:?} {ray:?} {hit:?}");
-                } else if let Some(again) = again.filter(|_| offset <= size) {
+                } else if let Some(again) = again.filter(|_| offset <= size && is_steep) {
                     // From inside, only the far side is hit.
                     let side = shape.surface(&ray, &again).normal.dot(dir);
-                    assert!(side > -1e-3, "{shape:?} {ray:?} {again:?} {side:e}");
+                    assert!(side > 0.0, "{shape:?} {ray:?} {again:?} {side:e}");
                 }
             }
         }
@@ -92,8 +96,11 @@ fn the_origin_lies_outside_after_leaving_outwards() {
             dir: dir.as_vec3(),
         };
         let ray = default_spawn_policy().spawn(&departure).expect("a ray");
+        // Lifted by Σ|nᵢ|·10u ≤ √3·10u. The point and the sum are rounded by u each, and each coordinate is moved by an ulp
+        // of at most 2u.
         let height = ray.origin.as_dvec3().distance(DVec3::ZERO) - 1.0;
-        assert!(height > 0.0 && height < 4e-6, "{height:e}");
+        let u = f64::from(f32::EPSILON) / 2.0;
+        assert!(height > 0.0 && height < 23.0 * u, "{height:e}");
         assert_eq!(ray.exclude, None);
     }
 }

@@ -10,6 +10,8 @@ mod constructed;
 mod frame;
 // The nearest of primitives of several shapes that touch or coincide.
 mod order;
+// Combined solids of random shapes and operations.
+mod solids;
 // Rays that leave a primitive.
 mod spawned;
 // Spheres of extreme size.

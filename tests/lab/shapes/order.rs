@@ -77,14 +77,81 @@ impl Groups {
     }
 }
 
-/// Shapes about the ball of radius c that coincide with it, with each other, or touch them.
-fn touching(random: &mut Random, frame: &Frame, c: i32) -> Groups {
+/// Groups of flat shapes and boxes that touch the ball of radius c.
+fn flat_groups(frame: &Frame, c: i32) -> [Adder; 4] {
     let axes = [[c, 0, 0], [0, c, 0], [0, 0, c]].map(|v| frame.vector(v));
+    let (centre, high) = (frame.point([0; 3]), frame.point([0, 0, c]));
+    let normal = frame.vector([0, 0, 1]);
     let top = Span {
-        centre: frame.point([0, 0, c]),
+        centre: high,
         u: axes[0],
         v: axes[1],
     };
+    [
+        Box::new(move |groups| groups.add(vec![Disk(top), Disk(top)])),
+        Box::new(move |groups| groups.add(vec![Rectangle(top)])),
+        Box::new(move |groups| {
+            groups.add(vec![Plane {
+                point: high,
+                normal,
+            }]);
+        }),
+        Box::new(move |groups| groups.add(vec![Cuboid { centre, axes }])),
+    ]
+}
+
+/// Groups of curved shapes that coincide with the ball of radius c, or touch it.
+fn curved_groups(frame: &Frame, c: i32) -> [Adder; 5] {
+    let (centre, unit) = (frame.point([0; 3]), frame.vector([0, 0, 1]));
+    let (low, high) = (frame.point([0, 0, -c]), frame.point([0, 0, c]));
+    let radius = frame.length(c);
+    let (half, tube) = (radius / 2.0, radius / 4.0);
+    let ball = Sphere { centre, radius };
+    [
+        Box::new(move |groups| groups.add(vec![ball, ball])),
+        Box::new(move |groups| {
+            let cylinder = |is_capped| Cylinder {
+                p0: low,
+                p1: high,
+                radius,
+                is_capped,
+            };
+            groups.add(vec![cylinder(true), cylinder(false)]);
+        }),
+        Box::new(move |groups| {
+            let cone = |p0, p1| Cone {
+                p0,
+                p1,
+                radius,
+                is_capped: true,
+            };
+            groups.add(vec![cone(centre, high), cone(high, centre)]);
+        }),
+        Box::new(move |groups| {
+            let squared = radius * radius;
+            let coefficients = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -squared];
+            groups.add(vec![Quadric {
+                coefficients,
+                centre,
+                half: Vec3::splat(radius),
+            }]);
+        }),
+        Box::new(move |groups| {
+            // The outer equator, and the inner one.
+            let torus = |major, minor| Torus {
+                centre,
+                axis: unit,
+                major,
+                minor,
+            };
+            groups.add(vec![torus(radius - tube, tube), torus(radius + half, half)]);
+            groups.add(vec![torus(radius - tube, tube)]);
+        }),
+    ]
+}
+
+/// Shapes about the ball of radius c that coincide with it, with each other, or touch them.
+fn touching(random: &mut Random, frame: &Frame, c: i32) -> Groups {
     let corners = [[-2 * c, -c, c], [2 * c, -c, c], [0, 2 * c, c]].map(|p| frame.point(p));
     let is_there = random.index(2) == 0;
     let mut groups = Groups::of_triangles(if is_there {
@@ -92,69 +159,9 @@ fn touching(random: &mut Random, frame: &Frame, c: i32) -> Groups {
     } else {
         std::slice::from_ref(&corners)
     });
-    let ball = Sphere {
-        centre: frame.point([0; 3]),
-        radius: frame.length(c),
-    };
-    let squared = frame.length(c) * frame.length(c);
-    let mut adders: Vec<Adder> = vec![
-        Box::new(move |groups| groups.add(vec![ball, ball])),
-        Box::new(move |groups| groups.add(vec![Disk(top), Disk(top)])),
-        Box::new(move |groups| groups.add(vec![Rectangle(top)])),
-    ];
-    let (centre, unit) = (frame.point([0; 3]), frame.vector([0, 0, 1]));
-    let (low, high) = (frame.point([0, 0, -c]), frame.point([0, 0, c]));
-    let (radius, half, tube) = (
-        frame.length(c),
-        frame.length(c) / 2.0,
-        frame.length(c) / 4.0,
-    );
-    adders.push(Box::new(move |groups| {
-        groups.add(vec![Plane {
-            point: high,
-            normal: unit,
-        }]);
-    }));
-    adders.push(Box::new(move |groups| {
-        groups.add(vec![Cuboid { centre, axes }]);
-    }));
-    adders.push(Box::new(move |groups| {
-        let cylinder = |is_capped| Cylinder {
-            p0: low,
-            p1: high,
-            radius,
-            is_capped,
-        };
-        groups.add(vec![cylinder(true), cylinder(false)]);
-    }));
-    adders.push(Box::new(move |groups| {
-        let cone = |p0, p1| Cone {
-            p0,
-            p1,
-            radius,
-            is_capped: true,
-        };
-        groups.add(vec![cone(centre, high), cone(high, centre)]);
-    }));
-    adders.push(Box::new(move |groups| {
-        let coefficients = [1.0, 1.0, 1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, -squared];
-        groups.add(vec![Quadric {
-            coefficients,
-            centre,
-            half: Vec3::splat(radius),
-        }]);
-    }));
-    adders.push(Box::new(move |groups| {
-        // The outer equator, and the inner one.
-        let torus = |major, minor| Torus {
-            centre,
-            axis: unit,
-            major,
-            minor,
-        };
-        groups.add(vec![torus(radius - tube, tube), torus(radius + half, half)]);
-        groups.add(vec![torus(radius - tube, tube)]);
-    }));
+    let mut adders: Vec<Adder> = Vec::new();
+    adders.extend(flat_groups(frame, c));
+    adders.extend(curved_groups(frame, c));
     // Some of the groups, in any order.
     while adders.len() > 3 {
         let adder = adders.swap_remove(random.index(adders.len()));

@@ -2,12 +2,15 @@
 //!
 //! `HITSCOPE_SPAWN_RAYS=1000000` spawns that many rays for each kernel, size and offset. By default it is 2000.
 
-use hitscope_core::kernel::{KernelRow, Tier};
+use hitscope_core::group::CSG_KERNELS;
+use hitscope_core::kernel::{KernelInfo, KernelRow, Tier};
 use hitscope_core::shape::{
     AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
     Triangle,
 };
-use hitscope_lab::measure::shapes::{Sampled, measure_spawning, spawn_places};
+use hitscope_lab::measure::shapes::{
+    Sampled, ShapeSpawnCell, SpawnPlace, measure_solid_spawning, measure_spawning, spawn_places,
+};
 use rayon::prelude::*;
 
 fn ray_count() -> u64 {
@@ -16,12 +19,18 @@ fn ray_count() -> u64 {
 }
 
 fn spawned_rays_leave<S: Sampled>() {
-    let tiers = [Tier::Watertight, Tier::Precise, Tier::Exact];
-    let kernels: Vec<&KernelRow<S>> = tiers.iter().map(|&tier| S::kernel_of(tier)).collect();
+    let kernels: Vec<&KernelRow<S>> = TIERS.iter().map(|&tier| S::kernel_of(tier)).collect();
+    check(|case, place, seed| measure_spawning(case, &kernels, place, ray_count(), seed));
+}
+
+const TIERS: [Tier; 3] = [Tier::Watertight, Tier::Precise, Tier::Exact];
+
+/// Measures at every place, prints the results, and fails if there are self-hits.
+fn check(measure: impl Fn(&str, SpawnPlace, u64) -> Vec<ShapeSpawnCell> + Send + Sync) {
     let places: Vec<_> = spawn_places().into_iter().enumerate().collect();
     let cells = places.into_par_iter().flat_map_iter(|(seed, place)| {
         let case = format!("size {:e}, offset {:e}", place.size, place.offset);
-        measure_spawning(&case, &kernels, place, ray_count(), seed as u64)
+        measure(&case, place, seed as u64)
     });
     let cells: Vec<_> = cells.collect();
     let mut failures = Vec::new();
@@ -44,6 +53,13 @@ fn spawned_rays_leave<S: Sampled>() {
     }
     assert!(cells.iter().map(|cell| cell.n).sum::<u64>() > 10 * ray_count());
     assert!(failures.is_empty(), "{}", failures.join("\n"));
+}
+
+#[test]
+fn rays_that_leave_a_solid_miss_its_surface() {
+    let of_tier = |info: &&&KernelInfo| info.tier.is_some_and(|tier| TIERS.contains(&tier));
+    let kernels: Vec<&KernelInfo> = CSG_KERNELS.iter().filter(of_tier).copied().collect();
+    check(|case, place, seed| measure_solid_spawning(case, &kernels, place, ray_count(), seed));
 }
 
 macro_rules! shapes_leave {

@@ -23,7 +23,7 @@ pub(super) struct CsgIntersector {
 }
 
 /// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
-struct Visited<'a, F> {
+struct CrossingVisitor<'a, F> {
     intersector: &'a CsgIntersector,
     ray: &'a Ray,
     found: F,
@@ -31,7 +31,7 @@ struct Visited<'a, F> {
     cost: Cost,
 }
 
-impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for Visited<'_, F> {
+impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for CrossingVisitor<'_, F> {
     const IS_BEHIND: bool = true;
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<Baseline>) -> ControlFlow<(), f32> {
@@ -78,7 +78,7 @@ impl CsgIntersector {
 
     /// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
     fn each(&self, ray: &Ray, found: impl FnMut(u32, Vec<RankedHit>) -> f32) -> Cost {
-        let mut visited = Visited {
+        let mut visitor = CrossingVisitor {
             intersector: self,
             ray,
             found,
@@ -86,27 +86,8 @@ impl CsgIntersector {
             cost: Cost::default(),
         };
         let mut stack = LentStack::new();
-        self.bvh.walk(baseline(), ray, stack.get(), &mut visited);
-        visited.cost
-    }
-
-    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
-        let mut nearest: Option<RankedHit> = None;
-        let cost = self.each(ray, |primitive, crossings| {
-            if let Some(first) = crossings.into_iter().next() {
-                let first = first.with_hit(|hit| Hit { primitive, ..hit });
-                if nearest
-                    .as_ref()
-                    .is_none_or(|nearest| first.is_before(nearest))
-                {
-                    nearest = Some(first);
-                }
-            }
-            nearest
-                .as_ref()
-                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
-        });
-        (nearest, cost)
+        self.bvh.walk(baseline(), ray, stack.get(), &mut visitor);
+        visitor.cost
     }
 }
 
@@ -128,7 +109,7 @@ impl Intersector for CsgIntersector {
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         for (ray, is_hit) in rays.iter().zip(are_hits) {
-            *is_hit = self.nearest(ray).is_some();
+            *is_hit = self.nearest_with_cost(ray).0.is_some();
         }
     }
 
@@ -152,8 +133,23 @@ impl Intersector for CsgIntersector {
 }
 
 impl GroupIntersector for CsgIntersector {
-    fn nearest(&self, ray: &Ray) -> Option<RankedHit> {
-        self.nearest_with_cost(ray).0
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
+        let mut nearest: Option<RankedHit> = None;
+        let cost = self.each(ray, |primitive, crossings| {
+            if let Some(first) = crossings.into_iter().next() {
+                let first = first.with_hit(|hit| Hit { primitive, ..hit });
+                if nearest
+                    .as_ref()
+                    .is_none_or(|nearest| first.is_before(nearest))
+                {
+                    nearest = Some(first);
+                }
+            }
+            nearest
+                .as_ref()
+                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
+        });
+        (nearest, cost)
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {

@@ -1,4 +1,4 @@
-//! Wireframe lines of a solid: the parts of its operands' lines on its surface. Pieces that cross its edges are omitted.
+//! Wireframe lines of a solid: the parts of its operands' lines on its surface, up to the seams of operands.
 
 use super::crossings::PackedSolid;
 use crate::ray::Ray;
@@ -21,34 +21,77 @@ fn divided(line: &[LinePoint], detail: &LineDetail, size: f64) -> Vec<LinePoint>
     (0..=count).map(at).collect()
 }
 
+/// The point at a part of the way between two points of a line.
+fn between([from, to]: [&LinePoint; 2], part: f64) -> LinePoint {
+    LinePoint {
+        position: from.position.lerp(to.position, part),
+        normal: from.normal.lerp(to.normal, part).normalize_or_zero(),
+    }
+}
+
 impl PackedSolid {
     /// Passes the lines to `add`.
     pub fn lines(&self, detail: &LineDetail, add: AddLine<'_>) {
         let bounds = self.solid().bounds().unwrap_or(detail.around);
         let size = bounds.radius();
         for (index, operand) in self.solid().operands().iter().enumerate() {
+            let facing = |point: LinePoint| LinePoint {
+                normal: operand.outward(point.normal),
+                ..point
+            };
             operand.surface.lines(0, detail, &mut |line| {
-                let line = &divided(line, detail, size);
-                let is_on = |point: &LinePoint| self.is_on_surface(point.position, index);
-                let is_drawn: Vec<bool> = line.iter().map(is_on).collect();
-                let mut start = 0;
-                while start < line.len() {
-                    let end = start + is_drawn[start..].iter().take_while(|is_on| **is_on).count();
-                    let facing = |point: &LinePoint| LinePoint {
-                        normal: if operand.is_subtracted {
-                            -point.normal
-                        } else {
-                            point.normal
-                        },
-                        ..*point
-                    };
-                    if end - start > 1 {
-                        add(&line[start..end].iter().map(facing).collect::<Vec<_>>());
-                    }
-                    start = end + 1;
-                }
+                self.visible_parts(&divided(line, detail, size), index, &mut |part| {
+                    let part = part.iter().copied().map(facing);
+                    add(&part.collect::<Vec<_>>());
+                });
             });
         }
+    }
+
+    /// Passes the parts of an operand's line that are on the solid's surface to `add`.
+    fn visible_parts(&self, line: &[LinePoint], operand: usize, add: AddLine<'_>) {
+        let is_on = |point: &LinePoint| self.is_on_surface(point.position, operand);
+        let mut part: Vec<LinePoint> = Vec::new();
+        let mut last: Option<(&LinePoint, bool)> = None;
+        for point in line {
+            let is_visible = is_on(point);
+            if let Some((before, was_visible)) = last
+                && was_visible != is_visible
+            {
+                let ends = if was_visible {
+                    [before, point]
+                } else {
+                    [point, before]
+                };
+                part.push(self.seam(ends, operand));
+            }
+            if is_visible {
+                part.push(*point);
+            } else if !part.is_empty() {
+                add(&part);
+                part.clear();
+            }
+            last = Some((point, is_visible));
+        }
+        if part.len() > 1 {
+            add(&part);
+        }
+    }
+
+    /// The end of a line's visible part between a visible point and one that isn't: the seam with another operand.
+    fn seam(&self, ends: [&LinePoint; 2], operand: usize) -> LinePoint {
+        /// A piece of a line is at most some hundred pixels long, and a gap below a pixel isn't seen.
+        const HALVINGS: u32 = 10;
+        let (mut visible, mut hidden) = (0.0, 1.0);
+        for _ in 0..HALVINGS {
+            let middle = 0.5 * (visible + hidden);
+            if self.is_on_surface(between(ends, middle).position, operand) {
+                visible = middle;
+            } else {
+                hidden = middle;
+            }
+        }
+        between(ends, visible)
     }
 
     /// Whether a point of an operand's surface is on the solid's: the solid differs on the operand's two sides.

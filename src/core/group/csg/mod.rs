@@ -6,25 +6,27 @@
 //! |---|---|
 //! | `solid` | solids as trees of operations over shapes |
 //! | `crossings` | the points at which a ray enters and leaves a solid |
+//! | `along_line` | the intervals of a line inside a solid, for display |
 //! | `intersector` | intersector of several solids |
 //! | `kernels` | one description per tier |
 //! | `lines` | wireframe lines |
 
+mod along_line;
 mod crossings;
 mod intersector;
 mod kernels;
 mod lines;
 mod solid;
 
+pub use along_line::LineIntervals;
 pub use kernels::CSG_KERNELS;
-pub use solid::{CsgOperation, Solid};
+pub use solid::{CsgOperation, Solid, SolidNode, SolidOperand};
 
-use super::Group;
+use super::{Appearance, Group};
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::GroupIntersector;
 use crate::kernel::{KernelChoice, KernelInfo, Tier};
-use crate::mesh::Runs;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{AddLine, Interior, LineDetail, ShapeInfo, SurfacePoint};
@@ -36,7 +38,7 @@ use std::sync::{Arc, OnceLock};
 use std::time::{Duration, Instant};
 
 /// The names of solids.
-pub(crate) static INFO: ShapeInfo = ShapeInfo {
+pub static INFO: ShapeInfo = ShapeInfo {
     name: "solid",
     plural: "solids",
     parameters: &[],
@@ -50,8 +52,8 @@ pub(crate) struct CsgGroup {
     bvh: Arc<Bvh>,
     bounds: Aabb,
     build_time: Duration,
-    /// Each solid's material.
-    materials: Runs,
+    /// The material and the side of each solid.
+    appearance: Appearance,
     /// Each solid packed for the exact kernel, on first use.
     exact: Vec<OnceLock<PackedSolid>>,
 }
@@ -60,7 +62,7 @@ impl CsgGroup {
     /// Builds the tree.
     pub fn new(
         solids: Vec<Solid>,
-        materials: Runs,
+        appearance: Appearance,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         let start = Instant::now();
@@ -78,7 +80,7 @@ impl CsgGroup {
             build_time: start.elapsed(),
             exact: solids.iter().map(|_| OnceLock::new()).collect(),
             solids: Arc::new(solids),
-            materials,
+            appearance,
         })
     }
 
@@ -127,16 +129,22 @@ impl Group for CsgGroup {
 
     /// `hit.v` is the index of the operand whose surface is hit.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        self.solids[hit.primitive as usize].surface(ray, hit)
+        let surface = self.solids[hit.primitive as usize].surface(ray, hit);
+        self.appearance.surface(hit.primitive, surface)
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {
-        self.exact(index).lines(detail, add);
+        let lines = |add: AddLine<'_>| self.exact(index).lines(detail, add);
+        self.appearance.lines(index, lines, add);
     }
 
     /// A solid isn't an operand of another: trees are flattened.
     fn interior(&self, _: u32, _: &Ray) -> Interior {
         Interior::Open
+    }
+
+    fn solid(&self, index: u32) -> Option<&Solid> {
+        self.solids.get(index as usize)
     }
 
     fn exact_answer(&self, ray: &Ray, index: u32) -> Option<[f64; 3]> {
@@ -145,7 +153,7 @@ impl Group for CsgGroup {
     }
 
     fn material(&self, index: u32) -> u32 {
-        self.materials.of(index)
+        self.appearance.materials.of(index)
     }
 
     fn numbers(&self, _: u32) -> Vec<f32> {
@@ -154,7 +162,8 @@ impl Group for CsgGroup {
 
     fn subset(&self, indices: &[u32]) -> Arc<dyn Group> {
         let solids = indices.iter().map(|&i| self.solids[i as usize].clone());
-        let group = Self::new(solids.collect(), Runs::default(), &Progress::default());
+        let sides = self.appearance.sides_of(indices);
+        let group = Self::new(solids.collect(), sides, &Progress::default());
         Arc::new(group.expect("nobody cancels"))
     }
 

@@ -3,9 +3,10 @@
 mod padded;
 mod slabs;
 
+use super::ray_lanes::InverseRay;
 use super::slabs::SlabInterval;
 use super::table::rows_of;
-use super::{KernelList, KernelRow, KernelTable, KernelVisitor, RayLanes};
+use super::{KernelList, KernelRow, KernelTable, KernelVisitor};
 use crate::lane::{Lane, Values};
 use crate::shape::AxisBox;
 use padded::Padded;
@@ -31,24 +32,7 @@ impl KernelList for AxisBox {
     }
 }
 
-/// A ray's origin and the inverse of its direction.
-#[derive(Clone, Copy)]
-pub(super) struct InverseRay<L> {
-    origin: [L; 3],
-    inverse: [L; 3],
-}
-
 impl<L: Lane> InverseRay<L> {
-    #[inline(always)]
-    fn of(rays: &RayLanes<L>) -> Self {
-        let one = L::of(rays.dir[0].token(), 1.0);
-        let [x, y, z] = rays.dir;
-        Self {
-            origin: rays.origin,
-            inverse: [one / x, one / y, one / z],
-        }
-    }
-
     /// The part of the ray inside the box.
     #[inline(always)]
     fn inside(&self, boxes: &impl Values<L>) -> SlabInterval<L> {

@@ -10,9 +10,9 @@
 //! moves the exit by u: 7u is less than 8u.
 
 use super::InverseRay;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier};
 use crate::lane::{Lane, Number, Values};
-use crate::shape::{AxisBox, Shape as _};
+use crate::shape::AxisBox;
 
 /// See the [module](self).
 pub(super) struct Padded;
@@ -38,15 +38,6 @@ impl Kernel for Padded {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = InverseRay<L>;
-
-    fn pack<N: Number>(shape: &AxisBox, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> InverseRay<L> {
-        InverseRay::of(rays)
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

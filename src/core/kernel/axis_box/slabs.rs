@@ -7,9 +7,9 @@
 //! Doesn't promise: a hit of a box that is thin in the direction of the ray, or of an edge.
 
 use super::InverseRay;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier};
 use crate::lane::{Lane, Number, Values};
-use crate::shape::{AxisBox, Shape as _};
+use crate::shape::AxisBox;
 
 /// See the [module](self).
 pub(super) struct Slabs;
@@ -35,15 +35,6 @@ impl Kernel for Slabs {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = InverseRay<L>;
-
-    fn pack<N: Number>(shape: &AxisBox, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> InverseRay<L> {
-        InverseRay::of(rays)
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

@@ -9,7 +9,7 @@ use super::along;
 use crate::kernel::crossings::Nearest;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values};
-use crate::shape::{AxisPlane, Shape as _};
+use crate::shape::AxisPlane;
 
 /// See the [module](self).
 pub(super) struct Division;
@@ -35,15 +35,6 @@ impl Kernel for Division {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(shape: &AxisPlane, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

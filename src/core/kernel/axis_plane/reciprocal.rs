@@ -7,9 +7,10 @@
 
 use super::along;
 use crate::kernel::crossings::Nearest;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::kernel::ray_lanes::InverseRay;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier};
 use crate::lane::{Lane, Number, Values};
-use crate::shape::{AxisPlane, Shape as _};
+use crate::shape::AxisPlane;
 
 /// See the [module](self).
 pub(super) struct Reciprocal;
@@ -34,31 +35,18 @@ impl Kernel for Reciprocal {
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(shape: &AxisPlane, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        let one = L::of(rays.dir[0].token(), 1.0);
-        RayLanes {
-            dir: rays.dir.map(|d| one / d),
-            ..*rays
-        }
-    }
+    type Prepared<L: Lane> = InverseRay<L>;
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &RayLanes<L>,
+        ray: &InverseRay<L>,
         planes: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let axis = planes.value(0);
         let distance = planes.value(1) - along(axis, ray.origin);
-        let t = distance * along(axis, ray.dir);
+        let t = distance * along(axis, ray.inverse);
         let mut nearest = Nearest::new(t_min, t_max);
         // Not if t is NaN: the ray lies in the plane.
         nearest.offer(t.le(t), t, 0);

@@ -13,7 +13,7 @@ use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::cylinder::{offer_cap, offer_side};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus, times};
-use crate::shape::{BASE, Cone, Shape as _};
+use crate::shape::{BASE, Cone};
 
 /// See the [module](self).
 pub(super) struct Stable;
@@ -39,15 +39,6 @@ impl Kernel for Stable {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(shape: &Cone, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

@@ -49,11 +49,6 @@ impl Kernel for Slabs {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
-
-    #[inline(always)]
     fn intersect<L: Lane>(
         ray: &RayLanes<L>,
         cuboids: &impl Values<L>,

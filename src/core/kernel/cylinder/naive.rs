@@ -9,7 +9,7 @@ use super::{offer_cap, offer_side};
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus};
-use crate::shape::{BASE, Cylinder, Shape as _, TOP};
+use crate::shape::{BASE, Cylinder, TOP};
 
 /// See the [module](self).
 pub(super) struct Naive;
@@ -35,15 +35,6 @@ impl Kernel for Naive {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(shape: &Cylinder, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

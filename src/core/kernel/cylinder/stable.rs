@@ -10,7 +10,7 @@ use super::{offer_cap, offer_side};
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, cross, dot, minus};
-use crate::shape::{BASE, Cylinder, Shape as _, TOP};
+use crate::shape::{BASE, Cylinder, TOP};
 
 /// See the [module](self).
 pub(super) struct Stable;
@@ -37,15 +37,6 @@ impl Kernel for Stable {
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    fn pack<N: Number>(shape: &Cylinder, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
-
     #[inline(always)]
     fn intersect<L: Lane>(
         ray: &RayLanes<L>,
@@ -59,7 +50,7 @@ impl Kernel for Stable {
         let length_squared = dot(&w, &w);
         let r = shapes.value(6);
         let reach = r * r * length_squared;
-        let roots = Roots::at_distance(&from, &step, reach);
+        let roots = Roots::at_distance(&from, &step, dot(&step, &step), reach);
         let along = [dot(&f, &w), dot(&ray.dir, &w)];
         let mut nearest = Nearest::new(t_min, t_max);
         offer_side(&mut nearest, &roots, along, length_squared);

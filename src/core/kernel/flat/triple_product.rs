@@ -36,15 +36,6 @@ impl<S: Outline> Kernel for TripleProduct<S> {
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
 
-    fn pack<N: Number>(shape: &S, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
-
     #[inline(always)]
     fn intersect<L: Lane>(
         ray: &RayLanes<L>,

@@ -45,11 +45,6 @@ impl Kernel for Hesse {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
-
-    #[inline(always)]
     fn intersect<L: Lane>(
         ray: &RayLanes<L>,
         shapes: &impl Values<L>,

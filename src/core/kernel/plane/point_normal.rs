@@ -8,7 +8,7 @@
 use crate::kernel::crossings::Nearest;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus};
-use crate::shape::{Plane, Shape as _};
+use crate::shape::Plane;
 
 /// See the [module](self).
 pub(super) struct PointNormal;
@@ -34,15 +34,6 @@ impl Kernel for PointNormal {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(shape: &Plane, values: &mut [f32]) {
-        shape.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

@@ -9,7 +9,7 @@ use super::{coefficients, offer};
 use crate::kernel::crossings::{Nearest, Roots};
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, minus};
-use crate::shape::{Quadric, Shape as _};
+use crate::shape::Quadric;
 
 /// See the [module](self).
 pub(super) struct Naive;
@@ -35,15 +35,6 @@ impl Kernel for Naive {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(quadric: &Quadric, values: &mut [f32]) {
-        quadric.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

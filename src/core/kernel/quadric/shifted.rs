@@ -8,9 +8,10 @@
 
 use super::{coefficients, offer};
 use crate::kernel::crossings::{Nearest, Roots};
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::kernel::ray_lanes::SquaredRay;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
-use crate::shape::{Quadric, Shape as _};
+use crate::shape::Quadric;
 
 /// See the [module](self).
 pub(super) struct Shifted;
@@ -35,26 +36,17 @@ impl Kernel for Shifted {
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(quadric: &Quadric, values: &mut [f32]) {
-        quadric.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
+    type Prepared<L: Lane> = SquaredRay<L>;
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &RayLanes<L>,
+        ray: &SquaredRay<L>,
         quadrics: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let f = minus(&ray.origin, &quadrics.three(10));
-        let shift = -dot(&f, &ray.dir) / dot(&ray.dir, &ray.dir);
+        let shift = -dot(&f, &ray.dir) / ray.dir_squared;
         let moved = plus(&f, &times(shift, &ray.dir));
         let [a, b, c] = coefficients(quadrics, &moved, &ray.dir);
         let mut nearest = Nearest::new(t_min, t_max);

@@ -7,9 +7,10 @@
 //!   large sphere, where −b and the root nearly cancel.
 
 use crate::kernel::crossings::Roots;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::kernel::ray_lanes::SquaredRay;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises};
 use crate::lane::{Lane, Number, Values, dot, minus};
-use crate::shape::{Shape as _, Sphere};
+use crate::shape::Sphere;
 
 /// See the [module](self).
 pub(super) struct Algebraic;
@@ -33,20 +34,11 @@ impl Kernel for Algebraic {
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
-        sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
+    type Prepared<L: Lane> = SquaredRay<L>;
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &RayLanes<L>,
+        ray: &SquaredRay<L>,
         spheres: &impl Values<L>,
         t_min: L,
         t_max: L,
@@ -54,7 +46,7 @@ impl Kernel for Algebraic {
         let constant = |x: f32| L::of(t_min.token(), x);
         let r = spheres.value(3);
         let f = minus(&ray.origin, &spheres.three(0));
-        let a = dot(&ray.dir, &ray.dir);
+        let a = ray.dir_squared;
         let b = constant(2.0) * dot(&f, &ray.dir);
         let c = dot(&f, &f) - r * r;
         let discriminant = b * b - constant(4.0) * a * c;

@@ -18,7 +18,7 @@
 use crate::kernel::crossings::Roots;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus};
-use crate::shape::{Shape as _, Sphere};
+use crate::shape::Sphere;
 
 /// See the [module](self).
 pub(super) struct Geometric;
@@ -31,6 +31,19 @@ pub(super) struct PreparedRay<L> {
     dir: [L; 3],
     /// 1/|d|: t per unit of distance.
     t_per_length: L,
+}
+
+impl<L: Lane> From<RayLanes<L>> for PreparedRay<L> {
+    #[inline(always)]
+    fn from(rays: RayLanes<L>) -> Self {
+        let t_per_length = L::of(rays.dir[0].token(), 1.0) / dot(&rays.dir, &rays.dir).sqrt();
+        let [x, y, z] = rays.dir;
+        Self {
+            origin: rays.origin,
+            dir: [x * t_per_length, y * t_per_length, z * t_per_length],
+            t_per_length,
+        }
+    }
 }
 
 impl Kernel for Geometric {
@@ -54,21 +67,6 @@ impl Kernel for Geometric {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = PreparedRay<L>;
-
-    fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
-        sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> PreparedRay<L> {
-        let t_per_length = L::of(rays.dir[0].token(), 1.0) / dot(&rays.dir, &rays.dir).sqrt();
-        let [x, y, z] = rays.dir;
-        PreparedRay {
-            origin: rays.origin,
-            dir: [x * t_per_length, y * t_per_length, z * t_per_length],
-            t_per_length,
-        }
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

@@ -13,9 +13,10 @@
 //! q = b + sign(b)·√(aΔ), which adds numbers of equal sign, the roots are (f·f − r²)/q and q/a.
 
 use crate::kernel::crossings::Roots;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::kernel::ray_lanes::SquaredRay;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier};
 use crate::lane::{Lane, Number, Values, minus};
-use crate::shape::{Shape as _, Sphere};
+use crate::shape::Sphere;
 
 /// See the [module](self).
 pub(super) struct HearnBaker;
@@ -40,27 +41,18 @@ impl Kernel for HearnBaker {
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
-        sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
+    type Prepared<L: Lane> = SquaredRay<L>;
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &RayLanes<L>,
+        ray: &SquaredRay<L>,
         spheres: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let r = spheres.value(3);
         let f = minus(&ray.origin, &spheres.three(0));
-        let roots = Roots::at_distance(&f, &ray.dir, r * r);
+        let roots = Roots::at_distance(&f, &ray.dir, ray.dir_squared, r * r);
         roots.nearest(t_min, t_max)
     }
 }

@@ -10,9 +10,10 @@
 //! which is 0 but for rounding, is subtracted once more.
 
 use crate::kernel::crossings::Roots;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
+use crate::kernel::ray_lanes::SquaredRay;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
-use crate::shape::{Shape as _, Sphere};
+use crate::shape::Sphere;
 
 /// See the [module](self).
 pub(super) struct MovedOrigin;
@@ -35,26 +36,17 @@ impl Kernel for MovedOrigin {
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(sphere: &Sphere, values: &mut [f32]) {
-        sphere.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
+    type Prepared<L: Lane> = SquaredRay<L>;
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &RayLanes<L>,
+        ray: &SquaredRay<L>,
         spheres: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let r = spheres.value(3);
-        let a = dot(&ray.dir, &ray.dir);
+        let a = ray.dir_squared;
         let f = minus(&ray.origin, &spheres.three(0));
         let moved = -dot(&f, &ray.dir) / a;
         let l = plus(&f, &times(moved, &ray.dir));

@@ -7,9 +7,10 @@
 //! Doesn't promise: right decisions about tubes that are thin relative to the major radius in f32.
 
 use super::nearest_root;
-use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
+use crate::kernel::ray_lanes::SquaredRay;
+use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, Tier};
 use crate::lane::{Lane, Number, Values, dot, minus, plus, times};
-use crate::shape::{Shape as _, Torus};
+use crate::shape::Torus;
 
 /// See the [module](self).
 pub(super) struct Shifted;
@@ -34,26 +35,17 @@ impl Kernel for Shifted {
         ..Self::IN_F32
     };
     type Stored<N: Number> = f32;
-    type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(torus: &Torus, values: &mut [f32]) {
-        torus.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
+    type Prepared<L: Lane> = SquaredRay<L>;
 
     #[inline(always)]
     fn intersect<L: Lane>(
-        ray: &RayLanes<L>,
+        ray: &SquaredRay<L>,
         tori: &impl Values<L>,
         t_min: L,
         t_max: L,
     ) -> Option<LaneHit<L>> {
         let f = minus(&ray.origin, &tori.three(0));
-        let shift = -dot(&f, &ray.dir) / dot(&ray.dir, &ray.dir);
+        let shift = -dot(&f, &ray.dir) / ray.dir_squared;
         let moved = plus(&f, &times(shift, &ray.dir));
         nearest_root(tori, &moved, &ray.dir, shift, [t_min, t_max])
     }

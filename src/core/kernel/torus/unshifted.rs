@@ -9,7 +9,7 @@
 use super::nearest_root;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, Number, Values, minus};
-use crate::shape::{Shape as _, Torus};
+use crate::shape::Torus;
 
 /// See the [module](self).
 pub(super) struct Unshifted;
@@ -35,15 +35,6 @@ impl Kernel for Unshifted {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(torus: &Torus, values: &mut [f32]) {
-        torus.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

@@ -8,7 +8,7 @@
 
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes};
 use crate::lane::{Lane, LaneMask, Number, Values, cross, dot, minus, times};
-use crate::shape::{Shape as _, Triangle};
+use crate::shape::Triangle;
 
 /// See the [module](self).
 pub(super) struct Parametric;
@@ -32,15 +32,6 @@ impl Kernel for Parametric {
     };
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = RayLanes<L>;
-
-    fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
-        triangle.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

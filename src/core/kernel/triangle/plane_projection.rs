@@ -62,11 +62,6 @@ impl Kernel for PlaneProjection {
     }
 
     #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> RayLanes<L> {
-        *rays
-    }
-
-    #[inline(always)]
     fn intersect<L: Lane>(
         ray: &RayLanes<L>,
         triangles: &impl Values<L>,

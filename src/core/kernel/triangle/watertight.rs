@@ -41,6 +41,24 @@ pub(super) struct PreparedRay<L> {
     end: L,
 }
 
+impl<L: Lane> From<RayLanes<L>> for PreparedRay<L> {
+    #[inline(always)]
+    fn from(rays: RayLanes<L>) -> Self {
+        let sheared = ShearedRay::new(&rays);
+        let depth_per_t = sheared.dir_z().abs();
+        let most = L::of(depth_per_t.token(), f32::MAX);
+        let start = rays.interval[0].greater(-most) * depth_per_t;
+        let end = rays.interval[1].lesser(most) * depth_per_t;
+        Self {
+            sheared,
+            depth_per_t,
+            earliest: surely_below(start),
+            start: -surely_below(-start),
+            end: surely_below(end),
+        }
+    }
+}
+
 impl Kernel for Watertight {
     type Shape = Triangle;
     const IN_F32: KernelInfo = KernelInfo {
@@ -70,26 +88,6 @@ impl Kernel for Watertight {
     const IS_ADAPTIVE: bool = true;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = PreparedRay<L>;
-
-    fn pack<N: Number>(triangle: &Triangle, values: &mut [f32]) {
-        triangle.write(values);
-    }
-
-    #[inline(always)]
-    fn prepare<L: Lane>(rays: &RayLanes<L>) -> PreparedRay<L> {
-        let sheared = ShearedRay::new(rays);
-        let depth_per_t = sheared.dir_z().abs();
-        let most = L::of(depth_per_t.token(), f32::MAX);
-        let start = rays.interval[0].greater(-most) * depth_per_t;
-        let end = rays.interval[1].lesser(most) * depth_per_t;
-        PreparedRay {
-            sheared,
-            depth_per_t,
-            earliest: surely_below(start),
-            start: -surely_below(-start),
-            end: surely_below(end),
-        }
-    }
 
     #[inline(always)]
     fn intersect<L: Lane>(

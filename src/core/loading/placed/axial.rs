@@ -1,13 +1,14 @@
 //! Cylinders and cones.
 
-use super::PlacedPrimitive;
 use super::similarity::scale_across;
+use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::scene_file::{self, Place};
 use crate::shape::{Cone, Cylinder};
 use glam::{DMat3, DMat4, DVec3};
 
 /// The parameters that cylinders and cones have in common.
 #[derive(Debug)]
-pub(super) struct Axial {
+struct Axial {
     ends: [DVec3; 2],
     radius: f64,
     is_capped: bool,
@@ -16,20 +17,14 @@ pub(super) struct Axial {
 impl Axial {
     /// # Errors
     /// The map makes the shape elliptic or oblique.
-    pub fn new(
-        ends: [DVec3; 2],
-        radius: f64,
-        is_capped: bool,
-        to_world: &DMat4,
-    ) -> Result<Self, &'static str> {
-        let scale = scale_across(DMat3::from_mat4(*to_world), ends[1] - ends[0]);
+    fn transformed(self, place: Place, to_world: &DMat4) -> Result<Self, Refusal> {
+        let [p0, p1] = self.ends;
+        let scale = scale_across(DMat3::from_mat4(*to_world), p1 - p0);
+        let message = "the transform makes the shape elliptic or oblique, which isn't supported";
         Ok(Self {
-            ends: ends.map(|end| to_world.transform_point3(end)),
-            radius: radius
-                * scale.ok_or(
-                    "the transform makes the shape elliptic or oblique, which isn't supported",
-                )?,
-            is_capped,
+            ends: self.ends.map(|end| to_world.transform_point3(end)),
+            radius: self.radius * scale.ok_or_else(|| Refusal::new(place, message))?,
+            ..self
         })
     }
 
@@ -39,17 +34,45 @@ impl Axial {
         [a.min(b) - reach, a.max(b) + reach]
     }
 
-    fn why_open(&self, name: &str) -> Option<String> {
-        let message = || format!("an open {name} isn't a solid: set “capped” to true");
-        (!self.is_capped).then(message)
+    fn check_closed(&self, name: &str) -> Result<(), String> {
+        if self.is_capped {
+            return Ok(());
+        }
+        Err(format!(
+            "an open {name} isn't a solid: set “capped” to true"
+        ))
     }
 }
 
 #[derive(Debug)]
-pub(super) struct PlacedCylinder(pub Axial);
+struct PlacedCylinder(Axial);
 
 #[derive(Debug)]
-pub(super) struct PlacedCone(pub Axial);
+struct PlacedCone(Axial);
+
+impl Placeable for scene_file::Cylinder {
+    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        let axial = Axial {
+            ends: [self.p0, self.p1],
+            radius: self.radius,
+            is_capped: self.is_capped,
+        };
+        let axial = axial.transformed(place, to_world)?;
+        Ok(Box::new(PlacedCylinder(axial)))
+    }
+}
+
+impl Placeable for scene_file::Cone {
+    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        let axial = Axial {
+            ends: [self.p0, self.p1],
+            radius: self.radius,
+            is_capped: self.is_capped,
+        };
+        let axial = axial.transformed(place, to_world)?;
+        Ok(Box::new(PlacedCone(axial)))
+    }
+}
 
 impl PlacedPrimitive for PlacedCylinder {
     type Shape = Cylinder;
@@ -68,8 +91,8 @@ impl PlacedPrimitive for PlacedCylinder {
         }
     }
 
-    fn why_open(&self) -> Option<String> {
-        self.0.why_open("cylinder")
+    fn check_closed(&self) -> Result<(), String> {
+        self.0.check_closed("cylinder")
     }
 }
 
@@ -90,7 +113,7 @@ impl PlacedPrimitive for PlacedCone {
         }
     }
 
-    fn why_open(&self) -> Option<String> {
-        self.0.why_open("cone")
+    fn check_closed(&self) -> Result<(), String> {
+        self.0.check_closed("cone")
     }
 }

@@ -1,11 +1,24 @@
 //! Boxes.
 
-use super::{Placed, PlacedPrimitive, axis_of};
+use super::{Placeable, Placed, PlacedPrimitive, Refusal, axis_of};
+use crate::scene_file::{self, Place};
 use crate::shape::{AxisBox, Cuboid};
 use glam::{DMat3, DMat4, DVec3};
 
+impl Placeable for scene_file::Cube {
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        Ok(placed(to_world, DVec3::NEG_ONE, DVec3::ONE))
+    }
+}
+
+impl Placeable for scene_file::Cuboid {
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        Ok(placed(to_world, self.min, self.max))
+    }
+}
+
 /// The image of a box with edges along the axes; an [`AxisBox`] if its edges still are.
-pub(super) fn placed(to_world: &DMat4, min: DVec3, max: DVec3) -> Box<dyn Placed> {
+fn placed(to_world: &DMat4, min: DVec3, max: DVec3) -> Box<dyn Placed> {
     let linear = DMat3::from_mat4(*to_world);
     let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
     if columns.into_iter().all(|column| axis_of(column).is_some()) {

@@ -1,6 +1,7 @@
 //! Disks and rectangles.
 
-use super::PlacedPrimitive;
+use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::scene_file::{self, Place};
 use crate::shape::{Disk, Rectangle, Span};
 use glam::{DMat3, DMat4, DVec3};
 
@@ -12,18 +13,11 @@ struct PlacedSpan {
 }
 
 impl PlacedSpan {
-    /// Mirroring keeps the front, the side of the image of +z, unless `flip_normals` is set.
-    fn new(to_world: &DMat4, flip_normals: bool) -> Self {
+    fn new(to_world: &DMat4) -> Self {
         let linear = DMat3::from_mat4(*to_world);
-        let is_mirrored = (linear.determinant() < 0.0) != flip_normals;
-        let v = if is_mirrored {
-            -linear.y_axis
-        } else {
-            linear.y_axis
-        };
         Self {
             centre: to_world.transform_point3(DVec3::ZERO),
-            axes: [linear.x_axis, v],
+            axes: [linear.x_axis, linear.y_axis],
         }
     }
 
@@ -43,20 +37,26 @@ impl PlacedSpan {
 }
 
 #[derive(Debug)]
-pub(super) struct PlacedDisk(PlacedSpan);
+struct PlacedDisk(PlacedSpan);
 
 #[derive(Debug)]
-pub(super) struct PlacedRectangle(PlacedSpan);
+struct PlacedRectangle(PlacedSpan);
 
-impl PlacedDisk {
-    pub fn new(to_world: &DMat4, flip_normals: bool) -> Self {
-        Self(PlacedSpan::new(to_world, flip_normals))
+impl Placeable for scene_file::Disk {
+    /// The normal is u × v, which a mirroring transform turns away from the image of +z.
+    const FLIPS_WHEN_MIRRORED: bool = true;
+
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        Ok(Box::new(PlacedDisk(PlacedSpan::new(to_world))))
     }
 }
 
-impl PlacedRectangle {
-    pub fn new(to_world: &DMat4, flip_normals: bool) -> Self {
-        Self(PlacedSpan::new(to_world, flip_normals))
+impl Placeable for scene_file::Rectangle {
+    /// As for a disk.
+    const FLIPS_WHEN_MIRRORED: bool = true;
+
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        Ok(Box::new(PlacedRectangle(PlacedSpan::new(to_world))))
     }
 }
 
@@ -71,8 +71,8 @@ impl PlacedPrimitive for PlacedDisk {
         Disk(self.0.rounded(origin))
     }
 
-    fn why_open(&self) -> Option<String> {
-        Some("a disk isn't a solid".to_owned())
+    fn check_closed(&self) -> Result<(), String> {
+        Err("a disk isn't a solid".to_owned())
     }
 }
 
@@ -87,7 +87,7 @@ impl PlacedPrimitive for PlacedRectangle {
         Rectangle(self.0.rounded(origin))
     }
 
-    fn why_open(&self) -> Option<String> {
-        Some("a rectangle isn't a solid".to_owned())
+    fn check_closed(&self) -> Result<(), String> {
+        Err("a rectangle isn't a solid".to_owned())
     }
 }

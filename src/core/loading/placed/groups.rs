@@ -1,7 +1,6 @@
 //! The groups of a scene file's shapes, before their trees are built.
 
-use crate::group::{Grouped, Solid};
-use crate::mesh::Runs;
+use crate::group::{Appearance, Grouped, Solid};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
 use std::any::Any;
@@ -13,34 +12,37 @@ pub struct Groups {
     pub solids: List<Solid>,
 }
 
-/// Shapes of one kind and their materials.
+/// The material of a shape, and its side.
+#[derive(Clone, Copy, Debug)]
+pub struct Look {
+    /// Index into the scene's materials.
+    pub material: u32,
+    /// Whether its normals are reversed.
+    pub is_flipped: bool,
+}
+
+/// Shapes of one kind, with their materials and sides.
 pub struct List<S> {
     shapes: Vec<S>,
-    materials: Vec<u32>,
+    appearance: Appearance,
 }
 
 impl<S> Default for List<S> {
     fn default() -> Self {
         Self {
             shapes: Vec::new(),
-            materials: Vec::new(),
+            appearance: Appearance::default(),
         }
     }
 }
 
 impl<S> List<S> {
-    pub fn push(&mut self, shape: S, material: u32) {
+    pub fn push(&mut self, shape: S, look: Look) {
+        let index = self.shapes.len() as u32;
         self.shapes.push(shape);
-        self.materials.push(material);
-    }
-
-    /// The shapes and their materials as runs.
-    fn into_parts(self) -> (Vec<S>, Runs) {
-        let mut materials = Runs::default();
-        for (index, material) in (0..).zip(self.materials) {
-            materials.begin(index, material);
-        }
-        (self.shapes, materials)
+        self.appearance.materials.begin(index, look.material);
+        let side = u32::from(look.is_flipped);
+        self.appearance.flipped.begin(index, side);
     }
 }
 
@@ -62,21 +64,20 @@ impl<S: Grouped> PendingGroup for List<S> {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<(), Cancelled> {
-        let (shapes, materials) = self.into_parts();
-        scene.add_group(shapes, materials, options, progress)
+        scene.add_group(self.shapes, self.appearance, options, progress)
     }
 }
 
 impl Groups {
     /// Adds a shape to the list of its kind.
-    pub fn push<S: Grouped>(&mut self, shape: S, material: u32) {
+    pub fn push<S: Grouped>(&mut self, shape: S, look: Look) {
         for list in &mut self.lists {
             if let Some(list) = (&mut **list as &mut dyn Any).downcast_mut::<List<S>>() {
-                return list.push(shape, material);
+                return list.push(shape, look);
             }
         }
         let mut list = List::default();
-        list.push(shape, material);
+        list.push(shape, look);
         self.lists.push(Box::new(list));
     }
 
@@ -90,10 +91,10 @@ impl Groups {
         for list in self.lists {
             list.add_to(scene, options, progress)?;
         }
-        let (solids, materials) = self.solids.into_parts();
-        if solids.is_empty() {
+        let List { shapes, appearance } = self.solids;
+        if shapes.is_empty() {
             return Ok(());
         }
-        scene.add_solids(solids, materials, progress)
+        scene.add_solids(shapes, appearance, progress)
     }
 }

@@ -1,20 +1,23 @@
-//! Shapes of scene files in the coordinates of the world, in f64, and their f32 counterparts: one file per shape.
+//! Shapes of scene files in the coordinates of the world, in f64, and their f32 counterparts: one file per kind of
+//! shape or pair of similar kinds.
 
 mod axial;
+mod csg;
 mod cuboid;
 mod flat;
 mod groups;
+mod obj;
 mod plane;
 mod quadric;
 mod similarity;
-mod solid;
 mod sphere;
 mod torus;
 
-pub(super) use groups::Groups;
+pub(super) use groups::{Groups, Look};
 
+use super::memory::{BYTES_PER_ALLOCATION, Needs};
 use crate::group::{Grouped, Solid};
-use crate::scene_file::{Place, Shape, ShapeKind};
+use crate::scene_file::{self, Place, Shape, ShapeKind, with_kinds};
 use glam::{DMat3, DMat4, DVec3};
 use std::fmt::Debug;
 
@@ -25,19 +28,49 @@ pub(super) struct Refusal {
     pub message: String,
 }
 
+impl Refusal {
+    fn new(place: Place, message: impl Into<String>) -> Self {
+        Self {
+            place,
+            message: message.into(),
+        }
+    }
+}
+
+/// A kind of shape of scene files.
+trait Placeable {
+    /// Whether a transform that mirrors reverses the normals of the placed shape.
+    const FLIPS_WHEN_MIRRORED: bool = false;
+
+    /// The shape transformed by an invertible affine map. `place` is for the refusal.
+    ///
+    /// # Errors
+    /// The transformed shape isn't supported.
+    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal>;
+}
+
 /// A shape in the world's coordinates.
 pub(super) trait Placed: Debug {
     /// The box around the shape; `None` if it is infinite.
     fn bounds(&self) -> Option<[DVec3; 2]>;
 
     /// Adds the shape to its group, relative to an origin and rounded to f32.
-    fn push_to(&self, groups: &mut Groups, origin: DVec3, material: u32);
+    fn push_to(&self, groups: &mut Groups, origin: DVec3, look: Look);
 
-    /// Why the shape isn't a solid, if it isn't.
-    fn why_open(&self) -> Option<String>;
+    /// Checks that the surface is closed, so that the shape is a solid.
+    ///
+    /// # Errors
+    /// Why it isn't one.
+    fn check_closed(&self) -> Result<(), String>;
 
     /// The interior of the shape, relative to an origin and rounded to f32.
     fn solid(&self, origin: DVec3) -> Solid;
+
+    /// The memory of the shape.
+    fn needs(&self) -> Needs;
+
+    /// The number of operands of [`solid`](Self::solid).
+    fn operand_count(&self) -> usize;
 }
 
 /// A shape in the world's coordinates that becomes a primitive.
@@ -51,10 +84,13 @@ pub(super) trait PlacedPrimitive: Debug {
     /// The shape relative to an origin, rounded to f32.
     fn rounded(&self, origin: DVec3) -> Self::Shape;
 
-    /// See [`Placed::why_open`].
-    fn why_open(&self) -> Option<String> {
-        None
+    /// See [`Placed::check_closed`].
+    fn check_closed(&self) -> Result<(), String> {
+        Ok(())
     }
+
+    /// The number of operands of [`solid`](Self::solid).
+    const OPERAND_COUNT: usize = 1;
 
     /// The interior of a shape.
     fn solid(shape: Self::Shape) -> Solid {
@@ -67,16 +103,29 @@ impl<P: PlacedPrimitive> Placed for P {
         P::bounds(self)
     }
 
-    fn push_to(&self, groups: &mut Groups, origin: DVec3, material: u32) {
-        groups.push(self.rounded(origin), material);
+    fn push_to(&self, groups: &mut Groups, origin: DVec3, look: Look) {
+        groups.push(self.rounded(origin), look);
     }
 
-    fn why_open(&self) -> Option<String> {
-        P::why_open(self)
+    fn check_closed(&self) -> Result<(), String> {
+        P::check_closed(self)
     }
 
     fn solid(&self, origin: DVec3) -> Solid {
         P::solid(self.rounded(origin))
+    }
+
+    fn needs(&self) -> Needs {
+        Needs {
+            placed: (size_of::<P>() + BYTES_PER_ALLOCATION) as u64,
+            shapes: size_of::<P::Shape>() as u64,
+            primitive_count: 1,
+            ..Needs::default()
+        }
+    }
+
+    fn operand_count(&self) -> usize {
+        P::OPERAND_COUNT
     }
 }
 
@@ -86,63 +135,44 @@ fn axis_of(vector: DVec3) -> Option<usize> {
     (0..3).find(is_along)
 }
 
-/// A shape transformed by an affine map. `None` for meshes.
+/// Checks that a transform is invertible.
 ///
 /// # Errors
-/// The transformed shape isn't supported.
-pub(super) fn placed(shape: &Shape, to_world: &DMat4) -> Result<Option<Box<dyn Placed>>, Refusal> {
-    let linear = DMat3::from_mat4(*to_world);
-    let refused = |message: &str| Refusal {
-        place: shape.place,
-        message: message.to_owned(),
-    };
-    if !(linear.determinant() != 0.0 && to_world.is_finite()) {
-        return Err(refused(
-            "the transform makes the shape flat: its matrix is singular",
-        ));
+/// The transform isn't invertible.
+pub(super) fn require_invertible(place: Place, to_world: &DMat4) -> Result<(), Refusal> {
+    if DMat3::from_mat4(*to_world).determinant() != 0.0 && to_world.is_finite() {
+        return Ok(());
     }
-    Ok(Some(match shape.kind {
-        ShapeKind::Obj { .. } => return Ok(None),
-        ShapeKind::Sphere { center, radius } => sphere::placed(center, radius, to_world),
-        ShapeKind::Plane { point, normal } => plane::placed(point, normal, to_world),
-        ShapeKind::Disk => Box::new(flat::PlacedDisk::new(to_world, shape.flip_normals)),
-        ShapeKind::Rectangle => Box::new(flat::PlacedRectangle::new(to_world, shape.flip_normals)),
-        ShapeKind::Cube => cuboid::placed(to_world, -DVec3::ONE, DVec3::ONE),
-        ShapeKind::Box { min, max } => cuboid::placed(to_world, min, max),
-        ShapeKind::Cylinder {
-            p0,
-            p1,
-            radius,
-            is_capped,
-        } => {
-            let axial = axial::Axial::new([p0, p1], radius, is_capped, to_world);
-            Box::new(axial::PlacedCylinder(axial.map_err(refused)?))
-        }
-        ShapeKind::Cone {
-            p0,
-            p1,
-            radius,
-            is_capped,
-        } => {
-            let axial = axial::Axial::new([p0, p1], radius, is_capped, to_world);
-            Box::new(axial::PlacedCone(axial.map_err(refused)?))
-        }
-        ShapeKind::Torus {
-            center,
-            axis,
-            major,
-            minor,
-        } => {
-            let torus = torus::PlacedTorus::new(center, axis, [major, minor], to_world);
-            Box::new(torus.map_err(refused)?)
-        }
-        ShapeKind::Quadric(ref quadric) => {
-            let quadric = quadric::PlacedQuadric::new(quadric, to_world);
-            Box::new(quadric.map_err(refused)?)
-        }
-        ShapeKind::Csg {
-            operation,
-            ref children,
-        } => Box::new(solid::PlacedSolid::new(operation, children, to_world)?),
-    }))
+    let message = "the transform makes the shape flat: its matrix is singular";
+    Err(Refusal::new(place, message))
 }
+
+/// Whether a transform exchanges left and right.
+pub(super) fn is_mirroring(to_world: &DMat4) -> bool {
+    DMat3::from_mat4(*to_world).determinant() < 0.0
+}
+
+macro_rules! placing {
+    ($($(#[$doc:meta])* $kind:ident,)*) => {
+        /// A shape transformed by an affine map.
+        ///
+        /// # Errors
+        /// The transform isn't invertible, or the transformed shape isn't supported.
+        pub(super) fn placed(shape: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+            require_invertible(shape.place, to_world)?;
+            match &shape.kind {
+                $(ShapeKind::$kind(kind) => kind.placed(shape.place, to_world),)*
+            }
+        }
+
+        /// Whether the normals of a placed shape are reversed: by `flip_normals`, or by a transform that mirrors.
+        pub(super) fn is_flipped(shape: &Shape) -> bool {
+            let flips_when_mirrored = match &shape.kind {
+                $(ShapeKind::$kind(_) => scene_file::$kind::FLIPS_WHEN_MIRRORED,)*
+            };
+            shape.flip_normals != (flips_when_mirrored && is_mirroring(&shape.to_world))
+        }
+    };
+}
+
+with_kinds!(placing);

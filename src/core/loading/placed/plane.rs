@@ -1,21 +1,24 @@
 //! Infinite planes.
 
 use super::axis_of;
-use super::{Placed, PlacedPrimitive};
+use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::scene_file::{self, Place};
 use crate::shape::{AxisPlane, Plane};
 use glam::{DMat3, DMat4, DVec3};
 
-/// A plane; one that is perpendicular to an axis becomes an [`AxisPlane`].
-pub(super) fn placed(point: DVec3, normal: DVec3, to_world: &DMat4) -> Box<dyn Placed> {
-    let point = to_world.transform_point3(point);
-    let normal = DMat3::from_mat4(*to_world).inverse().transpose() * normal;
-    match axis_of(normal) {
-        Some(axis) => Box::new(PlacedAxisPlane {
-            axis,
-            coordinate: point[axis],
-            faces_up: normal[axis] > 0.0,
-        }),
-        None => Box::new(PlacedPlane { point, normal }),
+impl Placeable for scene_file::Plane {
+    /// A plane; one that is perpendicular to an axis becomes an [`AxisPlane`].
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        let point = to_world.transform_point3(self.point);
+        let normal = DMat3::from_mat4(*to_world).inverse().transpose() * self.normal;
+        Ok(match axis_of(normal) {
+            Some(axis) => Box::new(PlacedAxisPlane {
+                axis,
+                coordinate: point[axis],
+                faces_up: normal[axis] > 0.0,
+            }),
+            None => Box::new(PlacedPlane { point, normal }),
+        })
     }
 }
 

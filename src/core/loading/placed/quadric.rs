@@ -1,8 +1,8 @@
 //! Quadrics.
 
-use super::{PlacedPrimitive, axis_of};
+use super::{Placeable, Placed, PlacedPrimitive, Refusal, axis_of};
 use crate::group::Solid;
-use crate::scene_file;
+use crate::scene_file::{self, Place};
 use crate::shape::Quadric;
 use glam::{DMat3, DMat4, DVec3};
 
@@ -15,28 +15,24 @@ pub(super) struct PlacedQuadric {
     half: DVec3,
 }
 
-impl PlacedQuadric {
-    /// A quadric under a map that keeps its box's edges along the axes.
-    ///
-    /// # Errors
-    /// The map turns the box.
-    pub fn new(quadric: &scene_file::Quadric, to_world: &DMat4) -> Result<Self, &'static str> {
+impl Placeable for scene_file::Quadric {
+    /// The map must keep the edges of the quadric's box along the axes.
+    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let linear = DMat3::from_mat4(*to_world);
         let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
         if !columns.into_iter().all(|column| axis_of(column).is_some()) {
-            return Err(
-                "the transform turns the quadric's box; only scaling, translation and quarter turns are possible",
-            );
+            let message = "the transform turns the quadric's box; only scaling, translation and quarter turns are possible";
+            return Err(Refusal::new(place, message));
         }
         let inverse = linear.inverse();
-        let [a, b, c, d, e, f, g, h, i, j] = quadric.coefficients;
+        let [a, b, c, d, e, f, g, h, i, j] = *self.coefficients;
         let q = DMat3::from_cols_array(&[a, d, f, d, b, e, f, e, c]);
         let linear_part = DVec3::new(g, h, i);
         // About the box's centre m in its own coordinates: x = m + y.
-        let m = 0.5 * (quadric.min + quadric.max);
+        let m = 0.5 * (self.min + self.max);
         let constant = m.dot(q * m) + 2.0 * linear_part.dot(m) + j;
-        let half = 0.5 * (quadric.max - quadric.min);
-        Ok(Self {
+        let half = 0.5 * (self.max - self.min);
+        Ok(Box::new(PlacedQuadric {
             coefficients: coefficients(
                 inverse.transpose() * q * inverse,
                 inverse.transpose() * (q * m + linear_part),
@@ -44,9 +40,11 @@ impl PlacedQuadric {
             ),
             centre: to_world.transform_point3(m),
             half: columns[0].abs() * half.x + columns[1].abs() * half.y + columns[2].abs() * half.z,
-        })
+        }))
     }
+}
 
+impl PlacedQuadric {
     /// The image of the unit sphere under a linear map, moved to a centre: |L⁻¹x|² = 1.
     pub fn ellipsoid(centre: DVec3, linear: DMat3) -> Self {
         let inverse = linear.inverse();
@@ -88,6 +86,8 @@ impl PlacedPrimitive for PlacedQuadric {
             half: self.half.as_vec3(),
         }
     }
+
+    const OPERAND_COUNT: usize = 2;
 
     fn solid(quadric: Quadric) -> Solid {
         Solid::of_quadric(quadric)

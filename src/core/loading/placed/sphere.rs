@@ -2,22 +2,26 @@
 
 use super::quadric::PlacedQuadric;
 use super::similarity::scale_of;
-use super::{Placed, PlacedPrimitive};
+use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::scene_file::{self, Place};
 use crate::shape::Sphere;
 use glam::{DMat3, DMat4, DVec3};
 
-/// A sphere, or an ellipsoid if the map scales unequally.
-pub(super) fn placed(centre: DVec3, radius: f64, to_world: &DMat4) -> Box<dyn Placed> {
-    let (linear, centre) = (
-        DMat3::from_mat4(*to_world),
-        to_world.transform_point3(centre),
-    );
-    match scale_of(linear) {
-        Some(scale) => Box::new(PlacedSphere {
-            centre,
-            radius: scale * radius,
-        }),
-        None => Box::new(PlacedQuadric::ellipsoid(centre, linear * radius)),
+impl Placeable for scene_file::Sphere {
+    /// As in Mitsuba.
+    const FLIPS_WHEN_MIRRORED: bool = true;
+
+    /// A sphere, or an ellipsoid if the map scales unequally.
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        let linear = DMat3::from_mat4(*to_world);
+        let centre = to_world.transform_point3(self.center);
+        Ok(match scale_of(linear) {
+            Some(scale) => Box::new(PlacedSphere {
+                centre,
+                radius: scale * self.radius,
+            }),
+            None => Box::new(PlacedQuadric::ellipsoid(centre, linear * self.radius)),
+        })
     }
 }
 

@@ -1,37 +1,30 @@
 //! Tori.
 
-use super::PlacedPrimitive;
 use super::similarity::scale_of;
+use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::scene_file::{self, Place};
 use crate::shape::Torus;
 use glam::{DMat3, DMat4, DVec3};
 
 #[derive(Debug)]
-pub(super) struct PlacedTorus {
+struct PlacedTorus {
     centre: DVec3,
     axis: DVec3,
     major: f64,
     minor: f64,
 }
 
-impl PlacedTorus {
-    /// # Errors
-    /// The map scales unequally.
-    pub fn new(
-        centre: DVec3,
-        axis: DVec3,
-        radii: [f64; 2],
-        to_world: &DMat4,
-    ) -> Result<Self, &'static str> {
+impl Placeable for scene_file::Torus {
+    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let linear = DMat3::from_mat4(*to_world);
-        let scale = scale_of(linear)
-            .ok_or("the transform scales the torus unequally, which isn't supported")?;
-        let [major, minor] = radii.map(|radius| scale * radius);
-        Ok(Self {
-            centre: to_world.transform_point3(centre),
-            axis: linear * axis,
-            major,
-            minor,
-        })
+        let message = "the transform scales the torus unequally, which isn't supported";
+        let scale = scale_of(linear).ok_or_else(|| Refusal::new(place, message))?;
+        Ok(Box::new(PlacedTorus {
+            centre: to_world.transform_point3(self.center),
+            axis: linear * self.axis,
+            major: scale * self.major,
+            minor: scale * self.minor,
+        }))
     }
 }
 

@@ -1,8 +1,9 @@
 //! Parses lines of text into rays and formats hits as lines of JSON.
 
 use super::lines::{LONGEST_LINE, Line};
+use crate::formula;
 use crate::frames::{Frames, GivenRay, PlacedRay};
-use crate::inspection::weights;
+use crate::inspection::{OperandName, Parameters, SolidReport, weights};
 use crate::json;
 use crate::surface::SurfacePoint;
 use glam::DVec3;
@@ -59,6 +60,8 @@ struct HitEntry {
     normal: [f64; 3],
     #[serde(skip_serializing_if = "Option::is_none")]
     also: Option<Vec<u32>>,
+    #[serde(flatten)]
+    explanation: Option<Explanation>,
 }
 
 /// A hit of a triangle.
@@ -74,6 +77,18 @@ struct TriangleEntry {
 struct ShapeEntry {
     shape: &'static str,
     primitive: u32,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    operand: Option<OperandName>,
+}
+
+/// The derivation of a hit.
+#[derive(Serialize)]
+struct Explanation {
+    #[serde(skip_serializing_if = "Option::is_none")]
+    parameters: Option<Parameters>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    solid: Option<SolidReport>,
+    formula: Vec<String>,
 }
 
 impl Request {
@@ -133,6 +148,8 @@ pub(super) struct RayAnswerer<'a> {
     pub scene: &'a Scene,
     pub frames: &'a Frames<'a>,
     pub query: RayQuery,
+    /// Whether hits are explained.
+    pub is_explaining: bool,
 }
 
 impl RayAnswerer<'_> {
@@ -203,10 +220,16 @@ impl RayAnswerer<'_> {
             shape: (!is_triangle).then(|| ShapeEntry {
                 shape: scene.group_of(primitive).0.shape().name,
                 primitive,
+                operand: OperandName::of_hit(scene, hit),
             }),
             position: surface.position,
             normal: surface.normal,
             also,
+            explanation: self.is_explaining.then(|| Explanation {
+                parameters: Parameters::of_primitive(scene, primitive),
+                solid: SolidReport::new(scene, &placed.ray, hit, |t| placed.t_as_given(t)),
+                formula: formula::lines(scene, self.frames.origin(placed), &placed.ray, hit),
+            }),
         }
     }
 }

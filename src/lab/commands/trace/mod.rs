@@ -47,6 +47,7 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
   shape         the shape that is hit, if it isn't a triangle: sphere, plane, disk, ...; instead of
                 barycentric, triangle and face
   primitive     index of that primitive, counted from 0: triangles come first
+  operand       of a solid (csg): index and shape of the operand whose surface is hit
   triangle      index of the triangle, counted from 0, in the order of triangulation
   face          index of the face in the file, counted from 0
   position      in the file's coordinates, from the barycentric coordinates; in large triangles less
@@ -55,6 +56,14 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
                 rule over A, B and C for a triangle, outwards for a closed shape
   line          number of the line in the input, counted from 1
   ray_rounding  in units of the file, see below
+
+--explain adds to each hit:
+
+  parameters    of a shape other than a triangle, by name; points in the file's coordinates
+  solid         of a solid: the operand with its parameters, whether it is subtracted (the solid's
+                normal is then the opposite of its own), and the tree of operations with the
+                intervals of t inside each part, along the whole line; null is infinite
+  formula       derivation of t in f64 for the traced ray, which may start elsewhere on the line
 
 Numbers parse as doubles without loss.
 
@@ -72,6 +81,7 @@ Examples:
   echo 0 0.1 1 0 0 -1 | hitscope trace bunny.obj --rays -
   hitscope trace bunny.obj --rays rays.txt --all --kernel exact
   hitscope trace bunny.obj --rays rays.txt --summary
+  echo 0 0 9 0 0 -1 | hitscope trace scene.xml --rays - --explain
 
 Exit status:
   0  success, even if some lines are not rays; their answers have the reason
@@ -102,6 +112,9 @@ pub struct TraceArgs {
     /// Print all hits, sorted by t, as {"hits":[...]}; "also" lists other triangles at the same t
     #[arg(long)]
     pub all: bool,
+    /// Add to each hit the derivation of t, and the tree of operations of a solid
+    #[arg(long, conflicts_with_all = ["any", "summary"])]
+    pub explain: bool,
     /// Print only counts, the tracing time and the largest ray_rounding
     #[arg(long)]
     pub summary: bool,
@@ -165,6 +178,7 @@ impl TraceArgs {
                     (_, true) => RayQuery::All,
                     _ => RayQuery::Closest,
                 },
+                is_explaining: self.explain,
             },
             is_summary: self.summary,
             threads: self.threads.count(),

@@ -3,10 +3,12 @@
 use super::cells::{ShapeCell, measure};
 use super::rays::{Aim, aimed};
 use super::samples::Sampled;
+use super::solid_spawning::measure_all;
 use super::spawning::{ShapeSpawnCell, SpawnPlace, measure_spawning, spawn_places};
 use super::special;
 use crate::measure::contestants::contestants;
 use hitscope_core::Ray;
+use hitscope_core::group::SOLID_INFO;
 use hitscope_core::kernel::KernelRow;
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
@@ -108,8 +110,8 @@ fn kernels<S: Sampled>() -> Vec<&'static KernelRow<S>> {
 }
 
 /// The beginning of the names of a shape's cases.
-fn prefix<S: Sampled>() -> String {
-    format!("shape-{}", S::INFO.name)
+fn prefix(shape: &str) -> String {
+    format!("shape-{shape}")
 }
 
 fn cases_of<S: Sampled>(special: &[Special<S>]) -> Vec<ShapeCase<ShapeCell>> {
@@ -123,14 +125,14 @@ fn cases_of<S: Sampled>(special: &[Special<S>]) -> Vec<ShapeCase<ShapeCell>> {
         .iter()
         .filter(|kind| S::HAS_EDGES || kind.3 != Aim::Edges);
     let common = kinds.map(|&(name, title, about, aim, distance)| {
-        let name = format!("{}-{name}", prefix::<S>());
+        let name = format!("{}-{name}", prefix(S::INFO.name));
         let measured = name.clone();
         let rays = move |random: &mut Random| aimed::<S>(random, aim, distance);
         let run = move |n, seed| measure(&measured, &contestants(), &rays, n, seed);
         case(&name, title, about, Arc::new(run))
     });
     let special = special.iter().map(|&(name, title, about, rays)| {
-        let name = format!("{}-{name}", prefix::<S>());
+        let name = format!("{}-{name}", prefix(S::INFO.name));
         let measured = name.clone();
         let run = move |n, seed| measure(&measured, &contestants(), &rays, n, seed);
         case(&name, title, about, Arc::new(run))
@@ -139,16 +141,25 @@ fn cases_of<S: Sampled>(special: &[Special<S>]) -> Vec<ShapeCase<ShapeCell>> {
 }
 
 fn spawn_cases_of<S: Sampled>() -> Vec<ShapeCase<ShapeSpawnCell>> {
+    spawn_cases(S::INFO.name, |case, place, n, seed| {
+        measure_spawning(case, &kernels::<S>(), place, n, seed)
+    })
+}
+
+/// The cases of a shape at every place.
+fn spawn_cases(
+    shape: &str,
+    measure: fn(&str, SpawnPlace, u64, u64) -> Vec<ShapeSpawnCell>,
+) -> Vec<ShapeCase<ShapeSpawnCell>> {
     let case = |place: SpawnPlace| {
         let SpawnPlace { size, offset } = place;
-        let name = format!("{}-spawn-size-{size:e}-offset-{offset:e}", prefix::<S>());
+        let name = format!("{}-spawn-size-{size:e}-offset-{offset:e}", prefix(shape));
         let measured = name.clone();
-        let run = move |n, seed| measure_spawning(&measured, &kernels::<S>(), place, n, seed);
         ShapeCase {
             name,
-            title: format!("{} of size {size:e}, offset {offset:e}", S::INFO.name),
+            title: format!("{shape} of size {size:e}, offset {offset:e}"),
             about: "Rays that leave a primitive of this size, at this distance from the world origin.",
-            measure: Arc::new(run),
+            measure: Arc::new(move |n, seed| measure(&measured, place, n, seed)),
         }
     };
     spawn_places().into_iter().map(case).collect()
@@ -187,6 +198,7 @@ pub fn shape_spawn_cases() -> Vec<ShapeCase<ShapeSpawnCell>> {
         spawn_cases_of::<Cone>(),
         spawn_cases_of::<Torus>(),
         spawn_cases_of::<Quadric>(),
+        spawn_cases(SOLID_INFO.name, measure_all),
     ]
     .concat()
 }

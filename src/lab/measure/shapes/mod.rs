@@ -2,11 +2,12 @@
 //!
 //! | module | content |
 //! |---|---|
-//! | `samples`, `flat` | random primitives |
+//! | `samples`, `flat`, `aligned` | random primitives |
+//! | `solids` | random combined solids |
 //! | `rays` | rays at them |
 //! | `cases`, `special` | the cases of every shape, and those of one shape alone |
 //! | `cells` | wrong decisions and errors of t |
-//! | `spawning` | self-hits of spawned rays |
+//! | `spawning`, `solid_spawning` | self-hits of rays spawned on primitives and on solids |
 //!
 //! To measure another shape, implement its oracle and `Sampled`, and add a row to each table in `cases`.
 
@@ -16,6 +17,8 @@ mod cells;
 mod flat;
 mod rays;
 mod samples;
+mod solid_spawning;
+mod solids;
 mod spawning;
 mod special;
 
@@ -23,4 +26,6 @@ pub use cases::{ShapeCase, shape_cases, shape_spawn_cases};
 pub use cells::ShapeCell;
 pub use rays::{Aim, aimed};
 pub use samples::Sampled;
+pub use solid_spawning::measure_solid_spawning;
+pub use solids::SampledSolid;
 pub use spawning::{ShapeSpawnCell, SpawnPlace, measure_spawning, spawn_places};

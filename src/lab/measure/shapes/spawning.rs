@@ -4,7 +4,7 @@
 //! with the outer normals at the start and at the hit have opposite signs. A hit at which they are equal is a self-hit.
 //! A convex shape that was left outwards can't be hit at all, so there every hit counts. A ray that leaves a part of the
 //! surface inwards, closer to an edge than a point is rounded, may begin beyond the part that adjoins there, and hit that
-//! one from outside. Such hits count separately.
+//! one from outside. Such hits count separately. For a solid, the oracle decides whether a ray began beyond an edge.
 //!
 //! Source of the sizes and offsets: Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, the tests of
 //!   its shapes.
@@ -70,6 +70,59 @@ struct Counts {
     heights: Vec<f64>,
 }
 
+/// A surface that rays hit and leave.
+pub(super) trait SpawnSurface {
+    /// The first hit.
+    fn intersect(&self, ray: &Ray) -> Option<Hit>;
+
+    /// The surface there.
+    fn point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
+
+    /// The corners of a triangle.
+    fn corners(&self) -> Option<[Vec3; 3]> {
+        None
+    }
+
+    /// The kind of another hit of the surface by a ray that left it at a hit, on the side of the normal or not. The ray
+    /// meets the surface from the wrong side, unless the surface is convex and the ray left it outwards.
+    fn judge(&self, left: &Hit, is_outwards: bool, ray: &Ray, again: &Hit) -> Again;
+
+    /// Whether a ray that leaves the surface outwards can't hit it again.
+    fn is_convex(&self) -> bool;
+}
+
+/// A primitive and a kernel.
+struct Primitive<'a, S: 'static> {
+    kernel: &'a KernelRow<S>,
+    shape: S,
+}
+
+impl<S: Sampled> SpawnSurface for Primitive<'_, S> {
+    fn intersect(&self, ray: &Ray) -> Option<Hit> {
+        self.kernel.intersect(ray, self.shape.clone())
+    }
+
+    fn point(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
+        self.shape.surface(ray, hit)
+    }
+
+    fn corners(&self) -> Option<[Vec3; 3]> {
+        self.shape.corners()
+    }
+
+    fn judge(&self, left: &Hit, is_outwards: bool, _: &Ray, again: &Hit) -> Again {
+        if S::IS_CONVEX && is_outwards || S::part(again) == S::part(left) {
+            Again::Same
+        } else {
+            Again::BeyondEdge
+        }
+    }
+
+    fn is_convex(&self) -> bool {
+        S::IS_CONVEX
+    }
+}
+
 /// Spawns up to `n` rays at hits of each kernel; fewer where rays hit less than one primitive in 16.
 pub fn measure_spawning<S: Sampled>(
     case: &str,
@@ -78,48 +131,70 @@ pub fn measure_spawning<S: Sampled>(
     n: u64,
     seed: u64,
 ) -> Vec<ShapeSpawnCell> {
-    let cell = |kernel: &&KernelRow<S>| {
-        let mut random = Random::new(seed);
-        let mut counts = Counts::default();
-        for _ in 0..16 * n {
-            if counts.n == n {
-                break;
-            }
-            counts.add(kernel, place, &mut random);
-        }
-        let heights = Quantiles::of(counts.heights);
-        ShapeSpawnCell {
-            case: case.to_owned(),
-            shape: S::INFO.name,
-            kernel: kernel.info.name,
-            n: counts.n,
-            self_hits: counts.self_hits,
-            edge_hits: counts.edge_hits,
-            self_hits_per_million: per_million(counts.self_hits, counts.n),
-            bound_per_million: bound_per_million(counts.n),
-            height_p50: heights.map_or(0.0, |h| h.p50),
-            height_max: heights.map_or(0.0, |h| h.max),
-        }
+    let cell = |&kernel: &&KernelRow<S>| {
+        let sample = |random: &mut Random, near: DVec3| Primitive {
+            kernel,
+            shape: S::sample(random, near, place.size),
+        };
+        let names = [S::INFO.name, kernel.info.name];
+        measure_surfaces(case, names, &sample, place, n, seed)
     };
     kernels.iter().map(cell).collect()
 }
 
+/// Spawns up to `n` rays at hits of random surfaces. `names` are those of the shape and the kernel.
+pub(super) fn measure_surfaces<T: SpawnSurface>(
+    case: &str,
+    [shape, kernel]: [&'static str; 2],
+    sample: &dyn Fn(&mut Random, DVec3) -> T,
+    place: SpawnPlace,
+    n: u64,
+    seed: u64,
+) -> ShapeSpawnCell {
+    let mut random = Random::new(seed);
+    let mut counts = Counts::default();
+    for _ in 0..16 * n {
+        if counts.n >= n {
+            break;
+        }
+        counts.add(sample, place, &mut random);
+    }
+    let heights = Quantiles::of(counts.heights);
+    ShapeSpawnCell {
+        case: case.to_owned(),
+        shape,
+        kernel,
+        n: counts.n,
+        self_hits: counts.self_hits,
+        edge_hits: counts.edge_hits,
+        self_hits_per_million: per_million(counts.self_hits, counts.n),
+        bound_per_million: bound_per_million(counts.n),
+        height_p50: heights.map_or(0.0, |h| h.p50),
+        height_max: heights.map_or(0.0, |h| h.max),
+    }
+}
+
 impl Counts {
-    /// Shoots a ray at a random primitive. If it hits, rays leave there on both sides.
-    fn add<S: Sampled>(&mut self, kernel: &KernelRow<S>, place: SpawnPlace, random: &mut Random) {
+    /// Shoots a ray at a random surface. If it hits, rays leave there on both sides.
+    fn add<T: SpawnSurface>(
+        &mut self,
+        sample: &dyn Fn(&mut Random, DVec3) -> T,
+        place: SpawnPlace,
+        random: &mut Random,
+    ) {
         let near = place.offset * random.direction();
-        let shape = S::sample(random, near, place.size);
+        let target = sample(random, near);
         let distance = [0.1, 4.0][random.index(2)];
         let origin = (near + distance * place.size * random.direction()).as_vec3();
-        let target = near + 0.7 * place.size * random.in_cube();
-        let dir = (target - origin.as_dvec3()).as_vec3();
+        let aim = near + 0.7 * place.size * random.in_cube();
+        let dir = (aim - origin.as_dvec3()).as_vec3();
         let Ok(arrived_by) = Ray::new(origin, dir) else {
             return;
         };
-        let Some(hit) = kernel.intersect(&arrived_by, shape.clone()) else {
+        let Some(hit) = target.intersect(&arrived_by) else {
             return;
         };
-        let surface = shape.surface(&arrived_by, &hit);
+        let surface = target.point(&arrived_by, &hit);
         let outwards = leaving(random, surface.normal);
         // Where places are rounded to a tenth of the size, a ray can't start inside.
         let is_coarse = place.offset > 1e5 * place.size;
@@ -131,7 +206,7 @@ impl Counts {
                 continue;
             }
             let departure = (&arrived_by, &hit, surface);
-            let (height, again) = leave(kernel, &shape, departure, dir);
+            let (height, again) = leave(&target, departure, dir);
             self.n += 1;
             self.self_hits += u64::from(again == Some(Again::Same));
             self.edge_hits += u64::from(again == Some(Again::BeyondEdge));
@@ -153,7 +228,7 @@ fn leaving(random: &mut Random, normal: DVec3) -> DVec3 {
 
 /// A hit of a ray on the surface that it leaves.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Again {
+pub(super) enum Again {
     /// On the part that it leaves.
     Same,
     /// On another part.
@@ -161,9 +236,8 @@ enum Again {
 }
 
 /// The height of the spawned ray's origin, and its hit of the surface that it leaves.
-fn leave<S: Sampled>(
-    kernel: &KernelRow<S>,
-    shape: &S,
+fn leave(
+    target: &impl SpawnSurface,
     (arrived_by, hit, surface): (&Ray, &Hit, SurfacePoint),
     dir: Vec3,
 ) -> (f64, Option<Again>) {
@@ -171,24 +245,18 @@ fn leave<S: Sampled>(
         arrived_by,
         hit,
         surface,
-        corners: shape.corners(),
+        corners: target.corners(),
         dir,
     };
     let ray = default_spawn_policy().spawn(&departure);
     let ray = ray.expect("a finite origin and direction");
     let up = surface.normal.dot(dir.as_dvec3());
     let rise = (ray.origin - surface.position).as_dvec3();
-    let again = kernel.intersect(&ray, shape.clone()).and_then(|again| {
-        let normal = shape.surface(&ray, &again).normal;
-        if S::IS_CONVEX && up > 0.0 {
-            Some(Again::Same)
-        } else if up * normal.dot(dir.as_dvec3()) <= 0.0 {
-            None
-        } else if S::part(&again) == S::part(hit) {
-            Some(Again::Same)
-        } else {
-            Some(Again::BeyondEdge)
-        }
+    let again = target.intersect(&ray).and_then(|again| {
+        let normal = target.point(&ray, &again).normal;
+        let is_from_wrong_side = up * normal.dot(dir.as_dvec3()) > 0.0;
+        let is_wrong = is_from_wrong_side || target.is_convex() && up > 0.0;
+        is_wrong.then(|| target.judge(hit, up > 0.0, &ray, &again))
     });
     (up.signum() * surface.normal.dot(rise), again)
 }

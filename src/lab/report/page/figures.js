@@ -16,7 +16,7 @@ const section = id => document.getElementById(id);
 
 /** The report's JSON; missing arrays are treated as empty. */
 function readLab() {
-  const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [], shape_kernels: [], shapes: [], shape_spawning: [] };
+  const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [], shape_kernels: [], shapes: [], shape_spawning: [], packing: [] };
   const read = JSON.parse(section('lab').textContent);
   const present = Object.entries(read).filter(([, value]) => value != null);
   return { about: {}, ...lists, ...Object.fromEntries(present) };
@@ -159,6 +159,14 @@ const shapeSpawningFigures = [
   column('beyond an edge', row => row.edge_hits, { text: count }),
   column('p50', row => row.height_p50, { group: 'height / size' }),
   column('max', row => row.height_max, { group: 'height / size' }),
+];
+const packingColumns = [
+  words('kernel', row => row.kernel, { isHead: true, tip: row => infoTip(lab.shape_kernels.filter(info => info.shape === row.shape), row.kernel) }),
+  words('shape', row => row.shape, { style: 'name' }),
+  column('n', row => row.n, { text: count }),
+  column('ns', row => row.ns_per_primitive, { group: 'per primitive' }),
+  column('bytes', row => row.bytes_per_primitive, { group: 'per primitive' }),
+  column('bytes of the tree', row => row.tree_bytes_per_primitive, { group: 'per primitive' }),
 ];
 
 // ---- Tooltips: { title, about, facts: [[label, text], …] }, built when shown ----

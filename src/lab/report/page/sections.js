@@ -105,6 +105,7 @@ const sections = {
   spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap({ ...spawningMap, entries: lab.spawning.filter(row => row.kernel === 'watertight') }), ...cellTable(spawningMap)) },
   shapes: { needs: () => lab.shapes, show: () => section('shapes').append(...mapsByShape(shapeMap), ...cellTable(shapeMap)) },
   'shape-spawning': { needs: () => lab.shape_spawning, show: () => section('shape-spawning').append(...mapsByShape(shapeSpawningMap), ...cellTable(shapeSpawningMap)) },
+  packing: { needs: () => lab.packing, show: () => section('packing').append(scrollBox('Packing', null, sortableTable(packingColumns, lab.packing).table)) },
   policies: { needs: () => lab.policies, show: () => section('policies').append(noteList(lab.policies)) },
   notes: { needs: () => lab.kernels, show: () => section('notes').append(noteList(lab.kernels)) },
   cases: { needs: () => lab.cases, show: showCases },

@@ -1,30 +1,49 @@
-//! The parameters of a plane: one of its four descriptions.
+//! Planes: the parameters are one of four descriptions.
 
-use super::description::ShapeKind;
-use super::parameters::Parameters;
-use super::problem::Problem;
+use super::Kind;
+use crate::scene_file::parameters::Parameters;
+use crate::scene_file::problem::Problem;
+use crate::scene_file::reader::Reader;
+use crate::scene_file::shapes::Parts;
+use crate::scene_file::writer::Writer;
+use crate::scene_file::xml::WriteError;
 use crate::shape::PlaneForm;
 use glam::DVec3;
 
-/// A plane by a point and a normal, by a point and two vectors, by three points, or by an equation.
-///
-/// # Errors
-/// The parameters define no plane.
-pub(super) fn plane(parameters: &mut Parameters) -> Result<ShapeKind, Problem> {
-    let form = form(parameters)?;
-    let normal = form.normal();
-    if is_degenerate(&form) {
-        return Err(parameters.problem(match form {
-            PlaneForm::PointAndVectors { .. } => "“v” and “w” are parallel",
-            PlaneForm::ThreePoints(_) => "“p0”, “p1” and “p2” are collinear",
-            PlaneForm::PointAndNormal { .. } => "“normal” is zero",
-            PlaneForm::Equation { .. } => "“a”, “b” and “c” are zero",
-        }));
+/// An infinite plane.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Plane {
+    /// A point of the plane.
+    pub point: DVec3,
+    /// Its normal, of any length except 0.
+    pub normal: DVec3,
+}
+
+impl Kind for Plane {
+    const NAME: &'static str = "plane";
+
+    /// A plane by a point and a normal, by a point and two vectors, by three points, or by an equation.
+    fn read(parts: &mut Parts, _: &mut Reader) -> Result<Self, Problem> {
+        let parameters = &mut parts.parameters;
+        let form = form(parameters)?;
+        if is_degenerate(&form) {
+            return Err(parameters.problem(match form {
+                PlaneForm::PointAndVectors { .. } => "“v” and “w” are parallel",
+                PlaneForm::ThreePoints(_) => "“p0”, “p1” and “p2” are collinear",
+                PlaneForm::PointAndNormal { .. } => "“normal” is zero",
+                PlaneForm::Equation { .. } => "“a”, “b” and “c” are zero",
+            }));
+        }
+        Ok(Self {
+            point: form.point(),
+            normal: form.normal(),
+        })
     }
-    Ok(ShapeKind::Plane {
-        point: form.point(),
-        normal,
-    })
+
+    fn write(&self, writer: &mut Writer) -> Result<(), WriteError> {
+        writer.point("point", self.point)?;
+        writer.vector("normal", self.normal)
+    }
 }
 
 /// Whether a description describes no plane, up to rounding: each component of a cross product errs by 2u of two products

@@ -41,15 +41,15 @@ impl ExactT {
 
 /// Intersector of one group.
 pub trait GroupIntersector: Intersector {
-    /// The nearest hit of one ray, to be compared with the hits of other groups.
-    fn nearest(&self, ray: &Ray) -> Option<RankedHit>;
+    /// The nearest hit of one ray, to be compared with the hits of other groups, and its cost.
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost);
 
     /// All hits of one ray, in any order.
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit>;
 }
 
 /// The intersector of a scene's groups, given their numbers of primitives; that of the group if there is only one.
-pub(crate) fn several(
+pub(crate) fn scene_intersector(
     kernel: &'static KernelInfo,
     mut groups: Vec<(usize, Box<dyn GroupIntersector>)>,
 ) -> Box<dyn Intersector> {
@@ -66,7 +66,7 @@ pub(crate) fn several(
         first += count as u32;
         numbered
     };
-    Box::new(Several {
+    Box::new(SceneIntersector {
         kernel,
         groups: groups.into_iter().map(number).collect(),
     })
@@ -107,7 +107,7 @@ impl Numbered {
 }
 
 /// See the [module](self).
-struct Several {
+struct SceneIntersector {
     kernel: &'static KernelInfo,
     groups: Vec<Numbered>,
 }
@@ -177,15 +177,17 @@ pub(crate) fn crossings_of(mut hits: Vec<RankedHit>) -> Vec<Crossing> {
         .collect()
 }
 
-impl Several {
-    fn nearest(&self, ray: &Ray) -> Option<Hit> {
+impl SceneIntersector {
+    fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
         let mut nearest: Option<RankedHit> = None;
+        let mut sum = Cost::default();
         for group in &self.groups {
             // Hits at the same t, or at one that rounds to the same f32, are compared.
             let t_max = nearest
                 .as_ref()
                 .map_or(ray.t_max, |nearest| nearest.t_bound(ray));
-            let found = group.intersector.nearest(&group.ray(ray, t_max));
+            let (found, cost) = group.intersector.nearest_with_cost(&group.ray(ray, t_max));
+            sum += cost;
             let found = found.map(|found| group.ranked(found));
             if let Some(found) = found
                 && nearest
@@ -195,18 +197,18 @@ impl Several {
                 nearest = Some(found);
             }
         }
-        nearest.map(|nearest| nearest.hit)
+        (nearest, sum)
     }
 }
 
-impl Intersector for Several {
+impl Intersector for SceneIntersector {
     fn kernel(&self) -> &'static KernelInfo {
         self.kernel
     }
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.nearest(ray);
+            *hit = self.closest_hit_with_cost(ray).0;
         }
     }
 
@@ -238,19 +240,8 @@ impl Intersector for Several {
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
-        let mut sum = Cost::default();
-        for group in &self.groups {
-            let (_, cost) = group
-                .intersector
-                .closest_hit_with_cost(&group.ray(ray, ray.t_max));
-            sum = Cost {
-                boxes: sum.boxes + cost.boxes,
-                primitives: sum.primitives + cost.primitives,
-                in_f64: sum.in_f64 + cost.in_f64,
-                in_integers: sum.in_integers + cost.in_integers,
-            };
-        }
-        (self.nearest(ray), sum)
+        let (nearest, cost) = self.nearest_with_cost(ray);
+        (nearest.map(|nearest| nearest.hit), cost)
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {

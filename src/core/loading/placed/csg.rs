@@ -1,0 +1,76 @@
+//! Combined solids.
+
+use super::{Groups, Look, Placeable, Placed, Refusal, placed};
+use crate::group::{CsgOperation, Solid};
+use crate::loading::memory::{BYTES_PER_ALLOCATION, Needs};
+use crate::scene_file::{self, Place, Shape};
+use glam::{DMat4, DVec3};
+
+#[derive(Debug)]
+struct PlacedSolid {
+    operation: CsgOperation,
+    operands: Vec<Box<dyn Placed>>,
+}
+
+impl Placeable for scene_file::Csg {
+    /// # Errors
+    /// A nested shape can't be placed or isn't a solid.
+    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+        let operand = |shape: &Shape| {
+            let operand = placed(shape, &(*to_world * shape.to_world))?;
+            let refused = |message| Refusal::new(shape.place, message);
+            operand.check_closed().map_err(refused)?;
+            Ok(operand)
+        };
+        Ok(Box::new(PlacedSolid {
+            operation: self.operation,
+            operands: self
+                .children
+                .iter()
+                .map(operand)
+                .collect::<Result<_, _>>()?,
+        }))
+    }
+}
+
+impl Placed for PlacedSolid {
+    /// The box around all operands that are bounded.
+    fn bounds(&self) -> Option<[DVec3; 2]> {
+        let boxes = self.operands.iter().filter_map(|operand| operand.bounds());
+        boxes.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+    }
+
+    fn push_to(&self, groups: &mut Groups, origin: DVec3, look: Look) {
+        groups.solids.push(self.solid(origin), look);
+    }
+
+    fn check_closed(&self) -> Result<(), String> {
+        Ok(())
+    }
+
+    fn solid(&self, origin: DVec3) -> Solid {
+        let operands = self.operands.iter().map(|operand| operand.solid(origin));
+        Solid::combined(self.operation, operands.collect())
+    }
+
+    fn needs(&self) -> Needs {
+        let of_operand =
+            |operand: &dyn Placed| operand.needs().placed + size_of::<Box<dyn Placed>>() as u64;
+        let operands: u64 = self
+            .operands
+            .iter()
+            .map(|operand| of_operand(&**operand))
+            .sum();
+        Needs {
+            placed: operands + (size_of::<Self>() + BYTES_PER_ALLOCATION) as u64,
+            shapes: Solid::bytes(self.operand_count()),
+            primitive_count: 1,
+            ..Needs::default()
+        }
+    }
+
+    fn operand_count(&self) -> usize {
+        let counts = self.operands.iter().map(|operand| operand.operand_count());
+        counts.sum()
+    }
+}
