@@ -99,10 +99,17 @@ impl<L: Lane> Nearest<L> {
     /// The hit: u is the part.
     #[inline(always)]
     pub fn hit(self) -> Option<LaneHit<L>> {
+        let nowhere = self.is_hit & !self.is_hit;
+        self.hit_or_doubt(nowhere)
+    }
+
+    /// The hit, except in doubtful lanes.
+    #[inline(always)]
+    pub fn hit_or_doubt(self, doubtful: L::Mask) -> Option<LaneHit<L>> {
         let zero = L::of(self.t.token(), 0.0);
-        self.is_hit.any().then(|| LaneHit {
-            mask: self.is_hit,
-            doubtful: self.is_hit & !self.is_hit,
+        (self.is_hit | doubtful).any().then(|| LaneHit {
+            mask: self.is_hit & !doubtful,
+            doubtful,
             t: self.t,
             u: self.part,
             v: zero,
