@@ -219,7 +219,11 @@ fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
         let normals = args.normals.then_some(rendered.shading);
         offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
     }
-    output.write_png(size, &pixels)?;
+    if args.is_exr() {
+        output.write_exr(&rendered.film, rendered.guides.as_ref())?;
+    } else {
+        output.write_png(size, &pixels)?;
+    }
     if let Some(noise) = noise {
         writeln!(out, "{noise}")?;
     }
@@ -329,7 +333,7 @@ fn render_instead(cli: &Cli) -> Result<(), CommandError> {
         Some(path) => (shown(path), picture.mesh.load(path, Recentre::Auto)?),
         None => ("the built-in scene".to_owned(), embedded_scene()),
     };
-    let rendered = picture.trace(loaded)?;
+    let rendered = picture.trace(loaded, false)?;
     output.write_png(rendered.film.size(), rendered.film.pixels())?;
     let mut out = stdout().lock();
     writeln!(out, "rendered {input} to {OUTPUT}")?;

@@ -85,28 +85,28 @@ fn a_lack_of_threads_is_reported_in_one_line() {
 #[test]
 fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
     let program = Program::new();
-    // 19 bytes for each of 268 million pixels, with a limit of 3 GB.
+    // 73 bytes for each of 67 million pixels, with a limit of 3 GB.
     let ran = program.shell(
-        "ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 16384x16384",
+        "ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 8192x8192",
     );
-    let message = "hitscope: there isn't enough memory for a picture of 16384x16384 pixels";
+    let message = "hitscope: there isn't enough memory for a picture of 8192x8192 pixels";
     assert_fails(&ran, 1, message);
 }
 
 #[test]
 fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
     let program = Program::new();
-    // 19 bytes for each of 180 000 pixels: 3.3 MB.
+    // 73 bytes for each of 180 000 pixels: 12.5 MiB.
     let render = |more: &str| program.run(&format!("render {more} -o out.png --size 600x300"));
-    assert!(render("good.obj --max-memory 4").status.success());
-    let ran = render("none.obj --max-memory 3");
-    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 4 MB");
-    // The picture that replaces the window: 19 bytes for each of 1280 × 720 pixels, 16.7 MB.
-    let ran = program.run("good.obj --max-memory 16");
+    assert!(render("good.obj --max-memory 13").status.success());
+    let ran = render("none.obj --max-memory 12");
+    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 13 MB");
+    // The picture that replaces the window: 73 bytes for each of 1280 × 720 pixels, 64.2 MiB.
+    let ran = program.run("good.obj --max-memory 64");
     assert_eq!(ran.status.code(), Some(2), "{}", stderr(&ran));
-    let ran = program.run("good.obj --max-memory 18");
+    let ran = program.run("good.obj --max-memory 66");
     assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
-    // A mesh whose triangles take more than the remaining 0.7 MB.
+    // A mesh whose triangles take more than the remaining 0.5 MiB.
     let vertices: String = (0..5000)
         .map(|k| format!("v {k} 0 0\nv {k} 1 {k}\n"))
         .collect();
@@ -114,8 +114,8 @@ fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
         .map(|k| format!("f {k} {} {}\n", k + 1, k + 2))
         .collect();
     program.write("strip.obj", vertices + &faces);
-    assert!(render("strip.obj --max-memory 40").status.success());
-    let ran = render("strip.obj --max-memory 4");
+    assert!(render("strip.obj --max-memory 50").status.success());
+    let ran = render("strip.obj --max-memory 13");
     assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
     assert!(stderr(&ran).contains("--max-memory"), "{}", stderr(&ran));
 }

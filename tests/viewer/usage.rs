@@ -24,7 +24,7 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             &format!("{render} --max-memory 17592186044416"),
             "from 1 to 17592186044415",
         ),
-        (&format!("{render} --samples -1"), "-1 is not in 1..=4096"),
+        (&format!("{render} --samples -1"), "-1 is not in 1..=65536"),
         (&format!("{render} --threads 0"), "0 is not in 1..=1024"),
         (&format!("{render} --size 1x16385"), "from 1 to 16384"),
         (

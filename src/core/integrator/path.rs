@@ -43,6 +43,8 @@ pub(super) fn follow(
     let (mut light, mut throughput) = (Vec3::ZERO, Vec3::ONE);
     // Where the ray left the last surface that scattered it, and with which density.
     let (mut from, mut density) = (ray.origin, None);
+    // The product of the squared indices of refraction.
+    let mut scale = 1.0;
     let mut surfaces = 0;
     loop {
         let Some(nearest) = hit else {
@@ -67,8 +69,10 @@ pub(super) fn follow(
             return light;
         };
         throughput *= scattered.weight;
+        scale *= scattered.eta * scattered.eta;
         if surfaces > SURE_SURFACES {
-            let survival = throughput.max_element().min(MOST_LIKELY);
+            // Refraction scales radiance, but not what is left of the path.
+            let survival = (throughput.max_element() * scale).min(MOST_LIKELY);
             if sampler.next_1d() >= survival {
                 return light;
             }

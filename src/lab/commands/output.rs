@@ -3,6 +3,8 @@
 use super::draft::Draft;
 use super::{CommandError, file_error};
 use glam::UVec2;
+use hitscope_core::Film;
+use hitscope_core::picture::{Guides, write_exr};
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -58,6 +60,17 @@ impl Output {
             }),
         };
         written.map_err(|source| file_error(&self.path, source))
+    }
+
+    /// Writes a film with its guides as an OpenEXR file.
+    ///
+    /// # Errors
+    /// See [`write`](Self::write).
+    pub fn write_exr(&self, film: &Film, guides: Option<&Guides>) -> Result<(), CommandError> {
+        let mut bytes = io::Cursor::new(Vec::new());
+        write_exr(film, guides, &mut bytes)
+            .map_err(|error| CommandError::Other(error.to_string()))?;
+        self.write(|out| out.write_all(bytes.get_ref()))
     }
 
     /// Writes sRGB pixels, row by row from the top, as a PNG file.

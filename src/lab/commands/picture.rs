@@ -9,7 +9,9 @@ use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{Comparison, Context, Integrator, Lighting};
 use hitscope_core::loading::LoadedScene;
+use hitscope_core::picture::{Guides, guides};
 use hitscope_core::plan::Plan;
+use hitscope_core::progress::Progress;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::srgb::from_display;
@@ -84,6 +86,8 @@ pub struct Rendered {
     pub loaded: LoadedScene,
     /// How normals vary over a triangle.
     pub shading: Shading,
+    /// What each pixel shows first, if asked for.
+    pub guides: Option<Guides>,
 }
 
 /// How far the colours of a picture may be off by chance.
@@ -182,11 +186,15 @@ impl PictureArgs {
         self.light.check(view)
     }
 
-    /// Traces the picture of a scene.
+    /// Traces the picture of a scene, and the guides for denoisers if they are asked for.
     ///
     /// # Errors
     /// See [`CommandError`].
-    pub fn trace(&self, mut loaded: LoadedScene) -> Result<Rendered, CommandError> {
+    pub fn trace(
+        &self,
+        mut loaded: LoadedScene,
+        has_guides: bool,
+    ) -> Result<Rendered, CommandError> {
         loaded.scene = self.crease.apply(loaded.scene);
         let camera = self.camera.camera(&loaded.scene, loaded.view.as_ref())?;
         let shading = self.shading.into();
@@ -212,13 +220,18 @@ impl PictureArgs {
             integrator: view,
             plan: Plan::new(camera.resolution(), 1, self.samples),
         };
-        let mut film = render(job, self.threads.count())?;
+        let (threads, progress) = (self.threads.count(), Progress::default());
+        let guides = has_guides.then(|| guides(&job.context, &job.plan, threads, &progress));
+        let guides = guides.transpose();
+        let guides = guides.map_err(|error| CommandError::Other(error.to_string()))?;
+        let mut film = render(job, threads)?;
         film.set_display(self.light.display());
         Ok(Rendered {
             film,
             camera,
             loaded,
             shading,
+            guides,
         })
     }
 

@@ -4,9 +4,9 @@ use super::output::is_stream;
 use super::{CommandError, PictureArgs, Rendered};
 use clap::Args;
 use hitscope_core::obj::Recentre;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
-/// Render a mesh to a PNG file
+/// Render a mesh to a PNG or OpenEXR file
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Examples:
@@ -14,14 +14,17 @@ Examples:
   hitscope render bunny.obj -o bunny.png --size 1920x1080 --samples 64 --shading smooth
   hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0 --wireframe
   hitscope render bunny.obj -o bunny.png --view path --environment studio --samples 256 --noise
+  hitscope render bunny.obj -o bunny.exr --view path --environment built-in --samples 256
   hitscope render bunny.obj -o /dev/stdout --view cost | display
 
-The output file appears under its name once it is complete. A picture takes 19 bytes of memory per pixel.")]
+A name ending in .exr gives linear radiance in f32 with the layers albedo, normal, Z, id, sampleCount and variance, for
+denoisers and compositing; exposure and tone curve don't change it. The output file appears under its name once it is
+complete. A picture takes 73 bytes of memory per pixel.")]
 pub struct RenderArgs {
     /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
-    /// PNG file, pipe or device to write
-    #[arg(short, long, value_name = "OUT.png", value_parser = parse_png)]
+    /// PNG or OpenEXR file, or a pipe or device for PNG, to write
+    #[arg(short, long, value_name = "OUT.png|OUT.exr", value_parser = parse_picture)]
     pub output: PathBuf,
     /// Picture.
     #[command(flatten)]
@@ -44,6 +47,9 @@ impl RenderArgs {
     /// [`CommandError::Usage`].
     pub fn check(&self) -> Result<(), CommandError> {
         let refuse = |message: &str| Err(CommandError::Usage(message.to_owned()));
+        if self.is_exr() && (self.wireframe || self.normals) {
+            return refuse("lines are drawn over PNG pictures only");
+        }
         if self.noise && self.picture.samples < 2 {
             return refuse("--noise needs at least 2 samples per pixel");
         }
@@ -60,7 +66,12 @@ impl RenderArgs {
     pub fn trace(&self) -> Result<Rendered, CommandError> {
         self.check()?;
         let loaded = self.picture.mesh.load(&self.file, Recentre::Auto)?;
-        self.picture.trace(loaded)
+        self.picture.trace(loaded, self.is_exr())
+    }
+
+    /// Whether the output is an OpenEXR file.
+    pub fn is_exr(&self) -> bool {
+        has_extension(&self.output, "exr") && !is_stream(&self.output)
     }
 }
 
@@ -70,10 +81,28 @@ impl RenderArgs {
 /// A message for the user.
 pub fn parse_png(text: &str) -> Result<PathBuf, String> {
     let path = PathBuf::from(text);
-    let extension = path.extension().unwrap_or_default();
-    if extension.eq_ignore_ascii_case("png") || is_stream(&path) {
+    if has_extension(&path, "png") || is_stream(&path) {
         Ok(path)
     } else {
         Err("only PNG files are written: the name must end in .png, or be /dev/stdout".to_owned())
     }
+}
+
+/// Parses the path of a picture: as [`parse_png`], or a name ending in .exr.
+///
+/// # Errors
+/// A message for the user.
+fn parse_picture(text: &str) -> Result<PathBuf, String> {
+    if has_extension(Path::new(text), "exr") {
+        return Ok(text.into());
+    }
+    parse_png(text).map_err(|_| {
+        "PNG and OpenEXR files are written: the name must end in .png or .exr, or be /dev/stdout"
+            .to_owned()
+    })
+}
+
+fn has_extension(path: &Path, extension: &str) -> bool {
+    let own = path.extension().unwrap_or_default();
+    own.eq_ignore_ascii_case(extension)
 }
