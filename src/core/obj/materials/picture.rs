@@ -70,7 +70,7 @@ fn pixels(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, Vec<u8>), St
     Ok((decoded.into_rgb8(), alpha))
 }
 
-/// The peak memory of decoding and of the conversion to 8-bit RGB with an alpha channel, in bytes.
+/// The peak memory of decoding and of the conversion to 8-bit RGB, with alpha if the picture has it, in bytes.
 fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u64) -> u64 {
     /// 16-bit coefficients of up to four components. A progressive JPEG keeps them for the whole picture.
     const JPEG_BYTES_PER_PIXEL: u64 = 8;
@@ -79,7 +79,8 @@ fn needed_bytes(decoder: &impl ImageDecoder, format: ImageFormat, file_bytes: u6
     let decoded = decoder.total_bytes();
     let converted = match decoder.color_type() {
         ColorType::Rgb8 => 0,
-        _ => 4 * pixels,
+        colour if colour.has_alpha() => 4 * pixels,
+        _ => 3 * pixels,
     };
     let working = match format {
         // The decoder copies the file.
