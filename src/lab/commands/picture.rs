@@ -212,7 +212,12 @@ impl PictureArgs {
             scene: Arc::clone(&loaded.scene),
             camera,
             shading,
-            background: from_display(DARK_BACKGROUND),
+            // No light comes from a background.
+            background: if has_guides {
+                Vec3::ZERO
+            } else {
+                from_display(DARK_BACKGROUND)
+            },
             lighting: self.lighting(view, &loaded, &camera)?,
         };
         let job = Job {
