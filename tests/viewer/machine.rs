@@ -86,9 +86,8 @@ fn a_lack_of_threads_is_reported_in_one_line() {
 fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
     let program = Program::new();
     // 73 bytes for each of 67 million pixels, with a limit of 3 GB.
-    let ran = program.shell(
-        "ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 8192x8192",
-    );
+    let ran = program
+        .shell("ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 8192x8192");
     let message = "hitscope: there isn't enough memory for a picture of 8192x8192 pixels";
     assert_fails(&ran, 1, message);
 }
