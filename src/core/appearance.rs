@@ -83,6 +83,15 @@ impl<'a> Appearance<'a> {
         }
     }
 
+    /// The light that the front or the back emits.
+    pub fn emission_of_side(&self, is_front: bool) -> Vec3 {
+        if is_front || self.material.is_none_or(|material| material.emits_on_back) {
+            self.emission()
+        } else {
+            Vec3::ZERO
+        }
+    }
+
     /// The part of the surface that is there; light passes through the rest.
     pub fn opacity(&self) -> f32 {
         let Some(material) = self.material else {

@@ -4,11 +4,12 @@
 //! them: light is lost to the highlight both when it enters the diffuse part and when it leaves, so that no more is
 //! reflected than arrives.
 
-use super::diffuse::{cosine_density, cosine_direction};
+use super::coat;
+use super::diffuse::cosine_density;
 use super::microfacets::{Law, Microfacets};
-use super::optics::{reflected, schlick};
+use super::optics::schlick;
 use super::plastic::probability;
-use super::rough_conductor::{facet_reflection, reflecting, reflection_density};
+use super::rough_conductor::{facet_reflection, reflecting};
 use super::{Bsdf, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};
 
@@ -86,23 +87,13 @@ impl Scatter for MetalRough {
     }
 
     fn sample(&self, outgoing: Vec3, at: Vec2, choice: f32) -> Option<Scattered> {
-        if outgoing.z <= 0.0 {
-            return None;
-        }
-        let incoming = if choice < self.highlight_probability(outgoing) {
-            reflected(outgoing, self.facets.sample_visible(outgoing, at))
-        } else {
-            cosine_direction(at)
-        };
+        let is_reflected = choice < self.highlight_probability(outgoing);
+        let incoming = coat::sample_direction(&self.facets, outgoing, at, is_reflected)?;
         Scattered::by_density(self, outgoing, incoming)
     }
 
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
-        let Some(m) = reflecting(outgoing, incoming) else {
-            return 0.0;
-        };
-        let highlight = self.highlight_probability(outgoing);
-        highlight * reflection_density(&self.facets, outgoing, m)
-            + (1.0 - highlight) * cosine_density(outgoing, incoming)
+        let probability = self.highlight_probability(outgoing);
+        coat::density(&self.facets, outgoing, incoming, probability)
     }
 }

@@ -5,6 +5,7 @@
 //! checks reciprocity, energy and sampling.
 
 mod black;
+mod coat;
 mod conductor;
 mod dielectric;
 mod diffuse;

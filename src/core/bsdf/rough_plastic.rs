@@ -3,11 +3,12 @@
 //! Source: the documentation of Mitsuba's `roughplastic`; the base is that of `plastic`, the coat is made of microfacets
 //! as in Walter et al., "Microfacet Models for Refraction through Rough Surfaces", EGSR 2007.
 
-use super::diffuse::{cosine_density, cosine_direction};
+use super::coat;
+use super::diffuse::cosine_density;
 use super::microfacets::{Law, Microfacets};
 use super::optics::{Interface, reflected};
 use super::plastic::{below_coat, probability};
-use super::rough_conductor::{facet_reflection, reflecting, reflection_density};
+use super::rough_conductor::{facet_reflection, reflecting};
 use super::{Bsdf, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};
 
@@ -145,23 +146,13 @@ impl Scatter for RoughPlastic {
     }
 
     fn sample(&self, outgoing: Vec3, at: Vec2, choice: f32) -> Option<Scattered> {
-        if outgoing.z <= 0.0 {
-            return None;
-        }
-        let incoming = if choice < self.coat_probability(outgoing) {
-            reflected(outgoing, self.facets.sample_visible(outgoing, at))
-        } else {
-            cosine_direction(at)
-        };
+        let is_reflected = choice < self.coat_probability(outgoing);
+        let incoming = coat::sample_direction(&self.facets, outgoing, at, is_reflected)?;
         Scattered::by_density(self, outgoing, incoming)
     }
 
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
-        let Some(m) = reflecting(outgoing, incoming) else {
-            return 0.0;
-        };
-        let coat = self.coat_probability(outgoing);
-        coat * reflection_density(&self.facets, outgoing, m)
-            + (1.0 - coat) * cosine_density(outgoing, incoming)
+        let probability = self.coat_probability(outgoing);
+        coat::density(&self.facets, outgoing, incoming, probability)
     }
 }

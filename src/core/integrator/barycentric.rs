@@ -1,5 +1,6 @@
 //! The view *Barycentric*.
 
+use super::palette::named;
 use super::{Context, Integrator, Legend, Needs};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -30,7 +31,6 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
 }
 
 fn legend() -> Legend {
-    let named = |colour, text: &str| (colour, text.to_owned());
     vec![
         vec![
             named(Vec3::X, "A"),

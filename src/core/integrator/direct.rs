@@ -17,8 +17,5 @@ pub(super) static DIRECT: Integrator = Integrator {
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    if hit.is_none() && context.lighting.lights.environment().is_none() {
-        return context.background;
-    }
     follow(context, ray, hit, sampler, Some(1))
 }

@@ -70,9 +70,22 @@ pub fn log_colour(x: f64, [least, most]: [f64; 2]) -> Vec3 {
     error_ramp(part as f32)
 }
 
+/// The colour of two decisions about one ray: where only one is true, or of another brightness where they agree.
+pub(super) fn decision(first: bool, second: bool, is_bright: bool) -> Vec3 {
+    match (first, second) {
+        (true, false) => FALSE_HIT,
+        (false, true) => MISSED,
+        _ => Vec3::splat(if is_bright { 0.12 } else { 0.02 }),
+    }
+}
+
+/// An entry of a legend.
+pub(super) fn named(colour: Vec3, text: &str) -> (Vec3, String) {
+    (colour, text.to_owned())
+}
+
 /// The legend of the colours of wrong decisions.
 pub(super) fn decisions() -> Vec<(Vec3, String)> {
-    let named = |colour, text: &str| (colour, text.to_owned());
     vec![
         named(MISSED, "missed"),
         named(FALSE_HIT, "false hit"),

@@ -25,13 +25,11 @@ const SURE_SURFACES: u32 = 4;
 const MOST_LIKELY: f32 = 0.95;
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    if hit.is_none() && context.lighting.lights.environment().is_none() {
-        return context.background;
-    }
     follow(context, ray, hit, sampler, context.lighting.depth_limit)
 }
 
-/// The light that arrives along a ray by way of at most `limit` surfaces.
+/// The light that arrives along a camera's ray by way of at most `limit` surfaces; the background if the ray hits nothing
+/// and there is no environment.
 pub(super) fn follow(
     context: &Context,
     ray: &Ray,
@@ -39,6 +37,9 @@ pub(super) fn follow(
     sampler: &mut Sampler,
     limit: Option<u32>,
 ) -> Vec3 {
+    if hit.is_none() && context.lighting.lights.environment().is_none() {
+        return context.background;
+    }
     let (mut ray, mut hit) = (*ray, hit);
     let (mut light, mut throughput) = (Vec3::ZERO, Vec3::ONE);
     // Where the ray left the last surface that scattered it, and with which density.

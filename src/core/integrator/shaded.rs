@@ -68,12 +68,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let appearance = Appearance::new(&context.scene, material, &hit);
     let diffuse = appearance.diffuse();
     let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
-    let emits = is_front || material.is_none_or(|material| material.emits_on_back);
-    let emission = if emits {
-        appearance.emission()
-    } else {
-        Vec3::ZERO
-    };
+    let emission = appearance.emission_of_side(is_front);
     let opacity = appearance.opacity();
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
     if illumination == Illumination::Constant {

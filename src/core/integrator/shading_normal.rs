@@ -2,7 +2,7 @@
 //!
 //! Source of the problem: Veach, "Robust Monte Carlo Methods for Light Transport Simulation", 1997, 5.3.
 
-use super::palette::{FALSE_HIT, MISSED};
+use super::palette::{FALSE_HIT, MISSED, decision, named};
 use super::transport::ShadingPoint;
 use super::{Context, Integrator, Legend, Needs, Setting};
 use crate::ray::{Hit, Ray};
@@ -28,15 +28,10 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sample
     };
     let point = ShadingPoint::new(context, ray, hit);
     let [by_shading, by_geometry] = point.sides(point.light_direction(sampler));
-    match (by_shading, by_geometry) {
-        (true, false) => FALSE_HIT,
-        (false, true) => MISSED,
-        (is_lit, _) => Vec3::splat(if is_lit { 0.12 } else { 0.02 }),
-    }
+    decision(by_shading, by_geometry, by_shading)
 }
 
 fn legend() -> Legend {
-    let named = |colour, text: &str| (colour, text.to_owned());
     vec![vec![
         named(FALSE_HIT, "shading normal alone"),
         named(MISSED, "geometric normal alone"),

@@ -1,6 +1,6 @@
 //! The view *Spawn policies*: where two policies disagree about what a ray that leaves the surface meets.
 
-use super::palette::{FALSE_HIT, MISSED};
+use super::palette::{FALSE_HIT, MISSED, decision, named};
 use super::transport::ShadingPoint;
 use super::{Context, Integrator, Legend, Needs, Setting};
 use crate::ray::{Hit, Ray};
@@ -35,18 +35,12 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sample
         ray.is_some_and(|ray| context.intersector.any_hit(&ray))
     };
     let lighting = &context.lighting;
-    match (
-        is_blocked(lighting.spawn),
-        is_blocked(lighting.second_spawn),
-    ) {
-        (true, false) => FALSE_HIT,
-        (false, true) => MISSED,
-        (is_blocked, _) => Vec3::splat(if is_blocked { 0.02 } else { 0.12 }),
-    }
+    let first = is_blocked(lighting.spawn);
+    let second = is_blocked(lighting.second_spawn);
+    decision(first, second, !first)
 }
 
 fn legend() -> Legend {
-    let named = |colour, text: &str| (colour, text.to_owned());
     vec![vec![
         named(FALSE_HIT, "only the chosen one is blocked"),
         named(MISSED, "only the second one is blocked"),

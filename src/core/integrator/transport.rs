@@ -49,12 +49,7 @@ impl<'a> ShadingPoint<'a> {
             -1.0
         };
         let frame = Frame::about(side * interaction.shading_normal);
-        let emits = is_front || material.is_none_or(|material| material.emits_on_back);
-        let emission = if emits {
-            appearance.emission()
-        } else {
-            Vec3::ZERO
-        };
+        let emission = appearance.emission_of_side(is_front);
         let opacity = appearance.opacity();
         Self {
             context,

@@ -39,13 +39,12 @@ impl Kind for Cylinder {
     const NAME: &'static str = "cylinder";
 
     fn read(parts: &mut Parts, _: &mut Reader) -> Result<Self, Problem> {
-        let parameters = &mut parts.parameters;
-        let [p0, p1] = ends(parameters)?;
+        let ([p0, p1], radius, is_capped) = read(&mut parts.parameters)?;
         Ok(Self {
             p0,
             p1,
-            radius: parameters.positive("radius", 1.0)?,
-            is_capped: parameters.boolean("capped", false)?,
+            radius,
+            is_capped,
         })
     }
 
@@ -58,13 +57,12 @@ impl Kind for Cone {
     const NAME: &'static str = "cone";
 
     fn read(parts: &mut Parts, _: &mut Reader) -> Result<Self, Problem> {
-        let parameters = &mut parts.parameters;
-        let [p0, p1] = ends(parameters)?;
+        let ([p0, p1], radius, is_capped) = read(&mut parts.parameters)?;
         Ok(Self {
             p0,
             p1,
-            radius: parameters.positive("radius", 1.0)?,
-            is_capped: parameters.boolean("capped", false)?,
+            radius,
+            is_capped,
         })
     }
 
@@ -73,14 +71,16 @@ impl Kind for Cone {
     }
 }
 
-/// The ends of an axis.
-fn ends(parameters: &mut Parameters) -> Result<[DVec3; 2], Problem> {
+/// The ends of the axis, the radius, and whether it is capped.
+fn read(parameters: &mut Parameters) -> Result<([DVec3; 2], f64, bool), Problem> {
     let p0 = parameters.point("p0", DVec3::ZERO)?;
     let p1 = parameters.point("p1", DVec3::Z)?;
     if p0 == p1 {
         return Err(parameters.problem("p0 and p1 are the same point"));
     }
-    Ok([p0, p1])
+    let radius = parameters.positive("radius", 1.0)?;
+    let is_capped = parameters.boolean("capped", false)?;
+    Ok(([p0, p1], radius, is_capped))
 }
 
 fn write(
