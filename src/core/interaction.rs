@@ -3,6 +3,7 @@
 use crate::barycentric::{spherical_mean, weighted};
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
+use crate::shape::SurfacePoint;
 use glam::{Vec2, Vec3};
 
 /// Normals and material at a hit.
@@ -20,32 +21,26 @@ pub struct SurfaceInteraction {
 impl SurfaceInteraction {
     /// Looks up a hit in the scene. The first smooth lookup computes the vertex normals of the whole mesh.
     pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
-        if !scene.is_triangle(hit.primitive) {
-            let normal = scene.surface(ray, &hit).normal.as_vec3();
-            return Self {
-                geometric_normal: normal,
-                shading_normal: normal,
-                material: scene.material(hit.primitive),
-            };
-        }
-        let mesh = scene.mesh();
-        let weights = hit.barycentric();
-        let geometric_normal = mesh.geometric_normal(hit.primitive);
-        let shading_normal = match shading {
-            Shading::Flat => geometric_normal,
-            Shading::Smooth | Shading::Spherical => {
-                let corners = scene.vertex_normals().of_triangle(mesh, hit.primitive);
-                let interpolated = match shading {
-                    Shading::Spherical => spherical_mean(weights, corners),
-                    _ => weighted(weights, corners).try_normalize(),
-                };
-                interpolated.unwrap_or(geometric_normal)
-            }
+        Self::of_surface(scene, &scene.surface(ray, &hit), hit, shading)
+    }
+
+    /// The same for a hit whose surface is known.
+    pub(crate) fn of_surface(
+        scene: &Scene,
+        surface: &SurfacePoint,
+        hit: Hit,
+        shading: Shading,
+    ) -> Self {
+        let geometric_normal = surface.normal.as_vec3();
+        let shading_normal = if scene.is_triangle(hit.primitive) {
+            interpolated_normal(scene, hit, shading).unwrap_or(geometric_normal)
+        } else {
+            geometric_normal
         };
         Self {
             geometric_normal,
             shading_normal,
-            material: mesh.attributes().materials.index(hit.primitive),
+            material: scene.material(hit.primitive),
         }
     }
 
@@ -56,6 +51,19 @@ impl SurfaceInteraction {
         } else {
             self.shading_normal
         }
+    }
+}
+
+/// The vertex normals of a triangle interpolated at a hit; `None` in flat shading, or if they cancel.
+fn interpolated_normal(scene: &Scene, hit: Hit, shading: Shading) -> Option<Vec3> {
+    let corners = || {
+        let normals = scene.vertex_normals();
+        normals.of_triangle(scene.mesh(), hit.primitive)
+    };
+    match shading {
+        Shading::Flat => None,
+        Shading::Smooth => weighted(hit.barycentric(), corners()).try_normalize(),
+        Shading::Spherical => spherical_mean(hit.barycentric(), corners()),
     }
 }
 

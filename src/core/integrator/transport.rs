@@ -33,7 +33,8 @@ pub(super) struct ShadingPoint<'a> {
 impl<'a> ShadingPoint<'a> {
     pub fn new(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
         let scene = &context.scene;
-        let interaction = SurfaceInteraction::new(scene, ray, hit, context.shading);
+        let surface = scene.surface(ray, &hit);
+        let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
         let material = scene
             .mesh()
             .attributes()
@@ -55,7 +56,7 @@ impl<'a> ShadingPoint<'a> {
             context,
             ray: *ray,
             hit,
-            surface: scene.surface(ray, &hit),
+            surface,
             outgoing: frame.to_local(-ray.dir.normalize()),
             frame,
             normal: side * interaction.geometric_normal,
@@ -139,10 +140,13 @@ impl<'a> ShadingPoint<'a> {
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
     pub fn direct_light(&self, sampler: &mut Sampler) -> Vec3 {
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
         let Context {
             scene, lighting, ..
         } = self.context;
+        if !lighting.lights.can_be_sampled() {
+            return Vec3::ZERO;
+        }
+        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
         let Some(sample) = lighting.lights.sample(scene, self.position(), at, choice) else {
             return Vec3::ZERO;
         };

@@ -125,6 +125,11 @@ impl Lights {
         }
     }
 
+    /// Whether there are lights to aim at. Light that is the same from everywhere has no direction to prefer.
+    pub fn can_be_sampled(&self) -> bool {
+        !self.choice.is_empty()
+    }
+
     /// Light that reaches a point, from a light chosen by its power. `at` and `choice` are uniform numbers in [0, 1).
     pub fn sample(&self, scene: &Scene, from: Vec3, at: Vec2, choice: f32) -> Option<LightSample> {
         let (index, probability) = self.choice.sample(choice)?;

@@ -50,8 +50,9 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
   operand       of a solid (csg): index and shape of the operand whose surface is hit
   triangle      index of the triangle, counted from 0, in the order of triangulation
   face          index of the face in the file, counted from 0
-  position      in the file's coordinates, from the barycentric coordinates; in large triangles less
-                accurate than o + t*d
+  position      in the file's coordinates; of a triangle from the barycentric coordinates, in large
+                ones less accurate than o + t*d; of other shapes the point of the surface next to
+                o + t*d, as accurate as an f32 t of the traced ray (see below)
   normal        geometric normal of unit length, the same for rays from either side: by the right-hand
                 rule over A, B and C for a triangle, outwards for a closed shape
   line          number of the line in the input, counted from 1
