@@ -37,6 +37,7 @@ pub(super) static CONDUCTOR: Model = Model {
     name: "conductor",
     source: "Fresnel's equations; Born, Wolf, Principles of Optics, 1999",
     transmits: false,
+    is_specular: true,
     is_reciprocal: true,
     examples: || {
         let metal = Conductor {

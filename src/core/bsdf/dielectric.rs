@@ -22,6 +22,7 @@ pub(super) static DIELECTRIC: Model = Model {
     name: "dielectric",
     source: "Snell's law and Fresnel's equations; Born, Wolf, Principles of Optics, 1999",
     transmits: true,
+    is_specular: true,
     is_reciprocal: true,
     examples: || {
         let of_index = |eta| Dielectric {

@@ -185,6 +185,8 @@ pub struct Model {
     pub source: &'static str,
     /// Whether light passes through.
     pub transmits: bool,
+    /// Whether all light is scattered into single directions or absorbed, so that no light can be aimed at.
+    pub is_specular: bool,
     /// Whether exchanging both directions gives the same BSDF. Refraction scales it by the square of the index.
     pub is_reciprocal: bool,
     /// Examples, ordinary and extreme.

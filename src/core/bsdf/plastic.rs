@@ -71,6 +71,7 @@ pub(super) static PLASTIC: Model = Model {
     name: "plastic",
     source: "Wolff, Diffuse-reflectance model for smooth dielectric surfaces, 1994",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let red = Vec3::new(0.7, 0.2, 0.1);

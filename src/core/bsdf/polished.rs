@@ -65,6 +65,7 @@ pub(super) static POLISHED: Model = Model {
     name: "polished",
     source: "Whitted, An Improved Illumination Model for Shaded Display, 1980",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let of = |kd, ks, gain| {

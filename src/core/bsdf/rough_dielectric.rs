@@ -23,6 +23,7 @@ pub(super) static ROUGH_DIELECTRIC: Model = Model {
     name: "rough dielectric",
     source: "Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007",
     transmits: true,
+    is_specular: false,
     is_reciprocal: false,
     examples: || {
         let of = |eta, law, alpha| {

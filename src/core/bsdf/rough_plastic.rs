@@ -104,6 +104,7 @@ pub(super) static ROUGH_PLASTIC: Model = Model {
     name: "rough plastic",
     source: "Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let of = |diffuse, eta, law, alpha, is_nonlinear| {

@@ -326,3 +326,18 @@ fn white_plastic_and_glass_lose_no_light() {
         );
     }
 }
+
+#[test]
+fn exactly_the_models_that_are_said_to_be_specular_scatter_into_single_directions_alone() {
+    let mut random = Random::new(11);
+    for model in MODELS {
+        let mut spreads = false;
+        for bsdf in (model.examples)() {
+            for _ in 0..1000 {
+                let [outgoing, incoming] = [0, 1].map(|_| random.direction().as_vec3());
+                spreads |= bsdf.evaluate(outgoing, incoming) != Vec3::ZERO;
+            }
+        }
+        assert_eq!(spreads, !model.is_specular, "{}", model.name);
+    }
+}

@@ -22,6 +22,7 @@ pub(super) static THIN_DIELECTRIC: Model = Model {
     name: "thin dielectric",
     source: "Stokes, On the Intensity of the Light Reflected from or Transmitted through a Pile of Plates, 1862",
     transmits: true,
+    is_specular: true,
     is_reciprocal: true,
     examples: || {
         let of_index = |eta| ThinDielectric {

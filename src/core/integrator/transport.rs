@@ -143,7 +143,7 @@ impl<'a> ShadingPoint<'a> {
         let Context {
             scene, lighting, ..
         } = self.context;
-        if !lighting.lights.can_be_sampled() {
+        if self.bsdf.model().is_specular || !lighting.lights.can_be_sampled() {
             return Vec3::ZERO;
         }
         let (at, choice) = (sampler.next_2d(), sampler.next_1d());
