@@ -3,11 +3,13 @@
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
 use super::memory::Needs;
-use super::merge::{Part, merged, positions_in_world};
+use super::merge::{Part, bounds_of, merged, positions_in_world};
 use super::placed::{
-    Groups, Look, Placed, Refusal, is_flipped, is_mirroring, placed, require_invertible,
+    Groups, Look, Placed, is_flipped, is_mirroring, misfit, placed, require_invertible,
 };
+use super::refusal::{Refusal, in_object};
 use super::{LoadedScene, StartView, size_warning};
+use crate::brightness::{check_brightness, too_bright};
 use crate::light::{EnvironmentMap, LoadedMap};
 use crate::mesh::TriangleMesh;
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
@@ -23,7 +25,7 @@ use std::time::Instant;
 /// An entry of the list of placed shapes, and two changes of material and side.
 const NEEDS_OF_ENTRY: Needs = Needs {
     loaded: 0,
-    placed: size_of::<(Box<dyn Placed>, Look)>() as u64,
+    placed: size_of::<PlacedShape>() as u64,
     shapes: 2 * size_of::<(u32, u32)>() as u64,
     merged: 0,
     primitive_count: 0,
@@ -44,14 +46,16 @@ pub(super) fn load(
     let start = Instant::now();
     let (file, held) = scene_file::load_counted(path, load_options.max_memory, progress)?;
     let mut contents = Contents::load(&file, load_options, held, progress)?;
+    let origin = contents.origin(load_options.recentre);
+    contents.require_fit(&file, origin)?;
     let map = contents.map.take();
     contents.report.duration = start.elapsed();
     progress.enter(Phase::Building);
-    let scene = contents.scene(&file, load_options.recentre, options, progress);
+    let scene = contents.scene(&file, origin, options, progress);
     let (scene, mut report) = scene.map_err(|Cancelled| LoadError::Cancelled {
         path: path.to_owned(),
     })?;
-    report.warnings.extend(size_warning(scene.bounds()));
+    report.warnings.extend(size_warning(&scene));
     let lights = lights::lights(&file, scene.mesh().origin(), map.as_ref());
     Ok(LoadedScene {
         scene: Arc::new(scene),
@@ -62,11 +66,19 @@ pub(super) fn load(
     })
 }
 
+/// A shape in world coordinates.
+struct PlacedShape {
+    shape: Box<dyn Placed>,
+    look: Look,
+    /// Where it stands in the file.
+    place: Place,
+}
+
 /// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
-    /// Shapes other than meshes, with their materials and sides.
-    shapes: Vec<(Box<dyn Placed>, Look)>,
+    /// Shapes other than meshes.
+    shapes: Vec<PlacedShape>,
     /// The OBJ files, each loaded once, and their counts.
     meshes: HashMap<PathBuf, (Arc<TriangleMesh>, LoadReport)>,
     options: LoadOptions,
@@ -137,13 +149,15 @@ impl Contents {
         shape: &Shape,
         progress: &Progress,
     ) -> Result<(), LoadError> {
-        let refused = |refusal| refused(file, refusal);
+        let refused = |refusal: Refusal| refusal.in_file(file);
         let material = self.material(file, shape);
         self.warn_about(file, shape);
         if let ShapeKind::Obj(obj) = &shape.kind {
             require_invertible(shape.place, &shape.to_world).map_err(refused)?;
             if self.fits {
-                let mesh = self.mesh(&obj.file, progress)?;
+                let mesh = self.mesh(&obj.file, progress);
+                let mesh =
+                    mesh.map_err(|error| in_object(file, shape.place, "shape “obj”", error))?;
                 let part = part(shape, obj, mesh, material);
                 self.needs.add(part.needs());
                 self.parts.push(part);
@@ -158,7 +172,11 @@ impl Contents {
                 material: material.unwrap_or(0),
                 is_flipped: is_flipped(shape),
             };
-            self.shapes.push((placed, look));
+            self.shapes.push(PlacedShape {
+                shape: placed,
+                look,
+                place: shape.place,
+            });
         }
         Ok(())
     }
@@ -166,9 +184,18 @@ impl Contents {
     /// Loads the picture of the environment.
     fn load_environment(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), LoadError> {
         for emitter in &file.emitters {
-            if let EmitterKind::Envmap { file: path, .. } = &emitter.kind {
+            if let EmitterKind::Envmap {
+                file: path, scale, ..
+            } = &emitter.kind
+            {
                 let limit = self.options.max_memory.saturating_sub(self.bytes());
-                let LoadedMap { map, warnings } = EnvironmentMap::load(path, limit, progress)?;
+                let loaded = EnvironmentMap::load(path, limit, progress);
+                let named = |error| in_object(file, emitter.place, "emitter “envmap”", error);
+                let LoadedMap { map, warnings } = loaded.map_err(named)?;
+                if check_brightness(DVec3::splat(scale * f64::from(map.brightest()))).is_err() {
+                    let message = format!("the picture times “scale” {}", too_bright());
+                    return Err(Refusal::new(emitter.place, message).in_file(file));
+                }
                 self.map = Some(map);
                 self.take_messages(path, warnings, Vec::new());
             }
@@ -258,14 +285,13 @@ impl Contents {
     fn scene(
         mut self,
         file: &SceneFile,
-        recentre: Recentre,
+        origin: DVec3,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<(Scene, LoadReport), Cancelled> {
-        let origin = self.origin(recentre);
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
-        for (shape, look) in self.shapes {
+        for PlacedShape { shape, look, .. } in self.shapes {
             shape.push_to(&mut groups, origin, look);
         }
         let mut materials = materials(file);
@@ -282,14 +308,30 @@ impl Contents {
         if recentre == Recentre::Off {
             return DVec3::ZERO;
         }
-        let of_shapes = self.shapes.iter().filter_map(|(shape, _)| shape.bounds());
+        let of_shapes = self
+            .shapes
+            .iter()
+            .filter_map(|placed| placed.shape.bounds());
         let corners = of_shapes.flatten();
-        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        let all = corners
-            .chain(self.vertices())
-            .filter(|p| p.is_finite())
-            .fold(none, |[min, max], p| [min.min(p), max.max(p)]);
+        let all = bounds_of(corners.chain(self.vertices()));
         obj::origin_near(all).unwrap_or(DVec3::ZERO)
+    }
+
+    /// Checks that each shape can be hit when it is rounded to f32.
+    ///
+    /// # Errors
+    /// The first shape in the file that can't.
+    fn require_fit(&self, file: &SceneFile, origin: DVec3) -> Result<(), LoadError> {
+        let shapes = self.shapes.iter();
+        let shapes = shapes.filter(|placed| !placed.shape.fits(origin));
+        let meshes = self.parts.iter().filter(|part| !part.fits(origin));
+        let places = shapes
+            .map(|placed| placed.place)
+            .chain(meshes.map(|part| part.place));
+        match places.min_by_key(|place| (place.file, place.line)) {
+            Some(place) => Err(misfit(place).in_file(file)),
+            None => Ok(()),
+        }
     }
 
     /// The vertices of all meshes in the world.
@@ -320,6 +362,7 @@ fn part(
 ) -> Part {
     let name = shape.name.as_ref().or(shape.id.as_ref());
     Part {
+        place: shape.place,
         positions: positions_in_world(&mesh, &shape.to_world),
         mesh,
         to_world: shape.to_world,
@@ -328,14 +371,5 @@ fn part(
         has_face_normals: obj.face_normals,
         is_mirrored: is_mirroring(&shape.to_world),
         is_flipped: shape.flip_normals,
-    }
-}
-
-fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {
-    LoadError::Line {
-        path: file.path_of(place).to_owned(),
-        line: place.line as usize,
-        column: None,
-        message,
     }
 }

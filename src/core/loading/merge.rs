@@ -1,14 +1,18 @@
 //! All meshes of a scene as one, in the coordinates of the world.
 
 use super::memory::Needs;
+use super::placed::is_large_enough;
 use crate::mesh::{
     Assigned, Attributes, CornerValues, Faces, Material, NO_INDEX, Runs, Texture, TriangleMesh,
 };
+use crate::scene_file::Place;
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use std::sync::Arc;
 
 /// A mesh of the scene before it is merged.
 pub(super) struct Part {
+    /// The start of its shape.
+    pub place: Place,
     /// Shared by all parts of the same file.
     pub mesh: Arc<TriangleMesh>,
     /// The mesh's vertices in the world.
@@ -32,6 +36,13 @@ pub(super) fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<D
     mesh.positions().iter().map(in_world).collect()
 }
 
+/// The box around the finite ones of some points: its lowest and its highest corner.
+pub(super) fn bounds_of(points: impl Iterator<Item = DVec3>) -> [DVec3; 2] {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let finite = points.filter(|p| p.is_finite());
+    finite.fold(none, |[min, max], p| [min.min(p), max.max(p)])
+}
+
 impl Part {
     /// Whether the file's normals are used.
     fn has_normals(&self) -> bool {
@@ -41,6 +52,18 @@ impl Part {
     /// Whether the file has texture coordinates.
     fn has_coordinates(&self) -> bool {
         !self.mesh.attributes().texture_coordinates.is_empty()
+    }
+
+    /// Whether its vertices, as far as those of the file are finite, are so in f32 relative to an origin, and the mesh
+    /// doesn't shrink to a point.
+    pub fn fits(&self, origin: DVec3) -> bool {
+        let own = || self.mesh.positions().iter().map(|p| p.as_dvec3());
+        let in_world = || self.positions.iter().copied();
+        let is_kept =
+            |(own, p): (DVec3, DVec3)| !own.is_finite() || (p - origin).as_vec3().is_finite();
+        let is_point = |[min, max]: [DVec3; 2]| !min.cmplt(max).any();
+        own().zip(in_world()).all(is_kept)
+            && (is_point(bounds_of(own())) || is_large_enough(bounds_of(in_world())))
     }
 
     /// The memory of the merged mesh for this part.
