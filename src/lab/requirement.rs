@@ -202,7 +202,7 @@ mod tests {
         let plane = AxisPlane {
             axis: 2,
             coordinate: 0.0,
-            faces_up: true,
+            is_along_axis: true,
         };
         let (options, progress) = (SceneOptions::default(), Progress::default());
         only_planes

@@ -3,7 +3,7 @@
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
 use super::memory::Needs;
-use super::merge::{Part, bounds_of, merged, positions_in_world};
+use super::merge::{Part, bounds_of, merged};
 use super::placed::{
     Groups, Look, Placed, is_flipped, is_mirroring, misfit, placed, require_invertible,
 };
@@ -74,13 +74,22 @@ struct PlacedShape {
     place: Place,
 }
 
+/// The mesh of an OBJ file.
+struct LoadedMesh {
+    mesh: Arc<TriangleMesh>,
+    /// Its counts.
+    report: LoadReport,
+    /// Whether a shape uses the file's own materials.
+    has_used_materials: bool,
+}
+
 /// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
     /// Shapes other than meshes.
     shapes: Vec<PlacedShape>,
-    /// The OBJ files, each loaded once, and their counts.
-    meshes: HashMap<PathBuf, (Arc<TriangleMesh>, LoadReport)>,
+    /// The OBJ files, each loaded once.
+    meshes: HashMap<PathBuf, LoadedMesh>,
     options: LoadOptions,
     /// The memory of the scene file's description.
     held: u64,
@@ -158,13 +167,23 @@ impl Contents {
                 let mesh = self.mesh(&obj.file, progress);
                 let mesh =
                     mesh.map_err(|error| in_object(file, shape.place, "shape “obj”", error))?;
-                let part = part(shape, obj, mesh, material);
+                let loaded = self.meshes.get_mut(&obj.file);
+                let is_first = loaded.is_some_and(|loaded| {
+                    material.is_none() && !std::mem::replace(&mut loaded.has_used_materials, true)
+                });
+                let part = Part::new(shape, obj, (mesh, is_first), material);
+                if part.has_turned_corners() {
+                    self.warn_about_mirrored_light(file, shape);
+                }
                 self.needs.add(part.needs());
                 self.parts.push(part);
             }
             return Ok(());
         }
         let placed = placed(shape, &shape.to_world).map_err(refused)?;
+        if matches!(shape.kind, ShapeKind::Sphere(_)) && is_mirroring(&shape.to_world) {
+            self.warn_about_mirrored_light(file, shape);
+        }
         self.needs.add(placed.needs());
         self.needs.add(NEEDS_OF_ENTRY);
         if self.fits {
@@ -229,6 +248,14 @@ impl Contents {
         }
     }
 
+    /// Warns about a light whose sides a mirroring transform exchanges.
+    fn warn_about_mirrored_light(&mut self, file: &SceneFile, shape: &Shape) {
+        if let Some(emitter) = shape.emitter.as_ref().filter(|_| !shape.flip_normals) {
+            let message = "the transform mirrors the shape, so that its light shines from the other side, as in Mitsuba; “flip_normals” turns it back";
+            self.warn(file, emitter.place, message.to_owned());
+        }
+    }
+
     fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
         // Lines of included files are told with the file.
         let message = if place.file == 0 {
@@ -252,10 +279,14 @@ impl Contents {
             self.take_messages(path, warnings, files);
             let parts = mesh.bytes().map(|(_, bytes)| bytes as u64);
             self.needs.loaded += parts.iter().sum::<u64>() + BYTES_PER_FILE;
-            self.meshes
-                .insert(path.to_owned(), (Arc::new(mesh), report));
+            let loaded = LoadedMesh {
+                mesh: Arc::new(mesh),
+                report,
+                has_used_materials: false,
+            };
+            self.meshes.insert(path.to_owned(), loaded);
         }
-        let (mesh, report) = &self.meshes[path];
+        let LoadedMesh { mesh, report, .. } = &self.meshes[path];
         let sum = &mut self.report;
         sum.dropped.zero_area += report.dropped.zero_area;
         sum.dropped.non_finite += report.dropped.non_finite;
@@ -350,26 +381,5 @@ impl Contents {
             .map(rounding)
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
-    }
-}
-
-/// A mesh of a scene file.
-fn part(
-    shape: &Shape,
-    obj: &scene_file::Obj,
-    mesh: Arc<TriangleMesh>,
-    material: Option<u32>,
-) -> Part {
-    let name = shape.name.as_ref().or(shape.id.as_ref());
-    Part {
-        place: shape.place,
-        positions: positions_in_world(&mesh, &shape.to_world),
-        mesh,
-        to_world: shape.to_world,
-        material,
-        name: name.cloned().unwrap_or_default(),
-        has_face_normals: obj.face_normals,
-        is_mirrored: is_mirroring(&shape.to_world),
-        is_flipped: shape.flip_normals,
     }
 }

@@ -87,6 +87,10 @@ pub(super) fn sensor(reader: &mut Reader, element: Element) -> Result<Option<Sen
         "orthographic" => SensorKind::Orthographic,
         _ => thin_lens(parameters)?,
     };
+    if matches!(kind, SensorKind::ThinLens { aperture_radius, .. } if aperture_radius > 0.0) {
+        let message = "sensor “thinlens”: the lens isn't used; everything is in focus";
+        reader.warnings.add(element.place, message.to_owned());
+    }
     let to_world = parameters.world_transform()?;
     let unused = [
         "near_clip",

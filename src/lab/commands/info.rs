@@ -10,7 +10,7 @@ use crate::measure::speed::default_camera;
 use crate::requirement::{Requirement, required_tier};
 use crate::second_opinion::{SecondOpinion, compare};
 use clap::Args;
-use hitscope_core::counts::{counted, counted_as};
+use hitscope_core::counts::{counted, counted_as, grouped};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::loading::{LoadedScene, StartView, scene_text};
@@ -119,6 +119,8 @@ struct ShapeGroup {
     count: usize,
     tree_bytes: usize,
     build_ms: f64,
+    /// How many primitives have normals that are the opposite of their shape's.
+    reversed_normals: usize,
     /// Null if there is none, as for planes, which are infinite.
     bounds: Option<Bounds>,
     #[serde(skip)]
@@ -128,13 +130,20 @@ struct ShapeGroup {
 impl ShapeGroup {
     fn of(group: &dyn Group, mesh: &TriangleMesh) -> Self {
         let (shape, bounds) = (group.shape(), group.bounds());
+        let primitives = 0..group.count() as u32;
+        let reversed_normals = primitives.filter(|&index| group.is_flipped(index)).count();
+        let reversed = match reversed_normals {
+            0 => String::new(),
+            count => format!(", normals of {} reversed", grouped(count)),
+        };
         Self {
             shape: shape.name,
             count: group.count(),
             tree_bytes: group.bvh().bytes(),
             build_ms: group.build_time().as_secs_f64() * 1e3,
             bounds: Bounds::of(bounds, mesh),
-            text: counted_as(group.count(), shape.name, shape.plural),
+            reversed_normals,
+            text: counted_as(group.count(), shape.name, shape.plural) + &reversed,
         }
     }
 }
