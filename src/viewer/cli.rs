@@ -14,6 +14,7 @@ use crate::window;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use hitscope_core::names::nearest;
 use hitscope_core::obj::{LoadOptions, Recentre, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
@@ -147,22 +148,15 @@ fn subcommand(name: Option<&str>) -> clap::Command {
 
 /// The error if the first argument is a misspelt command, which would otherwise be taken for a file.
 fn misspelt_command(arguments: &[OsString]) -> Option<String> {
-    /// Largest number of letters that are wrong, missing, superfluous or swapped.
-    const MOST_ERRORS: usize = 2;
     let word = arguments.get(1)?.to_str()?;
-    let is_word = word.len() > MOST_ERRORS && word.bytes().all(|b| b.is_ascii_alphabetic());
+    let is_word = word.bytes().all(|b| b.is_ascii_alphabetic());
     if !is_word || Path::new(word).exists() {
         return None;
     }
     let cli = Cli::command();
-    let lower_case = word.to_ascii_lowercase();
-    let distance = |command: &clap::Command| strsim::osa_distance(&lower_case, command.get_name());
-    let nearest = cli
-        .get_subcommands()
-        .min_by_key(|command| distance(command))?;
-    let name = nearest.get_name();
-    let is_near = word != name && distance(nearest) <= MOST_ERRORS;
-    is_near.then(|| format!("there is no command or file “{word}”; did you mean “{name}”?"))
+    let name = nearest(word, cli.get_subcommands().map(clap::Command::get_name))?;
+    let is_other = word != name;
+    is_other.then(|| format!("there is no command or file “{word}”; did you mean “{name}”?"))
 }
 
 impl Cli {

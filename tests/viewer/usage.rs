@@ -53,7 +53,23 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         ),
         (
             &format!("{render} --environment constant:-1"),
-            "must be finite and not negative",
+            "the radiance must not be negative",
+        ),
+        (
+            &format!("{render} --environment constant:3e38"),
+            "the radiance is too bright: a picture holds at most 2.8e14",
+        ),
+        (
+            &format!("{render} --environment studoi"),
+            "did you mean “studio”?",
+        ),
+        (
+            &format!("{render} --environment="),
+            "expected a file, constant:R,G,B, studio or built-in",
+        ),
+        (
+            &format!("{render} --view triangle --environment studio"),
+            "it needs --view direct, path or shading-normal",
         ),
         (
             &format!("{render} --rotation 400"),

@@ -95,6 +95,9 @@ pub trait Group: Debug + Send + Sync {
     /// The material of a primitive, as an index into the mesh's materials.
     fn material(&self, index: u32) -> u32;
 
+    /// Whether the normals of a primitive are the opposite of those of its shape.
+    fn is_flipped(&self, index: u32) -> bool;
+
     /// The parameters of a primitive in the order of [`ShapeInfo::parameters`], for display.
     fn numbers(&self, index: u32) -> Vec<f32>;
 
@@ -207,6 +210,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
 
     fn material(&self, index: u32) -> u32 {
         self.appearance.materials.of(index)
+    }
+
+    fn is_flipped(&self, index: u32) -> bool {
+        self.appearance.is_flipped(index)
     }
 
     fn numbers(&self, index: u32) -> Vec<f32> {

@@ -3,11 +3,13 @@
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
 use super::memory::Needs;
-use super::merge::{Part, merged, positions_in_world};
+use super::merge::{Part, bounds_of, merged};
 use super::placed::{
-    Groups, Look, Placed, Refusal, is_flipped, is_mirroring, placed, require_invertible,
+    Groups, Look, Placed, is_flipped, is_mirroring, misfit, placed, require_invertible,
 };
+use super::refusal::{Refusal, in_object};
 use super::{LoadedScene, StartView, size_warning};
+use crate::brightness::{check_brightness, too_bright};
 use crate::light::{EnvironmentMap, LoadedMap};
 use crate::mesh::TriangleMesh;
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
@@ -23,7 +25,7 @@ use std::time::Instant;
 /// An entry of the list of placed shapes, and two changes of material and side.
 const NEEDS_OF_ENTRY: Needs = Needs {
     loaded: 0,
-    placed: size_of::<(Box<dyn Placed>, Look)>() as u64,
+    placed: size_of::<PlacedShape>() as u64,
     shapes: 2 * size_of::<(u32, u32)>() as u64,
     merged: 0,
     primitive_count: 0,
@@ -44,14 +46,16 @@ pub(super) fn load(
     let start = Instant::now();
     let (file, held) = scene_file::load_counted(path, load_options.max_memory, progress)?;
     let mut contents = Contents::load(&file, load_options, held, progress)?;
+    let origin = contents.origin(load_options.recentre);
+    contents.require_fit(&file, origin)?;
     let map = contents.map.take();
     contents.report.duration = start.elapsed();
     progress.enter(Phase::Building);
-    let scene = contents.scene(&file, load_options.recentre, options, progress);
+    let scene = contents.scene(&file, origin, options, progress);
     let (scene, mut report) = scene.map_err(|Cancelled| LoadError::Cancelled {
         path: path.to_owned(),
     })?;
-    report.warnings.extend(size_warning(scene.bounds()));
+    report.warnings.extend(size_warning(&scene));
     let lights = lights::lights(&file, scene.mesh().origin(), map.as_ref());
     Ok(LoadedScene {
         scene: Arc::new(scene),
@@ -62,13 +66,30 @@ pub(super) fn load(
     })
 }
 
+/// A shape in world coordinates.
+struct PlacedShape {
+    shape: Box<dyn Placed>,
+    look: Look,
+    /// Where it stands in the file.
+    place: Place,
+}
+
+/// The mesh of an OBJ file.
+struct LoadedMesh {
+    mesh: Arc<TriangleMesh>,
+    /// Its counts.
+    report: LoadReport,
+    /// Whether a shape uses the file's own materials.
+    has_used_materials: bool,
+}
+
 /// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
-    /// Shapes other than meshes, with their materials and sides.
-    shapes: Vec<(Box<dyn Placed>, Look)>,
-    /// The OBJ files, each loaded once, and their counts.
-    meshes: HashMap<PathBuf, (Arc<TriangleMesh>, LoadReport)>,
+    /// Shapes other than meshes.
+    shapes: Vec<PlacedShape>,
+    /// The OBJ files, each loaded once.
+    meshes: HashMap<PathBuf, LoadedMesh>,
     options: LoadOptions,
     /// The memory of the scene file's description.
     held: u64,
@@ -137,20 +158,32 @@ impl Contents {
         shape: &Shape,
         progress: &Progress,
     ) -> Result<(), LoadError> {
-        let refused = |refusal| refused(file, refusal);
+        let refused = |refusal: Refusal| refusal.in_file(file);
         let material = self.material(file, shape);
         self.warn_about(file, shape);
         if let ShapeKind::Obj(obj) = &shape.kind {
             require_invertible(shape.place, &shape.to_world).map_err(refused)?;
             if self.fits {
-                let mesh = self.mesh(&obj.file, progress)?;
-                let part = part(shape, obj, mesh, material);
+                let mesh = self.mesh(&obj.file, progress);
+                let mesh =
+                    mesh.map_err(|error| in_object(file, shape.place, "shape “obj”", error))?;
+                let loaded = self.meshes.get_mut(&obj.file);
+                let is_first = loaded.is_some_and(|loaded| {
+                    material.is_none() && !std::mem::replace(&mut loaded.has_used_materials, true)
+                });
+                let part = Part::new(shape, obj, (mesh, is_first), material);
+                if part.has_turned_corners() {
+                    self.warn_about_mirrored_light(file, shape);
+                }
                 self.needs.add(part.needs());
                 self.parts.push(part);
             }
             return Ok(());
         }
         let placed = placed(shape, &shape.to_world).map_err(refused)?;
+        if matches!(shape.kind, ShapeKind::Sphere(_)) && is_mirroring(&shape.to_world) {
+            self.warn_about_mirrored_light(file, shape);
+        }
         self.needs.add(placed.needs());
         self.needs.add(NEEDS_OF_ENTRY);
         if self.fits {
@@ -158,7 +191,11 @@ impl Contents {
                 material: material.unwrap_or(0),
                 is_flipped: is_flipped(shape),
             };
-            self.shapes.push((placed, look));
+            self.shapes.push(PlacedShape {
+                shape: placed,
+                look,
+                place: shape.place,
+            });
         }
         Ok(())
     }
@@ -166,9 +203,18 @@ impl Contents {
     /// Loads the picture of the environment.
     fn load_environment(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), LoadError> {
         for emitter in &file.emitters {
-            if let EmitterKind::Envmap { file: path, .. } = &emitter.kind {
+            if let EmitterKind::Envmap {
+                file: path, scale, ..
+            } = &emitter.kind
+            {
                 let limit = self.options.max_memory.saturating_sub(self.bytes());
-                let LoadedMap { map, warnings } = EnvironmentMap::load(path, limit, progress)?;
+                let loaded = EnvironmentMap::load(path, limit, progress);
+                let named = |error| in_object(file, emitter.place, "emitter “envmap”", error);
+                let LoadedMap { map, warnings } = loaded.map_err(named)?;
+                if check_brightness(DVec3::splat(scale * f64::from(map.brightest()))).is_err() {
+                    let message = format!("the picture times “scale” {}", too_bright());
+                    return Err(Refusal::new(emitter.place, message).in_file(file));
+                }
                 self.map = Some(map);
                 self.take_messages(path, warnings, Vec::new());
             }
@@ -202,6 +248,14 @@ impl Contents {
         }
     }
 
+    /// Warns about a light whose sides a mirroring transform exchanges.
+    fn warn_about_mirrored_light(&mut self, file: &SceneFile, shape: &Shape) {
+        if let Some(emitter) = shape.emitter.as_ref().filter(|_| !shape.flip_normals) {
+            let message = "the transform mirrors the shape, so that its light shines from the other side, as in Mitsuba; “flip_normals” turns it back";
+            self.warn(file, emitter.place, message.to_owned());
+        }
+    }
+
     fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
         // Lines of included files are told with the file.
         let message = if place.file == 0 {
@@ -225,10 +279,14 @@ impl Contents {
             self.take_messages(path, warnings, files);
             let parts = mesh.bytes().map(|(_, bytes)| bytes as u64);
             self.needs.loaded += parts.iter().sum::<u64>() + BYTES_PER_FILE;
-            self.meshes
-                .insert(path.to_owned(), (Arc::new(mesh), report));
+            let loaded = LoadedMesh {
+                mesh: Arc::new(mesh),
+                report,
+                has_used_materials: false,
+            };
+            self.meshes.insert(path.to_owned(), loaded);
         }
-        let (mesh, report) = &self.meshes[path];
+        let LoadedMesh { mesh, report, .. } = &self.meshes[path];
         let sum = &mut self.report;
         sum.dropped.zero_area += report.dropped.zero_area;
         sum.dropped.non_finite += report.dropped.non_finite;
@@ -258,14 +316,13 @@ impl Contents {
     fn scene(
         mut self,
         file: &SceneFile,
-        recentre: Recentre,
+        origin: DVec3,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<(Scene, LoadReport), Cancelled> {
-        let origin = self.origin(recentre);
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
-        for (shape, look) in self.shapes {
+        for PlacedShape { shape, look, .. } in self.shapes {
             shape.push_to(&mut groups, origin, look);
         }
         let mut materials = materials(file);
@@ -282,14 +339,30 @@ impl Contents {
         if recentre == Recentre::Off {
             return DVec3::ZERO;
         }
-        let of_shapes = self.shapes.iter().filter_map(|(shape, _)| shape.bounds());
+        let of_shapes = self
+            .shapes
+            .iter()
+            .filter_map(|placed| placed.shape.bounds());
         let corners = of_shapes.flatten();
-        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        let all = corners
-            .chain(self.vertices())
-            .filter(|p| p.is_finite())
-            .fold(none, |[min, max], p| [min.min(p), max.max(p)]);
+        let all = bounds_of(corners.chain(self.vertices()));
         obj::origin_near(all).unwrap_or(DVec3::ZERO)
+    }
+
+    /// Checks that each shape can be hit when it is rounded to f32.
+    ///
+    /// # Errors
+    /// The first shape in the file that can't.
+    fn require_fit(&self, file: &SceneFile, origin: DVec3) -> Result<(), LoadError> {
+        let shapes = self.shapes.iter();
+        let shapes = shapes.filter(|placed| !placed.shape.fits(origin));
+        let meshes = self.parts.iter().filter(|part| !part.fits(origin));
+        let places = shapes
+            .map(|placed| placed.place)
+            .chain(meshes.map(|part| part.place));
+        match places.min_by_key(|place| (place.file, place.line)) {
+            Some(place) => Err(misfit(place).in_file(file)),
+            None => Ok(()),
+        }
     }
 
     /// The vertices of all meshes in the world.
@@ -308,34 +381,5 @@ impl Contents {
             .map(rounding)
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
-    }
-}
-
-/// A mesh of a scene file.
-fn part(
-    shape: &Shape,
-    obj: &scene_file::Obj,
-    mesh: Arc<TriangleMesh>,
-    material: Option<u32>,
-) -> Part {
-    let name = shape.name.as_ref().or(shape.id.as_ref());
-    Part {
-        positions: positions_in_world(&mesh, &shape.to_world),
-        mesh,
-        to_world: shape.to_world,
-        material,
-        name: name.cloned().unwrap_or_default(),
-        has_face_normals: obj.face_normals,
-        is_mirrored: is_mirroring(&shape.to_world),
-        is_flipped: shape.flip_normals,
-    }
-}
-
-fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {
-    LoadError::Line {
-        path: file.path_of(place).to_owned(),
-        line: place.line as usize,
-        column: None,
-        message,
     }
 }

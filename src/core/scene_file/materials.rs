@@ -281,7 +281,7 @@ fn both_sides(reader: &mut Reader, element: Element) -> Result<(Bsdf, Bsdf), Pro
             return objects::skip(reader, child, &parameters.object());
         };
         if side.front.transmits() {
-            let message = "bsdf “twosided” can't contain one that light passes through";
+            let message = "light passes through this bsdf, so it can't stand in “twosided”: use it alone, it has both sides";
             return Err(child.problem(message));
         }
         if sides.len() == 2 {

@@ -167,16 +167,19 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
             }
         },
     }
+    let longest = kernels.iter().map(|row| row.name.len()).max();
+    let width = longest.unwrap_or(0).max("kernel".len());
     writeln!(
         out,
-        "{:<20} {:>14} {:>14} {:>14}",
+        "{:<width$} {:>14} {:>14} {:>14}",
         "kernel", "t", "t error, ulps", "bary. error"
     )?;
     let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
     for row in kernels {
         let t = row.t.map_or("miss".to_owned(), |t| t.to_string());
         let (ulps, weights) = (number(row.t_error_ulps), number(row.barycentric_error));
-        writeln!(out, "{:<20} {t:>14} {ulps:>14} {weights:>14}", row.name)?;
+        let name = row.name;
+        writeln!(out, "{name:<width$} {t:>14} {ulps:>14} {weights:>14}")?;
     }
     Ok(())
 }

@@ -4,13 +4,15 @@ use super::CommandError;
 use super::stderr::print_line;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use hitscope_core::Camera;
+use hitscope_core::brightness::check_brightness;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Lighting, Setting};
 use hitscope_core::light::{
     Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap, studio,
 };
 use hitscope_core::loading::LoadedScene;
+use hitscope_core::names::{alternatives, nearest};
 use hitscope_core::obj::shown;
 use hitscope_core::progress::Progress;
 use hitscope_core::spawn::{SPAWN_POLICIES, default_spawn_policy, spawn_policy};
@@ -199,7 +201,7 @@ fn turn(lights: &mut [Light], degrees: f32) -> bool {
 fn views_with(setting: Setting) -> String {
     let views = INTEGRATORS.iter().filter(|view| view.needs.uses(setting));
     let names: Vec<&str> = views.map(|view| view.name).collect();
-    names.join(" or ")
+    alternatives(&names)
 }
 
 fn curve_names() -> impl clap::builder::TypedValueParser<Value = String> {
@@ -213,24 +215,32 @@ fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
 /// `studio`, `built-in`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
 fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
     match text {
+        "" => return Err("expected a file, constant:R,G,B, studio or built-in".to_owned()),
         "studio" => return Ok(EnvironmentSource::Studio),
         "built-in" => return Ok(EnvironmentSource::BuiltIn),
         _ => {}
     }
     let Some(colour) = text.strip_prefix("constant:") else {
-        return Ok(EnvironmentSource::File(PathBuf::from(text)));
+        let path = PathBuf::from(text);
+        let (kind, colon) = text
+            .split_once(':')
+            .map_or((text, ""), |(kind, _)| (kind, ":"));
+        return match nearest(kind, ["studio", "built-in", "constant"]) {
+            Some(name) if !path.exists() => Err(format!(
+                "there is no file “{}”; did you mean “{name}{colon}”?",
+                shown(&path)
+            )),
+            _ => Ok(EnvironmentSource::File(path)),
+        };
     };
-    let numbers: Result<Vec<f32>, _> = colour.split(',').map(|word| word.trim().parse()).collect();
+    let numbers: Result<Vec<f64>, _> = colour.split(',').map(|word| word.trim().parse()).collect();
     let radiance = match numbers.as_deref() {
-        Ok([all]) => Vec3::splat(*all),
-        Ok([r, g, b]) => Vec3::new(*r, *g, *b),
+        Ok([all]) => DVec3::splat(*all),
+        Ok([r, g, b]) => DVec3::new(*r, *g, *b),
         _ => return Err("expected constant:R,G,B, as in constant:1,0.9,0.8".to_owned()),
     };
-    if radiance.is_finite() && radiance.min_element() >= 0.0 {
-        Ok(EnvironmentSource::Constant(radiance))
-    } else {
-        Err("the radiance must be finite and not negative".to_owned())
-    }
+    check_brightness(radiance).map_err(|fault| format!("the radiance {fault}"))?;
+    Ok(EnvironmentSource::Constant(radiance.as_vec3()))
 }
 
 /// `-90`.
@@ -276,13 +286,28 @@ mod tests {
         );
         let file = EnvironmentSource::File("sky.hdr".into());
         assert_eq!(parse_environment("sky.hdr"), Ok(file));
-        for bad in [
-            "constant:",
-            "constant:1,2",
-            "constant:-1",
-            "constant:1,nan,1",
+        for (bad, reason) in [
+            ("", "expected a file, constant:R,G,B, studio or built-in"),
+            ("constant:", "expected constant:R,G,B"),
+            ("constant:1,2", "expected constant:R,G,B"),
+            ("constant:-1", "the radiance must not be negative"),
+            ("constant:1,nan,1", "the radiance isn't a number"),
+            (
+                "constant:3e38,1,1",
+                "the radiance is too bright: a picture holds at most 2.8e14",
+            ),
+            ("constant:1e39", "the radiance is too bright"),
+            (
+                "studoi",
+                "there is no file “studoi”; did you mean “studio”?",
+            ),
+            (
+                "constnat:1",
+                "there is no file “constnat:1”; did you mean “constant:”?",
+            ),
         ] {
-            assert!(parse_environment(bad).is_err(), "{bad}");
+            let message = parse_environment(bad).expect_err(bad);
+            assert!(message.starts_with(reason), "{bad}: {message}");
         }
     }
 
