@@ -13,11 +13,14 @@ mod interpolation;
 mod normal;
 pub mod palette;
 mod path;
+mod record;
 mod shaded;
 mod shading_normal;
 mod spawning;
 mod transport;
 mod triangle;
+
+pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
