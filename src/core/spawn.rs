@@ -40,6 +40,16 @@ pub enum Endpoint {
     },
 }
 
+impl Endpoint {
+    /// The point.
+    pub fn position(&self) -> Vec3 {
+        match self {
+            Self::InSpace(point) => *point,
+            Self::OnSurface { surface, .. } => surface.position,
+        }
+    }
+}
+
 /// A rule for the origin of a spawned ray.
 pub struct SpawnPolicy {
     /// The name, as in the lab's tables and `--spawn`.

@@ -24,6 +24,8 @@ mod scene_files;
 
 // Options of light, and the list of lights.
 mod light;
+// The path of a sample.
+mod paths;
 // The commands on combined solids.
 mod solids;
 

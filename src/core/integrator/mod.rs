@@ -13,11 +13,14 @@ mod interpolation;
 mod normal;
 pub mod palette;
 mod path;
+mod record;
 mod shaded;
 mod shading_normal;
 mod spawning;
 mod transport;
 mod triangle;
+
+pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
@@ -26,7 +29,7 @@ use crate::light::Lights;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading};
-use crate::spawn::{SpawnPolicy, default_spawn_policy};
+use crate::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -65,12 +68,12 @@ pub struct Lighting {
 }
 
 impl Default for Lighting {
-    /// No lights, and the default policy.
+    /// No lights, the default policy, and the first of the table to compare it with.
     fn default() -> Self {
         Self {
             lights: Arc::default(),
             spawn: default_spawn_policy(),
-            second_spawn: default_spawn_policy(),
+            second_spawn: &SPAWN_POLICIES[0],
             ao_distance: 1.0,
             depth_limit: None,
         }

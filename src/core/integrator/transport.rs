@@ -1,6 +1,7 @@
 //! What the views that transport light have in common: the surface that a ray hits, and the light that reaches it.
 
 use super::Context;
+use super::record::Recorder;
 use crate::appearance::Appearance;
 use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
 use crate::interaction::SurfaceInteraction;
@@ -71,6 +72,11 @@ impl<'a> ShadingPoint<'a> {
         self.surface.position
     }
 
+    /// The ray's hit.
+    pub fn hit(&self) -> &Hit {
+        &self.hit
+    }
+
     fn departure(&self, dir: Vec3) -> Departure<'_> {
         Departure {
             arrived_by: &self.ray,
@@ -139,7 +145,7 @@ impl<'a> ShadingPoint<'a> {
     /// [`scatter`](Self::scatter) by the balance heuristic.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
-    pub fn direct_light(&self, sampler: &mut Sampler) -> Vec3 {
+    pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
         let Context {
             scene, lighting, ..
         } = self.context;
@@ -161,7 +167,9 @@ impl<'a> ShadingPoint<'a> {
         if light == Vec3::ZERO {
             return light;
         }
-        light * self.visibility(&sample)
+        let arriving = self.visibility(&sample);
+        recorder.shadow_ray(&sample, arriving);
+        light * arriving
     }
 
     /// The part of a light sample that arrives: surfaces with coverage let some of it pass.

@@ -3,15 +3,18 @@
 use super::CommandError;
 use super::args::{CreaseArg, KernelArg, MeshArgs};
 use super::camera::CameraArgs;
+use super::path::{PathArgs, print_path};
 use super::picture::ShadingArg;
 use crate::inspection::{CrossingReport, HitReport, Inspection, OperandName, SolidReport};
 use clap::Args;
 use glam::UVec2;
+use hitscope_core::Intersector;
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_core::obj::{Recentre, shown};
 use std::fmt::Debug;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 const ABOUT: &str = "\
 Show the ray of one pixel: its hit with the formula, all crossings, the exact answer, every kernel's answer
@@ -38,6 +41,12 @@ Values, in the text and in JSON:
   ray_rounding       largest distance per coordinate, in units of the file, between this ray and the
                      camera's ray in f64, where they may meet the mesh. It is large for a distant
                      camera.
+  path               of a sample, with --view or --sample: the surfaces that it meets, and the light in
+                     linear RGB that each adds to the sample's colour, emitted there (emission) or
+                     scattered straight from a light (direct). throughput is the part of further light
+                     that reaches the camera; arriving, the part of the light that surfaces let pass;
+                     survival, the probability with which Russian roulette let the path go on. The
+                     random numbers are those of `render`: sample 0 goes through the pixel's centre.
 
 Numbers in JSON parse as doubles without loss.";
 
@@ -46,6 +55,7 @@ Examples:
   hitscope inspect bunny.obj --pixel 640,360
   hitscope inspect bunny.obj --pixel 12,7 --size 100x100 --eye 0,0.1,1 --json
   hitscope inspect bunny.obj --pixel 640,360 --kernel exact --shading smooth
+  hitscope inspect bunny.obj --pixel 640,360 --view path --sample 3 --environment studio
 
 Exit status:
   0  success, even if the ray hits nothing
@@ -76,6 +86,9 @@ pub struct InspectArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
+    /// The path of a sample.
+    #[command(flatten)]
+    pub path: PathArgs,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -92,14 +105,20 @@ impl InspectArgs {
         }
         self.camera.check()?;
         self.crease.check(self.shading)?;
-        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
-        let scene = self.crease.apply(loaded.scene);
-        let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
+        self.path.check()?;
+        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        loaded.scene = self.crease.apply(loaded.scene);
+        let scene = &loaded.scene;
+        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         self.check_pixel(camera.resolution())?;
-        let intersector = scene.intersector(self.kernel.kernel());
+        let intersector: Arc<dyn Intersector> = Arc::from(scene.intersector(self.kernel.kernel()));
         let (shading, pixel) = (self.shading.into(), self.pixel);
-        let mut inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+        let mut inspection = Inspection::of_pixel(scene, &*intersector, shading, &camera, pixel);
         inspection.find_line(&loaded.report.face_lines);
+        let for_path = (pixel, self.mesh.memory.bytes());
+        inspection.path = self
+            .path
+            .report(&loaded, intersector, &camera, shading, for_path)?;
         if self.json {
             writeln!(out, "{}", inspection.to_json())?;
         } else {
@@ -132,6 +151,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         exact,
         kernels,
         cost,
+        path,
     } = inspection;
     writeln!(out, "pixel      {x},{y}")?;
     writeln!(
@@ -181,7 +201,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         let name = row.name;
         writeln!(out, "{name:<width$} {t:>14} {ulps:>14} {weights:>14}")?;
     }
-    Ok(())
+    path.iter().try_for_each(|path| print_path(path, out))
 }
 
 fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std::io::Result<()> {

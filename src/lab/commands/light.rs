@@ -15,8 +15,7 @@ use hitscope_core::loading::LoadedScene;
 use hitscope_core::names::{alternatives, nearest};
 use hitscope_core::obj::shown;
 use hitscope_core::progress::Progress;
-use hitscope_core::spawn::{SPAWN_POLICIES, default_spawn_policy, spawn_policy};
-use hitscope_core::tone::{Display, TONE_CURVES, tone_curve};
+use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, spawn_policy};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -34,6 +33,9 @@ pub struct LightArgs {
     /// Rule for the origin of rays that leave a surface
     #[arg(long, value_name = "POLICY", value_parser = policy_names())]
     pub spawn: Option<String>,
+    /// Rule that the view “spawning” compares with [default: fixed-epsilon]
+    #[arg(long, value_name = "POLICY", value_parser = policy_names())]
+    pub second_spawn: Option<String>,
     /// Most surfaces on a path: 0 shows emitters alone, 1 adds light that one surface reflects
     /// [default: the scene file's, or no limit]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -41,12 +43,6 @@ pub struct LightArgs {
     /// Distance to which surfaces occlude in the view “ao”, in radii of the scene's bounding sphere [default: 1]
     #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = parse_distance)]
     pub ao_distance: Option<f32>,
-    /// Brighten the picture by a factor of 2 per stop
-    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
-    pub exposure: Option<f32>,
-    /// Curve that limits brightness to that of the screen [default: clip]
-    #[arg(long, value_name = "CURVE", value_parser = curve_names())]
-    pub tone: Option<String>,
 }
 
 /// Where light from all directions comes from.
@@ -63,12 +59,9 @@ pub enum EnvironmentSource {
 }
 
 impl LightArgs {
-    /// Refuses options that don't change the picture of a view.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
-    pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
-        let given = [
+    /// The options that are given, with the setting that each of them changes.
+    fn given(&self) -> [(&'static str, bool, Setting); 5] {
+        [
             ("--environment", self.environment.is_some(), Setting::Lights),
             ("--rotation", self.rotation.is_some(), Setting::Lights),
             ("--spawn", self.spawn.is_some(), Setting::Spawn),
@@ -78,18 +71,37 @@ impl LightArgs {
                 self.ao_distance.is_some(),
                 Setting::OcclusionDistance,
             ),
-            ("--exposure", self.exposure.is_some(), Setting::Exposure),
-            ("--tone", self.tone.is_some(), Setting::Exposure),
-        ];
-        for (option, is_given, setting) in given {
-            if is_given && !view.needs.uses(setting) {
-                let message = format!(
-                    "{option} has no effect on the view “{}”: it needs --view {}",
-                    view.name,
-                    views_with(setting)
-                );
-                return Err(CommandError::Usage(message));
-            }
+        ]
+    }
+
+    /// Refuses all options, for lack of another one.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub(super) fn refuse_all(&self, lacking: &str) -> Result<(), CommandError> {
+        let second = ("--second-spawn", self.second_spawn.is_some());
+        let given = self.given().map(|(option, is_given, _)| (option, is_given));
+        let mut given = given.into_iter().chain([second]);
+        match given.find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(CommandError::Usage(format!(
+                "{option} has no effect: it needs {lacking}"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses options that don't change the picture of a view.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
+        refuse_without_effect(view, &self.given())?;
+        if self.second_spawn.is_some() && !view.needs.second_policy {
+            let message = format!(
+                "--second-spawn has no effect on the view “{}”: it needs --view spawning",
+                view.name
+            );
+            return Err(CommandError::Usage(message));
         }
         let is_even = matches!(
             self.environment,
@@ -100,14 +112,6 @@ impl LightArgs {
             return Err(CommandError::Usage(message.to_owned()));
         }
         Ok(())
-    }
-
-    /// Exposure and tone curve.
-    pub fn display(&self) -> Display {
-        let curve = self.tone.as_deref().map_or(TONE_CURVES[0], |name| {
-            tone_curve(name).expect("clap accepts only names in the table")
-        });
-        Display::new(self.exposure.unwrap_or(0.0), curve)
     }
 
     /// What light transport depends on in a picture of a scene. A picture of an environment may take `max_memory` bytes.
@@ -121,17 +125,18 @@ impl LightArgs {
         max_memory: u64,
     ) -> Result<Lighting, CommandError> {
         let default = Lighting::default();
-        let named = self.spawn.as_deref();
-        let spawn = named.map_or(default_spawn_policy(), |name| {
-            spawn_policy(name).expect("clap accepts only names in the table")
-        });
+        let policy = |name: &Option<String>, default: &'static SpawnPolicy| {
+            name.as_deref().map_or(default, |name| {
+                spawn_policy(name).expect("clap accepts only names in the table")
+            })
+        };
         Ok(Lighting {
             lights: Arc::new(Lights::or_white(
                 &loaded.scene,
                 self.lights(loaded, camera, max_memory)?,
             )),
-            spawn,
-            second_spawn: default.second_spawn,
+            spawn: policy(&self.spawn, default.spawn),
+            second_spawn: policy(&self.second_spawn, default.second_spawn),
             ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
             depth_limit: self.depth.or(loaded.depth_limit()),
         })
@@ -197,15 +202,32 @@ fn turn(lights: &mut [Light], degrees: f32) -> bool {
     true
 }
 
+/// Refuses options that are given and don't change the picture of a view.
+///
+/// # Errors
+/// [`CommandError::Usage`].
+pub(super) fn refuse_without_effect(
+    view: &Integrator,
+    options: &[(&str, bool, Setting)],
+) -> Result<(), CommandError> {
+    for &(option, is_given, setting) in options {
+        if is_given && !view.needs.uses(setting) {
+            let message = format!(
+                "{option} has no effect on the view “{}”: it needs --view {}",
+                view.name,
+                views_with(setting)
+            );
+            return Err(CommandError::Usage(message));
+        }
+    }
+    Ok(())
+}
+
 /// The names of the views that depend on a setting, as alternatives.
 fn views_with(setting: Setting) -> String {
     let views = INTEGRATORS.iter().filter(|view| view.needs.uses(setting));
     let names: Vec<&str> = views.map(|view| view.name).collect();
     alternatives(&names)
-}
-
-fn curve_names() -> impl clap::builder::TypedValueParser<Value = String> {
-    PossibleValuesParser::new(TONE_CURVES.iter().map(|curve| curve.name)).map(|name| name)
 }
 
 fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
@@ -259,15 +281,6 @@ fn parse_distance(text: &str) -> Result<f32, String> {
     }
 }
 
-/// `-1.5`.
-fn parse_stops(text: &str) -> Result<f32, String> {
-    const MOST: f32 = Display::MAX_STOPS;
-    match text.parse() {
-        Ok(stops) if (-MOST..=MOST).contains(&stops) => Ok(stops),
-        _ => Err(format!("expected stops from -{MOST} to {MOST}")),
-    }
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -315,15 +328,11 @@ mod tests {
     fn numbers_are_read_or_refused_with_a_reason() {
         assert_eq!(parse_rotation("-90"), Ok(-90.0));
         assert_eq!(parse_distance("0.5"), Ok(0.5));
-        assert_eq!(parse_stops("-1.5"), Ok(-1.5));
         for bad in ["361", "nan", ""] {
             assert!(parse_rotation(bad).is_err(), "{bad}");
         }
         for bad in ["0", "-1", "nan", ""] {
             assert!(parse_distance(bad).is_err(), "{bad}");
-        }
-        for bad in ["101", "nan", ""] {
-            assert!(parse_stops(bad).is_err(), "{bad}");
         }
     }
 }

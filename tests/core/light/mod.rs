@@ -14,6 +14,8 @@ mod furnace;
 mod lamps;
 // How open surfaces are.
 mod openness;
+// Recorded paths against pictures.
+mod recorded;
 
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::Projection;
