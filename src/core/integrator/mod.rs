@@ -18,6 +18,7 @@ mod shading_normal;
 mod spawning;
 mod transport;
 mod triangle;
+mod whitted;
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
@@ -219,6 +220,7 @@ pub static INTEGRATORS: &[&Integrator] = &[
     &shaded::SHADED,
     &ambient_occlusion::AMBIENT_OCCLUSION,
     &direct::DIRECT,
+    &whitted::WHITTED,
     &path::PATH,
     &normal::NORMAL,
     &barycentric::BARYCENTRIC,
