@@ -58,6 +58,12 @@ pub trait Scatter {
 
     /// The probability density of [`sample`](Self::sample) per solid angle, 0 for single directions.
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32;
+
+    /// The single directions that the light may come from, as by a mirror, each with the part of light that it scatters.
+    /// [`sample`](Self::sample) chooses among them and the other directions.
+    fn single_directions(&self, _outgoing: Vec3) -> [Option<Scattered>; 2] {
+        [None, None]
+    }
 }
 
 /// A sampled direction.
@@ -81,6 +87,14 @@ impl Scattered {
             weight,
             density,
             eta: 1.0,
+        }
+    }
+
+    /// The same direction with a part of the light.
+    fn scaled(self, part: f32) -> Self {
+        Self {
+            weight: part * self.weight,
+            ..self
         }
     }
 
@@ -174,6 +188,10 @@ impl Scatter for Bsdf {
 
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
         self.scatter().density(outgoing, incoming)
+    }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        self.scatter().single_directions(outgoing)
     }
 }
 

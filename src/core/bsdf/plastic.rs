@@ -127,4 +127,12 @@ impl Scatter for Plastic {
         }
         (1.0 - self.coat_probability(outgoing)) * cosine
     }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let mirrored = (outgoing.z > 0.0).then(|| {
+            let weight = self.coat(outgoing.z) * self.specular;
+            Scattered::reflected(mirrored(outgoing), weight, None)
+        });
+        [mirrored, None]
+    }
 }

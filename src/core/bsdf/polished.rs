@@ -120,4 +120,12 @@ impl Scatter for Polished {
         }
         (1.0 - self.mirror_probability(outgoing.z)) * cosine
     }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let mirrored = (outgoing.z > 0.0).then(|| {
+            let weight = self.mirror(outgoing.z);
+            Scattered::reflected(mirrored(outgoing), weight, None)
+        });
+        [mirrored, None]
+    }
 }

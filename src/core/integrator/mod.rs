@@ -19,6 +19,7 @@ mod shading_normal;
 mod spawning;
 mod transport;
 mod triangle;
+mod whitted;
 
 pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
@@ -222,6 +223,7 @@ pub static INTEGRATORS: &[&Integrator] = &[
     &shaded::SHADED,
     &ambient_occlusion::AMBIENT_OCCLUSION,
     &direct::DIRECT,
+    &whitted::WHITTED,
     &path::PATH,
     &normal::NORMAL,
     &barycentric::BARYCENTRIC,

@@ -48,10 +48,23 @@ pub(super) fn follow(
         recorder.end(PathEnd::Left, ray, context.background);
         return context.background;
     }
-    let (mut ray, mut hit) = (*ray, hit);
+    let left = (ray.origin, None);
+    follow_scattered(context, *ray, hit, left, sampler, limit, recorder)
+}
+
+/// The same for a ray that a surface scattered: `left` is where it left the surface, and the density of its direction.
+pub(super) fn follow_scattered(
+    context: &Context,
+    mut ray: Ray,
+    mut hit: Option<Hit>,
+    left: (Vec3, Option<f32>),
+    sampler: &mut Sampler,
+    limit: Option<u32>,
+    recorder: &mut impl Recorder,
+) -> Vec3 {
     let (mut light, mut throughput) = (Vec3::ZERO, Vec3::ONE);
     // Where the ray left the last surface that scattered it, and with which density.
-    let (mut from, mut density) = (ray.origin, None);
+    let (mut from, mut density) = left;
     // The product of the squared indices of refraction.
     let mut scale = 1.0;
     let mut surfaces = 0;

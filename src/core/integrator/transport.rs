@@ -115,6 +115,19 @@ impl<'a> ShadingPoint<'a> {
             })
     }
 
+    /// The single directions that light comes from, in the world, each with the part of light that it scatters.
+    pub fn single_directions(&self) -> impl Iterator<Item = Scattered> {
+        let singles = self.bsdf.single_directions(self.outgoing);
+        singles.into_iter().flatten().filter_map(|scattered| {
+            let incoming = self.frame.to_world(scattered.incoming);
+            self.is_consistent(scattered.incoming, incoming)
+                .then_some(Scattered {
+                    incoming,
+                    ..scattered
+                })
+        })
+    }
+
     /// A direction on the side that the ray comes from, with a density of cos θ / π.
     pub fn open_direction(&self, sampler: &mut Sampler) -> Option<Vec3> {
         let local = cosine_direction(sampler.next_2d());
@@ -146,16 +159,38 @@ impl<'a> ShadingPoint<'a> {
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
     pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
+        let sample = self.light_sample(sampler);
+        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, recorder))
+    }
+
+    /// The same without the lights that are single points or directions.
+    pub fn light_with_extent(&self, sampler: &mut Sampler) -> Vec3 {
+        let sample = self.light_sample(sampler);
+        let sample = sample.filter(|sample| sample.density.is_some());
+        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, &mut ()))
+    }
+
+    /// The light from all lights that are single points or directions that is scattered towards the ray's origin.
+    pub fn light_without_extent(&self) -> Vec3 {
+        let samples = self.context.lighting.lights.without_extent(self.position());
+        let light = |sample| self.scattered_light(&sample, &mut ());
+        samples.map(light).sum()
+    }
+
+    /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
+    fn light_sample(&self, sampler: &mut Sampler) -> Option<LightSample> {
         let Context {
             scene, lighting, ..
         } = self.context;
         if self.bsdf.model().is_specular || !lighting.lights.can_be_sampled() {
-            return Vec3::ZERO;
+            return None;
         }
         let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        let Some(sample) = lighting.lights.sample(scene, self.position(), at, choice) else {
-            return Vec3::ZERO;
-        };
+        lighting.lights.sample(scene, self.position(), at, choice)
+    }
+
+    /// The light of a sample that arrives and is scattered towards the ray's origin, weighted by the balance heuristic.
+    fn scattered_light(&self, sample: &LightSample, recorder: &mut impl Recorder) -> Vec3 {
         let incoming = self.frame.to_local(sample.dir);
         if !self.is_consistent(incoming, sample.dir) {
             return Vec3::ZERO;
@@ -167,8 +202,8 @@ impl<'a> ShadingPoint<'a> {
         if light == Vec3::ZERO {
             return light;
         }
-        let arriving = self.visibility(&sample);
-        recorder.shadow_ray(&sample, arriving);
+        let arriving = self.visibility(sample);
+        recorder.shadow_ray(sample, arriving);
         light * arriving
     }
 
