@@ -18,8 +18,8 @@ use hitscope_core::names::nearest;
 use hitscope_core::obj::{LoadOptions, Recentre, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
-    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output, PictureArgs,
-    RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
+    BenchArgs, CommandError, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output,
+    PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
 };
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write, stdout};
@@ -90,6 +90,8 @@ enum Command {
     Lab(LabArgs),
     #[command(display_name = "hitscope bench")]
     Bench(BenchArgs),
+    #[command(display_name = "hitscope converge")]
+    Converge(ConvergeArgs),
 }
 
 /// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
@@ -192,6 +194,7 @@ impl Command {
             Self::Info(args) => args.run(&mut out)?,
             Self::Lab(args) => args.run(&mut out)?,
             Self::Bench(args) => args.run(&mut out)?,
+            Self::Converge(args) => args.run(&mut out)?,
         }
         Ok(out.flush()?)
     }

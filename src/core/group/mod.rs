@@ -25,7 +25,7 @@ use crate::shape::{
     AddLine, Interior, LineDetail, Primitives, SampledPoint, Shape, ShapeInfo, SurfacePoint,
 };
 use crate::simd::SimdLevel;
-use glam::DVec2;
+use glam::{DVec2, Vec3};
 use std::fmt::{self, Debug, Formatter};
 use std::sync::Arc;
 use std::time::Duration;
@@ -68,8 +68,13 @@ pub trait Group: Debug + Send + Sync {
         0.0
     }
 
-    /// A point of a primitive; see [`Shape::sampled_point`].
-    fn sampled_point(&self, _index: u32, _at: DVec2) -> Option<SampledPoint> {
+    /// A point of a primitive to be lit by; see [`Shape::sampled_from`].
+    fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledPoint> {
+        None
+    }
+
+    /// The density of these points, if their directions are uniform; see [`Shape::density_from`].
+    fn density_from(&self, _index: u32, _from: Vec3) -> Option<f64> {
         None
     }
 
@@ -186,8 +191,12 @@ impl<S: Grouped> Group for ShapeGroup<S> {
         self.primitives.primitive(index).area()
     }
 
-    fn sampled_point(&self, index: u32, at: DVec2) -> Option<SampledPoint> {
-        self.primitives.primitive(index).sampled_point(at)
+    fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledPoint> {
+        self.primitives.primitive(index).sampled_from(from, at)
+    }
+
+    fn density_from(&self, index: u32, from: Vec3) -> Option<f64> {
+        self.primitives.primitive(index).density_from(from)
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {

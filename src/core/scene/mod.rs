@@ -259,15 +259,23 @@ impl Scene {
         group.area(index)
     }
 
-    /// A point of a primitive, uniform by area for uniform points `at` of the unit square: the ray from a point to it, and
-    /// its hit there at t = 1. `None` if the area is 0, or the point is `from` itself.
+    /// A point of a primitive, for uniform points `at` of the unit square: the ray from a point to it, and its hit there at
+    /// t = 1. Points are uniform by area, or their directions are uniform; see [`density_from`](Self::density_from). `None`
+    /// if the area is 0, or the point is `from` itself.
     pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<(Ray, Hit)> {
         let (group, index) = self.group_of(primitive);
-        let SampledPoint { position, u, v } = group.sampled_point(index, at)?;
+        let SampledPoint { position, u, v } = group.sampled_from(index, from, at)?;
         let ray = Ray::new(from, (position - from.as_dvec3()).as_vec3()).ok()?;
         // The length of the direction may have been scaled.
         let t = 2f32.powi(-ray.scale);
         Some((ray, Hit { t, u, v, primitive }))
+    }
+
+    /// The density per solid angle of the points of [`sampled`](Self::sampled) as seen from `from`, if their directions are
+    /// uniform over those in which the primitive appears. `None` if the points are uniform by area.
+    pub fn density_from(&self, primitive: u32, from: Vec3) -> Option<f64> {
+        let (group, index) = self.group_of(primitive);
+        group.density_from(index, from)
     }
 
     /// The corners of a primitive, if it is a triangle.

@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod camera;
+mod converge;
 mod display;
 mod draft;
 mod info;
@@ -22,6 +23,7 @@ mod trace;
 pub use args::MemoryArg;
 pub use bench::BenchArgs;
 pub use camera::CameraArgs;
+pub use converge::ConvergeArgs;
 pub use display::DisplayArgs;
 pub use info::InfoArgs;
 pub use input::{is_stdin, print_warnings};

@@ -276,7 +276,8 @@ impl PictureArgs {
     }
 }
 
-fn picture_bytes(size: UVec2) -> u64 {
+/// The memory of a picture.
+pub(super) fn picture_bytes(size: UVec2) -> u64 {
     let UVec2 { x, y } = size;
     u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
 }

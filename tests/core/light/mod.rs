@@ -16,6 +16,8 @@ mod lamps;
 mod openness;
 // Recorded paths against pictures.
 mod recorded;
+// Planes lit by spheres.
+mod spheres;
 
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::Projection;
