@@ -46,6 +46,9 @@ fn a_shape_that_does_not_fit_in_f32_is_refused_with_the_line() {
         let expected = ":3: the shape doesn't fit in 32-bit numbers";
         assert!(found.starts_with(expected), "{contents}: {found}");
     }
+    let lamp = "<emitter type='point'><point name='position' value='0 1e39 0'/></emitter>";
+    let found = refusal(&format!("<shape type='disk'/>\n{lamp}"));
+    assert!(found.starts_with(":3: the light is too far"), "{found}");
     // Far away is possible for a single shape: the origin is near it.
     let far = loaded("<shape type='sphere'><point name='center' value='1e39 0 0'/></shape>");
     assert!(!far.scene.bounds().is_empty());
