@@ -361,7 +361,7 @@ impl Contents {
             .chain(meshes.map(|part| part.place));
         match places.min_by_key(|place| (place.file, place.line)) {
             Some(place) => Err(misfit(place).in_file(file)),
-            None => Ok(()),
+            None => lights::require_near(file, origin),
         }
     }
 

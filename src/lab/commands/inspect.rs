@@ -17,36 +17,48 @@ use std::path::PathBuf;
 use std::sync::Arc;
 
 const ABOUT: &str = "\
-Show the ray of one pixel: its hit with the formula, all crossings, the exact answer, every kernel's answer
+Show the ray of one pixel: its hit with the formula, all crossings, the exact
+answer, every kernel's answer
 
-The ray goes through the centre of the pixel, as in `render` with the same camera. The exact answer is
-computed with integers; the table compares every kernel with it.
+The ray goes through the centre of the pixel, as in `render` with the same
+camera. The exact answer is computed with integers; the table compares every
+kernel with it.
 
 Values, in the text and in JSON:
 
-  t                  in lengths of the ray's direction, which has unit length up to rounding
-  barycentric        barycentric coordinates for the triangle's corners A, B and C
+  t                  in lengths of the ray's direction, which has unit length
+                     up to rounding
+  barycentric        barycentric coordinates for the triangle's corners A, B
+                     and C
   triangle, face     indices, counted from 0, in the order of the file
   line               line of the face in the file, counted from 1
-  side               front if the corners run counterclockwise as seen from the ray's origin, else back
+  side               front if the corners run counterclockwise as seen from
+                     the ray's origin, else back
   position           in the file's coordinates
-  parameters         of a shape other than a triangle, by name; points in the file's coordinates
-  solid              of a solid (csg): the operand that is hit, with its parameters, and the tree of
-                     operations with the intervals of t inside each part
-  is_subtracted      whether an operand is subtracted: the solid's normal is the opposite of its own
+  parameters         of a shape other than a triangle, by name; points in the
+                     file's coordinates
+  solid              of a solid (csg): the operand that is hit, with its
+                     parameters, and the tree of operations with the intervals
+                     of t inside each part
+  is_subtracted      whether an operand is subtracted: the solid's normal is
+                     the opposite of its own
   formula            derivation of t in f64 for the ray r(t) = o + t d
-  crossings          all points where the ray crosses a surface, by the chosen kernel, ordered by t
+  crossings          all points where the ray crosses a surface, by the chosen
+                     kernel, ordered by t
   t_error_ulps       error of t, in ulps of f32
   barycentric_error  largest error of a barycentric coordinate
-  ray_rounding       largest distance per coordinate, in units of the file, between this ray and the
-                     camera's ray in f64, where they may meet the mesh. It is large for a distant
-                     camera.
-  path               of a sample, with --view or --sample: the surfaces that it meets, and the light in
-                     linear RGB that each adds to the sample's colour, emitted there (emission) or
-                     scattered straight from a light (direct). throughput is the part of further light
-                     that reaches the camera; arriving, the part of the light that surfaces let pass;
-                     survival, the probability with which Russian roulette let the path go on. The
-                     random numbers are those of `render`: sample 0 goes through the pixel's centre.
+  ray_rounding       largest distance per coordinate, in units of the file,
+                     between this ray and the camera's ray in f64, where they
+                     may meet the mesh. It is large for a distant camera.
+  path               of a sample, with --view or --sample: the surfaces that it
+                     meets, and the light in linear RGB that each adds to the
+                     sample's colour, emitted there (emission) or scattered
+                     straight from a light (direct). throughput is the part of
+                     further light that reaches the camera; arriving, the part
+                     of the light that surfaces let pass; survival, the
+                     probability with which Russian roulette let the path go
+                     on. The random numbers are those of `render`: sample 0
+                     goes through the pixel's centre.
 
 Numbers in JSON parse as doubles without loss.";
 

@@ -34,7 +34,8 @@ Examples:
   hitscope lab --case closed --case order --seed 7
   hitscope lab --scene bunny.obj --eye 3,2,4
 
-All results except times are the same on every machine for the same seed. Uses one thread per core."
+All results except times are the same on every machine for the same seed. Uses
+one thread per core."
 )]
 pub struct LabArgs {
     /// Measure fewer rays: half a minute instead of several minutes

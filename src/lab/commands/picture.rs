@@ -50,8 +50,8 @@ pub struct PictureArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// Kernel to compare with, for the view “disagreement” [default: exact]
-    #[arg(long, value_name = "KERNEL", value_parser = kernel_names())]
+    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact]
+    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), hide_possible_values = true)]
     pub against: Option<String>,
     /// Threads.
     #[command(flatten)]

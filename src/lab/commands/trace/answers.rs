@@ -86,9 +86,9 @@ struct ShapeEntry {
 struct Explanation {
     #[serde(skip_serializing_if = "Option::is_none")]
     parameters: Option<Parameters>,
-    /// Of a shape other than a triangle.
+    /// Whether the normal of a shape other than a triangle is reversed.
     #[serde(skip_serializing_if = "Option::is_none")]
-    has_reversed_normal: Option<bool>,
+    is_reversed: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     solid: Option<SolidReport>,
     formula: Vec<String>,
@@ -230,7 +230,7 @@ impl RayAnswerer<'_> {
             also,
             explanation: self.is_explaining.then(|| Explanation {
                 parameters: Parameters::of_primitive(scene, primitive),
-                has_reversed_normal: (!is_triangle).then(|| {
+                is_reversed: (!is_triangle).then(|| {
                     let (group, index) = scene.group_of(primitive);
                     group.is_flipped(index)
                 }),
