@@ -98,7 +98,10 @@ mod tests {
             ("a$q-$q.b", Ok("a3-3.b")),
             ("$q_1$q", Ok("43")),
             ("$qé", Ok("3é")),
-            ("$x", Err("x.xml:3: unknown parameter “x”; expected “q”")),
+            (
+                "$x",
+                Err("x.xml:3: unknown parameter “x”; expected “q”, “q_1” or “é”"),
+            ),
             ("5$", Err("x.xml:3: no name of a parameter follows “$”")),
             ("$é", Err("x.xml:3: no name of a parameter follows “$”")),
             ("${q}", Err("x.xml:3: no name of a parameter follows “$”")),

@@ -59,10 +59,10 @@ fn sensors_are_read() {
         (None, 4)
     );
     let expected = [
-        "line 2: sensor “thinlens”: the lens isn't used; everything is in focus",
         "line 9: rfilter “gaussian” isn't supported; “box” is used",
         "line 8: film “hdrfilm”: the crop window isn't used; the whole film is shown",
         "line 9: film “hdrfilm”: parameter “pixel_format” isn't used",
+        "line 2: sensor “thinlens”: the lens isn't used; everything is in focus",
         "line 5: sensor “thinlens”: parameter “near_clip” isn't used",
         "line 13: sensor “radiancemeter” isn't supported",
     ];
