@@ -178,7 +178,7 @@ fn options_without_effect_are_refused() {
         ),
         (
             &format!("{render} --spawn fixed-epsilon"),
-            "no effect on the view “shaded”: it needs --view ao or",
+            "no effect on the view “shaded”: it needs --view ao, direct",
         ),
         (
             &format!("{render} --view direct --depth 3"),
