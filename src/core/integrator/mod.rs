@@ -28,6 +28,7 @@ use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading};
 use crate::spawn::{SpawnPolicy, default_spawn_policy};
+use crate::terminator::{TerminatorRepair, default_terminator_repair};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -63,10 +64,12 @@ pub struct Lighting {
     pub ao_distance: f32,
     /// The most surfaces on a path; `None` for no limit.
     pub depth_limit: Option<u32>,
+    /// The repair of the shadow terminator.
+    pub terminator: &'static TerminatorRepair,
 }
 
 impl Default for Lighting {
-    /// No lights, and the default policy.
+    /// No lights, the default policy, and no repair.
     fn default() -> Self {
         Self {
             lights: Arc::default(),
@@ -74,6 +77,7 @@ impl Default for Lighting {
             second_spawn: default_spawn_policy(),
             ao_distance: 1.0,
             depth_limit: None,
+            terminator: default_terminator_repair(),
         }
     }
 }
@@ -119,6 +123,8 @@ pub enum Setting {
     Spawn,
     /// The most surfaces on a path.
     Depth,
+    /// The repair of the shadow terminator.
+    Terminator,
     /// The distance to which surfaces occlude.
     OcclusionDistance,
     /// The factor between light and colour: the view's colours are light.
@@ -143,7 +149,12 @@ impl Needs {
     /// Vertex normals and lights.
     const LIGHTS: Self = Self {
         lights: true,
-        settings: &[Setting::Lights, Setting::Spawn, Setting::Exposure],
+        settings: &[
+            Setting::Lights,
+            Setting::Spawn,
+            Setting::Terminator,
+            Setting::Exposure,
+        ],
         ..Self::VERTEX_NORMALS
     };
     /// Vertex normals and lights, for paths of any length.
@@ -152,6 +163,7 @@ impl Needs {
             Setting::Lights,
             Setting::Spawn,
             Setting::Depth,
+            Setting::Terminator,
             Setting::Exposure,
         ],
         ..Self::LIGHTS

@@ -14,6 +14,7 @@ use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::shown;
 use hitscope_core::progress::Progress;
 use hitscope_core::spawn::{SPAWN_POLICIES, default_spawn_policy, spawn_policy};
+use hitscope_core::terminator::{TERMINATOR_REPAIRS, terminator_repair};
 use hitscope_core::tone::{Display, TONE_CURVES, tone_curve};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -39,6 +40,10 @@ pub struct LightArgs {
     /// Distance to which surfaces occlude in the view “ao”, in radii of the scene's bounding sphere [default: 1]
     #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = parse_distance)]
     pub ao_distance: Option<f32>,
+    /// Repair of the shadow terminator, the hard edge of light on coarse triangles with vertex normals; none of them is
+    /// exact [default: none]
+    #[arg(long, value_name = "REPAIR", value_parser = repair_names())]
+    pub terminator: Option<String>,
     /// Brighten the picture by a factor of 2 per stop
     #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
     pub exposure: Option<f32>,
@@ -71,6 +76,11 @@ impl LightArgs {
             ("--rotation", self.rotation.is_some(), Setting::Lights),
             ("--spawn", self.spawn.is_some(), Setting::Spawn),
             ("--depth", self.depth.is_some(), Setting::Depth),
+            (
+                "--terminator",
+                self.terminator.is_some(),
+                Setting::Terminator,
+            ),
             (
                 "--ao-distance",
                 self.ao_distance.is_some(),
@@ -123,6 +133,10 @@ impl LightArgs {
         let spawn = named.map_or(default_spawn_policy(), |name| {
             spawn_policy(name).expect("clap accepts only names in the table")
         });
+        let repair = self
+            .terminator
+            .as_deref()
+            .map(|name| terminator_repair(name).expect("clap accepts only names in the table"));
         Ok(Lighting {
             lights: Arc::new(Lights::or_white(
                 &loaded.scene,
@@ -132,6 +146,7 @@ impl LightArgs {
             second_spawn: default.second_spawn,
             ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
             depth_limit: self.depth.or(loaded.depth_limit()),
+            terminator: repair.unwrap_or(default.terminator),
         })
     }
 
@@ -204,6 +219,11 @@ fn views_with(setting: Setting) -> String {
 
 fn curve_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(TONE_CURVES.iter().map(|curve| curve.name)).map(|name| name)
+}
+
+fn repair_names() -> impl clap::builder::TypedValueParser<Value = String> {
+    let names = TERMINATOR_REPAIRS.iter().map(|repair| repair.name);
+    PossibleValuesParser::new(names).map(|name| name)
 }
 
 fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
