@@ -69,6 +69,7 @@ pub mod shape;
 pub mod simd;
 pub mod spawn;
 pub mod srgb;
+pub mod terminator;
 pub mod tone;
 
 pub use aabb::Aabb;

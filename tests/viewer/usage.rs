@@ -185,6 +185,10 @@ fn options_without_effect_are_refused() {
             "no effect on the view “direct”: it needs --view",
         ),
         (
+            &format!("{render} --view ao --terminator chiang"),
+            "no effect on the view “ao”: it needs --view",
+        ),
+        (
             &format!("{render} --view path --ao-distance 1"),
             "it needs --view ao",
         ),

@@ -31,6 +31,7 @@ use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading};
 use crate::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
+use crate::terminator::{TerminatorRepair, default_terminator_repair};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -66,10 +67,12 @@ pub struct Lighting {
     pub ao_distance: f32,
     /// The most surfaces on a path; `None` for no limit.
     pub depth_limit: Option<u32>,
+    /// The repair of the shadow terminator.
+    pub terminator: &'static TerminatorRepair,
 }
 
 impl Default for Lighting {
-    /// No lights, the default policy, and the first of the table to compare it with.
+    /// No lights, the default policy, the first of the table to compare it with, and no repair.
     fn default() -> Self {
         Self {
             lights: Arc::default(),
@@ -77,6 +80,7 @@ impl Default for Lighting {
             second_spawn: &SPAWN_POLICIES[0],
             ao_distance: 1.0,
             depth_limit: None,
+            terminator: default_terminator_repair(),
         }
     }
 }
@@ -122,6 +126,8 @@ pub enum Setting {
     Spawn,
     /// The most surfaces on a path.
     Depth,
+    /// The repair of the shadow terminator.
+    Terminator,
     /// The distance to which surfaces occlude.
     OcclusionDistance,
     /// The factor between light and colour: the view's colours are light.
@@ -146,7 +152,12 @@ impl Needs {
     /// Vertex normals and lights.
     const LIGHTS: Self = Self {
         lights: true,
-        settings: &[Setting::Lights, Setting::Spawn, Setting::Exposure],
+        settings: &[
+            Setting::Lights,
+            Setting::Spawn,
+            Setting::Terminator,
+            Setting::Exposure,
+        ],
         ..Self::VERTEX_NORMALS
     };
     /// Vertex normals and lights, for paths of any length.
@@ -155,6 +166,7 @@ impl Needs {
             Setting::Lights,
             Setting::Spawn,
             Setting::Depth,
+            Setting::Terminator,
             Setting::Exposure,
         ],
         ..Self::LIGHTS

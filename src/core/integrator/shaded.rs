@@ -47,6 +47,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
             surface: context.scene.surface(&ray, &nearest),
             corners: None,
             dir: ray.dir,
+            offset: Vec3::ZERO,
         };
         let Ok(onward) = default_spawn_policy().spawn(&departure) else {
             break;

@@ -8,6 +8,7 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
+use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
 use glam::Vec3;
@@ -25,6 +26,8 @@ pub(super) struct ShadingPoint<'a> {
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
     bsdf: Bsdf,
+    /// Of rays that leave on the side that the ray comes from, by the repair of the shadow terminator.
+    offset: Vec3,
     /// The light that the surface emits towards the ray's origin.
     pub emission: Vec3,
     /// The part of the surface that is there; light passes through the rest.
@@ -62,8 +65,17 @@ impl<'a> ShadingPoint<'a> {
             frame,
             normal: side * interaction.geometric_normal,
             bsdf,
+            offset: terminator_offset(context, &hit, is_front),
             emission,
             opacity,
+        }
+    }
+
+    /// The same without a repair of the shadow terminator.
+    pub fn unrepaired(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
+        Self {
+            offset: Vec3::ZERO,
+            ..Self::new(context, ray, hit)
         }
     }
 
@@ -78,12 +90,14 @@ impl<'a> ShadingPoint<'a> {
     }
 
     fn departure(&self, dir: Vec3) -> Departure<'_> {
+        let goes_back = self.frame.z.dot(dir) * self.outgoing.z > 0.0;
         Departure {
             arrived_by: &self.ray,
             hit: &self.hit,
             surface: self.surface,
             corners: self.context.scene.corners(self.hit.primitive),
             dir,
+            offset: if goes_back { self.offset } else { Vec3::ZERO },
         }
     }
 
@@ -108,11 +122,22 @@ impl<'a> ShadingPoint<'a> {
         let (at, choice) = (sampler.next_2d(), sampler.next_1d());
         let scattered = self.bsdf.sample(self.outgoing, at, choice)?;
         let incoming = self.frame.to_world(scattered.incoming);
+        let part = match scattered.density {
+            Some(_) => self.remaining_part(incoming),
+            None => 1.0,
+        };
         self.is_consistent(scattered.incoming, incoming)
             .then_some(Scattered {
                 incoming,
+                weight: part * scattered.weight,
                 ..scattered
             })
+    }
+
+    /// The part of light from a direction that the repair of the shadow terminator leaves. Single directions keep all.
+    fn remaining_part(&self, dir: Vec3) -> f32 {
+        let part = self.context.lighting.terminator.part;
+        part.map_or(1.0, |part| part(self.normal, self.frame.z, dir))
     }
 
     /// The single directions that light comes from, in the world, each with the part of light that it scatters.
@@ -149,9 +174,11 @@ impl<'a> ShadingPoint<'a> {
         [self.frame.z.dot(dir) > 0.0, self.normal.dot(dir) > 0.0]
     }
 
-    /// Whether a direction lies on the same side of the shading and the geometric normal, in the frame and in the world.
+    /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
+    /// Rays that start above the surface may point through it.
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
-        local.z * self.normal.dot(dir) > 0.0
+        let starts_above = self.offset != Vec3::ZERO && local.z * self.outgoing.z > 0.0;
+        starts_above || local.z * self.normal.dot(dir) > 0.0
     }
 
     /// The light from one of the lights that is scattered towards the ray's origin, weighted against the density of
@@ -195,7 +222,8 @@ impl<'a> ShadingPoint<'a> {
         if !self.is_consistent(incoming, sample.dir) {
             return Vec3::ZERO;
         }
-        let mut light = sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
+        let part = self.remaining_part(sample.dir);
+        let mut light = part * sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
         if let Some(density) = sample.density {
             light *= balance(density, self.bsdf.density(self.outgoing, incoming));
         }
@@ -217,6 +245,22 @@ impl<'a> ShadingPoint<'a> {
         };
         ray.map_or(0.0, |ray| transmittance(self.context, ray))
     }
+}
+
+/// The offset of rays that leave on the front or the back, by the repair of the shadow terminator.
+fn terminator_offset(context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
+    let scene = &context.scene;
+    let Some(offset) = context.lighting.terminator.offset else {
+        return Vec3::ZERO;
+    };
+    let corners = scene.corners(hit.primitive);
+    let Some(corners) = corners.filter(|_| context.shading != Shading::Flat) else {
+        return Vec3::ZERO;
+    };
+    let normals = scene.vertex_normals();
+    let normals = normals.of_triangle(scene.mesh(), hit.primitive);
+    let side = if is_front { 1.0 } else { -1.0 };
+    offset(hit.barycentric(), corners, normals.map(|n| side * n))
 }
 
 /// The part of light that passes along a ray.

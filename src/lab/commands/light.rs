@@ -16,6 +16,7 @@ use hitscope_core::names::{alternatives, nearest};
 use hitscope_core::obj::shown;
 use hitscope_core::progress::Progress;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, spawn_policy};
+use hitscope_core::terminator::{TERMINATOR_REPAIRS, terminator_repair};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -43,6 +44,10 @@ pub struct LightArgs {
     /// Distance to which surfaces occlude in the view “ao”, in radii of the scene's bounding sphere [default: 1]
     #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = parse_distance)]
     pub ao_distance: Option<f32>,
+    /// Repair of the shadow terminator, the hard edge of light on coarse triangles with vertex normals; none of them is
+    /// exact [default: none]
+    #[arg(long, value_name = "REPAIR", value_parser = repair_names())]
+    pub terminator: Option<String>,
 }
 
 /// Where light from all directions comes from.
@@ -60,12 +65,17 @@ pub enum EnvironmentSource {
 
 impl LightArgs {
     /// The options that are given, with the setting that each of them changes.
-    fn given(&self) -> [(&'static str, bool, Setting); 5] {
+    fn given(&self) -> [(&'static str, bool, Setting); 6] {
         [
             ("--environment", self.environment.is_some(), Setting::Lights),
             ("--rotation", self.rotation.is_some(), Setting::Lights),
             ("--spawn", self.spawn.is_some(), Setting::Spawn),
             ("--depth", self.depth.is_some(), Setting::Depth),
+            (
+                "--terminator",
+                self.terminator.is_some(),
+                Setting::Terminator,
+            ),
             (
                 "--ao-distance",
                 self.ao_distance.is_some(),
@@ -130,6 +140,10 @@ impl LightArgs {
                 spawn_policy(name).expect("clap accepts only names in the table")
             })
         };
+        let repair = self
+            .terminator
+            .as_deref()
+            .map(|name| terminator_repair(name).expect("clap accepts only names in the table"));
         Ok(Lighting {
             lights: Arc::new(Lights::or_white(
                 &loaded.scene,
@@ -139,6 +153,7 @@ impl LightArgs {
             second_spawn: policy(&self.second_spawn, default.second_spawn),
             ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
             depth_limit: self.depth.or(loaded.depth_limit()),
+            terminator: repair.unwrap_or(default.terminator),
         })
     }
 
@@ -228,6 +243,11 @@ fn views_with(setting: Setting) -> String {
     let views = INTEGRATORS.iter().filter(|view| view.needs.uses(setting));
     let names: Vec<&str> = views.map(|view| view.name).collect();
     alternatives(&names)
+}
+
+fn repair_names() -> impl clap::builder::TypedValueParser<Value = String> {
+    let names = TERMINATOR_REPAIRS.iter().map(|repair| repair.name);
+    PossibleValuesParser::new(names).map(|name| name)
 }
 
 fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {

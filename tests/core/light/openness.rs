@@ -57,6 +57,7 @@ fn the_plane_under_a_sphere_is_as_open_as_the_closed_form_says() {
             eprintln!("size {size:e}, x = {x}");
             Estimate::of_ray(&context, "path", path_count(), ray).require(open);
             Estimate::of_ray(&context, "direct", path_count(), ray).require(open);
+            Estimate::of_ray(&context, "whitted", path_count(), ray).require(open);
             Estimate::of_ray(&context, "ao", path_count(), ray).require(open);
         }
     }
