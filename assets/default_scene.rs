@@ -1,8 +1,8 @@
 //! Makes the scene that the viewer shows without a file: `assets/default.obj` and `default.mtl`.
 //!
 //! Run `cargo run -p hitscope-core --example default_scene` after a change; it prints the paths that
-//! it wrote. A knot shows flat against smooth, a gem is meant to be flat, a shell is made of thin
-//! triangles, and the floor of two large ones.
+//! it wrote. A knot of rough copper shows flat against smooth, a gem of glass is meant to be flat, a shell is made
+//! of thin triangles, and the floor of two large ones.
 
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -20,15 +20,14 @@ fn main() -> std::io::Result<()> {
 }
 
 fn materials() -> String {
-    // Colour, roughness, and whether it is a metal.
     let materials = [
-        ("floor", [0.32, 0.33, 0.35], 0.35, 0),
-        ("knot", [0.93, 0.56, 0.36], 0.22, 1),
-        ("gem", [0.25, 0.48, 0.72], 0.08, 0),
-        ("shell", [0.46, 0.62, 0.34], 0.6, 0),
+        ("floor", [0.32, 0.33, 0.35], "Pr 0.35\nPm 0"),
+        ("knot", [0.93, 0.56, 0.36], "Pr 0.22\nPm 1"),
+        ("gem", [0.25, 0.48, 0.72], "illum 7\nNi 1.5\nTf 0.7 0.88 1"),
+        ("shell", [0.46, 0.62, 0.34], "Pr 0.6\nPm 0"),
     ];
-    let material = |(name, [r, g, b], roughness, metalness): (&str, [f64; 3], f64, u8)| {
-        format!("newmtl {name}\nKd {r} {g} {b}\nPr {roughness}\nPm {metalness}\n")
+    let material = |(name, [r, g, b], finish): (&str, [f64; 3], &str)| {
+        format!("newmtl {name}\nKd {r} {g} {b}\n{finish}\n")
     };
     materials.into_iter().map(material).collect()
 }
