@@ -3,11 +3,12 @@
 use super::compact::Slots;
 use super::{
     AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint,
-    numbers_of, on_sphere,
+    numbers_of, on_sphere, sphere_filter,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
-    Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
+    Piece, Pieces, Polynomial, QuickLine, RayIn, Ring, RootIntervals, difference, dot,
+    squared_length, vector,
 };
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
@@ -81,6 +82,15 @@ impl Shape for Sphere {
         [lower(x), upper(x), lower(y), upper(y), lower(z), upper(z)]
     }
 
+    #[inline(always)]
+    fn may_meet<L: Lane>(line: [&[L; 3]; 2], numbers: &impl Values<L>) -> Option<L::Mask> {
+        Some(sphere_filter::may_meet(
+            line,
+            &numbers.three(0),
+            numbers.value(3),
+        ))
+    }
+
     fn bounds(&self) -> Aabb {
         if self.can_be_hit() {
             Aabb::from_planes(Self::planes(&numbers_of(self)))
@@ -146,6 +156,11 @@ impl Shape for Sphere {
 impl Pieces for Sphere {
     fn centre(&self) -> Vec3 {
         self.centre
+    }
+
+    #[inline(always)]
+    fn quick_roots(&self, line: &QuickLine) -> Option<RootIntervals> {
+        line.at_distance(self.centre, self.radius)
     }
 
     /// |o + t·d − c|² − r².
