@@ -40,7 +40,8 @@ impl Kernel for HearnBaker {
         summary: "No cancellation; t correct to the last place of f32 but for grazing rays.",
         ..Self::IN_F32
     };
-    // The distance of line and centre errs by at most 2⁴u·|f| in f64: see `algebra::quick_line`, which uses the same formula.
+    // In f64 the distance of line and centre errs by at most 2⁴u·|f|: `algebra::quick_line` derives it for the same
+    // formula.
     const IS_FILTERED: bool = true;
     type Stored<N: Number> = f32;
     type Prepared<L: Lane> = SquaredRay<L>;
