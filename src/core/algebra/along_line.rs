@@ -1,8 +1,8 @@
 //! The equations of a shape along a line, rounded to f64 for display.
 
-use super::crossing::{Piece, Pieces, RayIn};
 use super::dyadic::Dyadic;
 use super::exact_piece::ExactPiece;
+use super::pieces::{Piece, Pieces, RayIn};
 use crate::ray::Ray;
 
 /// The equation of one part of a shape's surface along a line: a polynomial in t that is 0 where the line meets it.

@@ -11,47 +11,11 @@ use super::algebraic::Algebraic;
 use super::exact_piece::ExactPiece;
 use super::interval::Interval;
 use super::interval_roots::isolated_roots;
-use super::polynomial::Polynomial;
-use super::ring::{Ring, vector};
+use super::pieces::{Piece, Pieces, RayIn};
+use super::quick_line::QuickLine;
 use crate::ray::Ray;
 use glam::Vec3;
 use std::cmp::Ordering;
-
-/// A ray in the numbers of a formula.
-#[derive(Clone, Debug)]
-pub struct RayIn<R> {
-    pub origin: [R; 3],
-    pub dir: [R; 3],
-}
-
-impl<R: Ring> RayIn<R> {
-    pub fn of(ray: &Ray) -> Self {
-        Self {
-            origin: vector(ray.origin),
-            dir: vector(ray.dir),
-        }
-    }
-}
-
-/// A part of a shape's surface along a ray.
-#[derive(Clone, Copy, Debug)]
-pub struct Piece<'a, R> {
-    /// Number of the part, in the shape's own order.
-    pub part: u8,
-    /// Zero where the ray meets the surface. The polynomial 0 stands for no crossing.
-    pub surface: &'a Polynomial<R>,
-    /// None is negative at a crossing.
-    pub conditions: &'a [Polynomial<R>],
-}
-
-/// A shape, described by polynomials.
-pub trait Pieces {
-    /// A point near the shape. It affects the speed, but no answer.
-    fn centre(&self) -> Vec3;
-
-    /// Passes all pieces to `emit`, always the same number of them in the same order.
-    fn pieces<R: Ring>(&self, ray: &RayIn<R>, emit: &mut impl FnMut(Piece<R>));
-}
 
 /// A point at which a ray crosses a shape.
 #[derive(Clone, Debug)]
@@ -102,16 +66,47 @@ pub struct AlgebraCounters {
 pub struct CrossingSolver<'a> {
     ray: &'a Ray,
     interval: [f64; 2],
+    line: QuickLine,
     pub work: AlgebraCounters,
 }
 
 impl<'a> CrossingSolver<'a> {
+    #[inline(always)]
     pub fn new(ray: &'a Ray) -> Self {
         Self {
             ray,
             interval: ray.finite_interval().map(f64::from),
+            line: QuickLine::of(ray),
             work: AlgebraCounters::default(),
         }
+    }
+
+    /// The first of the [`crossings`](Self::crossings).
+    #[inline(always)]
+    pub fn first<P: Pieces>(&mut self, shape: &P) -> Option<Crossing> {
+        let Some(roots) = shape.quick_roots(&self.line) else {
+            return self.crossings(shape).into_iter().next();
+        };
+        let [start, end] = self.interval;
+        for (root, &t) in roots.iter().enumerate() {
+            if start < t.lo && t.hi < end {
+                self.work.pieces += 1;
+                return Some(Crossing {
+                    t,
+                    part: 0,
+                    is_tangent: false,
+                    piece: 0,
+                    root,
+                    is_isolated: true,
+                    exact: None,
+                });
+            }
+            if start < t.hi && t.lo < end {
+                return self.crossings(shape).into_iter().next();
+            }
+        }
+        self.work.pieces += 1;
+        None
     }
 
     /// All crossings with t in the ray's open interval, in ascending order of t. Crossings with the same t are
@@ -163,14 +158,25 @@ impl<'a> CrossingSolver<'a> {
     }
 
     /// Compares two crossings by t.
-    #[inline(never)]
+    #[inline(always)]
     pub fn compare<P: Pieces, Q: Pieces>(
+        &mut self,
+        first: (&P, &mut Crossing),
+        second: (&Q, &mut Crossing),
+    ) -> Ordering {
+        match first.1.t.order(second.1.t) {
+            Some(order) => order,
+            None => self.compare_exactly(first, second),
+        }
+    }
+
+    #[inline(never)]
+    fn compare_exactly<P: Pieces, Q: Pieces>(
         &mut self,
         (p, a): (&P, &mut Crossing),
         (q, b): (&Q, &mut Crossing),
     ) -> Ordering {
-        a.t.order(b.t)
-            .unwrap_or_else(|| self.exact(p, a).compare(self.exact(q, b)))
+        self.exact(p, a).compare(self.exact(q, b))
     }
 
     /// Compares a crossing's t with another number.

@@ -1,9 +1,9 @@
 //! A piece of a shape in exact numbers.
 
 use super::algebraic::{Algebraic, Root};
-use super::crossing::{Piece, Pieces, RayIn};
 use super::dyadic::Dyadic;
 use super::interval::Interval;
+use super::pieces::{Piece, Pieces, RayIn};
 use super::polynomial::Polynomial;
 use super::ring::Ring as _;
 use crate::ray::Ray;

@@ -22,14 +22,14 @@ pub struct RootIntervals {
 }
 
 impl RootIntervals {
-    const NONE: Self = Self {
+    pub(super) const NONE: Self = Self {
         intervals: [Interval::ZERO; MAX_DEGREE],
         count: 0,
     };
 
     /// Appends an interval, or returns `None` if it isn't behind the last one or unbounded.
     #[inline(always)]
-    fn with(mut self, interval: Interval) -> Option<Self> {
+    pub(super) fn with(mut self, interval: Interval) -> Option<Self> {
         let is_behind = self.last().is_none_or(|last| last.hi < interval.lo);
         if !(is_behind && interval.is_bounded()) {
             return None;

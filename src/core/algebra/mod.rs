@@ -11,8 +11,10 @@
 //! | `polynomial` | polynomials of degree 4 at most over either kind of number |
 //! | `interval_roots` | roots of a polynomial with interval coefficients |
 //! | `remainders` | integer polynomials and their signed remainder sequences |
+//! | `quick_line` | roots in plain f64 with a bound of their error |
 //! | `isolation` | intervals that contain one root of an integer polynomial each |
 //! | `algebraic` | exact roots: comparison, signs of polynomials, rounding |
+//! | `pieces` | shapes as polynomials along a ray |
 //! | `crossing` | crossings of a ray with a shape |
 //! | `exact_piece` | a part of a shape's surface along a ray in exact numbers |
 //! | `along_line` | a shape's equations along a line, for display |
@@ -25,15 +27,20 @@ mod exact_piece;
 mod interval;
 mod interval_roots;
 mod isolation;
+mod pieces;
 mod polynomial;
+mod quick_line;
 mod remainders;
 mod ring;
 
 pub use algebraic::Algebraic;
 pub use along_line::{LineEquation, LineRoot, line_equations};
-pub use crossing::{Crossing, CrossingSolver, Piece, Pieces, RayIn, is_between};
+pub use crossing::{Crossing, CrossingSolver, is_between};
 pub use dyadic::Dyadic;
+pub use interval_roots::RootIntervals;
+pub use pieces::{Piece, Pieces, RayIn};
 pub use polynomial::Polynomial;
+pub use quick_line::QuickLine;
 pub use ring::{Ring, cross, difference, dot, squared_length, vector};
 
 #[cfg(test)]

@@ -1,7 +1,7 @@
 //! Method for shapes that state their crossings as polynomials: hits are decided and ordered as in exact arithmetic.
 
-use super::blocks::{BlockValues, LaneOf, Row, Scratch, can_be_hit};
-use super::levels::BaselineLevel;
+use super::blocks::{BlockValues, Blocks, LaneOf, Row, Scratch, can_be_hit, may_meet, stored};
+use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::precedes;
 use super::{ExactT, RankedHit};
@@ -10,12 +10,12 @@ use crate::bvh::{BLOCK_SIZE, SlabRay, end_slackened};
 use crate::lane::Lane;
 use crate::ray::{Hit, Ray};
 use crate::shape::{EmptyLanes, Shape};
-use fearless_simd::{Simd, SimdBase, f32x8};
+use fearless_simd::{Simd, f32x8};
 use std::cmp::Ordering;
 use std::marker::PhantomData;
 
-/// Decides exactly about hits of the shape `T`.
-pub(super) struct Algebraic<T>(PhantomData<T>);
+/// Decides exactly about hits of the shape `T`, with code for the levels `V`.
+pub(super) struct Algebraic<T, V>(PhantomData<(T, V)>);
 
 /// A point at which the ray crosses a primitive.
 #[derive(Clone)]
@@ -25,11 +25,11 @@ pub(super) struct Found<T> {
     crossing: Crossing,
 }
 
-impl<T: Shape + Pieces> Method for Algebraic<T> {
+impl<T: Shape + Pieces, V: Levels> Method for Algebraic<T, V> {
     type Shape = T;
     type Stored = f32;
     const VALUES: usize = T::NUMBERS;
-    type Levels = BaselineLevel;
+    type Levels = V;
     const EMPTY: EmptyLanes = EmptyLanes::Nowhere;
     type Found = Found<T>;
     type Tester<'a, S: Simd> = AlgebraicTester<'a, T, S>;
@@ -39,6 +39,7 @@ impl<T: Shape + Pieces> Method for Algebraic<T> {
         shape.write(values);
     }
 
+    #[inline(always)]
     fn tester<'a, S: Simd>(
         blocks: &'a BlocksOf<Self>,
         token: S,
@@ -56,6 +57,7 @@ impl<T: Shape + Pieces> Method for Algebraic<T> {
 
     fn batch() {}
 
+    #[inline(always)]
     fn keep<S: Simd>(
         tester: &mut AlgebraicTester<'_, T, S>,
         nearest: Found<T>,
@@ -81,7 +83,7 @@ fn compared<T: Pieces>(
 
 /// Tests one ray.
 pub(super) struct AlgebraicTester<'a, T: Shape + Pieces, S: Simd> {
-    blocks: &'a BlocksOf<Algebraic<T>>,
+    blocks: &'a Blocks<T, f32>,
     token: S,
     scratch: &'a mut Scratch<f32>,
     ray: &'a Ray,
@@ -92,6 +94,7 @@ pub(super) struct AlgebraicTester<'a, T: Shape + Pieces, S: Simd> {
 struct Candidates<'a, T> {
     rows: &'a [Row<f32>],
     primitives: &'a [u32; BLOCK_SIZE],
+    exclude: Option<u32>,
     /// A bit per lane.
     lanes: u32,
     shape: PhantomData<T>,
@@ -102,12 +105,14 @@ impl<T: Shape> Iterator for Candidates<'_, T> {
 
     #[inline(always)]
     fn next(&mut self) -> Option<(u32, T)> {
-        if self.lanes == 0 {
-            return None;
+        while self.lanes != 0 {
+            let (rows, lane) = (self.rows, self.lanes.trailing_zeros() as usize % BLOCK_SIZE);
+            self.lanes &= self.lanes - 1;
+            if can_be_hit(self.primitives[lane], self.exclude) {
+                return Some((self.primitives[lane], T::read(&LaneOf { rows, lane })));
+            }
         }
-        let (rows, lane) = (self.rows, self.lanes.trailing_zeros() as usize % BLOCK_SIZE);
-        self.lanes &= self.lanes - 1;
-        Some((self.primitives[lane], T::read(&LaneOf { rows, lane })))
+        None
     }
 }
 
@@ -122,18 +127,17 @@ impl<'a, T: Shape + Pieces, S: Simd> AlgebraicTester<'a, T, S> {
         limit: f32,
     ) -> (&mut CrossingSolver<'a>, Candidates<'_, T>) {
         let rows = (self.blocks).rows::<MAYBE_COMPACT>(block, T::NUMBERS, self.scratch, T::write);
-        let boxes = T::planes::<f32x8<S>>(&BlockValues::<f32, S, f32>::new(self.token, rows));
-        let boxes = boxes.map(|plane| plane.to_array());
-        let limit = Lane::splat(self.token, limit);
-        let (_, met) = slabs.enter::<IS_BEHIND>(self.token, &boxes, limit);
-        let primitives = self.blocks.bvh.lanes(block);
-        let mut lanes = met;
-        for (lane, &primitive) in primitives.iter().enumerate() {
-            lanes &= !(u32::from(!can_be_hit(primitive, self.ray.exclude)) << lane);
+        let mut lanes = may_meet::<T, f32, S>(self.token, rows, self.ray);
+        if lanes != 0 {
+            let values = BlockValues::<f32, S, f32>::new(self.token, rows);
+            let boxes = stored(T::planes::<f32x8<S>>(&values));
+            let limit = Lane::splat(self.token, limit);
+            lanes &= slabs.enter::<IS_BEHIND>(self.token, &boxes, limit).1;
         }
         let candidates = Candidates {
             rows,
-            primitives,
+            primitives: self.blocks.bvh.lanes(block),
+            exclude: self.ray.exclude,
             lanes,
             shape: PhantomData,
         };
@@ -145,10 +149,12 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
     type Found = Found<T>;
     type Nearest = Option<Found<T>>;
 
+    #[inline(always)]
     fn nothing(&self) -> Option<Found<T>> {
         None
     }
 
+    #[inline(always)]
     fn nearest<const IS_BEHIND: bool, const MAYBE_COMPACT: bool>(
         &mut self,
         block: usize,
@@ -159,7 +165,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
         let limit = end_slackened(self.farthest(nearest));
         let (solver, candidates) = self.candidates::<IS_BEHIND, MAYBE_COMPACT>(block, slabs, limit);
         for (primitive, shape) in candidates {
-            let Some(crossing) = solver.crossings(&shape).into_iter().next() else {
+            let Some(crossing) = solver.first(&shape) else {
                 continue;
             };
             let mut found = Found {
@@ -177,6 +183,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
         }
     }
 
+    #[inline(always)]
     fn farthest(&self, nearest: &Option<Found<T>>) -> f32 {
         nearest.as_ref().map_or(self.ray.t_max, |nearest| {
             let farthest = nearest.crossing.t().hi as f32;
@@ -184,14 +191,16 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
         })
     }
 
+    #[inline(always)]
     fn found(&self, nearest: &Option<Found<T>>) -> Option<Found<T>> {
         nearest.clone()
     }
 
+    #[inline(always)]
     fn any<const MAYBE_COMPACT: bool>(&mut self, block: usize, slabs: &SlabRay<S>) -> bool {
         let (solver, mut candidates) =
             self.candidates::<false, MAYBE_COMPACT>(block, slabs, f32::INFINITY);
-        candidates.any(|(_, shape)| !solver.crossings(&shape).is_empty())
+        candidates.any(|(_, shape)| solver.first(&shape).is_some())
     }
 
     fn all(&mut self, block: usize, slabs: &SlabRay<S>, found: &mut Vec<Found<T>>) {
@@ -250,6 +259,7 @@ impl<T: Shape + Pieces, S: Simd> Tester<S> for AlgebraicTester<'_, T, S> {
         }
     }
 
+    #[inline(always)]
     fn announce<const MAYBE_COMPACT: bool>(&self, block: usize) {
         (self.blocks).announce::<MAYBE_COMPACT, S>(self.token, block, T::NUMBERS);
     }

@@ -2,8 +2,8 @@
 
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, Bvh, LentStack, NO_PRIMITIVE, SlabRay, Visitor};
-use crate::kernel::{Kernel, MAX_VALUES};
-use crate::lane::{Number, Stored, Values};
+use crate::kernel::{Kernel, MAX_VALUES, RayLanes};
+use crate::lane::{LaneMask, Number, Stored, Values};
 use crate::ray::Ray;
 use crate::shape::{BLOCKS_AT_ONCE, CompactBlocks, EmptyLanes, Primitives, Shape};
 use crate::simd::{baseline, prefetch};
@@ -207,7 +207,12 @@ pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
     rows: &[Row<K::Stored<N>>],
 ) -> Planes<[f32; BLOCK_SIZE]> {
     let values = BlockValues::<f32, S, K::Stored<N>>::new(token, rows);
-    let [a, b, c, d, e, f] = K::bounds::<N, f32x8<S>>(&values);
+    stored(K::bounds::<N, f32x8<S>>(&values))
+}
+
+/// The boxes in memory.
+#[inline(always)]
+pub(super) fn stored<S: Simd>([a, b, c, d, e, f]: Planes<f32x8<S>>) -> Planes<[f32; BLOCK_SIZE]> {
     [
         a.to_array(),
         b.to_array(),
@@ -216,6 +221,19 @@ pub(super) fn boxes<K: Kernel, N: Number, S: Simd>(
         e.to_array(),
         f.to_array(),
     ]
+}
+
+/// A bit per lane of a block whose primitive the ray's line may meet; see [`Shape::may_meet`]. The rows begin with the
+/// primitives' parameters.
+#[inline(always)]
+pub(super) fn may_meet<P: Shape, T: Stored<f32>, S: Simd>(
+    token: S,
+    rows: &[Row<T>],
+    ray: &Ray,
+) -> u32 {
+    let values = BlockValues::<f32, S, T>::new(token, rows);
+    let RayLanes { origin, dir, .. } = RayLanes::<f32x8<S>>::of(token, ray);
+    P::may_meet([&origin, &dir], &values).map_or(u32::MAX, LaneMask::bits)
 }
 
 /// Packs the rows of all blocks.

@@ -158,7 +158,14 @@ impl<S: Shape> KernelVisitor<S> for Packer<'_, S> {
     where
         S: Pieces,
     {
-        self.pack::<Algebraic<S>>(&kernel::algebraic::INFO, None);
+        self.pack::<Algebraic<S, BaselineLevel>>(&kernel::algebraic::INFO, None);
+    }
+
+    fn visit_algebraic_with_levels(&mut self)
+    where
+        S: Pieces,
+    {
+        self.pack::<Algebraic<S, EveryLevel>>(&kernel::algebraic::INFO, None);
     }
 }
 

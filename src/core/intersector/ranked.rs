@@ -1,7 +1,7 @@
 //! Method for kernels that decide about each primitive separately. Hits are ranked by their computed t.
 
 use super::RankedHit;
-use super::blocks::{BlockValues, Blocks, LaneOf, Row, Scratch, boxes, can_be_hit};
+use super::blocks::{BlockValues, Blocks, LaneOf, Row, Scratch, boxes, can_be_hit, may_meet};
 use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::{Comparison, precedes};
@@ -139,6 +139,12 @@ impl<K: Kernel, N: Number, S: Simd> RankedTester<'_, K, N, S> {
     ) -> ControlFlow<()> {
         let rows =
             (self.blocks).rows::<MAYBE_COMPACT>(block, K::VALUES, self.scratch, K::pack::<N>);
+        if K::IS_FILTERED
+            && N::HOLDS_PRODUCTS
+            && may_meet::<K::Shape, _, S>(self.token, rows, self.ray) == 0
+        {
+            return ControlFlow::Continue(());
+        }
         let values = BlockValues::<N, S, _>::new(self.token, rows);
         let t_max = Lane::splat(self.token, limit);
         let Some(hit) = K::intersect(&self.prepared, &values, self.t_min, t_max) else {

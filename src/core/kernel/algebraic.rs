@@ -29,7 +29,7 @@ pub(crate) static INFO: KernelInfo = KernelInfo {
 /// t of a ray's first hit of a primitive, correctly rounded, its part, and 0.
 pub(super) fn answer<S: Pieces>(ray: &Ray, shape: &S) -> Option<[f64; 3]> {
     let mut solver = CrossingSolver::new(ray);
-    let mut first = solver.crossings(shape).into_iter().next()?;
+    let mut first = solver.first(shape)?;
     let t = solver.t_in_f64(shape, &mut first);
     Some([t, f64::from(first.part()), 0.0])
 }
@@ -37,7 +37,7 @@ pub(super) fn answer<S: Pieces>(ray: &Ray, shape: &S) -> Option<[f64; 3]> {
 /// Tests one primitive. The hit's `primitive` is 0.
 pub(super) fn intersect_one<S: Pieces>(ray: &Ray, shape: &S) -> Option<Hit> {
     let mut solver = CrossingSolver::new(ray);
-    let mut first = solver.crossings(shape).into_iter().next()?;
+    let mut first = solver.first(shape)?;
     Some(Hit {
         // Slightly below the largest f32, t may round to infinity.
         t: solver.t_in_f32(shape, &mut first).min(f32::MAX),

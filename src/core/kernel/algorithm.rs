@@ -54,6 +54,10 @@ pub trait Kernel: Send + Sync + 'static {
     /// would always be doubtful.
     const IS_ADAPTIVE: bool = false;
 
+    /// Whether blocks that [`Shape::may_meet`] rejects in f32 aren't tested in f64. Only for kernels that store the
+    /// primitive's parameters and that would miss them all in f64.
+    const IS_FILTERED: bool = false;
+
     /// Its description in `N`.
     fn info<N: Number>() -> &'static KernelInfo {
         if N::HOLDS_PRODUCTS {

@@ -73,6 +73,14 @@ pub trait KernelVisitor<S: Shape> {
     fn visit_algebraic(&mut self)
     where
         S: Pieces;
+
+    /// As [`visit_algebraic`](Self::visit_algebraic), with code for every SIMD level of the CPU.
+    fn visit_algebraic_with_levels(&mut self)
+    where
+        S: Pieces,
+    {
+        self.visit_algebraic();
+    }
 }
 
 /// The rows of a shape's table.

@@ -19,6 +19,7 @@ mod sample;
 mod shared_corners;
 mod span;
 mod sphere;
+mod sphere_filter;
 mod subtended;
 mod surface;
 mod torus;
@@ -92,6 +93,14 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
 
     /// The boxes around primitives with the parameters.
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L>;
+
+    /// The lanes whose primitives a line may meet, given its origin and direction; `None` if the shape has no test that
+    /// rejects more lines than the primitive's box. A primitive that isn't met is missed in exact arithmetic, and by
+    /// kernels that are [filtered](crate::kernel::Kernel::IS_FILTERED).
+    #[inline(always)]
+    fn may_meet<L: Lane>(_line: [&[L; 3]; 2], _numbers: &impl Values<L>) -> Option<L::Mask> {
+        None
+    }
 
     /// The primitive's box in the tree. It encloses the primitive, also as kernels recompute it from packed
     /// values. Empty or not finite if no ray can hit the primitive.

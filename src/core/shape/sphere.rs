@@ -4,11 +4,12 @@ use super::compact::Slots;
 use super::subtended::SubtendedCone;
 use super::{
     AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint,
-    numbers_of, on_sphere,
+    numbers_of, on_sphere, sphere_filter,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
-    Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
+    Piece, Pieces, Polynomial, QuickLine, RayIn, Ring, RootIntervals, difference, dot,
+    squared_length, vector,
 };
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
@@ -87,6 +88,15 @@ impl Shape for Sphere {
         let upper = |c: L| (c + radius) + slack(c);
         let [x, y, z] = centre;
         [lower(x), upper(x), lower(y), upper(y), lower(z), upper(z)]
+    }
+
+    #[inline(always)]
+    fn may_meet<L: Lane>(line: [&[L; 3]; 2], numbers: &impl Values<L>) -> Option<L::Mask> {
+        Some(sphere_filter::may_meet(
+            line,
+            &numbers.three(0),
+            numbers.value(3),
+        ))
     }
 
     fn bounds(&self) -> Aabb {
@@ -169,6 +179,11 @@ impl Shape for Sphere {
 impl Pieces for Sphere {
     fn centre(&self) -> Vec3 {
         self.centre
+    }
+
+    #[inline(always)]
+    fn quick_roots(&self, line: &QuickLine) -> Option<RootIntervals> {
+        line.at_distance(self.centre, self.radius)
     }
 
     /// |o + t·d − c|² − r².

@@ -1,8 +1,9 @@
 //! Tests of crossings: intervals against exact numbers, and known answers.
 
 use super::super::algebraic::Algebraic;
-use super::super::crossing::{AlgebraCounters, Crossing, CrossingSolver, Pieces};
+use super::super::crossing::{AlgebraCounters, Crossing, CrossingSolver};
 use super::super::dyadic::Dyadic;
+use super::super::pieces::Pieces;
 use super::shapes::{Cylinder, Sphere, Torus};
 use crate::random::Random;
 use crate::ray::Ray;

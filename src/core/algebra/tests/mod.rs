@@ -4,6 +4,8 @@
 mod crossings;
 /// Intervals and dyadic numbers.
 mod numbers;
+/// Roots in plain f64 against exact numbers.
+mod quick_line;
 /// Roots of polynomials, exact and in intervals.
 mod roots;
 /// A sphere, a cylinder and a torus as pieces.

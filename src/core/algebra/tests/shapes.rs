@@ -1,6 +1,6 @@
 //! Shapes as pieces, for the tests.
 
-use super::super::crossing::{Piece, Pieces, RayIn};
+use super::super::pieces::{Piece, Pieces, RayIn};
 use super::super::polynomial::Polynomial;
 use super::super::ring::{Ring, cross, difference, dot, squared_length, vector};
 use glam::Vec3;

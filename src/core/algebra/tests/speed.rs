@@ -1,6 +1,7 @@
 //! Time per ray. `cargo test --release -p hitscope-core --lib algebra::tests::speed -- --ignored --nocapture`
 
-use super::super::crossing::{CrossingSolver, Pieces};
+use super::super::crossing::CrossingSolver;
+use super::super::pieces::Pieces;
 use super::shapes::{Cylinder, Sphere, Torus};
 use crate::random::Random;
 use crate::ray::Ray;

@@ -33,6 +33,6 @@ impl KernelList for Sphere {
         visitor.visit::<Geometric, f64>();
         visitor.visit_with_packets::<HearnBaker>();
         visitor.visit_with_levels::<HearnBaker, f64>();
-        visitor.visit_algebraic();
+        visitor.visit_algebraic_with_levels();
     }
 }
