@@ -59,15 +59,12 @@ impl SurfaceInteraction {
     }
 }
 
-/// Texture coordinates at a hit of a triangle; `None` if a corner has none.
-pub fn texture_coordinates(scene: &Scene, hit: &Hit) -> Option<Vec2> {
-    if !scene.is_triangle(hit.primitive) {
-        return None;
+/// Texture coordinates at a hit; `None` if a corner of a triangle or the primitive has none.
+pub fn texture_coordinates(scene: &Scene, ray: &Ray, hit: &Hit) -> Option<Vec2> {
+    if scene.is_triangle(hit.primitive) {
+        return scene.mesh().texture_coordinates_at(hit);
     }
-    let coordinates = &scene.mesh().attributes().texture_coordinates;
-    let [a, b, c] = coordinates.of_triangle(hit.primitive);
-    let [l1, l2, l3] = hit.barycentric();
-    Some(l1 * a? + l2 * b? + l3 * c?)
+    scene.texture_frame(ray, hit).map(|frame| frame.uv)
 }
 
 /// Vertex colour interpolated at a hit of a triangle, in sRGB; `None` if the mesh has no vertex colours.

@@ -17,10 +17,10 @@ pub(super) fn materials(file: &SceneFile) -> Vec<Material> {
 fn material(material: &scene_file::Material) -> Material {
     let front = bsdf(&material.front);
     let sides = Sides {
-        front,
+        front: front.into(),
         back: match &material.back {
-            Some(back) if *back == material.front => Some(front),
-            back => back.as_ref().map(bsdf),
+            Some(back) if *back == material.front => Some(front.into()),
+            back => back.as_ref().map(|back| bsdf(back).into()),
         },
     };
     let is_matt = matches!(material.front, Bsdf::Diffuse { .. });

@@ -208,7 +208,7 @@ impl Merged {
         self.materials
             .extend(attributes.materials.entries().iter().map(|material| {
                 let mut material = material.clone();
-                if let Some(map) = &mut material.diffuse_map {
+                for map in material.maps_mut() {
                     map.texture += first_texture;
                 }
                 material

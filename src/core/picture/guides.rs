@@ -152,9 +152,9 @@ impl Sum {
         let interaction = SurfaceInteraction::new(scene, ray, hit, context.shading);
         let materials = &scene.mesh().attributes().materials;
         let material = materials.get(interaction.material);
-        let appearance = Appearance::new(scene, material, &hit);
+        let appearance = Appearance::new(scene, material, ray, &hit);
         self.albedo += appearance.bsdf(true).colour().as_dvec3();
-        self.normal += interaction.facing_normal(ray).as_dvec3();
+        self.normal += appearance.facing_normal(&interaction).as_dvec3();
         // Camera rays have unit length.
         self.depth += f64::from(hit.t);
         self.hit_count += 1;

@@ -6,7 +6,7 @@ use crate::aabb::Aabb;
 use crate::group::{Appearance, CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
 use crate::intersector::{Intersector, Packing, scene_intersector};
 use crate::kernel::KernelChoice;
-use crate::mesh::{Crease, TriangleMesh, VertexNormals};
+use crate::mesh::{Crease, TextureFrame, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{SampledPoint, SurfacePoint};
@@ -251,6 +251,15 @@ impl Scene {
     pub fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let (group, primitive) = self.group_of(hit.primitive);
         group.surface(ray, &Hit { primitive, ..*hit })
+    }
+
+    /// The texture coordinates at a hit; `None` if there are none, or if those of a triangle lie on a line.
+    pub fn texture_frame(&self, ray: &Ray, hit: &Hit) -> Option<TextureFrame> {
+        if self.is_triangle(hit.primitive) {
+            return self.mesh.texture_frame(hit);
+        }
+        let (group, index) = self.group_of(hit.primitive);
+        group.texture_frame(index, self.surface(ray, hit).position)
     }
 
     /// The area of a primitive; 0 if its points can't be sampled.
