@@ -49,6 +49,12 @@ impl Placement {
         }
     }
 
+    /// The placement in coordinates about an origin.
+    #[must_use]
+    pub fn about(&self, origin: DVec3) -> Self {
+        Self::new(self.shape, DMat4::from_translation(-origin) * self.to_scene)
+    }
+
     /// The texture coordinates of a point of the surface.
     pub fn frame(&self, position: Vec3) -> TextureFrame {
         let p = self.from_scene.transform_point3(position.as_dvec3());

@@ -2,12 +2,14 @@
 
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
-use super::memory::Needs;
-use super::merge::{Part, merged, positions_in_world};
+use super::memory::{BYTES_PER_ALLOCATION, Needs};
+use super::merge::{Part, merged};
 use super::placed::{
-    Groups, Look, Placed, Refusal, is_flipped, is_mirroring, placed, require_invertible,
+    Groups, Look, Placed, Refusal, is_flipped, placed, placement, require_invertible,
 };
+use super::textures::Textures;
 use super::{LoadedScene, StartView, size_warning};
+use crate::group::Placement;
 use crate::light::{EnvironmentMap, LoadedMap};
 use crate::mesh::TriangleMesh;
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
@@ -15,7 +17,7 @@ use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
 use crate::scene_file::{self, EmitterKind, Place, SceneFile, Shape, ShapeKind};
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -25,6 +27,14 @@ const NEEDS_OF_ENTRY: Needs = Needs {
     loaded: 0,
     placed: size_of::<(Box<dyn Placed>, Look)>() as u64,
     shapes: 2 * size_of::<(u32, u32)>() as u64,
+    merged: 0,
+    primitive_count: 0,
+};
+/// The texture coordinates of a shape, before and in its group.
+const NEEDS_OF_PLACEMENT: Needs = Needs {
+    loaded: 0,
+    placed: (size_of::<Placement>() + BYTES_PER_ALLOCATION) as u64,
+    shapes: 2 * size_of::<(u32, Placement)>() as u64,
     merged: 0,
     primitive_count: 0,
 };
@@ -77,6 +87,9 @@ struct Contents {
     fits: bool,
     /// Materials that come after those of the file.
     emitting: EmittingMaterials,
+    textures: Textures,
+    /// The kinds of shapes that have a texture, but no texture coordinates.
+    without_coordinates: HashSet<&'static str>,
     /// The picture of the environment.
     map: Option<Arc<EnvironmentMap>>,
     report: LoadReport,
@@ -94,9 +107,14 @@ impl Contents {
             parts: Vec::new(),
             shapes: Vec::new(),
             emitting: EmittingMaterials::default(),
+            textures: Textures::default(),
+            without_coordinates: HashSet::new(),
             map: None,
             meshes: HashMap::new(),
-            options,
+            options: LoadOptions {
+                keeps_coordinates: file.textures().next().is_some(),
+                ..options
+            },
             held,
             needs: Needs::default(),
             fits: true,
@@ -117,6 +135,8 @@ impl Contents {
             }
         }
         if contents.fits {
+            let cancelled = |Cancelled| LoadError::Cancelled { path: main_file() };
+            contents.load_textures(file, progress).map_err(cancelled)?;
             contents.load_environment(file, progress)?;
             return Ok(contents);
         }
@@ -144,22 +164,56 @@ impl Contents {
             require_invertible(shape.place, &shape.to_world).map_err(refused)?;
             if self.fits {
                 let mesh = self.mesh(&obj.file, progress)?;
-                let part = part(shape, obj, mesh, material);
+                let part = Part::of(shape, obj, mesh, material);
                 self.needs.add(part.needs());
+                let has_coordinates = part.has_coordinates();
                 self.parts.push(part);
+                if is_textured(file, shape) && !has_coordinates {
+                    self.warn_without_coordinates(file, shape);
+                }
             }
             return Ok(());
         }
         let placed = placed(shape, &shape.to_world).map_err(refused)?;
         self.needs.add(placed.needs());
         self.needs.add(NEEDS_OF_ENTRY);
+        let placement = is_textured(file, shape).then(|| placement(shape));
+        match placement {
+            Some(None) => self.warn_without_coordinates(file, shape),
+            Some(Some(_)) => self.needs.add(NEEDS_OF_PLACEMENT),
+            None => {}
+        }
         if self.fits {
             let look = Look {
                 material: material.unwrap_or(0),
                 is_flipped: is_flipped(shape),
+                placement: placement.flatten().map(Box::new),
             };
             self.shapes.push((placed, look));
         }
+        Ok(())
+    }
+
+    /// Warns about the first shape of a kind that has a texture, but no texture coordinates.
+    fn warn_without_coordinates(&mut self, file: &SceneFile, shape: &Shape) {
+        let kind = shape.kind.name();
+        if self.without_coordinates.insert(kind) {
+            let message = format!(
+                "a shape “{kind}” has a texture, but no texture coordinates; the parameter's default is used"
+            );
+            self.warn(file, shape.place, message);
+        }
+    }
+
+    /// Loads the textures of materials.
+    fn load_textures(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), Cancelled> {
+        let limit = self.options.max_memory.saturating_sub(self.bytes());
+        self.textures = Textures::load(file, limit, progress)?;
+        self.needs.merged += self.textures.bytes();
+        for (place, message) in std::mem::take(&mut self.textures.warnings) {
+            self.warn(file, place, message);
+        }
+        self.report.files.extend(self.textures.files().cloned());
         Ok(())
     }
 
@@ -266,12 +320,13 @@ impl Contents {
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
         for (shape, look) in self.shapes {
-            shape.push_to(&mut groups, origin, look);
+            shape.push_to(&mut groups, origin, look.about(origin));
         }
-        let mut materials = materials(file);
+        let mut materials = materials(file, &self.textures);
         self.emitting.append_to(&mut materials);
         drop(self.meshes);
-        let mesh = merged(self.parts, origin, materials);
+        let textures = self.textures.into_list();
+        let mesh = merged(self.parts, origin, (materials, textures));
         let mut scene = Scene::with_options(mesh, options, progress)?;
         groups.add_to(&mut scene, options, progress)?;
         Ok((scene, self.report))
@@ -311,24 +366,12 @@ impl Contents {
     }
 }
 
-/// A mesh of a scene file.
-fn part(
-    shape: &Shape,
-    obj: &scene_file::Obj,
-    mesh: Arc<TriangleMesh>,
-    material: Option<u32>,
-) -> Part {
-    let name = shape.name.as_ref().or(shape.id.as_ref());
-    Part {
-        positions: positions_in_world(&mesh, &shape.to_world),
-        mesh,
-        to_world: shape.to_world,
-        material,
-        name: name.cloned().unwrap_or_default(),
-        has_face_normals: obj.face_normals,
-        is_mirrored: is_mirroring(&shape.to_world),
-        is_flipped: shape.flip_normals,
-    }
+/// Whether a shape's material has a texture.
+fn is_textured(file: &SceneFile, shape: &Shape) -> bool {
+    let material = shape
+        .material
+        .and_then(|index| file.materials.get(index as usize));
+    material.is_some_and(|material| material.textures().next().is_some())
 }
 
 fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {

@@ -1,9 +1,11 @@
 //! All meshes of a scene as one, in the coordinates of the world.
 
 use super::memory::Needs;
+use super::placed::is_mirroring;
 use crate::mesh::{
     Assigned, Attributes, CornerValues, Faces, Material, NO_INDEX, Runs, Texture, TriangleMesh,
 };
+use crate::scene_file::{self, Shape};
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
 use std::sync::Arc;
 
@@ -24,22 +26,45 @@ pub(super) struct Part {
     pub is_mirrored: bool,
     /// Whether the normals are reversed.
     pub is_flipped: bool,
+    /// Whether the second texture coordinate points down.
+    pub has_coordinates_down: bool,
 }
 
 /// The vertices of a mesh in the world.
-pub(super) fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<DVec3> {
+fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<DVec3> {
     let in_world = |p: &Vec3| to_world.transform_point3(mesh.in_file(p.as_dvec3()));
     mesh.positions().iter().map(in_world).collect()
 }
 
 impl Part {
+    /// The mesh of a shape. A material's index is its index in the scene.
+    pub fn of(
+        shape: &Shape,
+        obj: &scene_file::Obj,
+        mesh: Arc<TriangleMesh>,
+        material: Option<u32>,
+    ) -> Self {
+        let name = shape.name.as_ref().or(shape.id.as_ref());
+        Self {
+            positions: positions_in_world(&mesh, &shape.to_world),
+            mesh,
+            to_world: shape.to_world,
+            material,
+            name: name.cloned().unwrap_or_default(),
+            has_face_normals: obj.face_normals,
+            is_mirrored: is_mirroring(&shape.to_world),
+            is_flipped: shape.flip_normals,
+            has_coordinates_down: material.is_some() && !obj.flip_tex_coords,
+        }
+    }
+
     /// Whether the file's normals are used.
     fn has_normals(&self) -> bool {
         !self.has_face_normals && !self.mesh.attributes().normals.is_empty()
     }
 
     /// Whether the file has texture coordinates.
-    fn has_coordinates(&self) -> bool {
+    pub fn has_coordinates(&self) -> bool {
         !self.mesh.attributes().texture_coordinates.is_empty()
     }
 
@@ -87,10 +112,15 @@ impl Part {
     }
 }
 
-/// Merges meshes relative to an origin. `materials` come first in the merged list.
-pub(super) fn merged(parts: Vec<Part>, origin: DVec3, materials: Vec<Material>) -> TriangleMesh {
+/// Merges meshes relative to an origin. `materials` and their textures come first in the merged lists.
+pub(super) fn merged(
+    parts: Vec<Part>,
+    origin: DVec3,
+    (materials, textures): (Vec<Material>, Vec<Texture>),
+) -> TriangleMesh {
     let mut merged = Merged {
         materials,
+        textures,
         groups: vec![String::new()],
         ..Merged::default()
     };
@@ -191,8 +221,12 @@ impl Merged {
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }
-        self.coordinates
-            .extend(attributes.texture_coordinates.values());
+        let upwards = |uv: &Vec2| match part.has_coordinates_down {
+            true => Vec2::new(uv.x, 1.0 - uv.y),
+            false => *uv,
+        };
+        let coordinates = attributes.texture_coordinates.values();
+        self.coordinates.extend(coordinates.iter().map(upwards));
         self.append_triangles(part, &offsets);
         let vertex = |vertex: u32| offsets.position + vertex;
         self.lines

@@ -4,7 +4,7 @@
 //! |---|---|
 //! | **a scene from the description of a scene file** | `assemble` |
 //! | the shapes of the core that a transformed shape becomes | `placed` |
-//! | its materials | `materials` |
+//! | its materials and textures | `materials`, `textures` |
 //! | all meshes as one | `merge` |
 //! | the memory that this takes | `memory` |
 //! | the sensor as a view | `view` |
@@ -20,6 +20,7 @@ mod memory;
 mod merge;
 mod placed;
 mod saving;
+mod textures;
 mod view;
 
 pub use saving::scene_text;

@@ -40,6 +40,30 @@ const CONTENTS: &[(&str, &str)] = &[
         "2: unknown bsdf “difuse”; the nearest known one is “diffuse”",
     ),
     (
+        "<texture type='bitmpa' id='a'/>",
+        "2: unknown texture “bitmpa”; the nearest known one is “bitmap”",
+    ),
+    (
+        "<texture type='bitmap' id='a'/>",
+        "2: texture “bitmap”: parameter “filename” is missing",
+    ),
+    (
+        "<bsdf type='diffuse' id='a'>\n<ref name='reflectance' id='t'/></bsdf>",
+        "3: no texture “t” is defined before this line",
+    ),
+    (
+        "<bsdf type='diffuse' id='a'><float name='reflectance' value='1'/>\n<texture name='reflectance' type='checkerboard'/></bsdf>",
+        "3: parameter “reflectance” is given twice",
+    ),
+    (
+        "<bsdf type='bumpmap' id='a'><bsdf type='diffuse'/></bsdf>",
+        "2: bsdf “bumpmap”: a nested texture is missing",
+    ),
+    (
+        "<bsdf type='normalmap' id='a'><texture name='normalmap' type='checkerboard'/></bsdf>",
+        "2: bsdf “normalmap”: a nested bsdf is missing",
+    ),
+    (
         "<float name='a' value='1'/>",
         "2: <float> can't stand in <scene>",
     ),

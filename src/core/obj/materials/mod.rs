@@ -9,6 +9,7 @@ mod referenced_files;
 mod stored_file;
 mod textures;
 
+pub(crate) use picture::{Picture, read as read_picture};
 pub use referenced_files::ReadFile;
 pub(super) use referenced_files::{Folder, NamedFiles, ReferencedFiles};
 pub(crate) use stored_file::read_past;
