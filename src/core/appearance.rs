@@ -1,15 +1,13 @@
 //! What a surface looks like at a hit: its material with textures and vertex colours.
 
-use crate::bsdf::{Black, Bsdf, Dielectric, Diffuse, Gain, MetalRough, Phong, Polished, Scatter};
+use crate::bsdf::{Black, Bsdf, Scatter};
 use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
-use crate::mesh::{Illumination, Material, Property, Relief, Side, TextureMap, Tilt};
+use crate::mesh::{Material, Property, Relief, Side, TextureMap, Tilt};
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
 use crate::srgb::{from_display, luminance};
+use crate::statements::{self, CLAY, Values};
 use glam::{Vec2, Vec3};
-
-/// Reflectance of faces without a material.
-const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
 
 /// A material at a hit.
 pub(crate) struct Appearance<'a> {
@@ -175,59 +173,23 @@ impl<'a> Appearance<'a> {
 
     /// What the statements of a material library say.
     fn of_statements(&self, material: &Material) -> Bsdf {
-        if material.is_glass() {
-            return Bsdf::Dielectric(Dielectric {
-                eta: material.refraction,
-                reflectance: Vec3::ONE,
-                transmittance: material.filter.unwrap_or(Vec3::ONE),
-            });
-        }
-        let colour = self.diffuse();
-        let has = |property| material.further_map(property).is_some();
-        let [has_roughness, has_metalness] = [
-            material.roughness.is_some() || has(Property::Roughness),
-            material.metalness.is_some() || has(Property::Metalness),
-        ];
-        if has_roughness || has_metalness {
-            // A texture alone gives the whole value. Without a statement, nothing is a metal, and all is rough.
-            let of_texture = |property| self.value(material, property).x;
-            let metalness = material
-                .metalness
-                .unwrap_or(if has_metalness { 1.0 } else { 0.0 });
-            return Bsdf::MetalRough(MetalRough::new(
-                colour,
-                metalness * of_texture(Property::Metalness),
-                material.roughness.unwrap_or(1.0) * of_texture(Property::Roughness),
-            ));
-        }
-        let specular = self.specular();
-        let illumination = material.illumination;
-        if !illumination.has_highlights() || specular == Vec3::ZERO {
-            return Bsdf::Diffuse(Diffuse {
-                reflectance: colour,
-            });
-        }
-        match illumination {
-            Illumination::Mirror => Bsdf::Polished(Polished::new(colour, specular, Gain::Constant)),
-            Illumination::FresnelMirror => {
-                Bsdf::Polished(Polished::new(colour, specular, Gain::Fresnel))
-            }
-            // Programs write an exponent of 0 for matt materials.
-            _ if material.shininess == 0.0 => Bsdf::Diffuse(Diffuse {
-                reflectance: colour,
-            }),
-            _ => Bsdf::Phong(Phong::new(colour, specular, material.shininess)),
-        }
+        let values = Values {
+            diffuse: self.diffuse(),
+            specular: self.specular(),
+            metalness: self.value(material, Property::Metalness).x,
+            roughness: self.value(material, Property::Roughness).x,
+        };
+        statements::bsdf(material, values)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bsdf::{Plastic, Slot};
+    use crate::bsdf::{Dielectric, Plastic, Slot};
     use crate::mesh::{
-        Assigned, Attributes, Bitangent, CornerValues, Encoding, ReliefKind, Runs, Sides, Texture,
-        shapes::soup,
+        Assigned, Attributes, Bitangent, CornerValues, Encoding, Illumination, ReliefKind, Runs,
+        Sides, Texture, shapes::soup,
     };
     use crate::scene::Shading;
     use glam::UVec2;

@@ -10,6 +10,7 @@ mod inspect;
 mod lab;
 mod light;
 mod lights;
+mod materials;
 mod output;
 mod picture;
 mod render;
