@@ -5,6 +5,7 @@ use hitscope_core::Ray;
 use hitscope_core::bsdf::Scatter as _;
 use hitscope_core::kernel::{Tier, exact_triangle_kernel};
 use hitscope_core::loading::LoadedScene;
+use hitscope_core::mesh::Property;
 use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::SceneOptions;
@@ -405,4 +406,25 @@ fn textures_that_cannot_be_shown_give_a_warning_with_their_line() {
     );
     let end = "none.png: not found; the parameter's default is used";
     assert!(warnings[2].ends_with(end), "{}", warnings[2]);
+}
+
+#[test]
+fn a_texture_gives_the_light_of_an_emitter() {
+    let files = Files::new(
+        "<shape type='rectangle'><emitter type='area'>
+           <texture name='radiance' type='bitmap'><string name='filename' value='t.png'/></texture></emitter></shape>",
+    );
+    std::fs::write(files.folder.path().join("t.png"), png()).expect("written");
+    let scene = files.load().expect("a scene");
+    assert_eq!(scene.report.warnings, []);
+    let materials = scene.scene.mesh().attributes().materials.entries();
+    let material = &materials[scene.scene.material(0) as usize];
+    assert_eq!(material.emission, Vec3::ONE);
+    assert!(material.further_map(Property::Emission).is_some());
+    let ray = Ray::new(Vec3::new(0.5, 0.0, 10.0), Vec3::NEG_Z).expect("a ray");
+    let intersector = scene.scene.intersector(exact_triangle_kernel());
+    let hit = intersector.closest_hit(&ray).expect("a hit");
+    let uv = hitscope_core::interaction::texture_coordinates(&scene.scene, &ray, &hit);
+    // Texel centres are at ¼ and ¾.
+    assert!((uv.expect("coordinates").x - 0.75).abs() < 1e-6);
 }

@@ -168,7 +168,7 @@ impl Contents {
                 self.needs.add(part.needs());
                 let has_coordinates = part.has_coordinates();
                 self.parts.push(part);
-                if is_textured(file, shape) && !has_coordinates {
+                if file.is_textured(shape) && !has_coordinates {
                     self.warn_without_coordinates(file, shape);
                 }
             }
@@ -177,7 +177,7 @@ impl Contents {
         let placed = placed(shape, &shape.to_world).map_err(refused)?;
         self.needs.add(placed.needs());
         self.needs.add(NEEDS_OF_ENTRY);
-        let placement = is_textured(file, shape).then(|| placement(shape));
+        let placement = file.is_textured(shape).then(|| placement(shape));
         match placement {
             Some(None) => self.warn_without_coordinates(file, shape),
             Some(Some(_)) => self.needs.add(NEEDS_OF_PLACEMENT),
@@ -235,8 +235,8 @@ impl Contents {
         // The first material stands for none.
         let material = shape.material.map(|material| material + 1);
         match shape.emitter.as_ref().map(|emitter| &emitter.kind) {
-            Some(EmitterKind::Area { radiance }) => {
-                let copy = self.emitting.index(material, *radiance);
+            Some(EmitterKind::Area { radiance, texture }) => {
+                let copy = self.emitting.index(material, *radiance, texture.as_deref());
                 Some(1 + file.materials.len() as u32 + copy)
             }
             _ => material,
@@ -323,7 +323,7 @@ impl Contents {
             shape.push_to(&mut groups, origin, look.about(origin));
         }
         let mut materials = materials(file, &self.textures);
-        self.emitting.append_to(&mut materials);
+        self.emitting.append_to(&mut materials, &self.textures);
         drop(self.meshes);
         let textures = self.textures.into_list();
         let mesh = merged(self.parts, origin, (materials, textures));
@@ -364,14 +364,6 @@ impl Contents {
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
     }
-}
-
-/// Whether a shape's material has a texture.
-fn is_textured(file: &SceneFile, shape: &Shape) -> bool {
-    let material = shape
-        .material
-        .and_then(|index| file.materials.get(index as usize));
-    material.is_some_and(|material| material.textures().next().is_some())
 }
 
 fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {

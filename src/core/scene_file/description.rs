@@ -36,9 +36,20 @@ impl SceneFile {
         path.map_or(Path::new(""), PathBuf::as_path)
     }
 
-    /// The textures of all materials.
+    /// The textures of all materials and emitters.
     pub fn textures(&self) -> impl Iterator<Item = &Texture> {
-        self.materials.iter().flat_map(Material::textures)
+        let of_emitters = self.shapes.iter().filter_map(Shape::emitted_texture);
+        let of_materials = self.materials.iter().flat_map(Material::textures);
+        of_materials.chain(of_emitters)
+    }
+
+    /// Whether a shape's material or emitter has a texture.
+    pub fn is_textured(&self, shape: &Shape) -> bool {
+        let material = shape
+            .material
+            .and_then(|index| self.materials.get(index as usize));
+        let mut textures = material.into_iter().flat_map(Material::textures);
+        textures.next().is_some() || shape.emitted_texture().is_some()
     }
 }
 
@@ -71,6 +82,13 @@ pub struct Shape {
     pub material: Option<u32>,
     /// The attached emitter.
     pub emitter: Option<Box<Emitter>>,
+}
+
+impl Shape {
+    /// The texture of its emitter.
+    pub fn emitted_texture(&self) -> Option<&Texture> {
+        self.emitter.as_ref()?.kind.texture()
+    }
 }
 
 /// A material.

@@ -142,8 +142,8 @@
 //! | `envmap` | `filename`: a latitude–longitude picture, Radiance HDR or OpenEXR; `scale` = 1; `to_world`: a rotation. `mis_compensation` has no effect |
 //!
 //! Light is `rgb` (linear), `spectrum` with one number or `float`, and isn't negative. A scene has at most one
-//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. So does a texture in
-//! place of a colour.
+//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. The `radiance` of `area` can
+//! be a texture; in place of other colours, one gives a warning.
 //!
 //! ## Integrators
 //!

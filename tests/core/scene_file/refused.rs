@@ -64,6 +64,10 @@ const CONTENTS: &[(&str, &str)] = &[
         "2: bsdf “normalmap”: a nested bsdf is missing",
     ),
     (
+        "<shape type='disk'><emitter type='area'><float name='radiance' value='1'/>\n<texture name='radiance' type='checkerboard'/></emitter></shape>",
+        "3: parameter “radiance” is given twice",
+    ),
+    (
         "<float name='a' value='1'/>",
         "2: <float> can't stand in <scene>",
     ),

@@ -43,6 +43,7 @@ const ALL: &str = r##"
   <texture name="diffuse_reflectance" type="checkerboard"><rgb name="color1" value="0.1 0.2 0.3"/></texture>
   <ref name="specular_reflectance" id="wood"/></bsdf></bsdf>
 <shape type="cube"><ref id="wooden"/></shape>
+<shape type="cube"><emitter type="area"><ref name="radiance" id="wood"/></emitter></shape>
 <shape type="cube"><bsdf type="twosided"><bsdf type="bumpmap"><float name="scale" value="-0.3"/><ref id="wood"/><bsdf type="diffuse"/></bsdf>
   <bsdf type="roughconductor"><ref name="alpha" id="wood"/></bsdf></bsdf></shape>
 <shape type="cube"><bsdf type="mask"><ref name="opacity" id="wood"/><bsdf type="mask"><float name="opacity" value="0.3"/>
@@ -78,6 +79,13 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
     }
     fn of_emitter(emitter: &mut Emitter) {
         emitter.place = Place::default();
+        if let EmitterKind::Area {
+            texture: Some(texture),
+            ..
+        } = &mut emitter.kind
+        {
+            texture.place = Place::default();
+        }
         if let EmitterKind::Other(plugin) = &mut emitter.kind {
             of_plugin(plugin);
         }
