@@ -112,11 +112,11 @@ impl Relief {
                 }
             }
             ReliefKind::Heights { scale, unit } => {
+                let slopes = slopes(texture, &self.map, placed.at, unit);
                 let unit = match unit {
                     HeightUnit::Texel => placed.texel_width(texture),
                     HeightUnit::Scene => 1.0,
                 };
-                let slopes = slopes(texture, &self.map, placed.at);
                 let gradient = placed.gradient(normal, f64::from(scale) * unit * slopes);
                 Tilt {
                     across: -gradient,
@@ -188,13 +188,19 @@ impl Placed {
     }
 }
 
-/// The derivatives of a texture's brightness by its coordinates: central differences over one texel.
-fn slopes(texture: &Texture, map: &TextureMap, at: Vec2) -> DVec2 {
+/// The derivatives of a texture's brightness by its coordinates: differences over one texel.
+fn slopes(texture: &Texture, map: &TextureMap, at: Vec2, unit: HeightUnit) -> DVec2 {
     let size = texture.size().as_vec2();
     let height = |at: Vec2| f64::from(luminance(texture.value(at, map.sampling)));
+    let start = match unit {
+        // Central differences, which change gradually.
+        HeightUnit::Texel => at - 0.5 / size,
+        // From texel centre to texel centre: the derivatives of the bilinear interpolation, as Mitsuba has them.
+        HeightUnit::Scene => ((at * size - 0.5).floor() + 0.5) / size,
+    };
     let slope = |axis: Vec2| {
-        let half = 0.5 * axis / size;
-        (height(at + half) - height(at - half)) * f64::from(axis.dot(size))
+        let from = at + axis * (start - at);
+        (height(from + axis / size) - height(from)) * f64::from(axis.dot(size))
     };
     DVec2::new(slope(Vec2::X), slope(Vec2::Y))
 }

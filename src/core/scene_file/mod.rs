@@ -120,8 +120,6 @@
 //! `to_uv` maps the surface's texture coordinates to the texture's, of which (0, 0) is the upper left corner and (1, 1) the
 //! lower right one. An `obj` has the coordinates of its file; `sphere`, `cylinder`, `disk`, `rectangle` and `cube` have
 //! Mitsuba's, and a `box` those of a cube. Other shapes have none: a warning says that the parameters' defaults are used.
-//! Tilts of normals differ from Mitsuba's where the slope of a bump map changes within a texel: here, it is the mean over
-//! the width of a texel.
 //!
 //! ## Sensors
 //!
