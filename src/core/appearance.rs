@@ -1,7 +1,7 @@
 //! What a surface looks like at a hit: its material with textures and vertex colours.
 
 use crate::bsdf::{Black, Bsdf, Scatter};
-use crate::interaction::{SurfaceInteraction, texture_coordinates, vertex_colour};
+use crate::interaction::{SurfaceInteraction, texture_coordinates, texture_frame, vertex_colour};
 use crate::mesh::{Material, Property, Relief, Side, TextureMap, Tilt};
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
@@ -13,7 +13,7 @@ use glam::{Vec2, Vec3};
 pub(crate) struct Appearance<'a> {
     scene: &'a Scene,
     material: Option<&'a Material>,
-    ray: &'a Ray,
+    position: Vec3,
     hit: &'a Hit,
 }
 
@@ -21,20 +21,20 @@ impl<'a> Appearance<'a> {
     pub fn new(
         scene: &'a Scene,
         material: Option<&'a Material>,
-        ray: &'a Ray,
+        position: Vec3,
         hit: &'a Hit,
     ) -> Self {
         Self {
             scene,
             material,
-            ray,
+            position,
             hit,
         }
     }
 
     /// Texture coordinates. A face without them shows no texture.
     fn uv(&self) -> Option<Vec2> {
-        texture_coordinates(self.scene, self.ray, self.hit)
+        texture_coordinates(self.scene, self.position, self.hit)
     }
 
     /// The value of a property's texture; 1 without one.
@@ -157,16 +157,16 @@ impl<'a> Appearance<'a> {
     /// How a texture tilts the front's shading normal, on either side.
     pub fn tilt(&self, normal: Vec3, is_front: bool) -> Option<Tilt> {
         let relief = self.relief(is_front)?;
-        let frame = self.scene.texture_frame(self.ray, self.hit)?;
+        let frame = texture_frame(self.scene, self.position, self.hit)?;
         relief.tilt(normal, &frame, &self.scene.mesh().attributes().textures)
     }
 
     /// The shading normal, tilted by a texture, on the side that the ray comes from.
-    pub fn facing_normal(&self, surface: &SurfaceInteraction) -> Vec3 {
-        let is_front = surface.geometric_normal.dot(self.ray.dir) <= 0.0;
-        let normal = surface.facing_normal(self.ray);
+    pub fn facing_normal(&self, surface: &SurfaceInteraction, ray: &Ray) -> Vec3 {
+        let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
+        let normal = surface.facing_normal(ray);
         match self.tilt(surface.shading_normal, is_front) {
-            Some(tilt) => tilt.applied_to(normal, (-self.ray.dir).normalize_or(normal)),
+            Some(tilt) => tilt.applied_to(normal, (-ray.dir).normalize_or(normal)),
             None => normal,
         }
     }
@@ -214,8 +214,7 @@ mod tests {
             primitive: 0,
         };
         let material = scene.mesh().attributes().materials.get(0);
-        let ray = Ray::new(Vec3::Z, Vec3::NEG_Z).expect("a ray");
-        f(&Appearance::new(&scene, material, &ray, &hit))
+        f(&Appearance::new(&scene, material, Vec3::splat(0.25), &hit))
     }
 
     fn statements(illumination: Illumination) -> Material {
@@ -307,9 +306,9 @@ mod tests {
         };
         for side in [Vec3::Z, Vec3::NEG_Z] {
             let ray = Ray::new(Vec3::new(0.25, 0.25, 0.0) + side, -side).expect("a ray");
-            let appearance = Appearance::new(&scene, Some(&material), &ray, &hit);
+            let appearance = Appearance::new(&scene, Some(&material), Vec3::ZERO, &hit);
             let surface = SurfaceInteraction::new(&scene, &ray, hit, Shading::Flat);
-            let normal = appearance.facing_normal(&surface);
+            let normal = appearance.facing_normal(&surface, &ray);
             // The texel stands for (1, 0.004, 0.498).
             let expected = Vec3::new(1.0, 0.004, 0.0) + 0.498 * side;
             assert!((normal - expected.normalize()).length() < 1e-3, "{normal}");

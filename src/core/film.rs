@@ -294,6 +294,7 @@ fn filled<T: Clone>(value: T, count: usize) -> Result<Vec<T>, TryReserveError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::brightness::MAX_BRIGHTNESS;
     use crate::random::Random;
 
     fn sum_of(samples: &[Vec3]) -> SampleSum {
@@ -348,6 +349,14 @@ mod tests {
         (0..3).for_each(|_| _ = sum.add(Vec3::splat(f32::MAX)));
         // The end of the range, 2⁶⁴.
         assert_eq!(sum.mean(1), Vec3::splat(ONE as f32));
+    }
+
+    #[test]
+    fn no_sum_of_the_brightest_light_is_cut() {
+        let samples = vec![Vec3::splat(MAX_BRIGHTNESS); 1 << 16];
+        // The sum is 2⁶⁴ less one unit of the sums, which the mean rounds away.
+        let mean = sum_of(&samples).mean(1 << 16);
+        assert_eq!(mean, Vec3::splat(MAX_BRIGHTNESS));
     }
 
     #[test]

@@ -1,8 +1,10 @@
 //! The surface at a hit: normals, material, texture coordinates and colour.
 
 use crate::barycentric::{spherical_mean, weighted};
+use crate::mesh::TextureFrame;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
+use crate::shape::SurfacePoint;
 use glam::{Vec2, Vec3};
 
 /// Normals and material at a hit.
@@ -20,32 +22,26 @@ pub struct SurfaceInteraction {
 impl SurfaceInteraction {
     /// Looks up a hit in the scene. The first smooth lookup computes the vertex normals of the whole mesh.
     pub fn new(scene: &Scene, ray: &Ray, hit: Hit, shading: Shading) -> Self {
-        if !scene.is_triangle(hit.primitive) {
-            let normal = scene.surface(ray, &hit).normal.as_vec3();
-            return Self {
-                geometric_normal: normal,
-                shading_normal: normal,
-                material: scene.material(hit.primitive),
-            };
-        }
-        let mesh = scene.mesh();
-        let weights = hit.barycentric();
-        let geometric_normal = mesh.geometric_normal(hit.primitive);
-        let shading_normal = match shading {
-            Shading::Flat => geometric_normal,
-            Shading::Smooth | Shading::Spherical => {
-                let corners = scene.vertex_normals().of_triangle(mesh, hit.primitive);
-                let interpolated = match shading {
-                    Shading::Spherical => spherical_mean(weights, corners),
-                    _ => weighted(weights, corners).try_normalize(),
-                };
-                interpolated.unwrap_or(geometric_normal)
-            }
+        Self::of_surface(scene, &scene.surface(ray, &hit), hit, shading)
+    }
+
+    /// The same for a hit whose surface is known.
+    pub(crate) fn of_surface(
+        scene: &Scene,
+        surface: &SurfacePoint,
+        hit: Hit,
+        shading: Shading,
+    ) -> Self {
+        let geometric_normal = surface.normal.as_vec3();
+        let shading_normal = if scene.is_triangle(hit.primitive) {
+            interpolated_normal(scene, hit, shading).unwrap_or(geometric_normal)
+        } else {
+            geometric_normal
         };
         Self {
             geometric_normal,
             shading_normal,
-            material: mesh.attributes().materials.index(hit.primitive),
+            material: scene.material(hit.primitive),
         }
     }
 
@@ -59,12 +55,35 @@ impl SurfaceInteraction {
     }
 }
 
-/// Texture coordinates at a hit; `None` if a corner of a triangle or the primitive has none.
-pub fn texture_coordinates(scene: &Scene, ray: &Ray, hit: &Hit) -> Option<Vec2> {
+/// The vertex normals of a triangle interpolated at a hit; `None` in flat shading, or if they cancel.
+fn interpolated_normal(scene: &Scene, hit: Hit, shading: Shading) -> Option<Vec3> {
+    let corners = || {
+        let normals = scene.vertex_normals();
+        normals.of_triangle(scene.mesh(), hit.primitive)
+    };
+    match shading {
+        Shading::Flat => None,
+        Shading::Smooth => weighted(hit.barycentric(), corners()).try_normalize(),
+        Shading::Spherical => spherical_mean(hit.barycentric(), corners()),
+    }
+}
+
+/// Texture coordinates at a hit at a position; `None` if a corner of a triangle or the primitive has none.
+pub fn texture_coordinates(scene: &Scene, position: Vec3, hit: &Hit) -> Option<Vec2> {
     if scene.is_triangle(hit.primitive) {
         return scene.mesh().texture_coordinates_at(hit);
     }
-    scene.texture_frame(ray, hit).map(|frame| frame.uv)
+    texture_frame(scene, position, hit).map(|frame| frame.uv)
+}
+
+/// Texture coordinates and their derivatives at a hit at a position; `None` if there are none, or if those of a triangle
+/// lie on a line.
+pub(crate) fn texture_frame(scene: &Scene, position: Vec3, hit: &Hit) -> Option<TextureFrame> {
+    if scene.is_triangle(hit.primitive) {
+        return scene.mesh().texture_frame(hit);
+    }
+    let (group, index) = scene.group_of(hit.primitive);
+    group.texture_frame(index, position)
 }
 
 /// Vertex colour interpolated at a hit of a triangle, in sRGB; `None` if the mesh has no vertex colours.

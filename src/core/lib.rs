@@ -30,7 +30,7 @@
 //! | [`tone`] | exposure and tone curves |
 //! | [`picture`] | pictures for other programs |
 //! | [`render`] | progressive rendering on several threads |
-//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`] | shared types |
+//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`], [`names`], [`brightness`] | shared types |
 //!
 //! Meshes and rays consist of f32 numbers; a mesh is stored relative to an f64 origin. Nothing here
 //! depends on a scene's size, position or units.
@@ -39,6 +39,7 @@ pub mod aabb;
 mod algebra;
 mod appearance;
 pub mod barycentric;
+pub mod brightness;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
@@ -53,6 +54,7 @@ mod lane;
 pub mod light;
 pub mod loading;
 pub mod mesh;
+pub mod names;
 pub mod obj;
 pub mod picture;
 pub mod plan;
@@ -69,6 +71,7 @@ pub mod simd;
 pub mod spawn;
 pub mod srgb;
 mod statements;
+pub mod terminator;
 pub mod tone;
 
 pub use aabb::Aabb;

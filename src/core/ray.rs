@@ -29,10 +29,10 @@ pub struct Ray {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum RayError {
     /// The origin holds a NaN or an infinity.
-    #[error("the origin isn't finite in f32")]
+    #[error("the origin isn't finite, or is too large for 32-bit numbers, which end at 3.4e38")]
     OriginNotFinite,
     /// The direction holds a NaN or an infinity.
-    #[error("the direction isn't finite in f32")]
+    #[error("the direction isn't finite, or is too large for 32-bit numbers, which end at 3.4e38")]
     DirectionNotFinite,
     /// The direction is (0, 0, 0).
     #[error("the direction is zero in f32")]

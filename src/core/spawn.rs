@@ -22,6 +22,8 @@ pub struct Departure<'a> {
     pub corners: Option<[Vec3; 3]>,
     /// The direction of the new ray.
     pub dir: Vec3,
+    /// Added to the origin of the new ray, by a repair of the shadow terminator; zero without one.
+    pub offset: Vec3,
 }
 
 /// Where a ray between two points ends.
@@ -38,6 +40,16 @@ pub enum Endpoint {
         /// The corners of the triangle, if it is one.
         corners: Option<[Vec3; 3]>,
     },
+}
+
+impl Endpoint {
+    /// The point.
+    pub fn position(&self) -> Vec3 {
+        match self {
+            Self::InSpace(point) => *point,
+            Self::OnSurface { surface, .. } => surface.position,
+        }
+    }
 }
 
 /// A rule for the origin of a spawned ray.
@@ -70,9 +82,27 @@ impl SpawnPolicy {
             origin,
             t_min,
             exclude,
-        } = (self.begin)(departure);
+        } = self.start(departure);
         let ray = Ray::with_interval(origin, departure.dir, t_min, f32::INFINITY)?;
         Ok(Ray { exclude, ..ray })
+    }
+
+    fn start(&self, departure: &Departure<'_>) -> RayStart {
+        let offset = departure.offset;
+        if offset == Vec3::ZERO {
+            return (self.begin)(departure);
+        }
+        // The ray starts on the side of the offset. From there it may point through the primitive.
+        let start = (self.begin)(&Departure {
+            dir: offset,
+            ..*departure
+        });
+        let leaves = departure.surface.facing_normal(departure.dir).dot(offset) > 0.0;
+        RayStart {
+            origin: start.origin + offset,
+            exclude: start.exclude.filter(|_| leaves),
+            ..start
+        }
     }
 
     /// The ray from a departure to an endpoint. `departure.dir` points there. Both ends keep off their surfaces by this
@@ -81,7 +111,7 @@ impl SpawnPolicy {
     /// # Errors
     /// See [`RayError`]; also if both ends are the same point.
     pub fn connect(&self, departure: &Departure<'_>, end: &Endpoint) -> Result<Ray, RayError> {
-        let start = (self.begin)(departure);
+        let start = self.start(departure);
         let target = match *end {
             Endpoint::InSpace(point) => point,
             Endpoint::OnSurface {
@@ -100,6 +130,7 @@ impl SpawnPolicy {
                     surface,
                     corners,
                     dir: -way,
+                    offset: Vec3::ZERO,
                 };
                 (self.begin)(&arrival).origin
             }
@@ -225,6 +256,7 @@ impl<'a> Departure<'a> {
             surface: Triangle(corners).surface(arrived_by, hit),
             corners: Some(corners),
             dir,
+            offset: Vec3::ZERO,
         }
     }
 

@@ -32,13 +32,22 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     let mesh = scene.mesh();
     let mut found = TierReasons::default();
     let triangles = mesh.triangles().len();
-    found.add_for_edges(health, triangles);
+    if scene.primitive_count() == 0 {
+        found.add(Tier::Fast, "The scene is empty.");
+    } else if triangles == 0 {
+        found.add(
+            Tier::Watertight,
+            "The scene has no triangles, between which gaps could show; for other shapes, watertight is the default.",
+        );
+    } else {
+        found.add_for_edges(health, triangles);
+    }
 
     let size = 2.0 * scene.bounds().radius();
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
         let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
         found.add(Tier::Precise, format!(
-            "The mesh is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and the watertight kernel tests nearly every triangle again in f64, one by one."
+            "The scene is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and the watertight kernel tests nearly every triangle again in f64, one by one."
         ));
     }
     if health.max_aspect > SLIVER_ASPECT {
@@ -62,7 +71,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     let offset = mesh.origin().length();
     if size > 0.0 && offset > FAR_OUT * size {
         found.push(None, format!(
-            "The mesh lies {} times its size from (0, 0, 0): it is traced relative to an origin nearby, which costs no kernel accuracy.",
+            "The scene lies {} times its size from (0, 0, 0): it is traced relative to an origin nearby, which costs no kernel accuracy.",
             rounded(offset / size)
         ));
     }
@@ -87,23 +96,22 @@ struct TierReasons {
 
 impl TierReasons {
     fn add_for_edges(&mut self, health: &Health, triangles: usize) {
-        let (tier, reason) =
-            if triangles > 0 && health.places(Flaw::OpenEdge).count() == Some(3 * triangles) {
-                (
-                    Tier::Fast,
-                    "No two triangles share an edge: gaps can't show.",
-                )
-            } else if health.is_closed() {
-                (
-                    Tier::Watertight,
-                    "The mesh is closed: a gap between triangles would show.",
-                )
-            } else {
-                (
-                    Tier::Watertight,
-                    "Triangles share edges: a gap between them would show.",
-                )
-            };
+        let (tier, reason) = if health.places(Flaw::OpenEdge).count() == Some(3 * triangles) {
+            (
+                Tier::Fast,
+                "No two triangles share an edge: gaps can't show.",
+            )
+        } else if health.is_closed() {
+            (
+                Tier::Watertight,
+                "The mesh is closed: a gap between triangles would show.",
+            )
+        } else {
+            (
+                Tier::Watertight,
+                "Triangles share edges: a gap between them would show.",
+            )
+        };
         self.add(tier, reason);
     }
 
@@ -149,9 +157,12 @@ mod tests {
     use super::*;
     use glam::{DVec3, Vec3};
     use hitscope_core::TriangleMesh;
+    use hitscope_core::group::Appearance;
     use hitscope_core::mesh::corridors::{Corridor, Footprint};
     use hitscope_core::mesh::shapes::{Placement, soup, sphere};
-    use hitscope_core::scene::scene;
+    use hitscope_core::progress::Progress;
+    use hitscope_core::scene::{SceneOptions, scene};
+    use hitscope_core::shape::AxisPlane;
 
     fn required(mesh: TriangleMesh) -> Requirement {
         let health = Health::of(&mesh);
@@ -176,6 +187,32 @@ mod tests {
         let dust = |p: Vec3| corners.map(|c| p + c * 1e-6);
         let spread = required(soup(&[dust(Vec3::ZERO), dust(Vec3::X), dust(Vec3::Y)]));
         assert_eq!(spread.tier, "watertight", "{spread:?}");
+    }
+
+    #[test]
+    fn a_scene_without_triangles_is_not_called_closed() {
+        let mut only_planes = scene(soup(&[]));
+        assert_eq!(
+            required_tier(&only_planes, &Health::of(only_planes.mesh())),
+            Requirement {
+                tier: "fast",
+                reasons: vec!["The scene is empty.".to_owned()],
+            }
+        );
+        let plane = AxisPlane {
+            axis: 2,
+            coordinate: 0.0,
+            is_along_axis: true,
+        };
+        let (options, progress) = (SceneOptions::default(), Progress::default());
+        only_planes
+            .add_group(vec![plane], Appearance::default(), options, &progress)
+            .expect("not cancelled");
+        let found = required_tier(&only_planes, &Health::of(only_planes.mesh()));
+        let [reason] = &found.reasons[..] else {
+            panic!("{found:?}");
+        };
+        assert!(reason.contains("no triangles"), "{reason}");
     }
 
     #[test]

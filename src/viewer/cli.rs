@@ -14,11 +14,12 @@ use crate::window;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
+use hitscope_core::names::nearest;
 use hitscope_core::obj::{LoadOptions, Recentre, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
-    BenchArgs, CommandError, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output, PictureArgs,
-    RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
+    BenchArgs, CommandError, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output,
+    PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
 };
 use std::ffi::OsString;
 use std::io::{self, BufWriter, Write, stdout};
@@ -28,6 +29,9 @@ use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
 use std::time::Duration;
 
+/// The width of the help in characters: that of a small terminal, so that no line is broken twice.
+const HELP_WIDTH: usize = 80;
+
 /// A ray-tracing mesh viewer that compares hits with exact arithmetic
 ///
 /// Without a command, hitscope opens a window, or renders the file to hitscope.png if there is no display.
@@ -35,17 +39,16 @@ use std::time::Duration;
 #[command(
     version,
     propagate_version = true,
-    // The texts are broken at this width.
-    term_width = 112,
+    term_width = HELP_WIDTH,
     args_conflicts_with_subcommands = true,
     after_help = "\
 Examples:
-  hitscope                                        open the built-in scene
-  hitscope bunny.obj                              open a file
-  hitscope render bunny.obj -o bunny.png          render a picture without a window
-  hitscope trace bunny.obj --rays rays.txt        trace rays and print JSON
-  hitscope inspect bunny.obj --pixel 640,360      compare all kernels on one ray
-  hitscope COMMAND --help                         list all options of a command
+  hitscope                                   open the built-in scene
+  hitscope bunny.obj                         open a file
+  hitscope render bunny.obj -o bunny.png     render without a window
+  hitscope trace bunny.obj --rays rays.txt   trace rays and print JSON
+  hitscope inspect bunny.obj --pixel 9,7     compare all kernels on one ray
+  hitscope COMMAND --help                    list all options of a command
 
 Exit status:
   0  success
@@ -54,8 +57,8 @@ Exit status:
 
 Results go to stdout; warnings and errors go to stderr.
 
-Limits: 1.4 billion triangles; lines of 128 MB; pictures of 16384 x 16384 pixels; 1024 threads; the memory that
---max-memory allows."
+Limits: 1.4 billion triangles; lines of 128 MB; pictures of 16384 x 16384
+pixels; 1024 threads; the memory that --max-memory allows."
 )]
 struct Cli {
     /// OBJ file, plain or gzipped, or scene file (.xml) to open [default: the built-in scene]
@@ -89,6 +92,8 @@ enum Command {
     Lab(LabArgs),
     #[command(display_name = "hitscope bench")]
     Bench(BenchArgs),
+    #[command(display_name = "hitscope converge")]
+    Converge(ConvergeArgs),
 }
 
 /// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
@@ -147,22 +152,15 @@ fn subcommand(name: Option<&str>) -> clap::Command {
 
 /// The error if the first argument is a misspelt command, which would otherwise be taken for a file.
 fn misspelt_command(arguments: &[OsString]) -> Option<String> {
-    /// Largest number of letters that are wrong, missing, superfluous or swapped.
-    const MOST_ERRORS: usize = 2;
     let word = arguments.get(1)?.to_str()?;
-    let is_word = word.len() > MOST_ERRORS && word.bytes().all(|b| b.is_ascii_alphabetic());
+    let is_word = word.bytes().all(|b| b.is_ascii_alphabetic());
     if !is_word || Path::new(word).exists() {
         return None;
     }
     let cli = Cli::command();
-    let lower_case = word.to_ascii_lowercase();
-    let distance = |command: &clap::Command| strsim::osa_distance(&lower_case, command.get_name());
-    let nearest = cli
-        .get_subcommands()
-        .min_by_key(|command| distance(command))?;
-    let name = nearest.get_name();
-    let is_near = word != name && distance(nearest) <= MOST_ERRORS;
-    is_near.then(|| format!("there is no command or file “{word}”; did you mean “{name}”?"))
+    let name = nearest(word, cli.get_subcommands().map(clap::Command::get_name))?;
+    let is_other = word != name;
+    is_other.then(|| format!("there is no command or file “{word}”; did you mean “{name}”?"))
 }
 
 impl Cli {
@@ -198,6 +196,7 @@ impl Command {
             Self::Info(args) => args.run(&mut out)?,
             Self::Lab(args) => args.run(&mut out)?,
             Self::Bench(args) => args.run(&mut out)?,
+            Self::Converge(args) => args.run(&mut out)?,
         }
         Ok(out.flush()?)
     }
@@ -364,4 +363,28 @@ fn parse_seconds(text: &str) -> Result<Duration, String> {
     seconds
         .and_then(|seconds| Duration::try_from_secs_f64(seconds).ok())
         .ok_or_else(|| "expected a non-negative number of seconds".to_owned())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_line_of_the_help_is_broken_twice() {
+        let mut all = Cli::command();
+        all.build();
+        let commands = [&all].into_iter().chain(all.get_subcommands());
+        for command in commands {
+            let texts = [command.get_long_about(), command.get_after_help()];
+            for text in texts.into_iter().flatten() {
+                let text = text.to_string();
+                // A paragraph on a single line is broken once.
+                let paragraphs = text.split("\n\n").filter(|text| text.contains('\n'));
+                for line in paragraphs.flat_map(str::lines) {
+                    let name = command.get_name();
+                    assert!(line.chars().count() <= HELP_WIDTH, "{name}: {line}");
+                }
+            }
+        }
+    }
 }

@@ -9,6 +9,7 @@ use hitscope_core::kernel::{KernelChoice, default_triangle_kernel, exact_triangl
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy, spawn_policy};
+use hitscope_core::terminator::{TerminatorRepair, default_terminator_repair, terminator_repair};
 use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
@@ -91,6 +92,8 @@ pub struct Settings {
     pub has_depth_limit: bool,
     /// The most surfaces on a path.
     pub depth_limit: u32,
+    /// Name of the repair of the shadow terminator.
+    pub terminator: String,
     /// Where light from far away comes from.
     pub environment: EnvironmentSource,
     /// The picture of [`EnvironmentSource::File`].
@@ -156,6 +159,7 @@ impl Default for Settings {
             ao_distance: 1.0,
             has_depth_limit: false,
             depth_limit: 8,
+            terminator: default_terminator_repair().name.to_owned(),
             environment: EnvironmentSource::Scene,
             environment_file: None,
             environment_colour: [255; 3],
@@ -256,6 +260,11 @@ impl Settings {
     /// The most surfaces on a path; `None` for no limit.
     pub fn depth_limit(&self) -> Option<u32> {
         self.has_depth_limit.then_some(self.depth_limit)
+    }
+
+    /// The repair of the shadow terminator.
+    pub fn terminator(&self) -> &'static TerminatorRepair {
+        terminator_repair(&self.terminator).unwrap_or_else(default_terminator_repair)
     }
 
     /// Whether the view shows light from far away.

@@ -11,6 +11,7 @@ use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
 use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::spawn::spawn_policy;
+use hitscope_core::terminator::terminator_repair;
 use hitscope_core::tone::tone_curve;
 use serde::Deserialize as _;
 use serde_json::Value;
@@ -171,6 +172,11 @@ fn usable_light(settings: Settings) -> Settings {
         },
         spawn: policy(settings.spawn, default.spawn),
         second_spawn: policy(settings.second_spawn, default.second_spawn),
+        terminator: if terminator_repair(&settings.terminator).is_some() {
+            settings.terminator
+        } else {
+            default.terminator
+        },
         tone_curve: if tone_curve(&settings.tone_curve).is_some() {
             settings.tone_curve
         } else {
@@ -253,6 +259,7 @@ mod tests {
             "theme",
             "spawn",
             "second_spawn",
+            "terminator",
             "tone_curve",
             "environment",
         ] {

@@ -5,6 +5,9 @@
 //! `cargo test --release -p hitscope-core --test scene_file_fuzz -- 1000000 SEED` tries as many as given. It is a
 //! program of its own because it counts the memory of all threads.
 
+#[path = "scene_file_fuzz/texts.rs"]
+mod texts;
+
 use cpu_time::ProcessTime;
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
@@ -16,6 +19,7 @@ use std::io;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::Path;
 use std::time::Duration;
+use texts::{NUMBERED, PART, SCENE, WORDS};
 
 #[global_allocator]
 static MEMORY: PeakAlloc = PeakAlloc;
@@ -29,110 +33,6 @@ const LARGE_EVERY: u64 = 200;
 const LARGE_BYTES: usize = 1 << 18;
 /// CPU time; anything longer counts as a hang.
 const LONGEST: Duration = Duration::from_secs(2);
-
-/// A scene with one element on each line, so that changes of lines keep many files well-formed.
-const SCENE: &str = r#"<scene version="3.0.0">
-<default name="q" value="2"/>
-<default name="r" value="$q $q 1"/>
-<integrator type="path"><integer name="max_depth" value="3"/></integrator>
-<sensor type="perspective" id="s"><float name="fov" value="40"/><string name="fov_axis" value="y"/></sensor>
-<sensor type="thinlens"><float name="aperture_radius" value="0.1"/><film type="hdrfilm"><integer name="width" value="9"/></film></sensor>
-<sensor type="orthographic"><transform name="to_world"><scale value="$q"/></transform></sensor>
-<emitter type="point" id="e"><point name="position" value="1 2 3"/><rgb name="intensity" value="1 2 3"/></emitter>
-<emitter type="spot"><boolean name="b" value="true"/></emitter>
-<emitter type="directional"><vector name="direction" value="0 0 -1"/></emitter>
-<emitter type="constant"><spectrum name="radiance" value="0.5"/><texture type="bitmap"><ref id="t"/></texture></emitter>
-<include filename="part.xml"/>
-<bsdf type="twosided" id="m"><bsdf type="diffuse"><rgb name="reflectance" value="0.1,0.2,0.3"/></bsdf></bsdf>
-<bsdf type="plastic" id="n"/>
-<shape type="obj"><string name="filename" value="a &amp; b.obj"/><ref id="m"/></shape>
-<shape type="sphere"><point name="center" x="1" y="$q" z="3"/><float name="radius" value="2"/></shape>
-<shape type="cylinder"><bsdf type="diffuse"/><point name="p0" value="5"/></shape>
-<shape type="rectangle"><transform name="to_world"><rotate y="1" angle="37"/><translate value="$r"/></transform></shape>
-<shape type="disk"><transform name="to_world"><lookat origin="1,2,3" target="4,5,7" up="0,1,0"/></transform></shape>
-<shape type="cube"><emitter type="area"><rgb name="radiance" value="3"/></emitter><boolean name="flip_normals" value="true"/></shape>
-<shape type="cube"><transform name="to_world"><matrix value="1 2 3 4 5 6 7 8 9"/></transform><ref id="late"/></shape>
-<shape type="plane"><vector name="normal" value="1 0 1"/></shape>
-<shape type="box"><point name="max" value="2"/></shape>
-<shape type="cone"><boolean name="capped" value="true"/></shape>
-<shape type="torus"><float name="minor" value="0.1"/></shape>
-<shape type="quadric"><float name="a" value="1"/><float name="j" value="-1"/></shape>
-<shape type="csg"><string name="operation" value="difference"/>
-<bsdf type="diffuse"/>
-<shape type="sphere"/>
-<shape type="cube"><bsdf type="diffuse"/></shape>
-</shape>
-<bsdf type="diffuse" id="late"><float name="reflectance" value="0.25"/></bsdf>
-</scene>
-"#;
-
-const PART: &str = r#"<scene version="3.0.0">
-<!-- A part. -->
-<default name="p" value="1e3"/>
-<shape type="sphere"><float name="radius" value="$p"/><ref id="m"/></shape>
-<medium type="homogeneous"/>
-</scene>
-"#;
-
-/// Pieces of scene files, valid and invalid.
-const WORDS: [&str; 56] = [
-    "<",
-    ">",
-    "/>",
-    "</",
-    "\"",
-    "'",
-    "=",
-    "&",
-    ";",
-    "&amp;",
-    "&#36;",
-    "&#1;",
-    "<!--",
-    "-->",
-    "<![CDATA[",
-    "]]>",
-    "<?",
-    "?>",
-    "<!DOCTYPE a [<!ENTITY b 'c'>]>",
-    "&b;",
-    "xmlns:a='b' ",
-    "\0",
-    "\u{FEFF}",
-    "é",
-    "\n",
-    "$",
-    "$q",
-    "$r",
-    "$$",
-    "nan",
-    "inf",
-    "1e400",
-    "1e308",
-    "-1",
-    "0",
-    "1 2 3",
-    "0.1",
-    "1e-320",
-    "99999999999999999999",
-    "<include filename=\"part.xml\"/>\n",
-    "<include filename=\"x.xml\"/>\n",
-    "<default name=\"q\" value=\"$q$q\"/>\n",
-    "<shape type=\"sphere\"/>\n",
-    "<shape type=\"csg\">\n",
-    "</shape>\n",
-    "<bsdf type=\"twosided\">\n",
-    "</bsdf>\n",
-    "<ref id=\"m\"/>\n",
-    "<transform name=\"to_world\">\n",
-    "</transform>\n",
-    "<rotate x=\"1\" angle=\"90\"/>\n",
-    "id=\"m\" ",
-    "name=\"radius\" ",
-    "type=\"box\" ",
-    "value=\"3\" ",
-    "<scene version=\"3.0.0\">",
-];
 
 fn main() {
     let from_environment = std::env::var("HITSCOPE_FUZZ").ok();
@@ -148,15 +48,19 @@ fn main() {
         // Each input has its own seed, so that it can be repeated alone.
         let mut fuzzer = Fuzzer(Random::new(seed.wrapping_mul(1 << 32) + input));
         let is_large = input % LARGE_EVERY == LARGE_EVERY - 1;
-        let mut case = fuzzer.case(is_large);
+        let case = fuzzer.case(is_large);
         let place = format!("seed {seed}, input {input}");
         if is_large {
-            // With a little less memory than it takes, the file must be refused in time.
-            case.max_memory = 1 << 30;
-            let peak = totals.try_one(&case, &place);
-            case.max_memory = peak.saturating_sub(BYTES_ANYHOW + 1) as u64;
+            totals.try_with_too_little(case, &place);
+        } else {
+            totals.try_one(&case, &place);
         }
-        totals.try_one(&case, &place);
+    }
+    for line in NUMBERED {
+        for copies in [10_000, 60_000] {
+            let case = Case::numbered(line, copies);
+            totals.try_with_too_little(case, &format!("{copies} times {line}"));
+        }
     }
     eprintln!("{inputs} inputs, seed {seed}: {totals:?}");
     let is_good = totals.failures == 0 && totals.scenes > 0 && totals.errors > 0;
@@ -176,6 +80,16 @@ impl Case {
             scene: SCENE.as_bytes().to_vec(),
             part: PART.as_bytes().to_vec(),
             max_memory: 1 << 20,
+        }
+    }
+
+    /// A scene of copies of a line, with the copy's number in place of `ID`.
+    fn numbered(line: &str, copies: usize) -> Self {
+        let lines = (0..copies).map(|k| line.replace("ID", &k.to_string()) + "\n");
+        let lines: String = lines.collect();
+        Self {
+            scene: format!("<scene version='3.0.0'>\n{lines}</scene>").into_bytes(),
+            ..Self::unchanged()
         }
     }
 }
@@ -288,6 +202,14 @@ struct Totals {
 }
 
 impl Totals {
+    /// Tries a case with enough memory, and with a little less than it took: then, it must be refused in time.
+    fn try_with_too_little(&mut self, mut case: Case, place: &str) {
+        case.max_memory = 1 << 30;
+        let peak = self.try_one(&case, place);
+        case.max_memory = peak.saturating_sub(BYTES_ANYHOW + 1) as u64;
+        self.try_one(&case, place);
+    }
+
     /// Tries a case, and returns the memory that it took.
     fn try_one(&mut self, case: &Case, place: &str) -> usize {
         MEMORY.reset_peak_usage();

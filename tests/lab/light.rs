@@ -108,6 +108,25 @@ fn occlusion_ends_at_the_distance() {
 }
 
 #[test]
+fn two_spawn_policies_are_compared() {
+    let folder = folder(DARK);
+    let pixels = |options: &str| {
+        let rendered = rendered(&folder, &format!("--view spawning {options}"));
+        rendered.film.pixels().to_vec()
+    };
+    // At a distance of 10, many points of the sphere are rounded by more than the fixed ε.
+    assert_ne!(pixels(""), pixels("--second-spawn combined"));
+    assert_eq!(pixels(""), pixels("--second-spawn fixed-epsilon"));
+    let args =
+        folder.args::<RenderArgs>("@scene.xml -o @out.png --view path --second-spawn nvidia");
+    let error = args.trace().err().expect("refused");
+    assert_eq!(
+        error.to_string(),
+        "--second-spawn has no effect on the view “path”: it needs --view spawning"
+    );
+}
+
+#[test]
 fn a_tone_curve_changes_bright_colours() {
     let folder = folder(DARK);
     let shown = |options: &str| {

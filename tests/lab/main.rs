@@ -24,6 +24,10 @@ mod scene_files;
 
 // Options of light, and the list of lights.
 mod light;
+// The error of pictures against time.
+mod converge;
+// The path of a sample.
+mod paths;
 // The commands on combined solids.
 mod solids;
 

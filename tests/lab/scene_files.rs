@@ -1,7 +1,7 @@
 //! The commands on scene files with shapes other than triangles.
 
 use crate::folder::Folder;
-use hitscope_lab::commands::{InfoArgs, InspectArgs, LabArgs, RenderArgs};
+use hitscope_lab::commands::{InfoArgs, InspectArgs, LabArgs, RenderArgs, TraceArgs};
 use serde_json::{Value, json};
 
 /// A sphere in front of a box, seen along −z by a sensor with a film of 30 × 20 pixels.
@@ -142,10 +142,8 @@ fn the_sensors_film_is_the_default_size_and_an_explicit_size_wins() {
         .run(&mut Vec::new())
         .expect_err("too large")
         .to_string();
-    assert!(
-        error.contains("20000x20") && error.contains("--size"),
-        "{error}"
-    );
+    let reason = "“width” must be from 1 to 16384";
+    assert!(error.ends_with(reason), "{error}");
 }
 
 #[test]
@@ -281,5 +279,51 @@ fn info_prints_a_scene_file_with_the_same_contents() {
                 .collect()
         };
         assert_eq!(counts(&old), counts(&new), "{name}");
+    }
+}
+
+#[test]
+fn reversed_normals_are_told() {
+    let folder = Folder::new();
+    folder.write(
+        "mirrored.xml",
+        r#"<scene version="3.0.0">
+<shape type="sphere"><transform name="to_world"><scale x="-1"/></transform></shape>
+<shape type="sphere"><point name="center" value="9 0 0"/></shape>
+<shape type="plane"><point name="point" value="0 0 -5"/></shape></scene>"#,
+    );
+    let info = folder.json(|f, out| f.args::<InfoArgs>("@mirrored.xml --json").run(out));
+    let shapes = info["shapes"].as_array().expect("a list");
+    let reversed: Vec<&Value> = shapes.iter().map(|s| &s["reversed_normals"]).collect();
+    assert_eq!(reversed, [1, 0]);
+    let text = folder.text(|f, out| f.args::<InfoArgs>("@mirrored.xml").run(out));
+    assert!(text.contains("2 spheres, normals of 1 reversed:"), "{text}");
+    folder.write("rays.txt", "0 0 3 0 0 -1\n9 0 3 0 0 -1\n");
+    let line = "@mirrored.xml --rays @rays.txt --explain";
+    let text = folder.text(|f, out| f.args::<TraceArgs>(line).run(out));
+    for (line, (is_reversed, z)) in text.lines().zip([(true, -1.0), (false, 1.0)]) {
+        let found: Value = serde_json::from_str(line).expect("JSON");
+        assert_eq!(found["is_reversed"], is_reversed, "{line}");
+        assert_eq!(found["normal"][2], z, "{line}");
+    }
+}
+
+#[test]
+fn scenes_without_size_have_no_bounds() {
+    let folder = Folder::new();
+    for (contents, reason) in [
+        ("", "The scene is empty."),
+        (
+            "<shape type=\"plane\"/>",
+            "The scene has no triangles, between which gaps could show; for other shapes, watertight is the default.",
+        ),
+    ] {
+        let text = format!("<scene version=\"3.0.0\">{contents}</scene>");
+        folder.write("flat.xml", &text);
+        let info = folder.json(|f, out| f.args::<InfoArgs>("@flat.xml --json").run(out));
+        assert_eq!(info["bounds"], Value::Null);
+        assert_eq!(info["tier"]["reasons"], json!([reason]));
+        let text = folder.text(|f, out| f.args::<InfoArgs>("@flat.xml").run(out));
+        assert!(text.contains("\nbounds              none\n"), "{text}");
     }
 }

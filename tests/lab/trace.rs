@@ -373,3 +373,63 @@ fn normals_of_closed_shapes_point_outwards() {
         assert_normal(&serde_json::from_str(line).expect("JSON"), expected);
     }
 }
+
+#[test]
+fn positions_on_shapes_are_accurate_however_far_away_the_ray_starts() {
+    let scene = r#"<scene version="3.0.0">
+        <shape type="sphere"/>
+        <shape type="cylinder"><point name="p0" x="4" y="-1" z="0"/><point name="p1" x="4" y="1" z="0"/></shape>
+        <shape type="cube"><transform name="to_world"><translate x="8"/></transform></shape>
+        <shape type="torus"><point name="center" x="12" y="0" z="0"/><float name="major" value="0.25"/></shape>
+        <shape type="csg"><string name="operation" value="difference"/>
+            <shape type="sphere"><point name="center" x="16" y="0" z="0"/></shape>
+            <shape type="sphere"><point name="center" x="16" y="0" z="-1"/></shape>
+        </shape>
+    </scene>"#;
+    let heights = [
+        0.968_245_836_551_854_2,
+        0.968_245_836_551_854_2,
+        1.0,
+        0.25,
+        0.968_245_836_551_854_2,
+    ];
+    let folder = Folder::new();
+    folder.write("scene.xml", scene);
+    for far in [1e5, 1e7, 1e8, 123_456_789.123, 1e14] {
+        let rays = (0..5).map(|k| line([4.0 * f64::from(k) + 0.25, 0.0, far, 0.0, 0.0, -1.0]));
+        folder.write("rays.txt", &rays.collect::<String>());
+        for kernel in ["fast", "watertight", "precise", "exact"] {
+            let arguments = format!("@scene.xml --rays @rays.txt --kernel {kernel}");
+            let text = folder.text(|folder, out| folder.args::<TraceArgs>(&arguments).run(out));
+            assert_eq!(text.lines().count(), heights.len());
+            for (text, height) in text.lines().zip(heights) {
+                let answer: Value = serde_json::from_str(text).expect("JSON");
+                let z = answer["position"][2].as_f64().expect(text);
+                // The ray starts some 20 units away, where t is a multiple of 2⁻¹⁹.
+                assert!((z - height).abs() < 2f64.powi(-19), "{kernel} {far} {text}");
+            }
+        }
+    }
+}
+
+#[test]
+fn an_infinite_plane_far_from_all_else_is_hit() {
+    let scene = r#"<scene version="3.0.0">
+        <shape type="sphere"/>
+        <shape type="plane"><point name="point" x="0" y="0" z="1000"/><vector name="normal" x="0" y="0" z="1"/></shape>
+        <shape type="plane"><point name="point" x="0" y="0" z="-1000"/><vector name="normal" x="0" y="0" z="1"/></shape>
+    </scene>"#;
+    let folder = Folder::new();
+    folder.write("scene.xml", scene);
+    folder.write("rays.txt", "0.25 0 123456789.125 0 0 -1\n3 0 500 0 0 -1\n");
+    let line = "@scene.xml --rays @rays.txt --all";
+    let text = folder.text(|folder, out| folder.args::<TraceArgs>(line).run(out));
+    let heights = |line: &str| -> Vec<i64> {
+        let answer: Value = serde_json::from_str(line).expect("JSON");
+        let hits = answer["hits"].as_array().expect("a list");
+        let height = |hit: &Value| hit["position"][2].as_f64().expect("a number").round() as i64;
+        hits.iter().map(height).collect()
+    };
+    let found: Vec<_> = text.lines().map(heights).collect();
+    assert_eq!(found, [vec![1000, 1, -1, -1000], vec![-1000]]);
+}

@@ -37,15 +37,26 @@ fn each_view_shows_the_options_that_it_uses() {
         "Open environment…",
         "Stop after",
         "Stop at noise",
+        "Terminator repair",
     ];
     for (view, expected) in [
-        ("Path tracing", [true, true, false, true, true, true, true]),
-        ("Direct light", [true, false, false, true, true, true, true]),
+        (
+            "Path tracing",
+            [true, true, false, true, true, true, true, true],
+        ),
+        (
+            "Recursive",
+            [true, true, false, true, true, true, true, true],
+        ),
+        (
+            "Direct light",
+            [true, false, false, true, true, true, true, true],
+        ),
         (
             "Ambient occlusion",
-            [true, false, true, false, false, true, true],
+            [true, false, true, false, false, true, true, false],
         ),
-        ("Normal", [false; 7]),
+        ("Normal", [false; 8]),
     ] {
         window.get_by_label(view).click();
         window.run_steps(3);

@@ -17,6 +17,8 @@ mod harness;
 mod machine;
 // Views that need lights: their options, noise and limits.
 mod light;
+// The path of a picked pixel's sample.
+mod paths;
 // Flaws, reloading and creases of the open mesh.
 mod mesh;
 // The window before, during and after opening a file.

@@ -53,7 +53,23 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         ),
         (
             &format!("{render} --environment constant:-1"),
-            "must be finite and not negative",
+            "the radiance must not be negative",
+        ),
+        (
+            &format!("{render} --environment constant:3e38"),
+            "the radiance is too bright: a picture holds at most 2.8e14",
+        ),
+        (
+            &format!("{render} --environment studoi"),
+            "did you mean “studio”?",
+        ),
+        (
+            &format!("{render} --environment="),
+            "expected a file, constant:R,G,B, studio or built-in",
+        ),
+        (
+            &format!("{render} --view triangle --environment studio"),
+            "it needs --view direct, whitted, path or shading-normal",
         ),
         (
             &format!("{render} --rotation 400"),
@@ -162,11 +178,15 @@ fn options_without_effect_are_refused() {
         ),
         (
             &format!("{render} --spawn fixed-epsilon"),
-            "no effect on the view “shaded”: it needs --view ao or",
+            "no effect on the view “shaded”: it needs --view ao, direct",
         ),
         (
             &format!("{render} --view direct --depth 3"),
             "no effect on the view “direct”: it needs --view",
+        ),
+        (
+            &format!("{render} --view ao --terminator chiang"),
+            "no effect on the view “ao”: it needs --view",
         ),
         (
             &format!("{render} --view path --ao-distance 1"),
@@ -250,7 +270,9 @@ fn misspelt_commands_and_several_files_get_a_hint() {
 fn every_command_has_a_version_and_help_with_examples() {
     let program = Program::new();
     let version = concat!(env!("CARGO_PKG_VERSION"), "\n");
-    for command in ["", "render", "inspect", "trace", "info", "lab", "bench"] {
+    for command in [
+        "", "render", "inspect", "trace", "info", "lab", "bench", "converge",
+    ] {
         let ran = program.run(&format!("{command} --version"));
         assert!(stdout(&ran).ends_with(version), "{command}");
         let help = stdout(&program.run(&format!("{command} --help")));

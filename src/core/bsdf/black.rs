@@ -11,6 +11,7 @@ pub(super) static BLACK: Model = Model {
     name: "black",
     source: "",
     transmits: false,
+    is_specular: true,
     is_reciprocal: true,
     examples: || vec![Bsdf::Black(Black)],
 };

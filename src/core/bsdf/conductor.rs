@@ -37,6 +37,7 @@ pub(super) static CONDUCTOR: Model = Model {
     name: "conductor",
     source: "Fresnel's equations; Born, Wolf, Principles of Optics, 1999",
     transmits: false,
+    is_specular: true,
     is_reciprocal: true,
     examples: || {
         let metal = Conductor {
@@ -64,13 +65,18 @@ impl Scatter for Conductor {
     }
 
     fn sample(&self, outgoing: Vec3, _: Vec2, _: f32) -> Option<Scattered> {
-        (outgoing.z > 0.0).then(|| {
-            let weight = self.reflected_part(outgoing.z);
-            Scattered::reflected(mirrored(outgoing), weight, None)
-        })
+        self.single_directions(outgoing)[0]
     }
 
     fn density(&self, _: Vec3, _: Vec3) -> f32 {
         0.0
+    }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let mirrored = (outgoing.z > 0.0).then(|| {
+            let weight = self.reflected_part(outgoing.z);
+            Scattered::reflected(mirrored(outgoing), weight, None)
+        });
+        [mirrored, None]
     }
 }

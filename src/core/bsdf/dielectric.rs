@@ -22,6 +22,7 @@ pub(super) static DIELECTRIC: Model = Model {
     name: "dielectric",
     source: "Snell's law and Fresnel's equations; Born, Wolf, Principles of Optics, 1999",
     transmits: true,
+    is_specular: true,
     is_reciprocal: true,
     examples: || {
         let of_index = |eta| Dielectric {
@@ -40,6 +41,23 @@ pub(super) fn index_beyond(eta: f32, outgoing: Vec3) -> f32 {
     if outgoing.z > 0.0 { eta } else { 1.0 / eta }
 }
 
+impl Dielectric {
+    fn reflection(&self, outgoing: Vec3) -> Scattered {
+        Scattered::reflected(mirrored(outgoing), self.reflectance, None)
+    }
+
+    /// Refracted radiance grows with the square of the index of its medium, as it is compressed into a smaller solid angle.
+    fn refraction(&self, outgoing: Vec3, interface: Interface, eta: f32) -> Scattered {
+        let z = -interface.cos_beyond.copysign(outgoing.z);
+        Scattered {
+            incoming: Vec3::new(-outgoing.x / eta, -outgoing.y / eta, z),
+            weight: self.transmittance / (eta * eta),
+            density: None,
+            eta,
+        }
+    }
+}
+
 impl Scatter for Dielectric {
     fn model(&self) -> &'static Model {
         &DIELECTRIC
@@ -53,27 +71,28 @@ impl Scatter for Dielectric {
         Vec3::ZERO
     }
 
-    /// Refracted radiance grows with the square of the index of its medium, as it is compressed into a smaller solid angle.
     fn sample(&self, outgoing: Vec3, _: Vec2, choice: f32) -> Option<Scattered> {
         let eta = index_beyond(self.eta, outgoing);
         let interface = Interface::at(outgoing.z.abs(), eta);
-        if choice < interface.reflectance {
-            return Some(Scattered::reflected(
-                mirrored(outgoing),
-                self.reflectance,
-                None,
-            ));
-        }
-        let z = -interface.cos_beyond.copysign(outgoing.z);
-        Some(Scattered {
-            incoming: Vec3::new(-outgoing.x / eta, -outgoing.y / eta, z),
-            weight: self.transmittance / (eta * eta),
-            density: None,
-            eta,
+        Some(if choice < interface.reflectance {
+            self.reflection(outgoing)
+        } else {
+            self.refraction(outgoing, interface, eta)
         })
     }
 
     fn density(&self, _: Vec3, _: Vec3) -> f32 {
         0.0
+    }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let eta = index_beyond(self.eta, outgoing);
+        let interface = Interface::at(outgoing.z.abs(), eta);
+        let reflected = self.reflection(outgoing).scaled(interface.reflectance);
+        let refracted = (interface.reflectance < 1.0).then(|| {
+            let refracted = self.refraction(outgoing, interface, eta);
+            refracted.scaled(1.0 - interface.reflectance)
+        });
+        [Some(reflected), refracted]
     }
 }

@@ -18,6 +18,7 @@ pub(super) static DIFFUSE: Model = Model {
     name: "diffuse",
     source: "Lambert, Photometria, 1760",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let grey = |x| {

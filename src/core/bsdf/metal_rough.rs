@@ -52,6 +52,7 @@ pub(super) static METAL_ROUGH: Model = Model {
     name: "metal-rough",
     source: "Burley, Physically Based Shading at Disney, 2012",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let of = |colour, metalness, roughness| {

@@ -87,6 +87,34 @@ impl Microfacets {
         self.area(m) * self.visible_part(v, m) * v.dot(m).abs() / v.z.abs()
     }
 
+    /// The mean of a function of the normal over the facets that are visible from `v`, which is on the front, in the
+    /// plane y = 0. The function doesn't depend on the sign of y.
+    ///
+    /// The sum over normals at angles whose tangents are alpha·r/(1 − r), for which the area varies slowly. The mean of 1
+    /// is 1 to 5e-4.
+    pub(super) fn visible_mean(&self, v: Vec3, f: impl Fn(Vec3) -> f32) -> f32 {
+        const RINGS: usize = 64;
+        const STEPS: usize = 24;
+        let mut sum = 0.0;
+        for i in 0..RINGS {
+            let r = (i as f32 + 0.5) / RINGS as f32;
+            let tan = self.alpha * r / (1.0 - r);
+            let z = 1.0 / (1.0 + tan * tan).sqrt();
+            // dω = sin θ dθ dφ, dθ = cos² θ d tan θ.
+            let width = self.alpha / ((1.0 - r) * (1.0 - r) * RINGS as f32);
+            let solid_angle = tan * z * z * z * width * (2.0 * PI / STEPS as f32);
+            for j in 0..STEPS {
+                let (sin, cos) = libm::sincosf((j as f32 + 0.5) / STEPS as f32 * PI);
+                let m = Vec3::new(tan * z * cos, tan * z * sin, z);
+                if v.dot(m) > 0.0 {
+                    let part = solid_angle * self.visible_density(v, m);
+                    sum += f64::from(part * f(m));
+                }
+            }
+        }
+        sum as f32
+    }
+
     /// A normal with the density [`visible_density`](Self::visible_density).
     pub(super) fn sample_visible(&self, v: Vec3, at: Vec2) -> Vec3 {
         let stretched = Vec3::new(self.alpha * v.x, self.alpha * v.y, v.z).normalize();
@@ -216,40 +244,11 @@ mod tests {
                 let facets = Microfacets::new(law, alpha);
                 for z in [1.0, 0.5, 0.1f32] {
                     let v = Vec3::new((1.0 - z * z).sqrt(), 0.0, z);
-                    let found = projected_area(&facets, v);
-                    // The midpoint rule on a grid of 400 × 400 slopes: halving its steps changes the sum by less.
-                    assert!(
-                        (found / f64::from(z) - 1.0).abs() < 2e-3,
-                        "{law:?} {alpha} {z}: {found}"
-                    );
+                    let found = facets.visible_mean(v, |_| 1.0);
+                    // The error that is stated there.
+                    assert!((found - 1.0).abs() < 5e-4, "{law:?} {alpha} {z}: {found}");
                 }
             }
         }
-    }
-
-    /// The sum over normals at angles whose tangents are alpha·r/(1 − r), for which the area varies slowly.
-    fn projected_area(facets: &Microfacets, v: Vec3) -> f64 {
-        const N: usize = 400;
-        let mut sum = 0.0;
-        for i in 0..N {
-            let r = (i as f64 + 0.5) / N as f64;
-            let tan = f64::from(facets.alpha) * r / (1.0 - r);
-            let cos = 1.0 / (1.0 + tan * tan).sqrt();
-            // dω = sin θ dθ dφ, dθ = cos² θ d tan θ.
-            let step = f64::from(facets.alpha) / (1.0 - r).powi(2) / N as f64;
-            let solid = tan * cos * cos * cos * step * std::f64::consts::TAU / N as f64;
-            for j in 0..N {
-                let (sin_phi, cos_phi) =
-                    ((j as f64 + 0.5) / N as f64 * std::f64::consts::TAU).sin_cos();
-                let m = Vec3::new(
-                    (tan * cos * cos_phi) as f32,
-                    (tan * cos * sin_phi) as f32,
-                    cos as f32,
-                );
-                let seen = facets.area(m) * facets.visible_part(v, m) * v.dot(m).max(0.0);
-                sum += solid * f64::from(seen);
-            }
-        }
-        sum
     }
 }

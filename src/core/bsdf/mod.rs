@@ -60,6 +60,12 @@ pub trait Scatter {
 
     /// The probability density of [`sample`](Self::sample) per solid angle, 0 for single directions.
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32;
+
+    /// The single directions that the light may come from, as by a mirror, each with the part of light that it scatters.
+    /// [`sample`](Self::sample) chooses among them and the other directions.
+    fn single_directions(&self, _outgoing: Vec3) -> [Option<Scattered>; 2] {
+        [None, None]
+    }
 }
 
 /// A sampled direction.
@@ -83,6 +89,14 @@ impl Scattered {
             weight,
             density,
             eta: 1.0,
+        }
+    }
+
+    /// The same direction with a part of the light.
+    fn scaled(self, part: f32) -> Self {
+        Self {
+            weight: part * self.weight,
+            ..self
         }
     }
 
@@ -177,6 +191,10 @@ impl Scatter for Bsdf {
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
         self.scatter().density(outgoing, incoming)
     }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        self.scatter().single_directions(outgoing)
+    }
 }
 
 /// A model of the table.
@@ -187,6 +205,8 @@ pub struct Model {
     pub source: &'static str,
     /// Whether light passes through.
     pub transmits: bool,
+    /// Whether all light is scattered into single directions or absorbed, so that no light can be aimed at.
+    pub is_specular: bool,
     /// Whether exchanging both directions gives the same BSDF. Refraction scales it by the square of the index.
     pub is_reciprocal: bool,
     /// Examples, ordinary and extreme.

@@ -12,6 +12,12 @@ pub(super) fn reflected(outgoing: Vec3, normal: Vec3) -> Vec3 {
     2.0 * outgoing.dot(normal) * normal - outgoing
 }
 
+/// The direction of refraction by a facet with this unit normal on the side of `outgoing`; `interface` is
+/// [`Interface::at`] their cosine and `eta`.
+pub(super) fn refracted(outgoing: Vec3, normal: Vec3, interface: Interface, eta: f32) -> Vec3 {
+    (outgoing.dot(normal) / eta - interface.cos_beyond) * normal - outgoing / eta
+}
+
 /// What happens at the interface of two transparent media.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Interface {

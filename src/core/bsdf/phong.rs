@@ -45,6 +45,7 @@ pub(super) static PHONG: Model = Model {
     name: "phong",
     source: "Lafortune, Willems, Using the Modified Phong Reflectance Model for Physically Based Rendering, 1994",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let of = |kd, ks, exponent| {

@@ -71,6 +71,7 @@ pub(super) static PLASTIC: Model = Model {
     name: "plastic",
     source: "Wolff, Diffuse-reflectance model for smooth dielectric surfaces, 1994",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let red = Vec3::new(0.7, 0.2, 0.1);
@@ -125,5 +126,13 @@ impl Scatter for Plastic {
             return 0.0;
         }
         (1.0 - self.coat_probability(outgoing)) * cosine
+    }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let mirrored = (outgoing.z > 0.0).then(|| {
+            let weight = self.coat(outgoing.z) * self.specular;
+            Scattered::reflected(mirrored(outgoing), weight, None)
+        });
+        [mirrored, None]
     }
 }

@@ -65,6 +65,7 @@ pub(super) static POLISHED: Model = Model {
     name: "polished",
     source: "Whitted, An Improved Illumination Model for Shaded Display, 1980",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let of = |kd, ks, gain| {
@@ -118,5 +119,13 @@ impl Scatter for Polished {
             return 0.0;
         }
         (1.0 - self.mirror_probability(outgoing.z)) * cosine
+    }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let mirrored = (outgoing.z > 0.0).then(|| {
+            let weight = self.mirror(outgoing.z);
+            Scattered::reflected(mirrored(outgoing), weight, None)
+        });
+        [mirrored, None]
     }
 }

@@ -21,6 +21,7 @@ pub(super) static ROUGH_CONDUCTOR: Model = Model {
     name: "rough conductor",
     source: "Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007",
     transmits: false,
+    is_specular: false,
     is_reciprocal: true,
     examples: || {
         let gold = Conductor {

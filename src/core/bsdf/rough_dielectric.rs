@@ -5,7 +5,7 @@
 
 use super::dielectric::index_beyond;
 use super::microfacets::{Law, Microfacets};
-use super::optics::{Interface, reflected};
+use super::optics::{Interface, reflected, refracted};
 use super::rough_conductor::halfway;
 use super::{Bsdf, Dielectric, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};
@@ -23,6 +23,7 @@ pub(super) static ROUGH_DIELECTRIC: Model = Model {
     name: "rough dielectric",
     source: "Walter et al., Microfacet Models for Refraction through Rough Surfaces, 2007",
     transmits: true,
+    is_specular: false,
     is_reciprocal: false,
     examples: || {
         let of = |eta, law, alpha| {
@@ -134,7 +135,7 @@ impl Scatter for RoughDielectric {
         let incoming = if reflects {
             reflected(outgoing, m)
         } else {
-            ((cos / eta - interface.cos_beyond) * m - outgoing / eta).normalize()
+            refracted(outgoing, m, interface, eta).normalize()
         };
         let facet = Facet {
             m: side * m,

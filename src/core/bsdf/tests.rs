@@ -150,6 +150,40 @@ fn weights_are_the_bsdf_over_the_density_and_single_directions_have_none() {
     }
 }
 
+#[test]
+fn single_directions_have_the_light_that_samples_of_them_carry_on_average() {
+    const N: u32 = 1 << 12;
+    for (name, bsdf, outgoing) in cases() {
+        let singles = bsdf.single_directions(outgoing);
+        let mut sums = [Vec3::ZERO; 2];
+        for k in 0..N {
+            let choice = (k as f32 + 0.5) / N as f32;
+            let sampled = bsdf.sample(outgoing, Vec2::new(0.3, 0.6), choice);
+            let Some(sampled) = sampled.filter(|sampled| sampled.density.is_none()) else {
+                continue;
+            };
+            let is_it = |single: &Option<Scattered>| {
+                single.is_some_and(|single| {
+                    (single.incoming, single.eta) == (sampled.incoming, sampled.eta)
+                })
+            };
+            let single = singles.iter().position(is_it);
+            sums[single.unwrap_or_else(|| panic!("{name}: {sampled:?}"))] += sampled.weight;
+        }
+        for (single, sum) in singles.into_iter().zip(sums) {
+            let expected = single.map_or(Vec3::ZERO, |single| single.weight);
+            let weight = sum / N as f32;
+            // One choice more or less, of a weight up to 1/0.75², or 1 over the probability of a mirror, at most 1/0.02;
+            // that times the probability is the expected weight.
+            let bound = 50.0 / N as f32 * expected.max_element() + 2.0 / N as f32;
+            assert!(
+                (weight - expected).abs().max_element() <= bound,
+                "{name}: {weight} {expected}"
+            );
+        }
+    }
+}
+
 const ROWS: usize = 12;
 const COLUMNS: usize = 16;
 
@@ -324,5 +358,20 @@ fn white_plastic_and_glass_lose_no_light() {
             (mean - 1.0).abs() < 4.0 * 0.2 / f64::from(N).sqrt(),
             "{mean}"
         );
+    }
+}
+
+#[test]
+fn exactly_the_models_that_are_said_to_be_specular_scatter_into_single_directions_alone() {
+    let mut random = Random::new(11);
+    for model in MODELS {
+        let mut spreads = false;
+        for bsdf in (model.examples)() {
+            for _ in 0..1000 {
+                let [outgoing, incoming] = [0, 1].map(|_| random.direction().as_vec3());
+                spreads |= bsdf.evaluate(outgoing, incoming) != Vec3::ZERO;
+            }
+        }
+        assert_eq!(spreads, !model.is_specular, "{}", model.name);
     }
 }

@@ -22,6 +22,7 @@ pub(super) static THIN_DIELECTRIC: Model = Model {
     name: "thin dielectric",
     source: "Stokes, On the Intensity of the Light Reflected from or Transmitted through a Pile of Plates, 1862",
     transmits: true,
+    is_specular: true,
     is_reciprocal: true,
     examples: || {
         let of_index = |eta| ThinDielectric {
@@ -34,6 +35,23 @@ pub(super) static THIN_DIELECTRIC: Model = Model {
             .to_vec()
     },
 };
+
+impl ThinDielectric {
+    /// The part of light that the pane reflects. Of the light that enters, the second face reflects r, the first one r of
+    /// that, and so on.
+    fn reflected_part(&self, outgoing: Vec3) -> f32 {
+        let r = Interface::at(outgoing.z.abs(), self.eta).reflectance;
+        2.0 * r / (1.0 + r)
+    }
+
+    fn reflection(&self, outgoing: Vec3) -> Scattered {
+        Scattered::reflected(mirrored(outgoing), self.reflectance, None)
+    }
+
+    fn passage(&self, outgoing: Vec3) -> Scattered {
+        Scattered::reflected(-outgoing, self.transmittance, None)
+    }
+}
 
 impl Scatter for ThinDielectric {
     fn model(&self) -> &'static Model {
@@ -49,17 +67,22 @@ impl Scatter for ThinDielectric {
     }
 
     fn sample(&self, outgoing: Vec3, _: Vec2, choice: f32) -> Option<Scattered> {
-        // Of the light that enters, the second face reflects r, the first one r of that, and so on.
-        let r = Interface::at(outgoing.z.abs(), self.eta).reflectance;
-        let reflected = 2.0 * r / (1.0 + r);
-        Some(if choice < reflected {
-            Scattered::reflected(mirrored(outgoing), self.reflectance, None)
+        Some(if choice < self.reflected_part(outgoing) {
+            self.reflection(outgoing)
         } else {
-            Scattered::reflected(-outgoing, self.transmittance, None)
+            self.passage(outgoing)
         })
     }
 
     fn density(&self, _: Vec3, _: Vec3) -> f32 {
         0.0
+    }
+
+    fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
+        let reflected = self.reflected_part(outgoing);
+        [
+            Some(self.reflection(outgoing).scaled(reflected)),
+            Some(self.passage(outgoing).scaled(1.0 - reflected)),
+        ]
     }
 }

@@ -10,6 +10,9 @@ pub use turntable::{StandardView, Turntable, UpAxis};
 use crate::ray::Ray;
 use glam::{DMat3, DMat4, DVec2, DVec3, DVec4, UVec2, Vec2, Vec3};
 
+/// The largest width or height of a picture in pixels, the usual limit of GPU textures.
+pub const MAX_SIDE: u32 = 16384;
+
 /// Perspective or orthographic projection.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Projection {
@@ -29,7 +32,9 @@ pub enum Projection {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum CameraError {
     /// A position or the orthographic height isn't finite, or too large for f32.
-    #[error("the camera's position, target or height isn't finite in f32")]
+    #[error(
+        "the camera's position, target or height isn't finite, or is too large for 32-bit numbers, which end at 3.4e38"
+    )]
     NotFinite,
     /// Eye and target are the same point.
     #[error("the camera's eye and target are the same point")]

@@ -76,8 +76,13 @@ pub trait Group: Debug + Send + Sync {
         0.0
     }
 
-    /// A point of a primitive; see [`Shape::sampled_point`].
-    fn sampled_point(&self, _index: u32, _at: DVec2) -> Option<SampledPoint> {
+    /// A point of a primitive to be lit by; see [`Shape::sampled_from`].
+    fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledPoint> {
+        None
+    }
+
+    /// The density of these points, if their directions are uniform; see [`Shape::density_from`].
+    fn density_from(&self, _index: u32, _from: Vec3) -> Option<f64> {
         None
     }
 
@@ -102,6 +107,9 @@ pub trait Group: Debug + Send + Sync {
 
     /// The material of a primitive, as an index into the mesh's materials.
     fn material(&self, index: u32) -> u32;
+
+    /// Whether the normals of a primitive are the opposite of those of its shape.
+    fn is_flipped(&self, index: u32) -> bool;
 
     /// The parameters of a primitive in the order of [`ShapeInfo::parameters`], for display.
     fn numbers(&self, index: u32) -> Vec<f32>;
@@ -195,8 +203,12 @@ impl<S: Grouped> Group for ShapeGroup<S> {
         self.primitives.primitive(index).area()
     }
 
-    fn sampled_point(&self, index: u32, at: DVec2) -> Option<SampledPoint> {
-        self.primitives.primitive(index).sampled_point(at)
+    fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledPoint> {
+        self.primitives.primitive(index).sampled_from(from, at)
+    }
+
+    fn density_from(&self, index: u32, from: Vec3) -> Option<f64> {
+        self.primitives.primitive(index).density_from(from)
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {
@@ -219,6 +231,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
 
     fn material(&self, index: u32) -> u32 {
         self.appearance.materials.of(index)
+    }
+
+    fn is_flipped(&self, index: u32) -> bool {
+        self.appearance.is_flipped(index)
     }
 
     fn numbers(&self, index: u32) -> Vec<f32> {

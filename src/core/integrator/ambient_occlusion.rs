@@ -25,7 +25,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sample
     let Some(hit) = hit else {
         return context.background;
     };
-    let point = ShadingPoint::new(context, ray, hit);
+    let point = ShadingPoint::unrepaired(context, ray, hit);
     let Some(ray) = point
         .open_direction(sampler)
         .and_then(|dir| point.spawn(dir))

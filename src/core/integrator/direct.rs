@@ -17,5 +17,10 @@ pub(super) static DIRECT: Integrator = Integrator {
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    follow(context, ray, hit, sampler, Some(1))
+    follow(context, ray, hit, sampler, limit(context), &mut ())
+}
+
+/// The most surfaces on a path.
+pub(super) fn limit(_context: &Context) -> Option<u32> {
+    Some(1)
 }

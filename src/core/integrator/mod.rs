@@ -13,11 +13,15 @@ mod interpolation;
 mod normal;
 pub mod palette;
 mod path;
+mod record;
 mod shaded;
 mod shading_normal;
 mod spawning;
 mod transport;
 mod triangle;
+mod whitted;
+
+pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
 use crate::intersector::Intersector;
@@ -26,7 +30,8 @@ use crate::light::Lights;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::scene::{Scene, Shading};
-use crate::spawn::{SpawnPolicy, default_spawn_policy};
+use crate::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
+use crate::terminator::{TerminatorRepair, default_terminator_repair};
 use glam::Vec3;
 use std::sync::Arc;
 
@@ -62,17 +67,20 @@ pub struct Lighting {
     pub ao_distance: f32,
     /// The most surfaces on a path; `None` for no limit.
     pub depth_limit: Option<u32>,
+    /// The repair of the shadow terminator.
+    pub terminator: &'static TerminatorRepair,
 }
 
 impl Default for Lighting {
-    /// No lights, and the default policy.
+    /// No lights, the default policy, the first of the table to compare it with, and no repair.
     fn default() -> Self {
         Self {
             lights: Arc::default(),
             spawn: default_spawn_policy(),
-            second_spawn: default_spawn_policy(),
+            second_spawn: &SPAWN_POLICIES[0],
             ao_distance: 1.0,
             depth_limit: None,
+            terminator: default_terminator_repair(),
         }
     }
 }
@@ -118,6 +126,8 @@ pub enum Setting {
     Spawn,
     /// The most surfaces on a path.
     Depth,
+    /// The repair of the shadow terminator.
+    Terminator,
     /// The distance to which surfaces occlude.
     OcclusionDistance,
     /// The factor between light and colour: the view's colours are light.
@@ -142,7 +152,12 @@ impl Needs {
     /// Vertex normals and lights.
     const LIGHTS: Self = Self {
         lights: true,
-        settings: &[Setting::Lights, Setting::Spawn, Setting::Exposure],
+        settings: &[
+            Setting::Lights,
+            Setting::Spawn,
+            Setting::Terminator,
+            Setting::Exposure,
+        ],
         ..Self::VERTEX_NORMALS
     };
     /// Vertex normals and lights, for paths of any length.
@@ -151,6 +166,7 @@ impl Needs {
             Setting::Lights,
             Setting::Spawn,
             Setting::Depth,
+            Setting::Terminator,
             Setting::Exposure,
         ],
         ..Self::LIGHTS
@@ -219,6 +235,7 @@ pub static INTEGRATORS: &[&Integrator] = &[
     &shaded::SHADED,
     &ambient_occlusion::AMBIENT_OCCLUSION,
     &direct::DIRECT,
+    &whitted::WHITTED,
     &path::PATH,
     &normal::NORMAL,
     &barycentric::BARYCENTRIC,

@@ -3,6 +3,7 @@
 //! Source: Kajiya, "The Rendering Equation", SIGGRAPH 1986; next event estimation and its weights: Veach, "Robust Monte
 //! Carlo Methods for Light Transport Simulation", 1997.
 
+use super::record::{PathEnd, Recorder};
 use super::transport::{ShadingPoint, emitted, from_afar};
 use super::{Context, Integrator, Needs};
 use crate::ray::{Hit, Ray};
@@ -25,7 +26,12 @@ const SURE_SURFACES: u32 = 4;
 const MOST_LIKELY: f32 = 0.95;
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    follow(context, ray, hit, sampler, context.lighting.depth_limit)
+    follow(context, ray, hit, sampler, limit(context), &mut ())
+}
+
+/// The most surfaces on a path.
+pub(super) fn limit(context: &Context) -> Option<u32> {
+    context.lighting.depth_limit
 }
 
 /// The light that arrives along a camera's ray by way of at most `limit` surfaces; the background if the ray hits nothing
@@ -36,54 +42,81 @@ pub(super) fn follow(
     hit: Option<Hit>,
     sampler: &mut Sampler,
     limit: Option<u32>,
+    recorder: &mut impl Recorder,
 ) -> Vec3 {
     if hit.is_none() && context.lighting.lights.environment().is_none() {
+        recorder.end(PathEnd::Left, ray, context.background);
         return context.background;
     }
-    let (mut ray, mut hit) = (*ray, hit);
+    let left = (ray.origin, None);
+    follow_scattered(context, *ray, hit, left, sampler, limit, recorder)
+}
+
+/// The same for a ray that a surface scattered: `left` is where it left the surface, and the density of its direction.
+pub(super) fn follow_scattered(
+    context: &Context,
+    mut ray: Ray,
+    mut hit: Option<Hit>,
+    left: (Vec3, Option<f32>),
+    sampler: &mut Sampler,
+    limit: Option<u32>,
+    recorder: &mut impl Recorder,
+) -> Vec3 {
     let (mut light, mut throughput) = (Vec3::ZERO, Vec3::ONE);
     // Where the ray left the last surface that scattered it, and with which density.
-    let (mut from, mut density) = (ray.origin, None);
+    let (mut from, mut density) = left;
     // The product of the squared indices of refraction.
     let mut scale = 1.0;
     let mut surfaces = 0;
-    loop {
+    let end = loop {
         let Some(nearest) = hit else {
-            return light + throughput * from_afar(context, &ray, density);
+            let from_afar = throughput * from_afar(context, &ray, density);
+            recorder.end(PathEnd::Left, &ray, from_afar);
+            return light + from_afar;
         };
         let point = ShadingPoint::new(context, &ray, nearest);
+        recorder.meet(&point);
         if point.opacity < 1.0 && sampler.next_1d() >= point.opacity {
+            recorder.pass();
             let Some(onward) = point.onward() else {
-                return light;
+                break PathEnd::Overflow;
             };
             ray = onward;
             hit = context.intersector.closest_hit(&ray);
             continue;
         }
-        light += throughput * emitted(&point, from, density);
+        let emission = throughput * emitted(&point, from, density);
+        recorder.emission(emission);
+        light += emission;
         if limit.is_some_and(|limit| surfaces >= limit) {
-            return light;
+            break PathEnd::DepthLimit;
         }
         surfaces += 1;
-        light += throughput * point.direct_light(sampler);
+        let direct = throughput * point.direct_light(sampler, recorder);
+        recorder.direct(direct);
+        light += direct;
         let Some(scattered) = point.scatter(sampler) else {
-            return light;
+            break PathEnd::Absorbed;
         };
         throughput *= scattered.weight;
         scale *= scattered.eta * scattered.eta;
         if surfaces > SURE_SURFACES {
             // Refraction scales radiance, but not what is left of the path.
             let survival = (throughput.max_element() * scale).min(MOST_LIKELY);
+            recorder.roulette(survival);
             if sampler.next_1d() >= survival {
-                return light;
+                break PathEnd::RussianRoulette;
             }
             throughput /= survival;
         }
         let Some(onward) = point.spawn(scattered.incoming) else {
-            return light;
+            break PathEnd::Overflow;
         };
+        recorder.scatter(throughput);
         (from, density) = (point.position(), scattered.density);
         ray = onward;
         hit = context.intersector.closest_hit(&ray);
-    }
+    };
+    recorder.end(end, &ray, Vec3::ZERO);
+    light
 }

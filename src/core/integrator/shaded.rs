@@ -47,6 +47,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
             surface: context.scene.surface(&ray, &nearest),
             corners: None,
             dir: ray.dir,
+            offset: Vec3::ZERO,
         };
         let Ok(onward) = default_spawn_policy().spawn(&departure) else {
             break;
@@ -63,9 +64,10 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
 /// highlights.
 fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let mesh = context.scene.mesh();
-    let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
+    let point = context.scene.surface(ray, &hit);
+    let surface = SurfaceInteraction::of_surface(&context.scene, &point, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
-    let appearance = Appearance::new(&context.scene, material, ray, &hit);
+    let appearance = Appearance::new(&context.scene, material, point.position, &hit);
     let diffuse = appearance.diffuse();
     let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
     let emission = appearance.emission_of_side(is_front);
@@ -75,7 +77,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
         return (diffuse + emission, opacity);
     }
 
-    let normal = appearance.facing_normal(&surface);
+    let normal = appearance.facing_normal(&surface, ray);
     let lamps = studio::lamps(&context.camera);
     let of_lamp = |lamp: Lamp| lamp.strength * normal.dot(lamp.to_lamp).max(0.0);
     let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();

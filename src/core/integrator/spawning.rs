@@ -26,7 +26,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sample
     let Some(hit) = hit else {
         return context.background;
     };
-    let point = ShadingPoint::new(context, ray, hit);
+    let point = ShadingPoint::unrepaired(context, ray, hit);
     let Some(dir) = point.open_direction(sampler) else {
         return Vec3::splat(0.02);
     };

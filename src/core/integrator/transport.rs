@@ -1,12 +1,14 @@
 //! What the views that transport light have in common: the surface that a ray hits, and the light that reaches it.
 
 use super::Context;
+use super::record::Recorder;
 use crate::appearance::Appearance;
 use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
 use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
+use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
 use glam::Vec3;
@@ -26,6 +28,8 @@ pub(super) struct ShadingPoint<'a> {
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
     bsdf: Bsdf,
+    /// Of rays that leave on the side that the ray comes from, by the repair of the shadow terminator.
+    offset: Vec3,
     /// The light that the surface emits towards the ray's origin.
     pub emission: Vec3,
     /// The part of the surface that is there; light passes through the rest.
@@ -35,14 +39,15 @@ pub(super) struct ShadingPoint<'a> {
 impl<'a> ShadingPoint<'a> {
     pub fn new(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
         let scene = &context.scene;
-        let interaction = SurfaceInteraction::new(scene, ray, hit, context.shading);
+        let surface = scene.surface(ray, &hit);
+        let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
         let material = scene
             .mesh()
             .attributes()
             .materials
             .get(interaction.material);
         let is_front = interaction.geometric_normal.dot(ray.dir) <= 0.0;
-        let appearance = Appearance::new(scene, material, ray, &hit);
+        let appearance = Appearance::new(scene, material, surface.position, &hit);
         let bsdf = appearance.bsdf(is_front);
         let has_medium_behind = bsdf.model().transmits;
         let side = if is_front || has_medium_behind {
@@ -60,14 +65,23 @@ impl<'a> ShadingPoint<'a> {
             context,
             ray: *ray,
             hit,
-            surface: scene.surface(ray, &hit),
+            surface,
             outgoing: frame.to_local(to_eye),
             frame,
             untilted,
             normal: side * interaction.geometric_normal,
             bsdf,
+            offset: terminator_offset(context, &hit, is_front),
             emission,
             opacity,
+        }
+    }
+
+    /// The same without a repair of the shadow terminator.
+    pub fn unrepaired(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
+        Self {
+            offset: Vec3::ZERO,
+            ..Self::new(context, ray, hit)
         }
     }
 
@@ -76,14 +90,27 @@ impl<'a> ShadingPoint<'a> {
         self.surface.position
     }
 
+    /// The ray's hit.
+    pub fn hit(&self) -> &Hit {
+        &self.hit
+    }
+
     fn departure(&self, dir: Vec3) -> Departure<'_> {
+        let goes_back = self.goes_back(dir);
         Departure {
             arrived_by: &self.ray,
             hit: &self.hit,
             surface: self.surface,
             corners: self.context.scene.corners(self.hit.primitive),
             dir,
+            offset: if goes_back { self.offset } else { Vec3::ZERO },
         }
+    }
+
+    /// Whether a direction leads to the side that the ray comes from, by the shading normal before a texture tilts it:
+    /// the repairs of the shadow terminator know the surface without relief.
+    fn goes_back(&self, dir: Vec3) -> bool {
+        self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
     /// The ray that leaves in a direction; `None` if numbers overflow.
@@ -105,14 +132,39 @@ impl<'a> ShadingPoint<'a> {
     /// carries no light.
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
         let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        let scattered = self.bsdf.sample(self.outgoing, at, choice)?;
+        self.in_world(self.bsdf.sample(self.outgoing, at, choice)?)
+    }
+
+    /// The part of light from a direction that the repair of the shadow terminator leaves. Single directions keep all.
+    fn remaining_part(&self, dir: Vec3) -> f32 {
+        let part = self.context.lighting.terminator.part;
+        part.map_or(1.0, |part| part(self.normal, self.untilted, dir))
+    }
+
+    /// The single directions that light comes from, in the world, each with the part of light that it scatters.
+    pub fn single_directions(&self) -> impl Iterator<Item = Scattered> {
+        let singles = self.bsdf.single_directions(self.outgoing);
+        let singles = singles.into_iter().flatten();
+        singles.filter_map(|scattered| self.in_world(scattered))
+    }
+
+    /// A scattered direction of the frame in the world; `None` if the shading normal puts it on the other side of the
+    /// surface.
+    fn in_world(&self, scattered: Scattered) -> Option<Scattered> {
         let incoming = self.frame.to_world(scattered.incoming);
-        self.is_consistent(scattered.incoming, incoming)
-            .then_some(Scattered {
-                incoming,
-                weight: self.unshadowed(incoming) * scattered.weight,
-                ..scattered
-            })
+        if !self.is_consistent(scattered.incoming, incoming) {
+            return None;
+        }
+        let repaired = match scattered.density {
+            Some(_) => self.remaining_part(incoming),
+            None => 1.0,
+        };
+        let part = repaired * self.unshadowed(incoming);
+        Some(Scattered {
+            incoming,
+            weight: part * scattered.weight,
+            ..scattered
+        })
     }
 
     /// A direction on the side that the ray comes from, with a density of cos θ / π.
@@ -136,9 +188,12 @@ impl<'a> ShadingPoint<'a> {
         [self.frame.z.dot(dir) > 0.0, self.normal.dot(dir) > 0.0]
     }
 
-    /// Whether a direction lies on the same side of the shading and the geometric normal, in the frame and in the world.
+    /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
+    /// Rays that start above the surface may point through it.
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
-        local.z * self.normal.dot(dir) > 0.0
+        let is_reflected = local.z * self.outgoing.z > 0.0;
+        let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
+        starts_above || local.z * self.normal.dot(dir) > 0.0
     }
 
     /// The part of light from a direction that the relief of a texture lets through: if it tilts the normal, the surface
@@ -151,7 +206,8 @@ impl<'a> ShadingPoint<'a> {
             return 1.0;
         }
         let squared_tangent = |dir: Vec3| {
-            let squared_cosine = self.untilted.dot(dir).powi(2);
+            // At least the smallest normal number, so that the quotient is finite.
+            let squared_cosine = self.untilted.dot(dir).powi(2).max(f32::MIN_POSITIVE);
             (1.0 - squared_cosine).max(0.0) / squared_cosine
         };
         let squared_roughness = (0.125 * squared_tangent(self.frame.z)).min(1.0);
@@ -162,27 +218,54 @@ impl<'a> ShadingPoint<'a> {
     /// [`scatter`](Self::scatter) by the balance heuristic.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
-    pub fn direct_light(&self, sampler: &mut Sampler) -> Vec3 {
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
+    pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
+        let sample = self.light_sample(sampler);
+        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, recorder))
+    }
+
+    /// The same without the lights that are single points or directions.
+    pub fn light_with_extent(&self, sampler: &mut Sampler) -> Vec3 {
+        let sample = self.light_sample(sampler);
+        let sample = sample.filter(|sample| sample.density.is_some());
+        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, &mut ()))
+    }
+
+    /// The light from all lights that are single points or directions that is scattered towards the ray's origin.
+    pub fn light_without_extent(&self) -> Vec3 {
+        let samples = self.context.lighting.lights.without_extent(self.position());
+        let light = |sample| self.scattered_light(&sample, &mut ());
+        samples.map(light).sum()
+    }
+
+    /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
+    fn light_sample(&self, sampler: &mut Sampler) -> Option<LightSample> {
         let Context {
             scene, lighting, ..
         } = self.context;
-        let Some(sample) = lighting.lights.sample(scene, self.position(), at, choice) else {
-            return Vec3::ZERO;
-        };
+        if self.bsdf.model().is_specular || !lighting.lights.can_be_sampled() {
+            return None;
+        }
+        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
+        lighting.lights.sample(scene, self.position(), at, choice)
+    }
+
+    /// The light of a sample that arrives and is scattered towards the ray's origin, weighted by the balance heuristic.
+    fn scattered_light(&self, sample: &LightSample, recorder: &mut impl Recorder) -> Vec3 {
         let incoming = self.frame.to_local(sample.dir);
         if !self.is_consistent(incoming, sample.dir) {
             return Vec3::ZERO;
         }
-        let mut light = sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
+        let part = self.remaining_part(sample.dir) * self.unshadowed(sample.dir);
+        let mut light = part * sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
         if let Some(density) = sample.density {
             light *= balance(density, self.bsdf.density(self.outgoing, incoming));
         }
-        light *= self.unshadowed(sample.dir);
         if light == Vec3::ZERO {
             return light;
         }
-        light * self.visibility(&sample)
+        let arriving = self.visibility(sample);
+        recorder.shadow_ray(sample, arriving);
+        light * arriving
     }
 
     /// The part of a light sample that arrives: surfaces with coverage let some of it pass.
@@ -195,6 +278,22 @@ impl<'a> ShadingPoint<'a> {
         };
         ray.map_or(0.0, |ray| transmittance(self.context, ray))
     }
+}
+
+/// The offset of rays that leave on the front or the back, by the repair of the shadow terminator.
+fn terminator_offset(context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
+    let scene = &context.scene;
+    let Some(offset) = context.lighting.terminator.offset else {
+        return Vec3::ZERO;
+    };
+    let corners = scene.corners(hit.primitive);
+    let Some(corners) = corners.filter(|_| context.shading != Shading::Flat) else {
+        return Vec3::ZERO;
+    };
+    let normals = scene.vertex_normals();
+    let normals = normals.of_triangle(scene.mesh(), hit.primitive);
+    let side = if is_front { 1.0 } else { -1.0 };
+    offset(hit.barycentric(), corners, normals.map(|n| side * n))
 }
 
 /// The part of light that passes along a ray.

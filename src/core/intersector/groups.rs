@@ -199,6 +199,30 @@ impl SceneIntersector {
         }
         (nearest, sum)
     }
+
+    /// The nearest hit, by each group's fast search, which rounds t to f32; `None` if two groups' hits are too close to each
+    /// other to be compared by that.
+    fn clearly_closest_hit(&self, ray: &Ray) -> Option<Option<Hit>> {
+        let is_rounded = self.kernel.precision != Precision::F32;
+        let mut nearest: Option<Hit> = None;
+        for group in &self.groups {
+            let t_max = match nearest {
+                None => ray.t_max,
+                Some(hit) if is_rounded => hit.t.next_up().min(ray.t_max),
+                // As computed: at an equal t, the earlier group's primitive precedes.
+                Some(hit) => hit.t,
+            };
+            let Some(found) = group.intersector.closest_hit(&group.ray(ray, t_max)) else {
+                continue;
+            };
+            let is_clear = nearest.is_none_or(|nearest| found.t < nearest.t.next_down());
+            if is_rounded && !is_clear {
+                return None;
+            }
+            nearest = Some(group.numbered(found));
+        }
+        Some(nearest)
+    }
 }
 
 impl Intersector for SceneIntersector {
@@ -208,7 +232,8 @@ impl Intersector for SceneIntersector {
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         for (ray, hit) in rays.iter().zip(hits) {
-            *hit = self.closest_hit_with_cost(ray).0;
+            let closest = || self.closest_hit_with_cost(ray).0;
+            *hit = self.clearly_closest_hit(ray).unwrap_or_else(closest);
         }
     }
 

@@ -64,6 +64,11 @@ impl AliasTable {
         Self { slots }
     }
 
+    /// Whether no weight is positive, so that nothing is chosen.
+    pub fn is_empty(&self) -> bool {
+        self.slots.is_empty()
+    }
+
     /// An index and its probability, for a uniform number in [0, 1).
     pub fn sample(&self, at: f32) -> Option<(usize, f32)> {
         let (index, probability, _) = self.sample_and_remap(at)?;

@@ -66,7 +66,8 @@ impl AreaLight {
         let surface = scene.surface(&ray, &hit);
         let way = surface.position.as_dvec3() - from.as_dvec3();
         let dir = way.try_normalize()?.as_vec3();
-        let density = self.density_at(way.length_squared(), surface.normal.as_vec3().dot(-dir))?;
+        let cos = surface.normal.as_vec3().dot(-dir);
+        let density = self.density_at(scene, from, way.length_squared(), cos)?;
         Some(LightSample {
             dir,
             end: Some(Endpoint::OnSurface {
@@ -74,16 +75,16 @@ impl AreaLight {
                 surface,
                 corners: scene.corners(self.primitive),
             }),
-            weight: self.radiance_at(scene, &ray, &hit) / density,
+            weight: self.radiance_at(scene, surface.position, &hit) / density,
             density: Some(density),
         })
     }
 
     /// The light at a hit, which a texture may dim.
-    fn radiance_at(&self, scene: &Scene, ray: &Ray, hit: &Hit) -> Vec3 {
+    fn radiance_at(&self, scene: &Scene, position: Vec3, hit: &Hit) -> Vec3 {
         let materials = &scene.mesh().attributes().materials;
         let material = materials.get(scene.material(self.primitive));
-        Appearance::new(scene, material, ray, hit).emission()
+        Appearance::new(scene, material, position, hit).emission()
     }
 
     /// The density of the point that a ray hits, as seen from a point on its line.
@@ -92,13 +93,21 @@ impl AreaLight {
         let way = surface.position.as_dvec3() - from.as_dvec3();
         let towards = -(ray.dir.normalize());
         let cos = surface.normal.as_vec3().dot(towards);
-        self.density_at(way.length_squared(), cos).unwrap_or(0.0)
+        let density = self.density_at(scene, from, way.length_squared(), cos);
+        density.unwrap_or(0.0)
     }
 
-    /// The density of a point at a squared distance, with the cosine between its normal and the way back.
-    fn density_at(&self, squared_distance: f64, cos: f32) -> Option<f32> {
-        let cos = if self.emits_on_back { cos.abs() } else { cos };
-        let density = squared_distance / (f64::from(cos) * self.area);
-        (cos > 0.0 && density > 0.0).then_some(density as f32)
+    /// The density of a point at a squared distance from `from`, with the cosine between its normal and the way back.
+    fn density_at(&self, scene: &Scene, from: Vec3, distance2: f64, cos: f32) -> Option<f32> {
+        let density = match scene.density_from(self.primitive, from) {
+            // Only the front appears from there; a ray that has passed through it may hit the back.
+            Some(density) => (cos > 0.0).then_some(density)?,
+            None => {
+                let cos = if self.emits_on_back { cos.abs() } else { cos };
+                (cos > 0.0).then(|| distance2 / (f64::from(cos) * self.area))?
+            }
+        };
+        let density = density as f32;
+        (density > 0.0 && density.is_finite()).then_some(density)
     }
 }

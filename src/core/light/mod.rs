@@ -64,6 +64,7 @@ pub struct Lights {
     /// The light of each primitive that emits light.
     of_primitive: HashMap<u32, u32>,
     has_coverage: bool,
+    has_extent: bool,
 }
 
 impl Lights {
@@ -89,9 +90,11 @@ impl Lights {
         let has_coverage = materials.any(has_coverage);
         let radius = radius_for_power(scene);
         let power = |light: &Light| f64::from(luminance(light.power(radius)));
+        let environment = lights.iter().position(is_environment).map(|k| k as u32);
         Self {
+            has_extent: environment.is_some() || area::emits(scene),
             choice: AliasTable::new(&lights.iter().map(power).collect::<Vec<_>>()),
-            environment: lights.iter().position(is_environment).map(|k| k as u32),
+            environment,
             of_primitive,
             has_coverage,
             lights,
@@ -112,6 +115,11 @@ impl Lights {
         self.has_coverage
     }
 
+    /// Whether some light comes from more than single points and directions, so that random numbers sample it.
+    pub fn has_extent(&self) -> bool {
+        self.has_extent
+    }
+
     /// All lights.
     pub fn all(&self) -> &[Light] {
         &self.lights
@@ -123,6 +131,11 @@ impl Lights {
             Light::Environment(environment) => Some(environment),
             _ => None,
         }
+    }
+
+    /// Whether there are lights to aim at. Light that is the same from everywhere has no direction to prefer.
+    pub fn can_be_sampled(&self) -> bool {
+        !self.choice.is_empty()
     }
 
     /// Light that reaches a point, from a light chosen by its power. `at` and `choice` are uniform numbers in [0, 1).
@@ -138,6 +151,17 @@ impl Lights {
             weight: sample.weight / probability,
             density: sample.density.map(|density| density * probability),
             ..sample
+        })
+    }
+
+    /// The light that reaches a point from each single point and direction.
+    pub fn without_extent(&self, from: Vec3) -> impl Iterator<Item = LightSample> {
+        // The first lights are primitives.
+        let others = &self.lights[self.of_primitive.len()..];
+        others.iter().filter_map(move |light| match light {
+            Light::Directional(light) => Some(light.sample()),
+            Light::Point(light) => light.sample(from),
+            Light::Environment(_) | Light::Area(_) => None,
         })
     }
 

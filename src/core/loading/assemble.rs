@@ -1,18 +1,22 @@
 //! A scene from the description of a scene file.
 
+mod pictures;
+mod warnings;
+
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
 use super::memory::{BYTES_PER_ALLOCATION, Needs};
-use super::merge::{Part, merged};
+use super::merge::{Part, bounds_of, merged};
 use super::placed::{
-    Groups, Look, Placed, Refusal, is_flipped, placed, placement, require_invertible,
+    Groups, Look, Placed, is_flipped, is_mirroring, misfit, placed, placement, require_invertible,
 };
+use super::refusal::{Refusal, in_object};
 use super::textures::Textures;
 use super::{LoadedScene, StartView, size_warning};
 use crate::group::Placement;
-use crate::light::{EnvironmentMap, LoadedMap};
+use crate::light::EnvironmentMap;
 use crate::mesh::TriangleMesh;
-use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
 use crate::scene_file::{self, EmitterKind, Place, SceneFile, Shape, ShapeKind};
@@ -25,7 +29,7 @@ use std::time::Instant;
 /// An entry of the list of placed shapes, and two changes of material and side.
 const NEEDS_OF_ENTRY: Needs = Needs {
     loaded: 0,
-    placed: size_of::<(Box<dyn Placed>, Look)>() as u64,
+    placed: size_of::<PlacedShape>() as u64,
     shapes: 2 * size_of::<(u32, u32)>() as u64,
     merged: 0,
     primitive_count: 0,
@@ -54,14 +58,16 @@ pub(super) fn load(
     let start = Instant::now();
     let (file, held) = scene_file::load_counted(path, load_options.max_memory, progress)?;
     let mut contents = Contents::load(&file, load_options, held, progress)?;
+    let origin = contents.origin(load_options.recentre);
+    contents.require_fit(&file, origin)?;
     let map = contents.map.take();
     contents.report.duration = start.elapsed();
     progress.enter(Phase::Building);
-    let scene = contents.scene(&file, load_options.recentre, options, progress);
+    let scene = contents.scene(&file, origin, options, progress);
     let (scene, mut report) = scene.map_err(|Cancelled| LoadError::Cancelled {
         path: path.to_owned(),
     })?;
-    report.warnings.extend(size_warning(scene.bounds()));
+    report.warnings.extend(size_warning(&scene));
     let lights = lights::lights(&file, scene.mesh().origin(), map.as_ref());
     Ok(LoadedScene {
         scene: Arc::new(scene),
@@ -72,13 +78,30 @@ pub(super) fn load(
     })
 }
 
+/// A shape in world coordinates.
+struct PlacedShape {
+    shape: Box<dyn Placed>,
+    look: Look,
+    /// Where it stands in the file.
+    place: Place,
+}
+
+/// The mesh of an OBJ file.
+struct LoadedMesh {
+    mesh: Arc<TriangleMesh>,
+    /// Its counts.
+    report: LoadReport,
+    /// Whether a shape uses the file's own materials.
+    has_used_materials: bool,
+}
+
 /// The contents of a scene file in world coordinates.
 struct Contents {
     parts: Vec<Part>,
-    /// Shapes other than meshes, with their materials and sides.
-    shapes: Vec<(Box<dyn Placed>, Look)>,
-    /// The OBJ files, each loaded once, and their counts.
-    meshes: HashMap<PathBuf, (Arc<TriangleMesh>, LoadReport)>,
+    /// Shapes other than meshes.
+    shapes: Vec<PlacedShape>,
+    /// The OBJ files, each loaded once.
+    meshes: HashMap<PathBuf, LoadedMesh>,
     options: LoadOptions,
     /// The memory of the scene file's description.
     held: u64,
@@ -157,14 +180,23 @@ impl Contents {
         shape: &Shape,
         progress: &Progress,
     ) -> Result<(), LoadError> {
-        let refused = |refusal| refused(file, refusal);
+        let refused = |refusal: Refusal| refusal.in_file(file);
         let material = self.material(file, shape);
         self.warn_about(file, shape);
         if let ShapeKind::Obj(obj) = &shape.kind {
             require_invertible(shape.place, &shape.to_world).map_err(refused)?;
             if self.fits {
-                let mesh = self.mesh(&obj.file, progress)?;
-                let part = Part::of(shape, obj, mesh, material);
+                let mesh = self.mesh(&obj.file, progress);
+                let mesh =
+                    mesh.map_err(|error| in_object(file, shape.place, "shape “obj”", error))?;
+                let loaded = self.meshes.get_mut(&obj.file);
+                let is_first = loaded.is_some_and(|loaded| {
+                    material.is_none() && !std::mem::replace(&mut loaded.has_used_materials, true)
+                });
+                let part = Part::new(shape, obj, (mesh, is_first), material);
+                if part.has_turned_corners() {
+                    self.warn_about_mirrored_light(file, shape);
+                }
                 self.needs.add(part.needs());
                 let has_coordinates = part.has_coordinates();
                 self.parts.push(part);
@@ -175,6 +207,9 @@ impl Contents {
             return Ok(());
         }
         let placed = placed(shape, &shape.to_world).map_err(refused)?;
+        if matches!(shape.kind, ShapeKind::Sphere(_)) && is_mirroring(&shape.to_world) {
+            self.warn_about_mirrored_light(file, shape);
+        }
         self.needs.add(placed.needs());
         self.needs.add(NEEDS_OF_ENTRY);
         let placement = file.is_textured(shape).then(|| placement(shape));
@@ -189,43 +224,11 @@ impl Contents {
                 is_flipped: is_flipped(shape),
                 placement: placement.flatten().map(Box::new),
             };
-            self.shapes.push((placed, look));
-        }
-        Ok(())
-    }
-
-    /// Warns about the first shape of a kind that has a texture, but no texture coordinates.
-    fn warn_without_coordinates(&mut self, file: &SceneFile, shape: &Shape) {
-        let kind = shape.kind.name();
-        if self.without_coordinates.insert(kind) {
-            let message = format!(
-                "a shape “{kind}” has a texture, but no texture coordinates; the parameter's default is used"
-            );
-            self.warn(file, shape.place, message);
-        }
-    }
-
-    /// Loads the textures of materials.
-    fn load_textures(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), Cancelled> {
-        let limit = self.options.max_memory.saturating_sub(self.bytes());
-        self.textures = Textures::load(file, limit, progress)?;
-        self.needs.merged += self.textures.bytes();
-        for (place, message) in std::mem::take(&mut self.textures.warnings) {
-            self.warn(file, place, message);
-        }
-        self.report.files.extend(self.textures.files().cloned());
-        Ok(())
-    }
-
-    /// Loads the picture of the environment.
-    fn load_environment(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), LoadError> {
-        for emitter in &file.emitters {
-            if let EmitterKind::Envmap { file: path, .. } = &emitter.kind {
-                let limit = self.options.max_memory.saturating_sub(self.bytes());
-                let LoadedMap { map, warnings } = EnvironmentMap::load(path, limit, progress)?;
-                self.map = Some(map);
-                self.take_messages(path, warnings, Vec::new());
-            }
+            self.shapes.push(PlacedShape {
+                shape: placed,
+                look,
+                place: shape.place,
+            });
         }
         Ok(())
     }
@@ -243,32 +246,6 @@ impl Contents {
         }
     }
 
-    /// Warns about parts of a shape that have no effect.
-    fn warn_about(&mut self, file: &SceneFile, shape: &Shape) {
-        if let ShapeKind::Csg(csg) = &shape.kind {
-            for child in &csg.children {
-                if let Some(emitter) = &child.emitter {
-                    let message = "an emitter of a part of a csg has no effect".to_owned();
-                    self.warn(file, emitter.place, message);
-                }
-                self.warn_about(file, child);
-            }
-        }
-    }
-
-    fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
-        // Lines of included files are told with the file.
-        let message = if place.file == 0 {
-            message
-        } else {
-            format!("{}: {message}", shown(file.path_of(place)))
-        };
-        self.report.warnings.push(Warning {
-            line: Some(place.line as usize),
-            message,
-        });
-    }
-
     /// The mesh of an OBJ file, which is loaded unless it was before.
     fn mesh(&mut self, path: &Path, progress: &Progress) -> Result<Arc<TriangleMesh>, LoadError> {
         if !self.meshes.contains_key(path) {
@@ -279,10 +256,14 @@ impl Contents {
             self.take_messages(path, warnings, files);
             let parts = mesh.bytes().map(|(_, bytes)| bytes as u64);
             self.needs.loaded += parts.iter().sum::<u64>() + BYTES_PER_FILE;
-            self.meshes
-                .insert(path.to_owned(), (Arc::new(mesh), report));
+            let loaded = LoadedMesh {
+                mesh: Arc::new(mesh),
+                report,
+                has_used_materials: false,
+            };
+            self.meshes.insert(path.to_owned(), loaded);
         }
-        let (mesh, report) = &self.meshes[path];
+        let LoadedMesh { mesh, report, .. } = &self.meshes[path];
         let sum = &mut self.report;
         sum.dropped.zero_area += report.dropped.zero_area;
         sum.dropped.non_finite += report.dropped.non_finite;
@@ -293,33 +274,16 @@ impl Contents {
         Ok(Arc::clone(mesh))
     }
 
-    /// Adds the warnings about an OBJ file, and the files that it names.
-    fn take_messages(&mut self, path: &Path, warnings: Vec<Warning>, files: Vec<PathBuf>) {
-        let told = warnings.into_iter().map(|warning| {
-            let line = warning
-                .line
-                .map_or(String::new(), |line| format!(":{line}"));
-            Warning {
-                line: None,
-                message: format!("{}{line}: {}", shown(path), warning.message),
-            }
-        });
-        self.report.warnings.extend(told);
-        self.report.files.push(path.to_owned());
-        self.report.files.extend(files);
-    }
-
     fn scene(
         mut self,
         file: &SceneFile,
-        recentre: Recentre,
+        origin: DVec3,
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<(Scene, LoadReport), Cancelled> {
-        let origin = self.origin(recentre);
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
-        for (shape, look) in self.shapes {
+        for PlacedShape { shape, look, .. } in self.shapes {
             shape.push_to(&mut groups, origin, look.about(origin));
         }
         let mut materials = materials(file, &self.textures);
@@ -337,14 +301,30 @@ impl Contents {
         if recentre == Recentre::Off {
             return DVec3::ZERO;
         }
-        let of_shapes = self.shapes.iter().filter_map(|(shape, _)| shape.bounds());
+        let of_shapes = self
+            .shapes
+            .iter()
+            .filter_map(|placed| placed.shape.bounds());
         let corners = of_shapes.flatten();
-        let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
-        let all = corners
-            .chain(self.vertices())
-            .filter(|p| p.is_finite())
-            .fold(none, |[min, max], p| [min.min(p), max.max(p)]);
+        let all = bounds_of(corners.chain(self.vertices()));
         obj::origin_near(all).unwrap_or(DVec3::ZERO)
+    }
+
+    /// Checks that each shape can be hit when it is rounded to f32.
+    ///
+    /// # Errors
+    /// The first shape in the file that can't.
+    fn require_fit(&self, file: &SceneFile, origin: DVec3) -> Result<(), LoadError> {
+        let shapes = self.shapes.iter();
+        let shapes = shapes.filter(|placed| !placed.shape.fits(origin));
+        let meshes = self.parts.iter().filter(|part| !part.fits(origin));
+        let places = shapes
+            .map(|placed| placed.place)
+            .chain(meshes.map(|part| part.place));
+        match places.min_by_key(|place| (place.file, place.line)) {
+            Some(place) => Err(misfit(place).in_file(file)),
+            None => lights::require_near(file, origin),
+        }
     }
 
     /// The vertices of all meshes in the world.
@@ -363,14 +343,5 @@ impl Contents {
             .map(rounding)
             .filter(|rounding| rounding.is_finite());
         finite.fold(0.0, f64::max)
-    }
-}
-
-fn refused(file: &SceneFile, Refusal { place, message }: Refusal) -> LoadError {
-    LoadError::Line {
-        path: file.path_of(place).to_owned(),
-        line: place.line as usize,
-        column: None,
-        message,
     }
 }

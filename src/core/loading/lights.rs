@@ -1,10 +1,12 @@
 //! Lights of a scene file's emitters, and materials that emit light.
 
+use super::refusal::Refusal;
 use super::textures::Textures;
 use crate::light::{
     DirectionalLight, Environment, EnvironmentMap, Light, MapPlacement, PlacedMap, PointLight,
 };
 use crate::mesh::{Illumination, Material, Property};
+use crate::obj::LoadError;
 use crate::scene_file::{EmitterKind, SceneFile, Texture};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::HashMap;
@@ -52,6 +54,23 @@ pub(super) fn lights(
     emitters
         .filter_map(|emitter| light(&emitter.kind))
         .collect()
+}
+
+/// Checks that the positions of lights are finite in f32.
+///
+/// # Errors
+/// The first light in the file whose position isn't.
+pub(super) fn require_near(file: &SceneFile, origin: DVec3) -> Result<(), LoadError> {
+    for emitter in &file.emitters {
+        if let EmitterKind::Point { position, .. } = emitter.kind
+            && !(position - origin).as_vec3().is_finite()
+        {
+            let message =
+                "the light is too far from the shapes for 32-bit numbers, which end at 3.4e38";
+            return Err(Refusal::new(emitter.place, message).in_file(file));
+        }
+    }
+    Ok(())
 }
 
 /// A vector other than 0 at length 1.

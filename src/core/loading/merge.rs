@@ -1,16 +1,19 @@
 //! All meshes of a scene as one, in the coordinates of the world.
 
 use super::memory::Needs;
-use super::placed::is_mirroring;
+use super::placed::{is_large_enough, is_mirroring};
 use crate::mesh::{
     Assigned, Attributes, CornerValues, Faces, Material, NO_INDEX, Runs, Texture, TriangleMesh,
 };
-use crate::scene_file::{self, Shape};
+use crate::scene_file::{self, Place, Shape};
 use glam::{DMat3, DMat4, DVec3, Vec2, Vec3};
+use std::collections::HashMap;
 use std::sync::Arc;
 
 /// A mesh of the scene before it is merged.
 pub(super) struct Part {
+    /// The start of its shape.
+    pub place: Place,
     /// Shared by all parts of the same file.
     pub mesh: Arc<TriangleMesh>,
     /// The mesh's vertices in the world.
@@ -22,12 +25,14 @@ pub(super) struct Part {
     pub name: String,
     /// Whether the file's normals are ignored.
     pub has_face_normals: bool,
+    /// Whether the second texture coordinate is 1 − v.
+    pub has_flipped_coordinates: bool,
+    /// Whether the file's materials and textures are used, and for the first time.
+    pub brings_materials: bool,
     /// Whether the transform exchanges left and right.
     pub is_mirrored: bool,
     /// Whether the normals are reversed.
     pub is_flipped: bool,
-    /// Whether the second texture coordinate points down.
-    pub has_coordinates_down: bool,
 }
 
 /// The vertices of a mesh in the world.
@@ -36,25 +41,34 @@ fn positions_in_world(mesh: &TriangleMesh, to_world: &DMat4) -> Vec<DVec3> {
     mesh.positions().iter().map(in_world).collect()
 }
 
+/// The box around the finite ones of some points: its lowest and its highest corner.
+pub(super) fn bounds_of(points: impl Iterator<Item = DVec3>) -> [DVec3; 2] {
+    let none = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+    let finite = points.filter(|p| p.is_finite());
+    finite.fold(none, |[min, max], p| [min.min(p), max.max(p)])
+}
+
 impl Part {
-    /// The mesh of a shape. A material's index is its index in the scene.
-    pub fn of(
+    /// The mesh of a shape. `brings_materials` tells whether its file's own materials are used for the first time.
+    pub fn new(
         shape: &Shape,
         obj: &scene_file::Obj,
-        mesh: Arc<TriangleMesh>,
+        (mesh, brings_materials): (Arc<TriangleMesh>, bool),
         material: Option<u32>,
     ) -> Self {
         let name = shape.name.as_ref().or(shape.id.as_ref());
         Self {
+            place: shape.place,
             positions: positions_in_world(&mesh, &shape.to_world),
             mesh,
             to_world: shape.to_world,
             material,
             name: name.cloned().unwrap_or_default(),
             has_face_normals: obj.face_normals,
+            has_flipped_coordinates: !obj.flip_tex_coords,
+            brings_materials,
             is_mirrored: is_mirroring(&shape.to_world),
             is_flipped: shape.flip_normals,
-            has_coordinates_down: material.is_some() && !obj.flip_tex_coords,
         }
     }
 
@@ -66,6 +80,18 @@ impl Part {
     /// Whether the file has texture coordinates.
     pub fn has_coordinates(&self) -> bool {
         !self.mesh.attributes().texture_coordinates.is_empty()
+    }
+
+    /// Whether its vertices, as far as those of the file are finite, are so in f32 relative to an origin, and the mesh
+    /// doesn't shrink to a point.
+    pub fn fits(&self, origin: DVec3) -> bool {
+        let own = || self.mesh.positions().iter().map(|p| p.as_dvec3());
+        let in_world = || self.positions.iter().copied();
+        let is_kept =
+            |(own, p): (DVec3, DVec3)| !own.is_finite() || (p - origin).as_vec3().is_finite();
+        let is_point = |[min, max]: [DVec3; 2]| !min.cmplt(max).any();
+        own().zip(in_world()).all(is_kept)
+            && (is_point(bounds_of(own())) || is_large_enough(bounds_of(in_world())))
     }
 
     /// The memory of the merged mesh for this part.
@@ -91,7 +117,7 @@ impl Part {
             bytes += size_of_val(attributes.texture_coordinates.values());
             bytes_per_triangle += BYTES_PER_CORNER_LIST;
         }
-        if self.material.is_none() {
+        if self.brings_materials {
             let textures = attributes.textures.iter().map(Texture::bytes);
             bytes += textures.sum::<usize>() + attributes.materials.bytes();
         }
@@ -103,6 +129,11 @@ impl Part {
             primitive_count: triangle_count as u64,
             ..Needs::default()
         }
+    }
+
+    /// Whether a mirroring transform turns the triangles to the other side.
+    pub fn has_turned_corners(&self) -> bool {
+        self.is_mirrored && !self.has_normals()
     }
 
     /// Whether the order of corners is reversed. As in Mitsuba, a mirroring transform maps normals of the file to the
@@ -152,6 +183,8 @@ struct Merged {
     colours: Vec<Vec3>,
     materials: Vec<Material>,
     material_runs: Runs,
+    /// The first material of each mesh whose own materials are used.
+    of_meshes: HashMap<*const TriangleMesh, u32>,
     groups: Vec<String>,
     group_runs: Runs,
     textures: Vec<Texture>,
@@ -192,7 +225,10 @@ impl Merged {
             position: self.positions.len() as u32,
             normal: self.normals.len() as u32,
             coordinate: self.coordinates.len() as u32,
-            material: self.materials.len() as u32,
+            material: match part.material {
+                None => self.own_materials(&part.mesh),
+                Some(_) => 0,
+            },
             group: self.groups.len() as u32,
             is_reversed: part.has_reversed_corners(),
         };
@@ -202,9 +238,6 @@ impl Merged {
             self.colours.resize(self.positions.len(), Vec3::ONE);
         }
         self.colours.extend(&attributes.colours);
-        if part.material.is_none() {
-            self.append_materials(attributes);
-        }
         let names = attributes.groups.entries().iter();
         self.groups
             .extend(names.map(|group| named(&part.name, group)));
@@ -221,9 +254,9 @@ impl Merged {
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }
-        let upwards = |uv: &Vec2| match part.has_coordinates_down {
+        let upwards = |&uv: &Vec2| match part.has_flipped_coordinates {
             true => Vec2::new(uv.x, 1.0 - uv.y),
-            false => *uv,
+            false => uv,
         };
         let coordinates = attributes.texture_coordinates.values();
         self.coordinates.extend(coordinates.iter().map(upwards));
@@ -235,8 +268,21 @@ impl Merged {
             .extend(attributes.points.iter().map(|&p| vertex(p)));
     }
 
-    /// Appends the materials and textures of a file, which are used unless the scene names another material.
+    /// The index at which the materials of a mesh's file begin. They and the textures are appended once, for all parts
+    /// with the mesh.
+    fn own_materials(&mut self, mesh: &Arc<TriangleMesh>) -> u32 {
+        let next = self.materials.len() as u32;
+        let first = *self.of_meshes.entry(Arc::as_ptr(mesh)).or_insert(next);
+        if first == next {
+            self.append_materials(mesh.attributes());
+        }
+        first
+    }
+
     fn append_materials(&mut self, attributes: &Attributes) {
+        if attributes.materials.entries().is_empty() {
+            self.materials.push(Material::default());
+        }
         let first_texture = self.textures.len() as u32;
         self.textures.extend_from_slice(&attributes.textures);
         self.materials

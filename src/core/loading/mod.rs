@@ -7,6 +7,7 @@
 //! | its materials and textures | `materials`, `textures` |
 //! | all meshes as one | `merge` |
 //! | the memory that this takes | `memory` |
+//! | errors with lines | `refusal` |
 //! | the sensor as a view | `view` |
 //! | emitters as lights, and materials that emit light | `lights` |
 //! | what was loaded, as the text of a scene file | `saving` |
@@ -19,6 +20,7 @@ mod materials;
 mod memory;
 mod merge;
 mod placed;
+mod refusal;
 mod saving;
 mod textures;
 mod view;
@@ -26,7 +28,6 @@ mod view;
 pub use saving::scene_text;
 pub use view::StartView;
 
-use crate::aabb::Aabb;
 use crate::integrator::{Integrator, integrator};
 use crate::light::Light;
 use crate::mesh::SAFE_SIZE;
@@ -99,7 +100,7 @@ impl LoadedScene {
     ) -> Result<Self, Cancelled> {
         let Loaded { mesh, mut report } = loaded;
         let scene = Scene::with_options(mesh, options, progress)?;
-        report.warnings.extend(size_warning(scene.bounds()));
+        report.warnings.extend(size_warning(&scene));
         let scene = Arc::new(scene);
         Ok(Self {
             scene,
@@ -131,16 +132,20 @@ pub fn is_scene_file(path: &Path) -> bool {
     extension.is_some_and(|extension| extension.eq_ignore_ascii_case("xml"))
 }
 
-/// The warning for a mesh whose size f32 kernels can't handle well.
-fn size_warning(bounds: Aabb) -> Option<Warning> {
+/// The warning about a scene that is empty, or whose size f32 kernels can't handle well. Infinite planes have no size.
+fn size_warning(scene: &Scene) -> Option<Warning> {
+    if scene.primitive_count() == 0 {
+        return Some(Warning::of_file("the scene is empty".to_owned()));
+    }
+    let bounds = scene.bounds();
     let size = 2.0 * bounds.radius();
+    if bounds.is_empty() || SAFE_SIZE.contains(&size) {
+        return None;
+    }
     let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
-    (!SAFE_SIZE.contains(&size)).then(|| Warning {
-        line: None,
-        message: format!(
-            "the mesh is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits and the watertight kernel is slow: scale the mesh or use the precise kernel"
-        ),
-    })
+    Some(Warning::of_file(format!(
+        "the scene is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits and the watertight kernel is slow: scale the scene or use the precise kernel"
+    )))
 }
 
 #[cfg(test)]

@@ -6,7 +6,7 @@ use crate::aabb::Aabb;
 use crate::group::{Appearance, CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
 use crate::intersector::{Intersector, Packing, scene_intersector};
 use crate::kernel::KernelChoice;
-use crate::mesh::{Crease, TextureFrame, TriangleMesh, VertexNormals};
+use crate::mesh::{Crease, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{SampledPoint, SurfacePoint};
@@ -253,30 +253,29 @@ impl Scene {
         group.surface(ray, &Hit { primitive, ..*hit })
     }
 
-    /// The texture coordinates at a hit; `None` if there are none, or if those of a triangle lie on a line.
-    pub fn texture_frame(&self, ray: &Ray, hit: &Hit) -> Option<TextureFrame> {
-        if self.is_triangle(hit.primitive) {
-            return self.mesh.texture_frame(hit);
-        }
-        let (group, index) = self.group_of(hit.primitive);
-        group.texture_frame(index, self.surface(ray, hit).position)
-    }
-
     /// The area of a primitive; 0 if its points can't be sampled.
     pub fn area(&self, primitive: u32) -> f64 {
         let (group, index) = self.group_of(primitive);
         group.area(index)
     }
 
-    /// A point of a primitive, uniform by area for uniform points `at` of the unit square: the ray from a point to it, and
-    /// its hit there at t = 1. `None` if the area is 0, or the point is `from` itself.
+    /// A point of a primitive, for uniform points `at` of the unit square: the ray from a point to it, and its hit there at
+    /// t = 1. Points are uniform by area, or their directions are uniform; see [`density_from`](Self::density_from). `None`
+    /// if the area is 0, or the point is `from` itself.
     pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<(Ray, Hit)> {
         let (group, index) = self.group_of(primitive);
-        let SampledPoint { position, u, v } = group.sampled_point(index, at)?;
+        let SampledPoint { position, u, v } = group.sampled_from(index, from, at)?;
         let ray = Ray::new(from, (position - from.as_dvec3()).as_vec3()).ok()?;
         // The length of the direction may have been scaled.
         let t = 2f32.powi(-ray.scale);
         Some((ray, Hit { t, u, v, primitive }))
+    }
+
+    /// The density per solid angle of the points of [`sampled`](Self::sampled) as seen from `from`, if their directions are
+    /// uniform over those in which the primitive appears. `None` if the points are uniform by area.
+    pub fn density_from(&self, primitive: u32, from: Vec3) -> Option<f64> {
+        let (group, index) = self.group_of(primitive);
+        group.density_from(index, from)
     }
 
     /// The corners of a primitive, if it is a triangle.

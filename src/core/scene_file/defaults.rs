@@ -100,7 +100,7 @@ mod tests {
             ("$qé", Ok("3é")),
             (
                 "$x",
-                Err("x.xml:3: unknown parameter “x”; the nearest known one is “q”"),
+                Err("x.xml:3: unknown parameter “x”; expected “q”, “q_1” or “é”"),
             ),
             ("5$", Err("x.xml:3: no name of a parameter follows “$”")),
             ("$é", Err("x.xml:3: no name of a parameter follows “$”")),

@@ -10,6 +10,7 @@ use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
 use super::textures::{self, Nested, Texture};
+use crate::brightness::check_brightness;
 use glam::{DMat3, DMat4, DVec3};
 
 /// The emitters that are read.
@@ -189,13 +190,10 @@ fn light(parameters: &mut Parameters, name: &'static str) -> Result<DVec3, Probl
             return at(format!("{name} must be <rgb>, not <{element}>"));
         }
     };
-    if rgb.min_element() < 0.0 {
-        return at(format!("{} must not be negative", quoted(name)));
+    match check_brightness(rgb) {
+        Ok(()) => Ok(rgb),
+        Err(fault) => at(format!("{} {fault}", quoted(name))),
     }
-    if !rgb.as_vec3().is_finite() {
-        return at(format!("{} is too large for f32", quoted(name)));
-    }
-    Ok(rgb)
 }
 
 /// Refuses two parameters that mean the same.
@@ -232,10 +230,12 @@ fn envmap(
     let file = reader.data_file(&name, element, place)?;
     reader.memory.take(name.len() as u64, place)?;
     let scale = match parameters.float("scale")? {
-        Some((scale, place)) if scale < 0.0 => {
-            return Err(Problem::at(place, "“scale” must not be negative"));
+        Some((scale, place)) => {
+            let fault = |fault| Problem::at(place, format!("“scale” {fault}"));
+            check_brightness(DVec3::splat(scale)).map_err(fault)?;
+            scale
         }
-        given => given.map_or(1.0, |(scale, _)| scale),
+        None => 1.0,
     };
     // It changes noise, not the picture.
     parameters.boolean("mis_compensation", false)?;

@@ -94,6 +94,9 @@ impl<'r> Reader<'r> {
             file: index,
             line: 1,
         };
+        // In this list, in that of open files, and in the load report.
+        let path_bytes = 3 * (2 * size_of::<PathBuf>() + path.as_os_str().len());
+        self.memory.take(path_bytes as u64, start)?;
         self.includes.bytes += bytes.len() as u64;
         if self.includes.bytes > self.memory.limit() {
             // Bounds the time for a large file that is included often.

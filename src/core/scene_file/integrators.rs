@@ -52,7 +52,9 @@ pub(super) fn integrator(reader: &mut Reader, element: Element) -> Result<Integr
         parameters.add(parameter.clone())?;
     }
     let depth_limit = depth_limit(reader, &mut parameters)?;
-    let rr_depth = parameters.count("rr_depth", 1)?.unwrap_or(RR_DEPTH);
+    let rr_depth = parameters
+        .count("rr_depth", 1..=u32::MAX)?
+        .unwrap_or(RR_DEPTH);
     if rr_depth != RR_DEPTH {
         let message =
             format!("“rr_depth” isn't used: paths may end early from depth {RR_DEPTH} on");

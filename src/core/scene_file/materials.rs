@@ -5,6 +5,7 @@ use super::bsdfs::{self, PLAIN};
 use super::description::{Material, Place, Shape};
 use super::element::Element;
 use super::kinds::ShapeKind;
+use super::memory::bytes_per_map_entry;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
 use super::problem::{Problem, quoted, unknown};
@@ -12,7 +13,8 @@ use super::properties;
 use super::reader::Reader;
 use super::relief;
 use super::side::Side;
-use super::textures;
+use super::textures::{self, Texture};
+use crate::bsdf::Slot;
 use std::collections::HashMap;
 
 /// The BSDFs of Mitsuba 3.9.1.
@@ -161,16 +163,32 @@ fn undefined(id: &str, place: Place, ids: &HashMap<String, Registered>) -> Probl
 /// The temporary index of the material that a `<ref>` names.
 pub(super) fn reference(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
     let id = objects::reference(reader, element)?;
-    let bytes = 2 * (size_of::<Named>() + 2 * id.len()) as u64;
-    reader.memory.take(bytes, element.place)?;
+    if !reader.materials.by_id.contains_key(&id) {
+        reader.memory.take(bytes_of_id(&id), element.place)?;
+    }
     Ok(reader.materials.mention(&id, element.place))
+}
+
+/// The memory of an identifier in the lists.
+fn bytes_of_id(id: &str) -> u64 {
+    let entry = bytes_per_map_entry::<(String, u32)>();
+    (2 * size_of::<Named>() + entry + 2 * id.len()) as u64
 }
 
 /// The temporary index of a new material.
 pub(super) fn define(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
     let material = bsdf(reader, element)?;
-    let bytes = 2 * (size_of::<Material>() + size_of::<Named>()) as u64;
-    reader.memory.take(bytes, element.place)?;
+    add(reader, material)
+}
+
+/// The temporary index of a new material, whose memory is taken.
+fn add(reader: &mut Reader, material: Material) -> Result<u32, Problem> {
+    let id = material.id.as_deref();
+    // A list with one texture has room for four.
+    let texture = |texture: &Texture| 4 * size_of::<(Slot, Texture)>() + texture.path_bytes();
+    let textures = material.textures().map(texture).sum::<usize>() as u64;
+    let bytes = 2 * size_of::<Material>() as u64 + id.map_or(0, bytes_of_id) + textures;
+    reader.memory.take(bytes, material.place)?;
     Ok(reader.materials.define(material))
 }
 
@@ -235,7 +253,7 @@ pub(super) fn nested(reader: &mut Reader, child: Element) -> Result<Option<Mater
         "bsdf" => {
             let nested = bsdf(reader, child)?;
             if nested.id.is_some() {
-                reader.materials.define(nested.clone());
+                add(reader, nested.clone())?;
             }
             Ok(Some(nested))
         }
@@ -315,7 +333,7 @@ fn both_sides(reader: &mut Reader, element: Element) -> Result<(Side, Side), Pro
             return objects::skip(reader, child, &parameters.object());
         };
         if side.front.bsdf.transmits() {
-            let message = "bsdf “twosided” can't contain one that light passes through";
+            let message = "light passes through this bsdf, so it can't stand in “twosided”: use it alone, it has both sides";
             return Err(child.problem(message));
         }
         if sides.len() == 2 {

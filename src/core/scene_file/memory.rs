@@ -4,6 +4,12 @@ use super::description::Place;
 use super::problem::Problem;
 use crate::counts::grouped;
 
+/// An upper bound on the memory of an entry of a hash map. While a full table grows, it has 8/7 slots per entry besides
+/// twice as many in the new one, each with a byte more than the entry.
+pub(super) const fn bytes_per_map_entry<T>() -> usize {
+    4 * size_of::<T>()
+}
+
 /// The memory held by the description and by the files that are being read.
 pub(super) struct Memory {
     limit: u64,

@@ -45,7 +45,7 @@
 //! |---|---|
 //! | `translate`, `scale` | `value`, or `x`, `y`, `z` with default 0 or 1 |
 //! | `rotate` | axis as in `translate`, `angle` in degrees, counter-clockwise. Mitsuba doesn't normalise the axis: it then also scales |
-//! | `matrix` | `value`: 9 or 16 numbers, row by row; the last row of 16 is ignored |
+//! | `matrix` | `value`: 9 or 16 numbers, row by row; the last row of 16 must be 0 0 0 1, and Mitsuba ignores it |
 //! | `lookat` | `origin`, `target`, optionally `up`: z points to the target, y upwards, x to the **left** |
 //!
 //! ## Shapes
@@ -61,6 +61,9 @@
 //! | `disk` | unit radius, facing +z |
 //! | `rectangle` | from (−1, −1, 0) to (1, 1, 0), facing +z |
 //! | `cube` | from −1 to 1 |
+//!
+//! With `flip_tex_coords` = true, v increases upwards in a picture, as OBJ files mean it; with false, downwards. Shapes of
+//! the same OBJ file share its textures.
 //!
 //! Mitsuba doesn't know the following shapes, nor `capped`, and refuses a file with them:
 //!
@@ -87,7 +90,8 @@
 //! `face_normals`) are reversed.
 //!
 //! Mitsuba has two normals, on different sides for a mirrored `cube`, `rectangle` and `obj` with normals. Here, both are
-//! on the side of Mitsuba's shading normal, on which it evaluates materials and emitters.
+//! on the side of Mitsuba's shading normal, on which it evaluates materials and emitters. An emitter in a mirrored sphere
+//! or in a mirrored `obj` without normals therefore shines from the other side, which gives a warning.
 //!
 //! ## Materials
 //!
@@ -118,16 +122,19 @@
 //! | `checkerboard` | `color0` = 0.4, `color1` = 0.2, constant |
 //!
 //! `to_uv` maps the surface's texture coordinates to the texture's, of which (0, 0) is the upper left corner and (1, 1) the
-//! lower right one. An `obj` has the coordinates of its file; `sphere`, `cylinder`, `disk`, `rectangle` and `cube` have
-//! Mitsuba's, and a `box` those of a cube. Other shapes have none: a warning says that the parameters' defaults are used.
+//! lower right one. An `obj` has the coordinates of its file, with 1 − v in place of v if `flip_tex_coords` is true;
+//! `sphere`, `cylinder`, `disk`, `rectangle` and `cube` have Mitsuba's, and a `box` those of a cube. Other shapes have
+//! none: a warning says that the parameters' defaults are used.
 //!
 //! ## Sensors
 //!
 //! `perspective` has `fov` in degrees along `fov_axis` = x, or `focal_length` = 50mm, which determines the diagonal of
 //! a film of 36 mm × 24 mm. `thinlens` also has `aperture_radius`, which has no default, and `focus_distance` = 10
 //! 000. `orthographic` spans x from −1 to 1, so that the scale of `to_world` determines its extent. `<film>` has
-//! `width` = 768, `height` = 576 and a crop window; `<sampler>` has `sample_count` = 4. The crop window is kept, but isn't
-//! used, and gives a warning; so do `near_clip`, `far_clip` and other parameters.
+//! `width` = 768, `height` = 576, both up to 16384, and a crop window; `<sampler>` has `sample_count` = 4. The first
+//! sensor is the initial view. The others and `sample_count` are kept, but aren't used: commands and the window have their
+//! own number of samples. The crop window and the lens are kept, too, but aren't used, and give a warning; so do
+//! `near_clip`, `far_clip` and other parameters.
 //!
 //! ## Emitters
 //!
@@ -139,9 +146,9 @@
 //! | `directional` | `direction` = (0, 0, 1) in which the light travels, or `to_world`; `irradiance` = 1. A scale in `to_world` doesn't change the light, unlike in Mitsuba |
 //! | `envmap` | `filename`: a latitude–longitude picture, Radiance HDR or OpenEXR; `scale` = 1; `to_world`: a rotation. `mis_compensation` has no effect |
 //!
-//! Light is `rgb` (linear), `spectrum` with one number or `float`, and isn't negative. A scene has at most one
-//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. The `radiance` of `area` can
-//! be a texture; in place of other colours, one gives a warning.
+//! Light is `rgb` (linear), `spectrum` with one number or `float`, from 0 to 2.8e14: brighter light would exceed the
+//! picture's range. A scene has at most one `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light
+//! and a warning. The `radiance` of `area` can be a texture; in place of other colours, one gives a warning.
 //!
 //! ## Integrators
 //!

@@ -6,11 +6,14 @@ use glam::DVec3;
 /// A finite number in decimal notation.
 ///
 /// # Errors
-/// The text isn't a number, or isn't finite.
+/// The text isn't a number, isn't finite, or is too large for f64.
 pub(super) fn float(text: &str) -> Result<f64, String> {
     let number: f64 = text.trim().parse().map_err(|_| not("a number", text))?;
     if number.is_finite() {
         Ok(number)
+    } else if text.contains(|c: char| c.is_ascii_digit()) {
+        let text = quoted(text);
+        Err(format!("{text} is too large: numbers end at 1.8e308"))
     } else {
         Err(format!("{} isn't a finite number", quoted(text)))
     }
@@ -80,9 +83,11 @@ mod tests {
         for text in ["", "0x10", "1,5", "1e", "one", "1 2", "1f"] {
             assert_eq!(float(text), Err(format!("“{text}” isn't a number")));
         }
-        for text in ["nan", "inf", "-Infinity", "1e400"] {
+        for text in ["nan", "inf", "-Infinity"] {
             assert_eq!(float(text), Err(format!("“{text}” isn't a finite number")));
         }
+        let too_large = "“-1e400” is too large: numbers end at 1.8e308";
+        assert_eq!(float("-1e400"), Err(too_large.to_owned()));
         assert_eq!(integer(" -7"), Ok(-7));
         let large = "99999999999999999999";
         for text in ["1.5", "", large] {

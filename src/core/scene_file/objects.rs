@@ -6,6 +6,7 @@ use super::plugin::{Parameter, Plugin, Value};
 use super::problem::{Problem, quoted, unknown};
 use super::properties::{self, PROPERTIES};
 use super::reader::Reader;
+use super::transform::OPERATIONS;
 use crate::integrator::INTEGRATORS;
 
 /// The elements of Mitsuba's objects.
@@ -155,7 +156,7 @@ pub(super) fn unexpected(element: Element) -> Problem {
         return element.problem(format!("<{tag}> isn't supported"));
     }
     let others = ["ref", "default", "include"];
-    let known = [&OBJECTS[..], &PROPERTIES, &others].concat();
+    let known = [&OBJECTS[..], &PROPERTIES, &OPERATIONS, &others].concat();
     if known.contains(&tag) {
         let parent = element.node.parent_element();
         let parent = parent.map_or("", |parent| parent.tag_name().name());

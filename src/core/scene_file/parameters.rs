@@ -7,6 +7,7 @@ use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::warnings::Warnings;
 use glam::{DMat4, DVec3};
+use std::ops::RangeInclusive;
 
 /// The parameters of an object that weren't looked up so far.
 pub(super) struct Parameters {
@@ -120,15 +121,20 @@ impl Parameters {
         }
     }
 
-    /// An integer from `least` to the largest of 32 bits without sign.
-    pub(super) fn count(&mut self, name: &'static str, least: u32) -> Result<Option<u32>, Problem> {
+    /// An integer in a range.
+    pub(super) fn count(
+        &mut self,
+        name: &'static str,
+        range: RangeInclusive<u32>,
+    ) -> Result<Option<u32>, Problem> {
         let Some((number, place)) = self.integer(name)? else {
             return Ok(None);
         };
         match u32::try_from(number) {
-            Ok(count) if count >= least => Ok(Some(count)),
+            Ok(count) if range.contains(&count) => Ok(Some(count)),
             _ => {
-                let message = format!("{} must be from {least} to {}", quoted(name), u32::MAX);
+                let (least, most) = (range.start(), range.end());
+                let message = format!("{} must be from {least} to {most}", quoted(name));
                 Err(Problem::at(place, message))
             }
         }
@@ -210,6 +216,7 @@ impl Parameters {
     pub(super) fn finish(mut self, memory: &mut Memory) -> Result<(), Problem> {
         memory.give_back(self.bytes);
         self.known.sort_unstable();
+        self.known.dedup();
         match self.left.first() {
             Some(Parameter { place, name, .. }) => {
                 let what = format!("parameter of {}:", self.object());

@@ -1,6 +1,7 @@
 //! Reasons why a scene can't be read, and names in messages.
 
 use super::description::Place;
+use crate::names::{alternatives, nearest};
 use crate::obj::{LoadError, shown};
 use crate::progress::Cancelled;
 use std::path::{Path, PathBuf};
@@ -73,16 +74,20 @@ pub(super) fn quoted(text: &str) -> String {
     format!("“{}{rest}”", shown(Path::new(&start)))
 }
 
-/// The message about a name that isn't known. `what` names its kind.
+/// The message about a name that isn't known, with the nearest known one, or else all if they are few. `what` names its
+/// kind.
 pub(super) fn unknown(what: &str, name: &str, known: &[&str]) -> String {
-    /// Longer than any known name.
-    const LENGTH: usize = 60;
-    let start: String = name.chars().take(LENGTH).collect();
-    let distance = |known: &&&str| strsim::damerau_levenshtein(&start.to_lowercase(), known);
-    let nearest = known.iter().min_by_key(distance);
-    let nearest = nearest.map(|name| format!("; the nearest known one is {}", quoted(name)));
-    let nearest = nearest.unwrap_or_default();
-    format!("unknown {what} {}{nearest}", quoted(name))
+    /// As many as a message can list: the kinds of shapes.
+    const MOST_LISTED: usize = 12;
+    let hint = match nearest(name, known.iter().copied()) {
+        Some(nearest) => format!("; the nearest known one is {}", quoted(nearest)),
+        None if (1..=MOST_LISTED).contains(&known.len()) => {
+            let known: Vec<String> = known.iter().map(|name| quoted(name)).collect();
+            format!("; expected {}", alternatives(&known))
+        }
+        None => String::new(),
+    };
+    format!("unknown {what} {}{hint}", quoted(name))
 }
 
 #[cfg(test)]
@@ -90,12 +95,17 @@ mod tests {
     use super::*;
 
     #[test]
-    fn an_unknown_name_is_reported_with_the_nearest_one() {
+    fn an_unknown_name_is_reported_with_the_nearest_one_or_all() {
         let known = ["sphere", "cylinder", "disk"];
         assert_eq!(
             unknown("shape", "Spere", &known),
             "unknown shape “Spere”; the nearest known one is “sphere”"
         );
+        assert_eq!(
+            unknown("shape", "ball", &known),
+            "unknown shape “ball”; expected “sphere”, “cylinder” or “disk”"
+        );
+        assert_eq!(unknown("shape", "ball", &["x"; 13]), "unknown shape “ball”");
         assert_eq!(unknown("shape", "a", &[]), "unknown shape “a”");
     }
 

@@ -3,11 +3,12 @@
 use super::defaults::Defaults;
 use super::description::{Place, SceneFile};
 use super::element::{Element, OpenFile};
+use super::emitter::Emitter;
 use super::emitters::{self, Parent};
 use super::include::Includes;
 use super::integrators;
 use super::materials::{Materials, Registered};
-use super::memory::Memory;
+use super::memory::{Memory, bytes_per_map_entry};
 use super::objects;
 use super::outline::MAX_DEPTH;
 use super::problem::{Problem, quoted};
@@ -177,9 +178,9 @@ impl<'r> Reader<'r> {
             }
             "emitter" => {
                 let emitter = emitters::emitter(self, element, Parent::Scene)?;
-                let mut others = self.scene.emitters.iter();
-                let has_other = others.any(|other| other.kind.is_environment());
-                if has_other && emitter.kind.is_environment() {
+                let is_environment = |other: &Emitter| other.kind.is_environment();
+                // The others are searched for an environment only, so that many lights take little time.
+                if is_environment(&emitter) && self.scene.emitters.iter().any(is_environment) {
                     return Err(element.problem("the scene has a second environment"));
                 }
                 self.scene.emitters.push(emitter);
@@ -199,7 +200,7 @@ impl<'r> Reader<'r> {
         element.require_known_attributes(&["name", "value"])?;
         let name = element.required("name", &self.defaults)?.into_owned();
         let value = element.required("value", &self.defaults)?.into_owned();
-        let bytes = 2 * (2 * size_of::<String>() + name.len() + value.len());
+        let bytes = bytes_per_map_entry::<(String, String)>() + 2 * (name.len() + value.len());
         self.memory.take(bytes as u64, element.place)?;
         self.defaults.define(&name, &value);
         Ok(())
@@ -220,8 +221,9 @@ impl<'r> Reader<'r> {
             let message = format!("id {} is in use since line {line}{in_file}", quoted(id));
             return Err(element.problem(message));
         }
-        // Twice: in this list and in the description.
-        let bytes = 2 * (size_of::<(String, Registered)>() + id.len() + element.tag().len());
+        // The identifier twice: in this list and in the description.
+        let bytes =
+            bytes_per_map_entry::<(String, Registered)>() + 2 * id.len() + element.tag().len();
         self.memory.take(bytes as u64, element.place)?;
         let registered = Registered {
             place: element.place,

@@ -8,6 +8,7 @@ use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
 use super::sensor::{Crop, FieldOfView, Film, FovAxis, Sensor, SensorKind};
+use crate::camera::MAX_SIDE;
 
 /// The sensors that are read, then Mitsuba's others.
 const SENSORS: [&str; 7] = [
@@ -86,6 +87,10 @@ pub(super) fn sensor(reader: &mut Reader, element: Element) -> Result<Option<Sen
         "orthographic" => SensorKind::Orthographic,
         _ => thin_lens(parameters)?,
     };
+    if matches!(kind, SensorKind::ThinLens { aperture_radius, .. } if aperture_radius > 0.0) {
+        let message = "sensor “thinlens”: the lens isn't used; everything is in focus";
+        reader.warnings.add(element.place, message.to_owned());
+    }
     let to_world = parameters.world_transform()?;
     let unused = [
         "near_clip",
@@ -224,8 +229,10 @@ fn film(reader: &mut Reader, element: Element) -> Result<Film, Problem> {
         Ok(())
     })?;
     let default = Film::default();
-    let width = parameters.count("width", 1)?.unwrap_or(default.width);
-    let height = parameters.count("height", 1)?.unwrap_or(default.height);
+    let width = parameters.count("width", 1..=MAX_SIDE)?;
+    let height = parameters.count("height", 1..=MAX_SIDE)?;
+    let width = width.unwrap_or(default.width);
+    let height = height.unwrap_or(default.height);
     let crop_place = parameters.place_of(&CROP);
     let crop = crop(&mut parameters, width, height)?;
     if let (Some(crop), Some(place)) = (crop, crop_place)
@@ -254,10 +261,10 @@ fn film(reader: &mut Reader, element: Element) -> Result<Film, Problem> {
 
 fn crop(parameters: &mut Parameters, width: u32, height: u32) -> Result<Option<Crop>, Problem> {
     let [x, y, crop_width, crop_height] = CROP;
-    let x = parameters.count(x, 0)?;
-    let y = parameters.count(y, 0)?;
-    let crop_width = parameters.count(crop_width, 1)?;
-    let crop_height = parameters.count(crop_height, 1)?;
+    let x = parameters.count(x, 0..=MAX_SIDE)?;
+    let y = parameters.count(y, 0..=MAX_SIDE)?;
+    let crop_width = parameters.count(crop_width, 1..=MAX_SIDE)?;
+    let crop_height = parameters.count(crop_height, 1..=MAX_SIDE)?;
     if [x, y, crop_width, crop_height] == [None; 4] {
         return Ok(None);
     }
@@ -285,7 +292,7 @@ fn sampler(reader: &mut Reader, element: Element) -> Result<u32, Problem> {
             None => objects::skip(reader, child, &parameters.object()),
         },
     )?;
-    let sample_count = parameters.count("sample_count", 1)?;
+    let sample_count = parameters.count("sample_count", 1..=u32::MAX)?;
     parameters.warn_about(&["seed", "jitter"], &mut reader.warnings);
     parameters.finish(&mut reader.memory)?;
     Ok(sample_count.unwrap_or(SAMPLE_COUNT))

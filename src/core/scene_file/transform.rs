@@ -11,7 +11,8 @@ use glam::{DMat3, DMat4, DVec3, DVec4, Vec3Swizzles as _};
 
 /// The attributes with a vector.
 const VECTOR: [&str; 4] = ["value", "x", "y", "z"];
-const OPERATIONS: [&str; 5] = ["translate", "rotate", "scale", "matrix", "lookat"];
+/// The elements in a transform.
+pub(super) const OPERATIONS: [&str; 5] = ["translate", "rotate", "scale", "matrix", "lookat"];
 
 /// A composed transform.
 pub(super) struct Composed {
@@ -127,7 +128,7 @@ fn sin_cos_degrees(degrees: f64) -> (f64, f64) {
     }
 }
 
-/// 9 or 16 numbers, row by row. The last row of 16 is ignored, as in Mitsuba.
+/// 9 or 16 numbers, row by row. The last row of 16 must be 0 0 0 1; Mitsuba ignores it.
 fn matrix(element: Element, defaults: &Defaults) -> Result<DMat4, Problem> {
     element.require_known_attributes(&["value"])?;
     let text = element.required("value", defaults)?;
@@ -137,12 +138,15 @@ fn matrix(element: Element, defaults: &Defaults) -> Result<DMat4, Problem> {
             let rows = DMat3::from_cols_array(&[a, b, c, d, e, f, g, h, i]);
             Ok(DMat4::from_mat3(rows.transpose()))
         }
-        [a, b, c, d, e, f, g, h, i, j, k, l, _, _, _, _] => Ok(DMat4::from_cols(
+        [a, b, c, d, e, f, g, h, i, j, k, l, 0.0, 0.0, 0.0, 1.0] => Ok(DMat4::from_cols(
             DVec4::new(a, e, i, 0.0),
             DVec4::new(b, f, j, 0.0),
             DVec4::new(c, g, k, 0.0),
             DVec4::new(d, h, l, 1.0),
         )),
+        [.., x, y, z, w] if numbers.len() == 16 => Err(element.problem(format!(
+            "the last row of the matrix must be 0 0 0 1, not {x} {y} {z} {w}; other transforms aren't affine"
+        ))),
         _ => Err(element.problem(format!("{} isn't a list of 9 or 16 numbers", quoted(&text)))),
     }
 }

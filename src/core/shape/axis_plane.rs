@@ -17,8 +17,8 @@ pub struct AxisPlane {
     pub axis: u8,
     /// The points' coordinate along the axis.
     pub coordinate: f32,
-    /// Whether the normal points to higher coordinates.
-    pub faces_up: bool,
+    /// Whether the normal points along the axis, to higher coordinates, and not against it.
+    pub is_along_axis: bool,
 }
 
 impl AxisPlane {
@@ -28,7 +28,7 @@ impl AxisPlane {
 
     fn normal(&self) -> DVec3 {
         let mut normal = DVec3::ZERO;
-        normal[self.axis()] = if self.faces_up { 1.0 } else { -1.0 };
+        normal[self.axis()] = if self.is_along_axis { 1.0 } else { -1.0 };
         normal
     }
 }
@@ -40,7 +40,7 @@ impl Shape for AxisPlane {
         parameters: &[
             Parameter::number("axis", "k"),
             Parameter::number("coordinate", "D"),
-            Parameter::flag("faces_up"),
+            Parameter::flag("normal_along_axis"),
         ],
         equations: &["0 = p_k − D, hence t = (D − o_k)/d_k"],
     };
@@ -53,13 +53,13 @@ impl Shape for AxisPlane {
         Self {
             axis: 0,
             coordinate: f32::NAN,
-            faces_up: true,
+            is_along_axis: true,
         }
     }
 
     fn write(&self, numbers: &mut [f32]) {
-        let faces_up = f32::from(u8::from(self.faces_up));
-        numbers.copy_from_slice(&[self.axis.into(), self.coordinate, faces_up]);
+        let is_along_axis = f32::from(u8::from(self.is_along_axis));
+        numbers.copy_from_slice(&[self.axis.into(), self.coordinate, is_along_axis]);
     }
 
     #[inline(always)]
@@ -67,7 +67,7 @@ impl Shape for AxisPlane {
         Self {
             axis: numbers.value(0) as u8,
             coordinate: numbers.value(1),
-            faces_up: numbers.value(2) == 1.0,
+            is_along_axis: numbers.value(2) == 1.0,
         }
     }
 
@@ -125,7 +125,7 @@ impl Pieces for AxisPlane {
         let from = ray.origin[axis].minus(&R::from(self.coordinate));
         let above = Polynomial::new([from, ray.dir[axis].clone()]);
         let nothing = Polynomial::constant(R::zero());
-        let surface = if self.faces_up {
+        let surface = if self.is_along_axis {
             above
         } else {
             nothing.minus(&above)

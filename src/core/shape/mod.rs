@@ -19,6 +19,7 @@ mod sample;
 mod shared_corners;
 mod span;
 mod sphere;
+mod subtended;
 mod surface;
 mod torus;
 mod triangle;
@@ -50,7 +51,7 @@ pub use triangle::Triangle;
 use crate::aabb::{Aabb, Planes};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
-use glam::DVec2;
+use glam::{DVec2, Vec3};
 use std::fmt::Debug;
 
 /// A shape's names and equations.
@@ -109,6 +110,17 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
 
     /// A point of the surface, uniform by area for uniform points `at` of the unit square; `None` if the area is 0.
     fn sampled_point(&self, _at: DVec2) -> Option<SampledPoint> {
+        None
+    }
+
+    /// A point of the surface to be lit by from `from`; by default [`sampled_point`](Self::sampled_point).
+    fn sampled_from(&self, _from: Vec3, at: DVec2) -> Option<SampledPoint> {
+        self.sampled_point(at)
+    }
+
+    /// The density per solid angle of [`sampled_from`](Self::sampled_from), if the directions to its points are uniform over
+    /// those in which the shape appears. `None` if the points are uniform by area.
+    fn density_from(&self, _from: Vec3) -> Option<f64> {
         None
     }
 

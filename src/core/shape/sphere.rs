@@ -1,6 +1,7 @@
 //! Spheres.
 
 use super::compact::Slots;
+use super::subtended::SubtendedCone;
 use super::{
     AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint,
     numbers_of, on_sphere,
@@ -29,6 +30,13 @@ impl Sphere {
     fn error(&self) -> Vec3 {
         let reach = self.centre.abs() + Vec3::splat(self.radius);
         f32::EPSILON * (reach + Vec3::splat(4.0 * self.radius))
+    }
+
+    /// The cone of directions from a point outside. A point of the sphere itself counts as inside, wherever it is rounded.
+    fn cone(&self, from: Vec3) -> Option<SubtendedCone> {
+        let way = self.centre.as_dvec3() - from.as_dvec3();
+        let slack = self.error().as_dvec3().length();
+        SubtendedCone::new(way, self.radius.into(), slack)
     }
 
     fn can_be_hit(&self) -> bool {
@@ -115,6 +123,21 @@ impl Shape for Sphere {
             u: 0.0,
             v: 0.0,
         })
+    }
+
+    fn sampled_from(&self, from: Vec3, at: DVec2) -> Option<SampledPoint> {
+        let Some(cone) = self.cone(from) else {
+            return self.sampled_point(at);
+        };
+        Some(SampledPoint {
+            position: self.centre.as_dvec3() + f64::from(self.radius) * cone.normal(at),
+            u: 0.0,
+            v: 0.0,
+        })
+    }
+
+    fn density_from(&self, from: Vec3) -> Option<f64> {
+        self.cone(from).map(|cone| cone.density())
     }
 
     fn interior(&self, _: &Ray) -> Interior {

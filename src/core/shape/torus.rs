@@ -15,7 +15,8 @@ use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
 
 /// The points at the minor radius from a circle with the major radius. No ray hits it if a radius isn't positive, the
-/// axis is 0, or a number isn't finite. If the minor radius is larger, the surface meets itself.
+/// axis is 0, or a number isn't finite. If the minor radius is larger, the surface meets itself: normals point away from
+/// the circle, on its inner sheet too.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Torus {
     /// The centre.
@@ -126,7 +127,15 @@ impl Shape for Torus {
         let height = p.dot(axis);
         let side = p - height * axis;
         let (x, y) = axis.any_orthonormal_pair();
-        let outwards = side.normalize_or(x);
+        // Of the circles about which the tube's cut is drawn, the one on whose rim the point lies. It is the one on this
+        // side of the axis, but for the inner sheet of a surface that meets itself.
+        let this_side = side.normalize_or(x);
+        let off_rim = |towards: DVec3| ((p - major * towards).length() - minor).abs();
+        let outwards = if minor > major && off_rim(-this_side) < off_rim(this_side) {
+            -this_side
+        } else {
+            this_side
+        };
         let in_tube = p - major * outwards;
         let normal = in_tube.normalize_or(outwards);
         let turn = |sin: f64, cos: f64| (sin.atan2(cos) / TAU).rem_euclid(1.0);
@@ -135,7 +144,7 @@ impl Shape for Torus {
             position: (centre + major * outwards + minor * normal).as_vec3(),
             normal,
             uv: DVec2::new(
-                turn(side.dot(y), side.dot(x)),
+                turn(outwards.dot(y), outwards.dot(x)),
                 turn(height, in_tube.dot(outwards)),
             ),
             error: self.error(from_axis as f32),
@@ -209,5 +218,45 @@ impl Pieces for Torus {
             surface: &surface,
             conditions: &[],
         });
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn both_sheets_of_a_torus_that_meets_itself_have_their_own_position_and_normal() {
+        let torus = Torus {
+            centre: Vec3::ZERO,
+            axis: Vec3::Z,
+            major: 0.6,
+            minor: 1.0,
+        };
+        let ray = Ray::new(Vec3::new(0.2, 0.0, 3.0), Vec3::NEG_Z).expect("a ray");
+        // The circles about (±0.6, 0), at x = 0.2.
+        for (side, height) in [
+            (1.0, f64::sqrt(1.0 - 0.16)),
+            (-1.0, 0.6),
+            (-1.0, -0.6),
+            (1.0, -f64::sqrt(1.0 - 0.16)),
+        ] {
+            let hit = Hit {
+                t: (3.0 - height) as f32,
+                u: 0.0,
+                v: 0.0,
+                primitive: 0,
+            };
+            let found = torus.surface(&ray, &hit);
+            let expected = DVec3::new(0.2, 0.0, height);
+            let normal = expected - DVec3::new(0.6 * side, 0.0, 0.0);
+            // t is a multiple of 2⁻²².
+            let tolerance = 1e-6;
+            assert!(
+                (found.position.as_dvec3() - expected).length() < tolerance,
+                "{found:?}"
+            );
+            assert!((found.normal - normal).length() < tolerance, "{found:?}");
+        }
     }
 }

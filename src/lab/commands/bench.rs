@@ -32,8 +32,9 @@ Workloads:
   random   rays from a sphere around the scene to points in its bounding box
   shadow   the bounce rays again, any hit instead of the closest
 
-Rates are rays per second of CPU time, averaged over the cores in use; “wall-clock” rates use elapsed time. Each rate is
-the median of all rounds; a round measures the kernels in turn.
+Rates are rays per second of CPU time, averaged over the cores in use;
+“wall-clock” rates use elapsed time. Each rate is the median of all rounds; a
+round measures the kernels in turn.
 
 Examples:
   hitscope bench bunny.obj

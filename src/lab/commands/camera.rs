@@ -3,7 +3,7 @@
 use super::CommandError;
 use clap::Args;
 use glam::{DVec3, UVec2};
-use hitscope_core::camera::{CameraError, Projection, Turntable};
+use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable};
 use hitscope_core::loading::{StartView, is_scene_file};
 use hitscope_core::{Camera, Scene};
 use std::path::Path;
@@ -33,30 +33,12 @@ pub struct CameraArgs {
 
 /// The size of pictures without `--size` and without a sensor.
 const DEFAULT_SIZE: UVec2 = UVec2::new(1280, 720);
-/// Largest side of a picture, the usual limit of GPU textures.
-const LARGEST_SIDE: u32 = 16384;
 
 impl CameraArgs {
     /// The size of the picture if it is known before the file is loaded: a scene file may have a sensor.
     pub fn known_size(&self, file: &Path) -> Option<UVec2> {
         self.size
             .or_else(|| (!is_scene_file(file)).then_some(DEFAULT_SIZE))
-    }
-
-    /// The size of the picture, for a file that asks for a view, if it does.
-    ///
-    /// # Errors
-    /// [`CommandError::Other`] if the file's film is too large.
-    fn size_for(&self, view: Option<&StartView>) -> Result<UVec2, CommandError> {
-        let size = self.size.or(view.map(|view| view.size));
-        let size = size.unwrap_or(DEFAULT_SIZE);
-        if size.max_element() > LARGEST_SIDE {
-            return Err(CommandError::Other(format!(
-                "the sensor's film of {}x{} pixels is too large: at most {LARGEST_SIDE} per side; give --size",
-                size.x, size.y
-            )));
-        }
-        Ok(size)
     }
 
     /// Checks the arguments without a mesh. Call this before loading one.
@@ -81,9 +63,10 @@ impl CameraArgs {
     ///
     /// # Errors
     /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if no camera can show
-    /// the mesh, [`CommandError::Other`] if the file's film is too large.
+    /// the mesh.
     pub fn camera(&self, scene: &Scene, view: Option<&StartView>) -> Result<Camera, CommandError> {
-        let size = self.size_for(view)?;
+        let of_file = view.map(|view| view.size);
+        let size = self.size.or(of_file).unwrap_or(DEFAULT_SIZE);
         let Some(eye) = self.eye else {
             return Ok(match view {
                 Some(view) => self.given(scene, view, size)?,
@@ -144,11 +127,9 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
         .map(|(w, h)| [w.trim().parse::<u32>(), h.trim().parse::<u32>()])
         .ok_or("expected WIDTHxHEIGHT, as in 1280x720")?;
     match (width, height) {
-        (Ok(width @ 1..=LARGEST_SIDE), Ok(height @ 1..=LARGEST_SIDE)) => {
-            Ok(UVec2::new(width, height))
-        }
+        (Ok(width @ 1..=MAX_SIDE), Ok(height @ 1..=MAX_SIDE)) => Ok(UVec2::new(width, height)),
         _ => Err(format!(
-            "width and height must be integers from 1 to {LARGEST_SIDE}"
+            "width and height must be integers from 1 to {MAX_SIDE}"
         )),
     }
 }

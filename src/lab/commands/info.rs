@@ -64,7 +64,8 @@ struct Info {
     shapes: Vec<ShapeGroup>,
     /// Empty if nothing emits light.
     lights: Vec<LightInfo>,
-    bounds: Bounds,
+    /// Null if the scene is empty or only of infinite planes.
+    bounds: Option<Bounds>,
     origin: [f64; 3],
     /// Largest difference per coordinate between the file's decimals and the traced mesh.
     max_rounding: f64,
@@ -90,12 +91,27 @@ struct Bounds {
 }
 
 impl Bounds {
-    fn of(bounds: Aabb, mesh: &TriangleMesh) -> Self {
+    /// `None` if the box is empty.
+    fn of(bounds: Aabb, mesh: &TriangleMesh) -> Option<Self> {
         let in_file = |p: glam::Vec3| mesh.vertex_in_file(p).to_array();
-        Self {
+        (!bounds.is_empty()).then(|| Self {
             min: in_file(bounds.min),
             max: in_file(bounds.max),
-        }
+        })
+    }
+
+    /// Two lines after a title; `missing` if there are none.
+    fn print(
+        bounds: Option<&Self>,
+        title: &str,
+        missing: &str,
+        out: &mut dyn Write,
+    ) -> std::io::Result<()> {
+        let Some(Self { min, max }) = bounds else {
+            return writeln!(out, "{title:<20}{missing}");
+        };
+        writeln!(out, "{title:<20}{min:?}")?;
+        writeln!(out, "{:<20}{max:?}", "")
     }
 }
 
@@ -106,6 +122,8 @@ struct ShapeGroup {
     count: usize,
     tree_bytes: usize,
     build_ms: f64,
+    /// How many primitives have normals that are the opposite of their shape's.
+    reversed_normals: usize,
     /// Null if there is none, as for planes, which are infinite.
     bounds: Option<Bounds>,
     #[serde(skip)]
@@ -115,13 +133,20 @@ struct ShapeGroup {
 impl ShapeGroup {
     fn of(group: &dyn Group, mesh: &TriangleMesh) -> Self {
         let (shape, bounds) = (group.shape(), group.bounds());
+        let primitives = 0..group.count() as u32;
+        let reversed_normals = primitives.filter(|&index| group.is_flipped(index)).count();
+        let reversed = match reversed_normals {
+            0 => String::new(),
+            count => format!(", normals of {} reversed", grouped(count)),
+        };
         Self {
             shape: shape.name,
             count: group.count(),
             tree_bytes: group.bvh().bytes(),
             build_ms: group.build_time().as_secs_f64() * 1e3,
-            bounds: (!bounds.is_empty()).then(|| Bounds::of(bounds, mesh)),
-            text: counted_as(group.count(), shape.name, shape.plural),
+            bounds: Bounds::of(bounds, mesh),
+            reversed_normals,
+            text: counted_as(group.count(), shape.name, shape.plural) + &reversed,
         }
     }
 }
@@ -259,8 +284,7 @@ impl Info {
         for light in &self.lights {
             writeln!(out, "light               {light}")?;
         }
-        writeln!(out, "bounds              {:?}", self.bounds.min)?;
-        writeln!(out, "                    {:?}", self.bounds.max)?;
+        Bounds::print(self.bounds.as_ref(), "bounds", "none", out)?;
         writeln!(out, "origin              {:?}", self.origin)?;
         writeln!(out, "rounded by          {}", at_most(self.max_rounding))?;
         self.print_memory(out)?;
@@ -290,13 +314,7 @@ impl Info {
                 "shape               {}: tree of {} bytes in {:.1} ms",
                 group.text, group.tree_bytes, group.build_ms
             )?;
-            match &group.bounds {
-                Some(bounds) => {
-                    writeln!(out, "                    {:?}", bounds.min)?;
-                    writeln!(out, "                    {:?}", bounds.max)?;
-                }
-                None => writeln!(out, "                    no bounds")?,
-            }
+            Bounds::print(group.bounds.as_ref(), "", "no bounds", out)?;
         }
         Ok(())
     }

@@ -3,41 +3,62 @@
 use super::CommandError;
 use super::args::{CreaseArg, KernelArg, MeshArgs};
 use super::camera::CameraArgs;
+use super::path::{PathArgs, print_path};
 use super::picture::ShadingArg;
 use crate::inspection::{CrossingReport, HitReport, Inspection, OperandName, SolidReport};
 use clap::Args;
 use glam::UVec2;
+use hitscope_core::Intersector;
 use hitscope_core::counts::{counted, counted_as};
 use hitscope_core::obj::{Recentre, shown};
 use std::fmt::Debug;
 use std::io::Write;
 use std::path::PathBuf;
+use std::sync::Arc;
 
 const ABOUT: &str = "\
-Show the ray of one pixel: its hit with the formula, all crossings, the exact answer, every kernel's answer
+Show the ray of one pixel: its hit with the formula, all crossings, the exact
+answer, every kernel's answer
 
-The ray goes through the centre of the pixel, as in `render` with the same camera. The exact answer is
-computed with integers; the table compares every kernel with it.
+The ray goes through the centre of the pixel, as in `render` with the same
+camera. The exact answer is computed with integers; the table compares every
+kernel with it.
 
 Values, in the text and in JSON:
 
-  t                  in lengths of the ray's direction, which has unit length up to rounding
-  barycentric        barycentric coordinates for the triangle's corners A, B and C
+  t                  in lengths of the ray's direction, which has unit length
+                     up to rounding
+  barycentric        barycentric coordinates for the triangle's corners A, B
+                     and C
   triangle, face     indices, counted from 0, in the order of the file
   line               line of the face in the file, counted from 1
-  side               front if the corners run counterclockwise as seen from the ray's origin, else back
+  side               front if the corners run counterclockwise as seen from
+                     the ray's origin, else back
   position           in the file's coordinates
-  parameters         of a shape other than a triangle, by name; points in the file's coordinates
-  solid              of a solid (csg): the operand that is hit, with its parameters, and the tree of
-                     operations with the intervals of t inside each part
-  is_subtracted      whether an operand is subtracted: the solid's normal is the opposite of its own
+  parameters         of a shape other than a triangle, by name; points in the
+                     file's coordinates
+  solid              of a solid (csg): the operand that is hit, with its
+                     parameters, and the tree of operations with the intervals
+                     of t inside each part
+  is_subtracted      whether an operand is subtracted: the solid's normal is
+                     the opposite of its own
   formula            derivation of t in f64 for the ray r(t) = o + t d
-  crossings          all points where the ray crosses a surface, by the chosen kernel, ordered by t
+  crossings          all points where the ray crosses a surface, by the chosen
+                     kernel, ordered by t
   t_error_ulps       error of t, in ulps of f32
   barycentric_error  largest error of a barycentric coordinate
-  ray_rounding       largest distance per coordinate, in units of the file, between this ray and the
-                     camera's ray in f64, where they may meet the mesh. It is large for a distant
-                     camera.
+  ray_rounding       largest distance per coordinate, in units of the file,
+                     between this ray and the camera's ray in f64, where they
+                     may meet the mesh. It is large for a distant camera.
+  path               of a sample, with --view or --sample: the surfaces that it
+                     meets, and the light in linear RGB that each adds to the
+                     sample's colour, emitted there (emission) or scattered
+                     straight from a light (direct). throughput is the part of
+                     further light that reaches the camera; arriving, the part
+                     of the light that surfaces let pass; survival, the
+                     probability with which Russian roulette let the path go
+                     on. The random numbers are those of `render`: sample 0
+                     goes through the pixel's centre.
 
 Numbers in JSON parse as doubles without loss.";
 
@@ -46,6 +67,7 @@ Examples:
   hitscope inspect bunny.obj --pixel 640,360
   hitscope inspect bunny.obj --pixel 12,7 --size 100x100 --eye 0,0.1,1 --json
   hitscope inspect bunny.obj --pixel 640,360 --kernel exact --shading smooth
+  hitscope inspect bunny.obj --pixel 640,360 --view path --sample 3 --environment studio
 
 Exit status:
   0  success, even if the ray hits nothing
@@ -76,6 +98,9 @@ pub struct InspectArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
+    /// The path of a sample.
+    #[command(flatten)]
+    pub path: PathArgs,
     /// Print JSON
     #[arg(long)]
     pub json: bool,
@@ -92,14 +117,20 @@ impl InspectArgs {
         }
         self.camera.check()?;
         self.crease.check(self.shading)?;
-        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
-        let scene = self.crease.apply(loaded.scene);
-        let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
+        self.path.check()?;
+        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        loaded.scene = self.crease.apply(loaded.scene);
+        let scene = &loaded.scene;
+        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         self.check_pixel(camera.resolution())?;
-        let intersector = scene.intersector(self.kernel.kernel());
+        let intersector: Arc<dyn Intersector> = Arc::from(scene.intersector(self.kernel.kernel()));
         let (shading, pixel) = (self.shading.into(), self.pixel);
-        let mut inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
+        let mut inspection = Inspection::of_pixel(scene, &*intersector, shading, &camera, pixel);
         inspection.find_line(&loaded.report.face_lines);
+        let for_path = (pixel, self.mesh.memory.bytes());
+        inspection.path = self
+            .path
+            .report(&loaded, intersector, &camera, shading, for_path)?;
         if self.json {
             writeln!(out, "{}", inspection.to_json())?;
         } else {
@@ -132,6 +163,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         exact,
         kernels,
         cost,
+        path,
     } = inspection;
     writeln!(out, "pixel      {x},{y}")?;
     writeln!(
@@ -167,18 +199,21 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
             }
         },
     }
+    let longest = kernels.iter().map(|row| row.name.len()).max();
+    let width = longest.unwrap_or(0).max("kernel".len());
     writeln!(
         out,
-        "{:<20} {:>14} {:>14} {:>14}",
+        "{:<width$} {:>14} {:>14} {:>14}",
         "kernel", "t", "t error, ulps", "bary. error"
     )?;
     let number = |x: Option<f64>| x.map_or("–".to_owned(), |x| format!("{x:.3e}"));
     for row in kernels {
         let t = row.t.map_or("miss".to_owned(), |t| t.to_string());
         let (ulps, weights) = (number(row.t_error_ulps), number(row.barycentric_error));
-        writeln!(out, "{:<20} {t:>14} {ulps:>14} {weights:>14}", row.name)?;
+        let name = row.name;
+        writeln!(out, "{name:<width$} {t:>14} {ulps:>14} {weights:>14}")?;
     }
-    Ok(())
+    path.iter().try_for_each(|path| print_path(path, out))
 }
 
 fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std::io::Result<()> {

@@ -34,7 +34,8 @@ Examples:
   hitscope lab --case closed --case order --seed 7
   hitscope lab --scene bunny.obj --eye 3,2,4
 
-All results except times are the same on every machine for the same seed. Uses one thread per core."
+All results except times are the same on every machine for the same seed. Uses
+one thread per core."
 )]
 pub struct LabArgs {
     /// Measure fewer rays: half a minute instead of several minutes
@@ -310,7 +311,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// Describes the machine: CPU, threads and SIMD level.
-fn machine() -> String {
+pub(super) fn machine() -> String {
     let info = std::fs::read_to_string("/proc/cpuinfo").unwrap_or_default();
     let model = info
         .lines()

@@ -4,17 +4,19 @@ use super::CommandError;
 use super::stderr::print_line;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use hitscope_core::Camera;
+use hitscope_core::brightness::check_brightness;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Lighting, Setting};
 use hitscope_core::light::{
     Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap, studio,
 };
 use hitscope_core::loading::LoadedScene;
+use hitscope_core::names::{alternatives, nearest};
 use hitscope_core::obj::shown;
 use hitscope_core::progress::Progress;
-use hitscope_core::spawn::{SPAWN_POLICIES, default_spawn_policy, spawn_policy};
-use hitscope_core::tone::{Display, TONE_CURVES, tone_curve};
+use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, spawn_policy};
+use hitscope_core::terminator::{TERMINATOR_REPAIRS, terminator_repair};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -32,6 +34,9 @@ pub struct LightArgs {
     /// Rule for the origin of rays that leave a surface
     #[arg(long, value_name = "POLICY", value_parser = policy_names())]
     pub spawn: Option<String>,
+    /// Rule that the view “spawning” compares with [default: fixed-epsilon]
+    #[arg(long, value_name = "POLICY", value_parser = policy_names())]
+    pub second_spawn: Option<String>,
     /// Most surfaces on a path: 0 shows emitters alone, 1 adds light that one surface reflects
     /// [default: the scene file's, or no limit]
     #[arg(long, value_name = "N", allow_negative_numbers = true)]
@@ -39,12 +44,10 @@ pub struct LightArgs {
     /// Distance to which surfaces occlude in the view “ao”, in radii of the scene's bounding sphere [default: 1]
     #[arg(long, value_name = "RADII", allow_negative_numbers = true, value_parser = parse_distance)]
     pub ao_distance: Option<f32>,
-    /// Brighten the picture by a factor of 2 per stop
-    #[arg(long, value_name = "STOPS", allow_negative_numbers = true, value_parser = parse_stops)]
-    pub exposure: Option<f32>,
-    /// Curve that limits brightness to that of the screen [default: clip]
-    #[arg(long, value_name = "CURVE", value_parser = curve_names())]
-    pub tone: Option<String>,
+    /// Repair of the shadow terminator, the hard edge of light on coarse triangles with vertex normals; none of them is
+    /// exact [default: none]
+    #[arg(long, value_name = "REPAIR", value_parser = repair_names())]
+    pub terminator: Option<String>,
 }
 
 /// Where light from all directions comes from.
@@ -61,33 +64,54 @@ pub enum EnvironmentSource {
 }
 
 impl LightArgs {
-    /// Refuses options that don't change the picture of a view.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
-    pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
-        let given = [
+    /// The options that are given, with the setting that each of them changes.
+    fn given(&self) -> [(&'static str, bool, Setting); 6] {
+        [
             ("--environment", self.environment.is_some(), Setting::Lights),
             ("--rotation", self.rotation.is_some(), Setting::Lights),
             ("--spawn", self.spawn.is_some(), Setting::Spawn),
             ("--depth", self.depth.is_some(), Setting::Depth),
             (
+                "--terminator",
+                self.terminator.is_some(),
+                Setting::Terminator,
+            ),
+            (
                 "--ao-distance",
                 self.ao_distance.is_some(),
                 Setting::OcclusionDistance,
             ),
-            ("--exposure", self.exposure.is_some(), Setting::Exposure),
-            ("--tone", self.tone.is_some(), Setting::Exposure),
-        ];
-        for (option, is_given, setting) in given {
-            if is_given && !view.needs.uses(setting) {
-                let message = format!(
-                    "{option} has no effect on the view “{}”: it needs --view {}",
-                    view.name,
-                    views_with(setting)
-                );
-                return Err(CommandError::Usage(message));
-            }
+        ]
+    }
+
+    /// Refuses all options, for lack of another one.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub(super) fn refuse_all(&self, lacking: &str) -> Result<(), CommandError> {
+        let second = ("--second-spawn", self.second_spawn.is_some());
+        let given = self.given().map(|(option, is_given, _)| (option, is_given));
+        let mut given = given.into_iter().chain([second]);
+        match given.find(|(_, is_given)| *is_given) {
+            Some((option, _)) => Err(CommandError::Usage(format!(
+                "{option} has no effect: it needs {lacking}"
+            ))),
+            None => Ok(()),
+        }
+    }
+
+    /// Refuses options that don't change the picture of a view.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
+        refuse_without_effect(view, &self.given())?;
+        if self.second_spawn.is_some() && !view.needs.second_policy {
+            let message = format!(
+                "--second-spawn has no effect on the view “{}”: it needs --view spawning",
+                view.name
+            );
+            return Err(CommandError::Usage(message));
         }
         let is_even = matches!(
             self.environment,
@@ -98,14 +122,6 @@ impl LightArgs {
             return Err(CommandError::Usage(message.to_owned()));
         }
         Ok(())
-    }
-
-    /// Exposure and tone curve.
-    pub fn display(&self) -> Display {
-        let curve = self.tone.as_deref().map_or(TONE_CURVES[0], |name| {
-            tone_curve(name).expect("clap accepts only names in the table")
-        });
-        Display::new(self.exposure.unwrap_or(0.0), curve)
     }
 
     /// What light transport depends on in a picture of a scene. A picture of an environment may take `max_memory` bytes.
@@ -119,19 +135,25 @@ impl LightArgs {
         max_memory: u64,
     ) -> Result<Lighting, CommandError> {
         let default = Lighting::default();
-        let named = self.spawn.as_deref();
-        let spawn = named.map_or(default_spawn_policy(), |name| {
-            spawn_policy(name).expect("clap accepts only names in the table")
-        });
+        let policy = |name: &Option<String>, default: &'static SpawnPolicy| {
+            name.as_deref().map_or(default, |name| {
+                spawn_policy(name).expect("clap accepts only names in the table")
+            })
+        };
+        let repair = self
+            .terminator
+            .as_deref()
+            .map(|name| terminator_repair(name).expect("clap accepts only names in the table"));
         Ok(Lighting {
             lights: Arc::new(Lights::or_white(
                 &loaded.scene,
                 self.lights(loaded, camera, max_memory)?,
             )),
-            spawn,
-            second_spawn: default.second_spawn,
+            spawn: policy(&self.spawn, default.spawn),
+            second_spawn: policy(&self.second_spawn, default.second_spawn),
             ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
             depth_limit: self.depth.or(loaded.depth_limit()),
+            terminator: repair.unwrap_or(default.terminator),
         })
     }
 
@@ -195,15 +217,37 @@ fn turn(lights: &mut [Light], degrees: f32) -> bool {
     true
 }
 
+/// Refuses options that are given and don't change the picture of a view.
+///
+/// # Errors
+/// [`CommandError::Usage`].
+pub(super) fn refuse_without_effect(
+    view: &Integrator,
+    options: &[(&str, bool, Setting)],
+) -> Result<(), CommandError> {
+    for &(option, is_given, setting) in options {
+        if is_given && !view.needs.uses(setting) {
+            let message = format!(
+                "{option} has no effect on the view “{}”: it needs --view {}",
+                view.name,
+                views_with(setting)
+            );
+            return Err(CommandError::Usage(message));
+        }
+    }
+    Ok(())
+}
+
 /// The names of the views that depend on a setting, as alternatives.
 fn views_with(setting: Setting) -> String {
     let views = INTEGRATORS.iter().filter(|view| view.needs.uses(setting));
     let names: Vec<&str> = views.map(|view| view.name).collect();
-    names.join(" or ")
+    alternatives(&names)
 }
 
-fn curve_names() -> impl clap::builder::TypedValueParser<Value = String> {
-    PossibleValuesParser::new(TONE_CURVES.iter().map(|curve| curve.name)).map(|name| name)
+fn repair_names() -> impl clap::builder::TypedValueParser<Value = String> {
+    let names = TERMINATOR_REPAIRS.iter().map(|repair| repair.name);
+    PossibleValuesParser::new(names).map(|name| name)
 }
 
 fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
@@ -213,24 +257,32 @@ fn policy_names() -> impl clap::builder::TypedValueParser<Value = String> {
 /// `studio`, `built-in`, `constant:0.5`, `constant:1,0.9,0.8`, or a path.
 fn parse_environment(text: &str) -> Result<EnvironmentSource, String> {
     match text {
+        "" => return Err("expected a file, constant:R,G,B, studio or built-in".to_owned()),
         "studio" => return Ok(EnvironmentSource::Studio),
         "built-in" => return Ok(EnvironmentSource::BuiltIn),
         _ => {}
     }
     let Some(colour) = text.strip_prefix("constant:") else {
-        return Ok(EnvironmentSource::File(PathBuf::from(text)));
+        let path = PathBuf::from(text);
+        let (kind, colon) = text
+            .split_once(':')
+            .map_or((text, ""), |(kind, _)| (kind, ":"));
+        return match nearest(kind, ["studio", "built-in", "constant"]) {
+            Some(name) if !path.exists() => Err(format!(
+                "there is no file “{}”; did you mean “{name}{colon}”?",
+                shown(&path)
+            )),
+            _ => Ok(EnvironmentSource::File(path)),
+        };
     };
-    let numbers: Result<Vec<f32>, _> = colour.split(',').map(|word| word.trim().parse()).collect();
+    let numbers: Result<Vec<f64>, _> = colour.split(',').map(|word| word.trim().parse()).collect();
     let radiance = match numbers.as_deref() {
-        Ok([all]) => Vec3::splat(*all),
-        Ok([r, g, b]) => Vec3::new(*r, *g, *b),
+        Ok([all]) => DVec3::splat(*all),
+        Ok([r, g, b]) => DVec3::new(*r, *g, *b),
         _ => return Err("expected constant:R,G,B, as in constant:1,0.9,0.8".to_owned()),
     };
-    if radiance.is_finite() && radiance.min_element() >= 0.0 {
-        Ok(EnvironmentSource::Constant(radiance))
-    } else {
-        Err("the radiance must be finite and not negative".to_owned())
-    }
+    check_brightness(radiance).map_err(|fault| format!("the radiance {fault}"))?;
+    Ok(EnvironmentSource::Constant(radiance.as_vec3()))
 }
 
 /// `-90`.
@@ -246,15 +298,6 @@ fn parse_distance(text: &str) -> Result<f32, String> {
     match text.parse::<f32>() {
         Ok(radii) if radii > 0.0 => Ok(radii),
         _ => Err("expected a distance above 0, or inf".to_owned()),
-    }
-}
-
-/// `-1.5`.
-fn parse_stops(text: &str) -> Result<f32, String> {
-    const MOST: f32 = Display::MAX_STOPS;
-    match text.parse() {
-        Ok(stops) if (-MOST..=MOST).contains(&stops) => Ok(stops),
-        _ => Err(format!("expected stops from -{MOST} to {MOST}")),
     }
 }
 
@@ -276,13 +319,28 @@ mod tests {
         );
         let file = EnvironmentSource::File("sky.hdr".into());
         assert_eq!(parse_environment("sky.hdr"), Ok(file));
-        for bad in [
-            "constant:",
-            "constant:1,2",
-            "constant:-1",
-            "constant:1,nan,1",
+        for (bad, reason) in [
+            ("", "expected a file, constant:R,G,B, studio or built-in"),
+            ("constant:", "expected constant:R,G,B"),
+            ("constant:1,2", "expected constant:R,G,B"),
+            ("constant:-1", "the radiance must not be negative"),
+            ("constant:1,nan,1", "the radiance isn't a number"),
+            (
+                "constant:3e38,1,1",
+                "the radiance is too bright: a picture holds at most 2.8e14",
+            ),
+            ("constant:1e39", "the radiance is too bright"),
+            (
+                "studoi",
+                "there is no file “studoi”; did you mean “studio”?",
+            ),
+            (
+                "constnat:1",
+                "there is no file “constnat:1”; did you mean “constant:”?",
+            ),
         ] {
-            assert!(parse_environment(bad).is_err(), "{bad}");
+            let message = parse_environment(bad).expect_err(bad);
+            assert!(message.starts_with(reason), "{bad}: {message}");
         }
     }
 
@@ -290,15 +348,11 @@ mod tests {
     fn numbers_are_read_or_refused_with_a_reason() {
         assert_eq!(parse_rotation("-90"), Ok(-90.0));
         assert_eq!(parse_distance("0.5"), Ok(0.5));
-        assert_eq!(parse_stops("-1.5"), Ok(-1.5));
         for bad in ["361", "nan", ""] {
             assert!(parse_rotation(bad).is_err(), "{bad}");
         }
         for bad in ["0", "-1", "nan", ""] {
             assert!(parse_distance(bad).is_err(), "{bad}");
-        }
-        for bad in ["101", "nan", ""] {
-            assert!(parse_stops(bad).is_err(), "{bad}");
         }
     }
 }

@@ -2,7 +2,7 @@
 
 use super::args::{CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
 use super::camera::CameraArgs;
-use super::{CommandError, LightArgs, ThreadsArg};
+use super::{CommandError, DisplayArgs, LightArgs, ThreadsArg};
 use clap::{Args, ValueEnum};
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
@@ -38,6 +38,9 @@ pub struct PictureArgs {
     /// Light.
     #[command(flatten)]
     pub light: LightArgs,
+    /// Exposure and tone.
+    #[command(flatten)]
+    pub display: DisplayArgs,
     /// Kernel.
     #[command(flatten)]
     pub kernel: KernelArg,
@@ -47,8 +50,8 @@ pub struct PictureArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// Kernel to compare with, for the view “disagreement” [default: exact]
-    #[arg(long, value_name = "KERNEL", value_parser = kernel_names())]
+    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact]
+    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), hide_possible_values = true)]
     pub against: Option<String>,
     /// Threads.
     #[command(flatten)]
@@ -183,7 +186,8 @@ impl PictureArgs {
             );
             return Err(CommandError::Usage(message));
         }
-        self.light.check(view)
+        self.light.check(view)?;
+        self.display.check(view)
     }
 
     /// Traces the picture of a scene, and the guides for denoisers if they are asked for.
@@ -230,7 +234,7 @@ impl PictureArgs {
         let guides = guides.transpose();
         let guides = guides.map_err(|error| CommandError::Other(error.to_string()))?;
         let mut film = render(job, threads)?;
-        film.set_display(self.light.display());
+        film.set_display(self.display.display());
         Ok(Rendered {
             film,
             camera,
@@ -272,7 +276,8 @@ impl PictureArgs {
     }
 }
 
-fn picture_bytes(size: UVec2) -> u64 {
+/// The memory of a picture.
+pub(super) fn picture_bytes(size: UVec2) -> u64 {
     let UVec2 { x, y } = size;
     u64::from(x) * u64::from(y) * BYTES_PER_PIXEL as u64
 }

@@ -11,15 +11,17 @@ use std::path::{Path, PathBuf};
 #[command(after_help = "\
 Examples:
   hitscope render bunny.obj -o bunny.png
-  hitscope render bunny.obj -o bunny.png --size 1920x1080 --samples 64 --shading smooth
-  hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0 --wireframe
-  hitscope render bunny.obj -o bunny.png --view path --environment studio --samples 256 --noise
-  hitscope render bunny.obj -o bunny.exr --view path --environment built-in --samples 256
+  hitscope render bunny.obj -o bunny.png --size 1920x1080 --samples 64
+  hitscope render bunny.obj -o bunny.png --shading smooth --wireframe
+  hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0
+  hitscope render bunny.obj -o bunny.png --view path --samples 256 --noise
+  hitscope render bunny.obj -o bunny.exr --view path --environment built-in
   hitscope render bunny.obj -o /dev/stdout --view cost | display
 
-A name ending in .exr gives linear radiance in f32 with the layers albedo, normal, Z, id, sampleCount and variance, for
-denoisers and compositing; exposure and tone curve don't change it. The output file appears under its name once it is
-complete. A picture takes 73 bytes of memory per pixel.")]
+A name ending in .exr gives linear radiance in f32 with the layers albedo,
+normal, Z, id, sampleCount and variance, for denoisers and compositing;
+exposure and tone curve don't change it. The output file appears under its
+name once it is complete. A picture takes 73 bytes of memory per pixel.")]
 pub struct RenderArgs {
     /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,

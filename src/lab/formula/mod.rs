@@ -23,7 +23,7 @@ pub use solid::solid_tree;
 use glam::{DVec3, Vec3};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::LineEquation;
-use hitscope_core::shape::{AxisBox, Cuboid, Parameter, Plane, Shape, Sphere};
+use hitscope_core::shape::{AxisBox, Cuboid, Parameter, ParameterKind, Plane, Shape, Sphere};
 use hitscope_core::{Hit, Ray, Scene};
 use number::{point, polynomial, text};
 
@@ -115,7 +115,7 @@ impl Line {
     }
 }
 
-/// The parameters of a primitive.
+/// The parameters of a primitive, without flags, which aren't in the equations.
 fn parameters(group: &dyn Group, index: u32) -> Vec<String> {
     let numbers = group.numbers(index);
     let line = |(parameter, own): (&Parameter, &[f32])| {
@@ -125,7 +125,10 @@ fn parameters(group: &dyn Group, index: u32) -> Vec<String> {
         };
         format!("{} = {value}", parameter.symbol)
     };
-    group.shape().named(&numbers).map(line).collect()
+    let named = group.shape().named(&numbers);
+    let in_equations =
+        |(parameter, _): &(&Parameter, &[f32])| parameter.kind != ParameterKind::Flag;
+    named.filter(in_equations).map(line).collect()
 }
 
 /// Every equation of a shape, with the ray substituted, and its roots.

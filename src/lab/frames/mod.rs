@@ -9,13 +9,17 @@
 //!   The latter requires that the mesh's positions are f32 numbers there, too, and a second tree, which is built for
 //!   the first ray that needs it.
 //!
-//! [`PlacedRay::rounding`] is the remaining error.
+//! [`PlacedRay::rounding`] is the remaining error. A hit of a shape other than a triangle loses more: its position follows
+//! from t, an f32 number that is the coarser the farther away the ray starts. This counts in the choice, too.
+//!
+//! A ray from more than 2⁴⁸ times the mesh's size away can't be moved near it: an f64 number doesn't hold t that well.
 
 use glam::{DVec3, Vec3};
+use hitscope_core::group::Group;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::ray::RayError;
 use hitscope_core::{Intersector, Ray, Scene};
-use std::sync::OnceLock;
+use std::sync::{Arc, OnceLock};
 
 /// Another start or frame is used if it reduces the rounding by more than this factor. Otherwise the ray that the
 /// user expects is traced, which loses at most two bits.
@@ -45,9 +49,16 @@ pub struct PlacedRay {
     /// The largest distance per coordinate, in the file's units, between the traced and the given ray at the same t,
     /// over all t at which the ray may meet the mesh. 0 means that the ray is traced exactly as given.
     pub rounding: f64,
+    /// The largest error of a hit's position, in the file's units, from the rounding of t. 0 if all primitives are
+    /// triangles, whose hits have barycentric coordinates.
+    rounding_of_t: f64,
 }
 
 impl PlacedRay {
+    fn loss(&self) -> f64 {
+        self.rounding + self.rounding_of_t
+    }
+
     /// The given ray's t for a t of the traced ray.
     pub fn t_as_given(&self, t: impl Into<f64>) -> f64 {
         self.start + self.ray.t_as_given(t)
@@ -116,11 +127,11 @@ impl<'a> Frames<'a> {
         }
         let frame = Frame::of_mesh(self.scene);
         let placed = frame.place_at_origin(given);
-        if placed.is_ok_and(|placed| placed.rounding == 0.0) {
+        if placed.is_ok_and(|placed| placed.loss() == 0.0) {
             return placed;
         }
         let placed = better(placed, frame.place_near_mesh(given));
-        if placed.is_ok_and(|placed| placed.rounding == 0.0) || !self.has_file_frame() {
+        if placed.is_ok_and(|placed| placed.loss() == 0.0) || !self.has_file_frame() {
             return placed;
         }
         let frame = Frame::of_file(self.scene);
@@ -162,7 +173,7 @@ fn better(
 ) -> Result<PlacedRay, RayError> {
     match (placed, candidate) {
         (Err(_), Some(Ok(candidate))) => Ok(candidate),
-        (Ok(placed), Some(Ok(candidate))) if candidate.rounding * WORTHWHILE < placed.rounding => {
+        (Ok(placed), Some(Ok(candidate))) if candidate.loss() * WORTHWHILE < placed.loss() => {
             Ok(candidate)
         }
         (placed, _) => placed,
@@ -174,26 +185,34 @@ struct Frame {
     kind: FrameKind,
     origin: DVec3,
     ball: Ball,
+    /// Whether hits' positions follow from t.
+    has_other_shapes: bool,
+    /// Whether rays may hit something outside of the ball.
+    is_unbounded: bool,
 }
 
 impl Frame {
     fn of_mesh(scene: &Scene) -> Self {
+        let is_plane = |group: &Arc<dyn Group>| group.bounds().is_empty();
         Self {
             kind: FrameKind::Mesh,
             origin: scene.mesh().origin(),
             ball: Ball::around(scene),
+            has_other_shapes: scene.has_other_shapes(),
+            is_unbounded: scene.other_groups().iter().any(is_plane),
         }
     }
 
     fn of_file(scene: &Scene) -> Self {
-        let ball = Ball::around(scene);
+        let frame = Self::of_mesh(scene);
         Self {
             kind: FrameKind::File,
             origin: DVec3::ZERO,
             ball: Ball {
-                centre: ball.centre + scene.mesh().origin(),
-                ..ball
+                centre: frame.ball.centre + frame.origin,
+                ..frame.ball
             },
+            ..frame
         }
     }
 
@@ -215,14 +234,14 @@ impl Frame {
         if !start.is_finite() || start == 0.0 {
             return None;
         }
-        let end = if exit < given.t_max {
+        let end = if exit < given.t_max && !self.is_unbounded {
             f32::INFINITY
         } else {
             f32_above(given.t_max - start)
         };
-        // Hits before the start also lie before the interval. If the interval ends before the mesh, the traced one
-        // ends at or before the start, where there are none.
-        let begin = if start < given.t_max {
+        // Without infinite planes, hits before the start also lie before the interval. If the interval ends before the
+        // mesh, the traced one ends at or before the start, where there are none.
+        let begin = if start < given.t_max && !self.is_unbounded {
             0.0
         } else {
             f32_below(given.t_min - start)
@@ -247,17 +266,27 @@ impl Frame {
             DVec3::from_array([0, 1, 2].map(|axis| exact[axis].error_of(origin[axis])));
         // Exact: rounding errors are f64 numbers.
         let dir_error = dir.as_dvec3() - given.dir;
+        let reach = || {
+            let reach = self.reach(given);
+            reach.map(|t| t.clamp(given.t_min, given.t_max) - start)
+        };
         let rounding = if origin_error == DVec3::ZERO && dir_error == DVec3::ZERO {
             0.0
         } else {
-            let reach = self.reach(given).map(|t| t.clamp(given.t_min, given.t_max));
-            largest_distance(origin_error, dir_error, reach.map(|t| t - start))
+            largest_distance(origin_error, dir_error, reach())
+        };
+        let rounding_of_t = if self.has_other_shapes {
+            let error = dir.as_dvec3() * f64::from(f32::EPSILON / 2.0);
+            largest_distance(DVec3::ZERO, error, reach())
+        } else {
+            0.0
         };
         Ok(PlacedRay {
             ray,
             frame: self.kind,
             start,
             rounding,
+            rounding_of_t,
         })
     }
 

@@ -5,6 +5,7 @@ mod exact;
 mod hit;
 mod kernel_row;
 mod parameters;
+mod path;
 mod solid;
 
 pub use crossing::CrossingReport;
@@ -12,6 +13,7 @@ pub use exact::{ExactReport, ExactTriangle};
 pub use hit::{HitReport, TriangleReport, weights};
 pub use kernel_row::KernelRow;
 pub use parameters::{ParameterReport, ParameterValue, Parameters};
+pub use path::{PathReport, ShadowRayReport, VertexReport, light_text};
 pub use solid::{OperandName, OperandReport, SolidPart, SolidPartKind, SolidReport};
 
 use crate::frames;
@@ -44,6 +46,9 @@ pub struct Inspection {
     pub kernels: Vec<KernelRow>,
     /// The number of tests done for the ray.
     pub cost: CostReport,
+    /// The path of a sample, if one was asked for.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub path: Option<PathReport>,
 }
 
 /// A ray in the file's coordinates.
@@ -120,6 +125,7 @@ impl Inspection {
                 .collect(),
             exact,
             cost: cost.into(),
+            path: None,
         }
     }
 }

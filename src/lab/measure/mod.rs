@@ -18,6 +18,7 @@
 pub mod boxes;
 pub mod cases;
 pub mod contestants;
+pub mod convergence;
 pub mod lecture;
 pub mod meshes;
 pub mod order;

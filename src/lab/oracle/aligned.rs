@@ -58,7 +58,7 @@ mod tests {
         let up = AxisPlane {
             axis: 2,
             coordinate: 5.0,
-            faces_up: true,
+            is_along_axis: true,
         };
         let ray = Ray::new(Vec3::ZERO, Vec3::new(1.0, 0.0, 2.0)).expect("a ray");
         assert_eq!(crossings_in_f64(&ray, &up), [2.5]);

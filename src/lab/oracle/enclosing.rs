@@ -135,7 +135,11 @@ impl Enclosing for AxisPlane {
     fn side(&self, ray: &Ray, t: f64) -> Option<Ordering> {
         let point = IntegerPoint::new(ray, t, &[Vec3::splat(self.coordinate)])?;
         let above = &point.from(0)[usize::from(self.axis)];
-        where_negative([if self.faces_up { above.clone() } else { -above }])
+        where_negative([if self.is_along_axis {
+            above.clone()
+        } else {
+            -above
+        }])
     }
 }
 

@@ -175,7 +175,7 @@ mod tests {
         let half_space = AxisPlane {
             axis: 0,
             coordinate: 1.0,
-            faces_up: true,
+            is_along_axis: true,
         };
         assert_eq!(sides(&half_space, &points), expected);
         for is_capped in [true, false] {

@@ -25,6 +25,7 @@ const SCRIPT: (&str, &str) = (
         include_str!("page/figures.js"),
         include_str!("page/tables.js"),
         include_str!("page/plot.js"),
+        include_str!("page/convergence.js"),
         include_str!("page/sections.js"),
     ),
 );

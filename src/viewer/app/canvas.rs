@@ -142,7 +142,7 @@ impl App {
         };
         let mut options = self.overlay_options(canvas.pixels_per_point);
         if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
-            (options.picked, options.flaw) = (None, None);
+            (options.picked, options.flaw, options.path) = (None, None, false);
         }
         let findings = self.document.known_findings();
         let health = findings.as_ref().map(|findings| &findings.health);
@@ -150,6 +150,8 @@ impl App {
         if is_moving && self.overlay.omits_lines_while_moving(&scene) {
             options = Options::NOTHING;
         }
+        let path = self.path.followed().map(|path| &path.record);
+        self.overlay.set_path(path);
         let (overlay, error) = match self
             .overlay
             .draw(&scene, health, &camera, &options, ui.ctx())
@@ -191,6 +193,7 @@ impl App {
             elements: self.document.loaded.scene.mesh().has_lines_or_points(),
             flaw: self.flaw.as_ref().map(|place| place.flaw),
             picked: self.pick.as_ref().and_then(Pick::marked_primitive),
+            path: self.path.followed().is_some(),
             line_width_px: pixels_per_point.max(1.0),
         }
     }

@@ -86,6 +86,7 @@ impl App {
             second_spawn: settings.second_spawn(),
             ao_distance: settings.ao_distance,
             depth_limit: settings.depth_limit().or(loaded.depth_limit()),
+            terminator: settings.terminator(),
         };
         self.lights = Some(lights);
         lighting

@@ -7,6 +7,7 @@
 //! | `actions` | effects of keys and buttons |
 //! | `canvas` | the picture with its overlay and marks |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
+//! | `path` | the path of a sample of the picked pixel |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
 //! | `first_view` | the view in which a document opens |
@@ -22,6 +23,7 @@ mod first_view;
 mod hints;
 mod light;
 mod messages;
+mod path;
 mod pick;
 mod pointer;
 mod side_panel;
@@ -53,6 +55,7 @@ use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_core::{Camera, Scene};
 use hitscope_lab::commands::{default_thread_count, print_line};
 use light::{EnvironmentFile, SceneLights};
+use path::PickedPath;
 use pick::Pick;
 use pointer::Clicks;
 use std::path::PathBuf;
@@ -134,6 +137,7 @@ pub struct App {
     pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     picking: Option<Task<Pick>>,
+    path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
     face_lookup: Option<FaceLookup>,
     /// The flaw that is shown; all of its kind are marked.
@@ -202,6 +206,7 @@ impl App {
             clicks: Clicks::default(),
             pick: None,
             picking: None,
+            path: PickedPath::default(),
             face_lookup: None,
             flaw: None,
             trade: None,
@@ -290,6 +295,7 @@ impl eframe::App for App {
             self.error(panic);
         }
         self.check_view();
+        self.poll_path(ctx);
         self.settings.zoom = ctx.zoom_factor();
         let is_settled = self.is_settled();
         if self.screenshot.is_none() {

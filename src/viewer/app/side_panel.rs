@@ -70,6 +70,11 @@ impl App {
                 if let Some((pick, crossing)) = self.pick.as_mut().zip(selected) {
                     pick.select(crossing);
                 }
+                let path = self.path_view();
+                let selected = path.and_then(|path| panels::path::path_ui(ui, &path));
+                if let Some(sample) = selected {
+                    self.select_sample(sample);
+                }
             }
             Tab::Display => {
                 panels::view::view_ui(

@@ -9,7 +9,7 @@ use crate::trade::Trade;
 use glam::DVec3;
 use hitscope_core::camera::Turntable;
 use hitscope_core::{Film, Scene};
-use hitscope_lab::inspection::Inspection;
+use hitscope_lab::inspection::{Inspection, PathReport};
 use std::sync::Arc;
 
 impl App {
@@ -71,6 +71,11 @@ impl App {
     /// The inspection of the picked pixel.
     pub fn inspection(&self) -> Option<&Inspection> {
         self.pick.as_ref().map(|pick| &pick.inspection)
+    }
+
+    /// The path of a sample of the picked pixel, if the view follows paths.
+    pub fn path(&self) -> Option<&PathReport> {
+        self.path.followed().map(|path| &path.report)
     }
 
     /// The crossing of the picked ray that is marked, counted from 0.

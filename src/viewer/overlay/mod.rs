@@ -5,6 +5,7 @@
 //! | [`options`] | contents and styles of the overlay |
 //! | [`wireframe`], [`normals`], [`marks`] | the lines of a mesh |
 //! | [`shapes`] | the lines of other shapes |
+//! | [`paths`] | the lines of a picked pixel's path |
 //! | [`traced`] | the depth and the outlines of other shapes |
 //! | `uploaded` | gathering and uploading lines in the background |
 //! | `painter` | drawing in the background |
@@ -13,6 +14,7 @@ pub mod marks;
 pub mod normals;
 pub mod options;
 mod painter;
+pub mod paths;
 pub mod shapes;
 pub mod traced;
 mod uploaded;
@@ -28,10 +30,12 @@ use crate::gpu::traced::TracedLayer;
 use crate::gpu::view::ViewUniform;
 use crate::task::TaskPanicked;
 use eframe::egui_wgpu::RenderState;
+use hitscope_core::integrator::PathRecord;
 use hitscope_core::mesh::{Flaw, Health};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Scene};
 use painter::Painter;
+use paths::PathLines;
 use std::sync::Arc;
 use traced::Shapes;
 use uploaded::{Readiness, Uploaded};
@@ -68,6 +72,10 @@ pub struct OverlayLayer {
     elements: Uploaded<(), LineSet>,
     flaws: Uploaded<Flaw, LineSet>,
     picked: Uploaded<u32, LineSet>,
+    /// The path to draw, with a number that tells it from earlier ones.
+    path: Option<(u64, Arc<PathRecord>)>,
+    path_count: u64,
+    path_lines: [Uploaded<u64, LineSet>; 3],
     painter: Painter,
     /// The options of the last call.
     options: Options,
@@ -118,8 +126,24 @@ impl OverlayLayer {
             elements: Uploaded::default(),
             flaws: Uploaded::default(),
             picked: Uploaded::default(),
+            path: None,
+            path_count: 0,
+            path_lines: Default::default(),
             options: Options::NOTHING,
             is_complete: true,
+        }
+    }
+
+    /// Sets the path that is drawn if the options say so.
+    pub fn set_path(&mut self, path: Option<&Arc<PathRecord>>) {
+        let is_same = match (&self.path, path) {
+            (Some((_, old)), Some(new)) => Arc::ptr_eq(old, new),
+            (None, None) => true,
+            _ => false,
+        };
+        if !is_same {
+            self.path_count += 1;
+            self.path = path.map(|path| (self.path_count, Arc::clone(path)));
         }
     }
 
@@ -166,6 +190,7 @@ impl OverlayLayer {
         let mut ready = Ready::default();
         self.prepare_lines(&mut ready, scene, options, ctx)?;
         self.prepare_marks(&mut ready, scene, health, options, ctx)?;
+        self.prepare_path(&mut ready, scene, options, ctx)?;
         let drawing = Drawing {
             view,
             mesh,
@@ -309,6 +334,29 @@ impl OverlayLayer {
             let gather = uploader(move || wireframe::primitive_lines(&shared, primitive));
             let lines = self.picked.get(primitive, &self.overlay, ctx, gather)?;
             let style = |(occlusion, alpha)| (occlusion, options.picked_style(alpha));
+            ready.add(lines, &FAINT_AND_STRONG.map(style));
+        }
+        Ok(())
+    }
+}
+
+impl OverlayLayer {
+    /// Prepares the lines of the path.
+    fn prepare_path(
+        &mut self,
+        ready: &mut Ready,
+        scene: &Arc<Scene>,
+        options: &Options,
+        ctx: &egui::Context,
+    ) -> Result<(), OverlayError> {
+        let Some((number, path)) = self.path.clone().filter(|_| options.path) else {
+            return Ok(());
+        };
+        for (kind, uploaded) in PathLines::ALL.into_iter().zip(&mut self.path_lines) {
+            let (shared, path) = (Arc::clone(scene), Arc::clone(&path));
+            let gather = uploader(move || paths::lines(&shared, &path, kind));
+            let lines = uploaded.get(number, &self.overlay, ctx, gather)?;
+            let style = |(occlusion, alpha)| (occlusion, options.path_style(kind, alpha));
             ready.add(lines, &FAINT_AND_STRONG.map(style));
         }
         Ok(())

@@ -1,5 +1,6 @@
 //! Contents and styles of the overlay.
 
+use super::paths::PathLines;
 use super::wireframe::WireframeEdges;
 use crate::gpu::lines::StyleUniform;
 use hitscope_core::mesh::Flaw;
@@ -22,6 +23,8 @@ pub struct Options {
     pub flaw: Option<Flaw>,
     /// The picked primitive.
     pub picked: Option<u32>,
+    /// The path of a picked pixel.
+    pub path: bool,
     /// Width of the wireframe's lines in pixels.
     pub line_width_px: f32,
 }
@@ -36,6 +39,7 @@ impl Options {
         elements: false,
         flaw: None,
         picked: None,
+        path: false,
         line_width_px: 1.0,
     };
 
@@ -45,6 +49,7 @@ impl Options {
             && !self.elements
             && self.flaw.is_none()
             && self.picked.is_none()
+            && !self.path
     }
 
     pub(crate) fn wire_style(&self) -> StyleUniform {
@@ -77,6 +82,16 @@ impl Options {
 
     pub(super) fn picked_style(&self, alpha: f32) -> StyleUniform {
         style([1.0, 0.55, 0.0, alpha], 2.2 * self.line_width_px, 0.0)
+    }
+
+    /// Segments of a path are wider than its rays to lights.
+    pub(super) fn path_style(&self, lines: PathLines, alpha: f32) -> StyleUniform {
+        let ([r, g, b], width) = match lines {
+            PathLines::Segments => ([1.0, 0.85, 0.2], 2.4),
+            PathLines::Visible => ([0.45, 0.9, 0.5], 1.4),
+            PathLines::Blocked => ([0.95, 0.3, 0.3], 1.4),
+        };
+        style([r, g, b, alpha], width * self.line_width_px, 0.0)
     }
 }
 

@@ -8,6 +8,7 @@ use crate::tracer::LEAST_SAMPLES;
 use egui::{DragValue, Slider};
 use hitscope_core::integrator::Setting;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy};
+use hitscope_core::terminator::TERMINATOR_REPAIRS;
 use hitscope_core::tone::TONE_CURVES;
 use std::ops::RangeInclusive;
 
@@ -67,6 +68,9 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
     if needs.second_policy {
         let chosen = settings.second_spawn();
         spawn_ui(ui, "compared with", chosen, &mut settings.second_spawn);
+    }
+    if needs.uses(Setting::Terminator) {
+        terminator_ui(ui, settings);
     }
     noise_ui(ui, settings);
 }
@@ -176,6 +180,28 @@ fn spawn_ui(ui: &mut egui::Ui, name: &str, chosen: &SpawnPolicy, kept: &mut Stri
             .response
             .labelled_by(label.id)
             .on_hover_text(chosen.summary);
+    });
+}
+
+fn terminator_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    ui.horizontal(|ui| {
+        let label = ui.label("Terminator repair");
+        let chosen = settings.terminator();
+        egui::ComboBox::from_id_salt("terminator")
+            .selected_text(chosen.title)
+            .show_ui(ui, |ui| {
+                for repair in TERMINATOR_REPAIRS {
+                    let name = repair.name.to_owned();
+                    ui.selectable_value(&mut settings.terminator, name, repair.title)
+                        .on_hover_text(repair.summary);
+                }
+            })
+            .response
+            .labelled_by(label.id)
+            .on_hover_text(format!(
+                "Hides the hard edge of light on coarse triangles with smooth shading. No repair is exact. {}: {}",
+                chosen.title, chosen.summary
+            ));
     });
 }
 

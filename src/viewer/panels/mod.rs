@@ -5,6 +5,7 @@ pub mod inspect;
 mod labels;
 pub mod light;
 pub mod mesh;
+pub mod path;
 pub mod progress;
 mod table;
 pub mod trade;

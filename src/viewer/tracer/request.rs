@@ -43,6 +43,7 @@ fn is_same_light(a: &Lighting, b: &Lighting) -> bool {
         && a.second_spawn.name == b.second_spawn.name
         && a.ao_distance == b.ao_distance
         && a.depth_limit == b.depth_limit
+        && a.terminator.name == b.terminator.name
 }
 
 /// The request that the threads are working on.

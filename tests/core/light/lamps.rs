@@ -23,7 +23,7 @@ const RELATIVE_ERROR: f64 = 32.0 / (1u64 << 24) as f64;
 const SIZES: [f64; 3] = [1e-12, 1.0, 1e12];
 const OFFSET: DVec3 = DVec3::new(1e6, -2e6, 0.5e6);
 
-fn loaded(contents: &str) -> LoadedScene {
+pub(super) fn loaded(contents: &str) -> LoadedScene {
     let folder = tempfile::tempdir().expect("a folder");
     // White above and black below.
     let mut sky = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
@@ -40,7 +40,7 @@ fn loaded(contents: &str) -> LoadedScene {
 }
 
 /// The radiance of one sample in a view; `None` for a miss.
-fn radiance(context: &Context, view: &str, ray: &Ray) -> Option<DVec3> {
+pub(super) fn radiance(context: &Context, view: &str, ray: &Ray) -> Option<DVec3> {
     let hit = context.intersector.closest_hit(ray)?;
     let mut sampler = Sampler::new(glam::UVec2::ZERO, 0);
     let view = integrator(view).expect("a view");
@@ -95,7 +95,7 @@ fn a_plane_under_a_point_light_reflects_what_its_distance_and_angle_say() {
             let ray = Ray::new(eye.as_vec3(), (point - eye).as_vec3()).expect("a ray");
             let way = above - DVec3::new(0.25, -0.5, 0.0);
             let irradiance = way.z / way.length().powi(3) * DVec3::new(1.0, 2.0, 3.0);
-            for view in ["direct", "path"] {
+            for view in ["direct", "whitted", "path"] {
                 let found = radiance(&context, view, &ray).expect("a hit");
                 require_near(found, 0.5 * irradiance / PI, &format!("{size:e} {view}"));
             }
@@ -153,7 +153,7 @@ fn shapes_shine_on_the_side_of_their_normal() {
             } else {
                 DVec3::ZERO
             };
-            for view in ["direct", "path"] {
+            for view in ["direct", "whitted", "path"] {
                 let found = radiance(&context, view, &ray);
                 assert_eq!(found, Some(expected), "{shape}, from above: {up}");
             }

@@ -14,6 +14,14 @@ mod furnace;
 mod lamps;
 // How open surfaces are.
 mod openness;
+// Recorded paths against pictures.
+mod recorded;
+// Planes lit by spheres.
+mod spheres;
+// Repairs of the shadow terminator.
+mod terminator;
+// Mirrors and glass, and the trees of rays that follow them.
+mod whitted;
 
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::Projection;

@@ -9,14 +9,18 @@ use hitscope_core::scene::{SceneOptions, scene};
 use hitscope_core::shape::{Plane, Sphere};
 use hitscope_core::{Ray, Scene, TriangleMesh};
 
-/// A white plane and a black sphere of radius `r` on it.
-fn ball_on_plane(r: f32) -> Scene {
-    let grey = |x| Material {
+/// A white plane and a black sphere of radius `r` on it, which emits light.
+pub fn ball_on_plane(r: f32, emission: Vec3) -> Scene {
+    let grey = |x, emission| Material {
         diffuse: Some(Vec3::splat(x)),
+        emission,
         ..Material::default()
     };
     let attributes = Attributes {
-        materials: Assigned::new(vec![grey(1.0), grey(0.0)], Runs::default()),
+        materials: Assigned::new(
+            vec![grey(1.0, Vec3::ZERO), grey(0.0, emission)],
+            Runs::default(),
+        ),
         ..Attributes::default()
     };
     let mut scene = scene(TriangleMesh::default().with_attributes(attributes));
@@ -42,7 +46,7 @@ fn ball_on_plane(r: f32) -> Scene {
 fn the_plane_under_a_sphere_is_as_open_as_the_closed_form_says() {
     for size in [1e-6, 1.0, 1e6] {
         let sky = Light::Environment(Environment::Constant(Vec3::ONE));
-        let mut context = lit(ball_on_plane(size), vec![sky]);
+        let mut context = lit(ball_on_plane(size, Vec3::ZERO), vec![sky]);
         context.lighting.ao_distance = f32::INFINITY;
         for x in [0.1f32, 0.3, 1.0, 3.0, 10.0] {
             let at = Vec3::new(x * size, 0.0, 0.0);
@@ -53,6 +57,7 @@ fn the_plane_under_a_sphere_is_as_open_as_the_closed_form_says() {
             eprintln!("size {size:e}, x = {x}");
             Estimate::of_ray(&context, "path", path_count(), ray).require(open);
             Estimate::of_ray(&context, "direct", path_count(), ray).require(open);
+            Estimate::of_ray(&context, "whitted", path_count(), ray).require(open);
             Estimate::of_ray(&context, "ao", path_count(), ray).require(open);
         }
     }

@@ -150,7 +150,7 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "<emitter type='point'>\n<float name='intensity' value='1e39'/></emitter>",
-        "3: “intensity” is too large for f32",
+        "3: “intensity” is too bright: a picture holds at most 2.8e14 per colour channel",
     ),
     (
         "<emitter type='point'>\n<point name='intensity' value='1'/></emitter>",
@@ -175,6 +175,14 @@ const REFUSED: &[(&str, &str)] = &[
     (
         "<shape type='disk'><emitter type='area'><transform name='to_world'/></emitter></shape>",
         "2: emitter “area”: “to_world” isn't allowed: the light is where the shape is",
+    ),
+    (
+        "<shape type='disk'><emitter type='area'>\n<rgb name='radiance' value='1 3e14 1'/></emitter></shape>",
+        "3: “radiance” is too bright: a picture holds at most 2.8e14 per colour channel",
+    ),
+    (
+        "<emitter type='envmap'><string name='filename' value='a.exr'/>\n<float name='scale' value='1e15'/></emitter>",
+        "3: “scale” is too bright: a picture holds at most 2.8e14 per colour channel",
     ),
     (
         "<emitter type='envmap'/>",

@@ -62,6 +62,7 @@ fn sensors_are_read() {
         "line 9: rfilter “gaussian” isn't supported; “box” is used",
         "line 8: film “hdrfilm”: the crop window isn't used; the whole film is shown",
         "line 9: film “hdrfilm”: parameter “pixel_format” isn't used",
+        "line 2: sensor “thinlens”: the lens isn't used; everything is in focus",
         "line 5: sensor “thinlens”: parameter “near_clip” isn't used",
         "line 13: sensor “radiancemeter” isn't supported",
     ];
@@ -75,4 +76,5 @@ fn a_thin_lens_is_focused_far_away_unless_told_otherwise() {
         panic!("{:?}", scene.sensors);
     };
     assert_eq!(focus_distance, 10_000.0);
+    assert!(warnings(&scene).is_empty(), "a pinhole has no lens");
 }

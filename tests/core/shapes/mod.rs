@@ -79,7 +79,7 @@ impl Sample for AxisPlane {
         Self {
             axis: axis as u8,
             coordinate: (near + within(random, size))[axis],
-            faces_up: random.index(2) == 0,
+            is_along_axis: random.index(2) == 0,
         }
     }
 }

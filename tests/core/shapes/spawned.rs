@@ -34,6 +34,7 @@ fn spawned_rays_miss<S: Sample + Shape>(size: f32, offset: f32, seed: u64) {
                     surface,
                     corners: None,
                     dir: dir.as_vec3(),
+                    offset: Vec3::ZERO,
                 };
                 let ray = default_spawn_policy().spawn(&departure).expect("a ray");
                 let again = kernel.intersect(&ray, shape.clone());
@@ -94,6 +95,7 @@ fn the_origin_lies_outside_after_leaving_outwards() {
             surface: unit.surface(&arrived_by, &hit),
             corners: None,
             dir: dir.as_vec3(),
+            offset: Vec3::ZERO,
         };
         let ray = default_spawn_policy().spawn(&departure).expect("a ray");
         // Lifted by Σ|nᵢ|·10u ≤ √3·10u. The point and the sum are rounded by u each, and each coordinate is moved by an ulp

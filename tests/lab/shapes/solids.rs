@@ -230,7 +230,7 @@ fn whole_flat(random: &mut Random, frame: &Frame) -> OracleSolid {
             OracleSolid::of(AxisPlane {
                 axis: axis as u8,
                 coordinate: centre[axis],
-                faces_up: random.index(2) == 0,
+                is_along_axis: random.index(2) == 0,
             })
         }
         2 => {

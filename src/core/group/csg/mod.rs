@@ -156,6 +156,10 @@ impl Group for CsgGroup {
         self.appearance.materials.of(index)
     }
 
+    fn is_flipped(&self, index: u32) -> bool {
+        self.appearance.is_flipped(index)
+    }
+
     fn numbers(&self, _: u32) -> Vec<f32> {
         Vec::new()
     }

@@ -2,6 +2,7 @@
 
 use super::map::{EnvironmentMap, MapError};
 use super::{open_exr, radiance_hdr};
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::obj::{self, LoadError, Warning};
 use crate::progress::{Cancelled, Progress};
 use glam::{UVec2, Vec3};
@@ -129,7 +130,7 @@ fn decoded(bytes: &[u8], max_memory: u64, progress: &Progress) -> Result<LoadedM
     let warning = (map.replaced() > 0).then(|| {
         let (replaced, all) = (map.replaced(), 3 * u64::from(size.x) * u64::from(size.y));
         Warning::of_file(format!(
-            "{replaced} of {all} numbers in the picture are negative or not finite: infinite ones become the largest finite number, others become 0"
+            "{replaced} of {all} numbers in the picture are negative, not finite or above {MAX_BRIGHTNESS:.1e}: those above become this limit, infinite ones the largest of the others, and all else 0"
         ))
     });
     Ok(LoadedMap {

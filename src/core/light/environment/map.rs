@@ -18,6 +18,7 @@
 //! Source of sampling a bilinear function: Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, 2.4.
 
 use super::cumulative::Cumulative;
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::progress::{Cancelled, Progress};
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use std::f32::consts;
@@ -82,8 +83,8 @@ impl EnvironmentMap {
     /// Memory of a texel.
     pub const BYTES_PER_TEXEL: usize = size_of::<Vec3>() + size_of::<u32>();
 
-    /// A map of texels in linear RGB, row by row from the top. A number that is negative or NaN becomes 0, an infinite one
-    /// the largest finite one.
+    /// A map of texels in linear RGB, row by row from the top. A number that is negative or NaN becomes 0, one above
+    /// [`MAX_BRIGHTNESS`] becomes this limit, an infinite one the largest of the others.
     ///
     /// # Errors
     /// See [`MapError`].
@@ -112,10 +113,10 @@ impl EnvironmentMap {
         Ok(map)
     }
 
-    /// Replaces numbers that aren't finite or are negative.
+    /// Replaces numbers that aren't finite, are negative or too bright.
     fn replace_invalid(&mut self) {
         let values = || self.texels.iter().flat_map(|texel| texel.to_array());
-        let is_valid = |x: f32| x.is_finite() && x >= 0.0;
+        let is_valid = |x: f32| (0.0..=MAX_BRIGHTNESS).contains(&x);
         self.replaced = values().filter(|&x| !is_valid(x)).count();
         if self.replaced == 0 {
             return;
@@ -124,6 +125,7 @@ impl EnvironmentMap {
         let replace = |x: f32| match x {
             x if is_valid(x) => x,
             f32::INFINITY => largest,
+            x if x > MAX_BRIGHTNESS => MAX_BRIGHTNESS,
             _ => 0.0,
         };
         for texel in &mut self.texels {
@@ -156,9 +158,15 @@ impl EnvironmentMap {
         self.size
     }
 
-    /// The number of numbers that were negative or not finite, of three for each texel.
+    /// The number of numbers that were negative, not finite or above [`MAX_BRIGHTNESS`], of three for each texel.
     pub fn replaced(&self) -> usize {
         self.replaced
+    }
+
+    /// The largest of all numbers.
+    pub fn brightest(&self) -> f32 {
+        let brightest = self.texels.iter().map(|texel| texel.max_element());
+        brightest.fold(0.0, f32::max)
     }
 
     /// Size in bytes.

@@ -53,6 +53,10 @@ impl Placed for PlacedSolid {
         Solid::combined(self.operation, operands.collect())
     }
 
+    fn fits(&self, origin: DVec3) -> bool {
+        self.operands.iter().all(|operand| operand.fits(origin))
+    }
+
     fn needs(&self) -> Needs {
         let of_operand =
             |operand: &dyn Placed| operand.needs().placed + size_of::<Box<dyn Placed>>() as u64;

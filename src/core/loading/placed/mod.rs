@@ -16,26 +16,12 @@ mod torus;
 pub(super) use groups::{Groups, Look};
 
 use super::memory::{BYTES_PER_ALLOCATION, Needs};
+use super::refusal::Refusal;
 use crate::group::{Grouped, Placement, Solid, UnitShape};
 use crate::scene_file::{self, Place, Shape, ShapeKind, with_kinds};
+use crate::shape::{Shape as _, numbers_of};
 use glam::{DMat3, DMat4, DVec3};
 use std::fmt::Debug;
-
-/// Why a shape can't be placed, and its place in the file.
-#[derive(Debug)]
-pub(super) struct Refusal {
-    pub place: Place,
-    pub message: String,
-}
-
-impl Refusal {
-    fn new(place: Place, message: impl Into<String>) -> Self {
-        Self {
-            place,
-            message: message.into(),
-        }
-    }
-}
 
 /// A kind of shape of scene files.
 trait Placeable {
@@ -71,6 +57,10 @@ pub(super) trait Placed: Debug {
     /// The interior of the shape, relative to an origin and rounded to f32.
     fn solid(&self, origin: DVec3) -> Solid;
 
+    /// Whether rays can hit the shape after it is rounded to f32 relative to an origin: nothing overflows, and it doesn't
+    /// shrink to a point.
+    fn fits(&self, origin: DVec3) -> bool;
+
     /// The memory of the shape.
     fn needs(&self) -> Needs;
 
@@ -92,6 +82,11 @@ pub(super) trait PlacedPrimitive: Debug {
     /// See [`Placed::check_closed`].
     fn check_closed(&self) -> Result<(), String> {
         Ok(())
+    }
+
+    /// Whether the shape's numbers, if they are finite, still describe it.
+    fn is_kept(_: &Self::Shape) -> bool {
+        true
     }
 
     /// The number of operands of [`solid`](Self::solid).
@@ -120,6 +115,17 @@ impl<P: PlacedPrimitive> Placed for P {
         P::solid(self.rounded(origin))
     }
 
+    fn fits(&self, origin: DVec3) -> bool {
+        let rounded = self.rounded(origin);
+        let bounds = rounded.bounds();
+        let is_bounded = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
+        let numbers = &numbers_of(&rounded)[..P::Shape::NUMBERS];
+        numbers.iter().all(|number| number.is_finite())
+            && P::is_kept(&rounded)
+            && (is_bounded || !P::Shape::IS_BOUNDED)
+            && P::bounds(self).is_none_or(is_large_enough)
+    }
+
     fn needs(&self) -> Needs {
         Needs {
             placed: (size_of::<P>() + BYTES_PER_ALLOCATION) as u64,
@@ -134,10 +140,21 @@ impl<P: PlacedPrimitive> Placed for P {
     }
 }
 
+/// Whether a box is large enough for f32: its longest edge is a normal number.
+pub(super) fn is_large_enough([min, max]: [DVec3; 2]) -> bool {
+    (max - min).max_element() >= f64::from(f32::MIN_POSITIVE)
+}
+
 /// The axis along which a vector points, if it points along one.
 fn axis_of(vector: DVec3) -> Option<usize> {
     let is_along = |axis: &usize| (0..3).all(|other| (vector[other] != 0.0) == (other == *axis));
     (0..3).find(is_along)
+}
+
+/// The refusal of a shape that doesn't [fit](Placed::fits).
+pub(super) fn misfit(place: Place) -> Refusal {
+    let message = "the shape doesn't fit in 32-bit numbers: its size and its distance from the other shapes must be from 1.2e-38 to 3.4e38";
+    Refusal::new(place, message)
 }
 
 /// Checks that a transform is invertible.

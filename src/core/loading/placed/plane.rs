@@ -15,7 +15,7 @@ impl Placeable for scene_file::Plane {
             Some(axis) => Box::new(PlacedAxisPlane {
                 axis,
                 coordinate: point[axis],
-                faces_up: normal[axis] > 0.0,
+                is_along_axis: normal[axis] > 0.0,
             }),
             None => Box::new(PlacedPlane { point, normal }),
         })
@@ -49,7 +49,7 @@ impl PlacedPrimitive for PlacedPlane {
 struct PlacedAxisPlane {
     axis: usize,
     coordinate: f64,
-    faces_up: bool,
+    is_along_axis: bool,
 }
 
 impl PlacedPrimitive for PlacedAxisPlane {
@@ -63,7 +63,7 @@ impl PlacedPrimitive for PlacedAxisPlane {
         AxisPlane {
             axis: self.axis as u8,
             coordinate: (self.coordinate - origin[self.axis]) as f32,
-            faces_up: self.faces_up,
+            is_along_axis: self.is_along_axis,
         }
     }
 }

@@ -87,6 +87,11 @@ impl PlacedPrimitive for PlacedQuadric {
         }
     }
 
+    /// The coefficients of a huge ellipsoid become 0.
+    fn is_kept(quadric: &Quadric) -> bool {
+        quadric.coefficients[..9].iter().any(|&x| x != 0.0)
+    }
+
     const OPERAND_COUNT: usize = 2;
 
     fn solid(quadric: Quadric) -> Solid {

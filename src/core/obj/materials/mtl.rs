@@ -6,6 +6,7 @@
 
 use super::map_file::MapFile;
 use super::map_statements::ReliefStatement;
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::counts::counted;
 use crate::mesh::{Illumination, Material, Property};
 use crate::obj::chunks::each_statement;
@@ -28,7 +29,7 @@ pub(super) struct Definition {
     line: usize,
     /// Whether a `d` statement was read. It overrides `Tr`.
     has_opacity: bool,
-    /// Whether a value above 1 was clamped.
+    /// Whether a value was clamped.
     is_clamped: bool,
 }
 
@@ -135,10 +136,14 @@ pub(super) fn parse(
     let quoted = |keyword: &str| format!("“{keyword}”");
     let skipped = parser.skipped.iter();
     let skipped = skipped.map(|(keyword, &tally)| describe(&quoted(keyword), tally, "skipped"));
-    let clamped = parser
-        .clamped
-        .iter()
-        .map(|(keyword, &tally)| describe(&quoted(keyword), tally, "with a value above 1 clamped"));
+    let clamped = parser.clamped.iter().map(|(keyword, &tally)| {
+        let most = match keyword.eq_ignore_ascii_case("ke") {
+            true => format!("{MAX_BRIGHTNESS:.1e}"),
+            false => "1".to_owned(),
+        };
+        let outcome = format!("with a value above {most} clamped");
+        describe(&quoted(keyword), tally, &outcome)
+    });
     let unknown =
         (parser.unknown.count > 0).then(|| describe("unknown", parser.unknown, "skipped"));
     let mut by_line: Vec<(usize, String)> = skipped.chain(clamped).chain(unknown).collect();
@@ -185,7 +190,7 @@ struct Parser {
     material_count: usize,
     /// Skipped statements by keyword.
     skipped: BTreeMap<String, Tally>,
-    /// Statements with a value clamped to 1, by keyword.
+    /// Statements with a clamped value, by keyword.
     clamped: BTreeMap<String, Tally>,
     /// Skipped statements whose keyword isn't in [`KEYWORDS`].
     unknown: Tally,
@@ -291,9 +296,12 @@ impl Definition {
     fn apply(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
         let material = &mut self.material;
         match keyword {
-            "kd" => material.diffuse = Some(clamped(colour(rest)?, &mut self.is_clamped)),
-            "ks" => material.specular = clamped(colour(rest)?, &mut self.is_clamped),
-            "ke" => material.emission = colour(rest)?,
+            "kd" => material.diffuse = Some(clamped(colour(rest)?, 1.0, &mut self.is_clamped)),
+            "ks" => material.specular = clamped(colour(rest)?, 1.0, &mut self.is_clamped),
+            "ke" => {
+                let radiance = colour(rest)?;
+                material.emission = clamped(radiance, MAX_BRIGHTNESS, &mut self.is_clamped);
+            }
             "ns" => material.shininess = number(rest).filter(|x| *x >= 0.0)?,
             "d" => {
                 // With -halo, the value is the opacity at the centre.
@@ -324,7 +332,7 @@ impl Definition {
             }
             // Some programs write 0 for all materials.
             "ni" => material.refraction = number(rest).filter(|x| *x > 0.0).unwrap_or(1.0),
-            "tf" => material.filter = Some(clamped(colour(rest)?, &mut self.is_clamped)),
+            "tf" => material.filter = Some(clamped(colour(rest)?, 1.0, &mut self.is_clamped)),
             "pr" => material.roughness = Some(number(rest).filter(|x| *x >= 0.0)?.min(1.0)),
             "pm" => material.metalness = Some(number(rest).filter(|x| *x >= 0.0)?.min(1.0)),
             _ => return self.apply_map(keyword, rest),
@@ -344,10 +352,10 @@ fn colour(rest: &str) -> Option<Vec3> {
     colour.cmpge(Vec3::ZERO).all().then_some(colour)
 }
 
-/// A reflectance clamped to 1 per channel; sets `is_clamped`.
-fn clamped(colour: Vec3, is_clamped: &mut bool) -> Vec3 {
-    *is_clamped = colour.cmpgt(Vec3::ONE).any();
-    colour.min(Vec3::ONE)
+/// A colour clamped per channel; sets `is_clamped`.
+fn clamped(colour: Vec3, most: f32, is_clamped: &mut bool) -> Vec3 {
+    *is_clamped = colour.cmpgt(Vec3::splat(most)).any();
+    colour.min(Vec3::splat(most))
 }
 
 /// Parses a finite number.

@@ -16,7 +16,8 @@ pub struct Obj {
     pub file: PathBuf,
     /// Whether the file's normals are ignored.
     pub face_normals: bool,
-    /// Whether the second texture coordinate is 1 − v.
+    /// Whether the picture of a texture is upright for second texture coordinates that increase upwards, as in OBJ files;
+    /// otherwise they increase downwards.
     pub flip_tex_coords: bool,
 }
 

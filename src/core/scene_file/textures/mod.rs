@@ -10,6 +10,7 @@ pub use checkerboard::Checkerboard;
 
 use super::description::Place;
 use super::element::Element;
+use super::memory::bytes_per_map_entry;
 use super::objects::{self, Head};
 use super::parameters::Parameters;
 use super::problem::{Problem, quoted, unknown};
@@ -32,6 +33,16 @@ pub struct Texture {
     pub kind: TextureKind,
     /// From the surface's texture coordinates to the texture's, whose second coordinate points down.
     pub to_uv: DAffine2,
+}
+
+impl Texture {
+    /// The memory of its path.
+    pub(super) fn path_bytes(&self) -> usize {
+        match &self.kind {
+            TextureKind::Bitmap(bitmap) => bitmap.file.as_os_str().len(),
+            TextureKind::Checkerboard(_) => 0,
+        }
+    }
 }
 
 /// The parameters of a kind of texture.
@@ -121,7 +132,8 @@ fn texture(reader: &mut Reader, element: Element) -> Result<Option<Texture>, Pro
     let head = Head::of(reader, element)?;
     let found = known(reader, element, &head.kind)?;
     if let Some(id) = head.id {
-        let bytes = 2 * (size_of::<(String, Option<Texture>)>() + id.len());
+        let path = found.as_ref().map_or(0, Texture::path_bytes);
+        let bytes = bytes_per_map_entry::<(String, Option<Texture>)>() + 2 * id.len() + path;
         reader.memory.take(bytes as u64, element.place)?;
         reader.textures.0.insert(id, found.clone());
     }
@@ -188,8 +200,9 @@ pub(super) fn nested(reader: &mut Reader, child: Element) -> Result<Option<Neste
         }
         _ => return Ok(None),
     };
-    let bytes = 2 * size_of::<Nested>() as u64;
-    reader.memory.take(bytes, child.place)?;
+    let path = texture.as_ref().map_or(0, Texture::path_bytes);
+    let bytes = 2 * size_of::<Nested>() + path;
+    reader.memory.take(bytes as u64, child.place)?;
     let name = child.attribute("name", &reader.defaults)?;
     Ok(Some(Nested {
         place: child.place,

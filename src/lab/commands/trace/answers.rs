@@ -86,6 +86,9 @@ struct ShapeEntry {
 struct Explanation {
     #[serde(skip_serializing_if = "Option::is_none")]
     parameters: Option<Parameters>,
+    /// Whether the normal of a shape other than a triangle is reversed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    is_reversed: Option<bool>,
     #[serde(skip_serializing_if = "Option::is_none")]
     solid: Option<SolidReport>,
     formula: Vec<String>,
@@ -227,6 +230,10 @@ impl RayAnswerer<'_> {
             also,
             explanation: self.is_explaining.then(|| Explanation {
                 parameters: Parameters::of_primitive(scene, primitive),
+                is_reversed: (!is_triangle).then(|| {
+                    let (group, index) = scene.group_of(primitive);
+                    group.is_flipped(index)
+                }),
                 solid: SolidReport::new(scene, &placed.ray, hit, |t| placed.t_as_given(t)),
                 formula: formula::lines(scene, self.frames.origin(placed), &placed.ray, hit),
             }),

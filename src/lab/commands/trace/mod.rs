@@ -31,11 +31,13 @@ Input: one ray per line, as six or eight numbers in the file's coordinates.
 
   ox oy oz dx dy dz [tmin tmax]
 
-A ray is the points o + t*d with tmin < t < tmax, by default 0 < t < infinity. d needn't have unit
-length. # starts a comment. Lines end in LF, CR or CRLF and have at most 65536 bytes. Whenever no more
-input is available, all lines read so far are answered.
+A ray is the points o + t*d with tmin < t < tmax, by default 0 < t < infinity.
+d needn't have unit length. # starts a comment. Lines end in LF, CR or CRLF
+and have at most 65536 bytes. Whenever no more input is available, all lines
+read so far are answered.
 
-Output: one JSON object per ray, in the order of the input. Blank lines and comments produce no output.
+Output: one JSON object per ray, in the order of the input. Blank lines and
+comments produce no output.
 
   {\"hit\":true,\"t\":2.0,\"barycentric\":[0.25,0.5,0.25],\"triangle\":10,\"face\":5,
    \"position\":[0.25,0.5,1.0],\"normal\":[0.0,0.0,1.0],\"line\":1,\"ray_rounding\":0.0}
@@ -44,36 +46,51 @@ Output: one JSON object per ray, in the order of the input. Blank lines and comm
 
   t             distance from o, in lengths of d
   barycentric   barycentric coordinates for the triangle's corners A, B and C
-  shape         the shape that is hit, if it isn't a triangle: sphere, plane, disk, ...; instead of
-                barycentric, triangle and face
+  shape         the shape that is hit, if it isn't a triangle: sphere, plane,
+                disk, ...; instead of barycentric, triangle and face
   primitive     index of that primitive, counted from 0: triangles come first
-  operand       of a solid (csg): index and shape of the operand whose surface is hit
-  triangle      index of the triangle, counted from 0, in the order of triangulation
+  operand       of a solid (csg): index and shape of the operand whose surface
+                is hit
+  triangle      index of the triangle, counted from 0, in the order of
+                triangulation
   face          index of the face in the file, counted from 0
-  position      in the file's coordinates, from the barycentric coordinates; in large triangles less
-                accurate than o + t*d
-  normal        geometric normal of unit length, the same for rays from either side: by the right-hand
-                rule over A, B and C for a triangle, outwards for a closed shape
+  position      in the file's coordinates; of a triangle from the barycentric
+                coordinates, in large ones less accurate than o + t*d; of other
+                shapes the point of the surface next to o + t*d, as accurate as
+                an f32 t of the traced ray (see below)
+  normal        geometric normal of unit length, the same for rays from either
+                side: by the right-hand rule over A, B and C for a triangle,
+                outwards for a closed shape, u x v for a disk or rectangle;
+                the opposite if the scene file reverses it: by flip_normals,
+                or by a transform that mirrors a sphere (inwards), a disk or a
+                rectangle
   line          number of the line in the input, counted from 1
   ray_rounding  in units of the file, see below
 
 --explain adds to each hit:
 
-  parameters    of a shape other than a triangle, by name; points in the file's coordinates
-  solid         of a solid: the operand with its parameters, whether it is subtracted (the solid's
-                normal is then the opposite of its own), and the tree of operations with the
-                intervals of t inside each part, along the whole line; null is infinite
-  formula       derivation of t in f64 for the traced ray, which may start elsewhere on the line
+  parameters    of a shape other than a triangle, by name; points in the
+                file's coordinates
+  is_reversed   of a shape other than a triangle: whether the scene file
+                reverses its normal
+  solid         of a solid: the operand with its parameters, whether it is
+                subtracted (the solid's normal is then the opposite of its
+                own), and the tree of operations with the intervals of t
+                inside each part, along the whole line; null is infinite
+  formula       derivation of t in f64 for the traced ray, which may start
+                elsewhere on the line
 
 Numbers parse as doubles without loss.
 
-Rounding: rays and meshes are traced as f32 numbers relative to an origin near the mesh (--recentre).
-A ray with more digits, or from far away, is rounded. To lose as little as possible, the traced ray
-starts where the given ray comes near the mesh, or is traced in the file's coordinates if that is more
-accurate. ray_rounding bounds the remaining error: the largest distance per coordinate between the
-traced and the given ray at the same t, over the part of the ray within the mesh's bounding sphere. 0
-means that the ray is traced exactly as given. tmin and tmax are rounded outwards to f32. `hitscope info` shows how far the
-mesh itself is rounded.";
+Rounding: rays and meshes are traced as f32 numbers relative to an origin near
+the mesh (--recentre). A ray with more digits, or from far away, is rounded.
+To lose as little as possible, the traced ray starts where the given ray comes
+near the mesh, or is traced in the file's coordinates if that is more
+accurate. ray_rounding bounds the remaining error: the largest distance per
+coordinate between the traced and the given ray at the same t, over the part
+of the ray within the mesh's bounding sphere. 0 means that the ray is traced
+exactly as given. tmin and tmax are rounded outwards to f32. `hitscope info`
+shows how far the mesh itself is rounded.";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -85,7 +102,8 @@ Examples:
 
 Exit status:
   0  success, even if some lines are not rays; their answers have the reason
-  1  the mesh or the file of rays can't be read; one line on stderr has the reason
+  1  the mesh or the file of rays can't be read; one line on stderr has the
+     reason
   2  the command line is wrong";
 
 /// Trace rays through a mesh and print one JSON object per ray

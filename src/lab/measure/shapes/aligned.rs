@@ -17,7 +17,7 @@ impl Sampled for AxisPlane {
         Self {
             axis: axis as u8,
             coordinate: (near + size * random.in_cube())[axis] as f32,
-            faces_up: random.index(2) == 0,
+            is_along_axis: random.index(2) == 0,
         }
     }
 

@@ -247,6 +247,7 @@ fn leave(
         surface,
         corners: target.corners(),
         dir,
+        offset: Vec3::ZERO,
     };
     let ray = default_spawn_policy().spawn(&departure);
     let ray = ray.expect("a finite origin and direction");

@@ -95,6 +95,7 @@ function showCases() {
 
 /** The data that a section needs, and the function that draws it. */
 const sections = {
+  convergence: { needs: convergencePoints, show: showConvergence },
   plot: { needs: () => lab.kernels.filter(kernel => kernel.speed), show: showPlot },
   kernels: { needs: () => lab.kernels, show: showKernels },
   'triangles-map': { needs: () => lab.triangles, show: () => section('triangles-map').append(...heatMap(triangleMap)) },
@@ -112,6 +113,7 @@ const sections = {
 };
 
 showAbout();
+if (!lab.kernels.length) section('terms').remove();
 for (const [id, { needs, show }] of Object.entries(sections)) if (needs().length) show(); else section(id).remove();
 for (const heading of document.querySelectorAll('section > h2')) {
   document.querySelector('nav').append(element('a', { href: `#${heading.parentNode.id}` }, heading.textContent));

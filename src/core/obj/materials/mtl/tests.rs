@@ -149,6 +149,16 @@ fn a_normal_map_has_precedence_over_heights_and_multipliers_are_read() {
 }
 
 #[test]
+fn light_that_no_picture_can_hold_is_clamped_with_a_warning() {
+    let (materials, warnings) = messages("newmtl sun\nKe 1e20 1 0\n");
+    let emission = materials[0].material.emission;
+    assert_eq!(emission, Vec3::new(MAX_BRIGHTNESS, 1.0, 0.0));
+    let clamped =
+        "material library “m.mtl”: 1 “Ke” statement with a value above 2.8e14 clamped, on line 2";
+    assert_eq!(warnings, [clamped]);
+}
+
+#[test]
 fn map_options_precede_the_file_name() {
     let map = |name: &str, scale, offset| Some((name.to_owned(), scale, offset));
     let (one, zero) = (Vec2::ONE, Vec2::ZERO);

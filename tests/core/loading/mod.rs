@@ -1,11 +1,12 @@
 //! Scene files become scenes: shapes, transforms, meshes, materials, sensors, and clear errors.
 
+mod limits;
+mod textures;
+
 use glam::Vec3;
 use hitscope_core::Ray;
-use hitscope_core::bsdf::Scatter as _;
 use hitscope_core::kernel::{Tier, exact_triangle_kernel};
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::mesh::Property;
 use hitscope_core::obj::{LoadError, LoadOptions};
 use hitscope_core::progress::Progress;
 use hitscope_core::scene::SceneOptions;
@@ -303,128 +304,4 @@ fn solids_are_combined_and_what_is_no_solid_is_refused_with_its_line() {
             "{error}"
         );
     }
-}
-
-/// A PNG of 2 by 1 texels: red on the left, blue on the right.
-fn png() -> Vec<u8> {
-    let mut bytes = std::io::Cursor::new(Vec::new());
-    let picture = image::RgbImage::from_vec(2, 1, vec![255, 0, 0, 0, 0, 255]).expect("two texels");
-    let written = picture.write_to(&mut bytes, image::ImageFormat::Png);
-    written.expect("written");
-    bytes.into_inner()
-}
-
-/// The diffuse colour that a ray straight down sees, without light.
-fn colour_below(loaded: &LoadedScene, x: f32, y: f32) -> Vec3 {
-    let scene = &loaded.scene;
-    let ray = Ray::new(Vec3::new(x, y, 10.0), Vec3::NEG_Z).expect("a ray");
-    let intersector = scene.intersector(exact_triangle_kernel());
-    let hit = intersector.closest_hit(&ray).expect("a hit");
-    let material = scene
-        .mesh()
-        .attributes()
-        .materials
-        .get(scene.material(hit.primitive));
-    let sides = material
-        .and_then(|m| m.sides.as_deref())
-        .expect("a scene's material");
-    let (slot, map) = sides.front.maps[0];
-    let uv =
-        hitscope_core::interaction::texture_coordinates(scene, &ray, &hit).expect("coordinates");
-    let value = map.value(&scene.mesh().attributes().textures, uv);
-    sides.front.bsdf.with(slot, value).colour()
-}
-
-#[test]
-fn textures_are_placed_on_shapes_and_meshes() {
-    let textured = "<bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf>";
-    let files = Files::new(&format!(
-        "<texture type='bitmap' id='t'><string name='filename' value='t.png'/>
-           <string name='filter_type' value='nearest'/></texture>
-         <shape type='rectangle'>{textured}</shape>
-         <shape type='rectangle'>{textured}<transform name='to_world'><rotate z='1' angle='180'/>
-           <translate x='10'/></transform></shape>
-         <shape type='sphere'>{textured}<transform name='to_world'><rotate x='1' angle='90'/>
-           <translate x='20'/></transform></shape>
-         <shape type='obj'>{textured}<string name='filename' value='uv.obj'/></shape>"
-    ));
-    std::fs::write(files.folder.path().join("t.png"), png()).expect("written");
-    let obj = "v 30 0 0\nv 31 0 0\nv 30 1 0\nvt 0 0\nvt 1 0\nvt 0 1\nf 1/1 2/2 3/3\n";
-    std::fs::write(files.folder.path().join("uv.obj"), obj).expect("written");
-    let scene = files.load().expect("a scene");
-    assert_eq!(scene.report.warnings, []);
-    assert!(
-        scene
-            .report
-            .files
-            .iter()
-            .any(|path| path.ends_with("t.png"))
-    );
-    let (red, blue) = (Vec3::X, Vec3::Z);
-    for (x, y, expected) in [
-        (-0.5, 0.3, red),
-        (0.5, 0.3, blue),
-        (9.5, 0.3, blue),
-        (10.5, 0.3, red),
-        // Turned by 90° about x, the sphere shows its y towards +z, and its angles run from x over z.
-        (20.5, 0.0, red),
-        (19.5, 0.0, red),
-        (30.2, 0.1, red),
-        (30.8, 0.1, blue),
-    ] {
-        assert_eq!(colour_below(&scene, x, y), expected, "{x} {y}");
-    }
-}
-
-#[test]
-fn textures_that_cannot_be_shown_give_a_warning_with_their_line() {
-    let board = "<texture name='reflectance' type='checkerboard'/>";
-    let scene = loaded(&format!(
-        "<shape type='cone'><bsdf type='diffuse'>{board}</bsdf></shape>
-         <shape type='obj'><string name='filename' value='mesh.obj'/><bsdf type='diffuse'>{board}</bsdf></shape>
-         <shape type='disk'><bsdf type='diffuse'>
-         <texture name='reflectance' type='bitmap'><string name='filename' value='none.png'/></texture></bsdf></shape>
-         <shape type='cone'><bsdf type='diffuse'>{board}</bsdf></shape>"
-    ));
-    let warnings: Vec<String> = scene
-        .report
-        .warnings
-        .iter()
-        .map(ToString::to_string)
-        .collect();
-    let without = |line: u32, kind: &str| {
-        format!(
-            "line {line}: a shape “{kind}” has a texture, but no texture coordinates; the parameter's default is used"
-        )
-    };
-    assert_eq!(warnings[..2], [without(2, "cone"), without(3, "obj")]);
-    assert_eq!(warnings.len(), 3);
-    assert!(
-        warnings[2].starts_with("line 5: texture "),
-        "{}",
-        warnings[2]
-    );
-    let end = "none.png: not found; the parameter's default is used";
-    assert!(warnings[2].ends_with(end), "{}", warnings[2]);
-}
-
-#[test]
-fn a_texture_gives_the_light_of_an_emitter() {
-    let files = Files::new(
-        "<shape type='rectangle'><emitter type='area'>
-           <texture name='radiance' type='bitmap'><string name='filename' value='t.png'/></texture></emitter></shape>",
-    );
-    std::fs::write(files.folder.path().join("t.png"), png()).expect("written");
-    let scene = files.load().expect("a scene");
-    assert_eq!(scene.report.warnings, []);
-    let materials = scene.scene.mesh().attributes().materials.entries();
-    let material = &materials[scene.scene.material(0) as usize];
-    assert_eq!(material.emission, Vec3::ONE);
-    assert!(material.further_map(Property::Emission).is_some());
-    let ray = Ray::new(Vec3::new(0.5, 0.0, 10.0), Vec3::NEG_Z).expect("a ray");
-    let intersector = scene.scene.intersector(exact_triangle_kernel());
-    let hit = intersector.closest_hit(&ray).expect("a hit");
-    let uv = hitscope_core::interaction::texture_coordinates(&scene.scene, &ray, &hit);
-    // Texel centres are at ¼ and ¾.
-    assert!((uv.expect("coordinates").x - 0.75).abs() < 1e-6);
 }

@@ -1,0 +1,55 @@
+//! The brightest light that a picture can hold.
+
+use glam::DVec3;
+
+/// The largest radiance, irradiance or intensity of a light in a colour channel: 2⁴⁸, about 2.8e14. A pixel has at most
+/// 2¹⁶ samples, whose sum the [film](crate::film) cuts at 2⁶⁴: below the limit, it never does.
+pub const MAX_BRIGHTNESS: f32 = (1_u64 << 48) as f32;
+
+/// Checks linear RGB of a light.
+///
+/// # Errors
+/// A channel is negative, NaN, or above [`MAX_BRIGHTNESS`]. The message is a predicate without subject.
+pub fn check_brightness(rgb: DVec3) -> Result<(), String> {
+    let channels = rgb.to_array();
+    if channels.iter().any(|x| x.is_nan()) {
+        return Err("isn't a number".to_owned());
+    }
+    if channels.iter().any(|&x| x < 0.0) {
+        return Err("must not be negative".to_owned());
+    }
+    if channels.iter().any(|&x| x > MAX_BRIGHTNESS.into()) {
+        return Err(too_bright());
+    }
+    Ok(())
+}
+
+/// The message about light above [`MAX_BRIGHTNESS`].
+pub(crate) fn too_bright() -> String {
+    format!("is too bright: a picture holds at most {MAX_BRIGHTNESS:.1e} per colour channel")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn light_is_refused_with_the_reason() {
+        let limit = f64::from(MAX_BRIGHTNESS);
+        for (channel, expected) in [
+            (0.0, None),
+            (limit, None),
+            (-1e-30, Some("negative")),
+            (f64::NAN, Some("isn't a number")),
+            (2.0 * limit, Some("at most 2.8e14")),
+            (f64::INFINITY, Some("at most 2.8e14")),
+        ] {
+            let found = check_brightness(DVec3::new(1.0, channel, 0.0)).err();
+            match (found, expected) {
+                (None, None) => {}
+                (Some(found), Some(part)) => assert!(found.contains(part), "{found}"),
+                (found, expected) => panic!("{channel}: {found:?}, not {expected:?}"),
+            }
+        }
+    }
+}

@@ -1,0 +1,255 @@
+//! `hitscope converge`: the error of pictures against the time that they take.
+
+use super::args::{CreaseArg, KernelArg, MeshArgs};
+use super::camera::CameraArgs;
+use super::lab::machine;
+use super::picture::{ShadingArg, picture_bytes};
+use super::stderr::ProgressLine;
+use super::{CommandError, DARK_BACKGROUND, LightArgs, Output, ThreadsArg, file_error};
+use crate::json;
+use crate::measure::convergence::{
+    Convergence, ConvergencePoint, ConvergenceSizes, LightSetting, measure,
+};
+use crate::report;
+use clap::Args;
+use hitscope_core::Intersector;
+use hitscope_core::group::kernel_named;
+use hitscope_core::integrator::{Context, Setting, integrator};
+use hitscope_core::obj::Recentre;
+use hitscope_core::spawn::spawn_policy;
+use hitscope_core::srgb::from_display;
+use serde_json::{Value, json};
+use std::io::Write;
+use std::path::PathBuf;
+use std::sync::Arc;
+
+/// Measure the error of pictures against the CPU time that they take
+#[derive(Args, Clone, Debug)]
+#[command(after_help = "\
+Each setting renders pictures with 1, 2, 4, … samples per pixel. Their error is the root mean square over all pixels of
+the difference of luminance from the reference, relative to the reference's mean luminance. The reference is the view
+“path” with --kernel, --spawn and --depth. It contains the pictures' samples; as pictures have at most a sixteenth of
+its samples, this lowers errors by at most 3 %.
+
+A setting is the name of a view whose colours are light, and changes: path,depth=3,spawn=nvidia,kernel=fast
+
+Examples:
+  hitscope converge bunny.obj --size 256x256 --environment studio
+  hitscope converge scene.xml --setting path --setting direct --setting path,kernel=fast --out report")]
+pub struct ConvergeArgs {
+    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
+    pub file: PathBuf,
+    /// Setting to measure; repeat the option for several
+    /// [default: path; path,depth=2; direct; path,kernel=fast]
+    #[arg(long = "setting", value_name = "VIEW[,NAME=VALUE]...")]
+    pub settings: Vec<String>,
+    /// End a setting with the picture at which its pictures have taken this CPU time
+    #[arg(long, value_name = "SECONDS", default_value_t = 10.0, allow_negative_numbers = true, value_parser = parse_seconds)]
+    pub seconds: f64,
+    /// Samples per pixel of the reference, 16 to 65536, rounded up to a power of two
+    #[arg(long, value_name = "N", default_value_t = 1024, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(16..=65536))]
+    pub reference: u32,
+    /// Camera.
+    #[command(flatten)]
+    pub camera: CameraArgs,
+    /// Shading of triangles
+    #[arg(long, default_value = "flat")]
+    pub shading: ShadingArg,
+    /// Light.
+    #[command(flatten)]
+    pub light: LightArgs,
+    /// Kernel.
+    #[command(flatten)]
+    pub kernel: KernelArg,
+    /// Crease angle of smooth shading.
+    #[command(flatten)]
+    pub crease: CreaseArg,
+    /// How the mesh is loaded.
+    #[command(flatten)]
+    pub mesh: MeshArgs,
+    /// Threads.
+    #[command(flatten)]
+    pub threads: ThreadsArg,
+    /// Write report.html, with a plot, and lab.json to this directory
+    #[arg(long, value_name = "DIR")]
+    pub out: Option<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// The settings without `--setting`.
+const DEFAULT_SETTINGS: [&str; 4] = ["path", "path,depth=2", "direct", "path,kernel=fast"];
+
+impl ConvergeArgs {
+    /// Measures and prints.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
+        self.camera.check()?;
+        self.crease.check(self.shading)?;
+        let reference = self.setting("path")?;
+        self.light.check(reference.view)?;
+        let named = self.settings.iter().map(String::as_str);
+        let default = DEFAULT_SETTINGS
+            .iter()
+            .copied()
+            .filter(|_| self.settings.is_empty());
+        let settings = named.chain(default).map(|text| self.setting(text));
+        let settings = settings.collect::<Result<Vec<LightSetting>, _>>()?;
+        let files = self.files()?;
+        let base = self.context()?;
+        let sizes = ConvergenceSizes {
+            reference_samples: self.reference.next_power_of_two(),
+            seconds: self.seconds,
+            threads: self.threads.count(),
+        };
+        let progress = ProgressLine::new();
+        progress.update(format_args!("reference"));
+        let show = |point: &ConvergencePoint| {
+            let ConvergencePoint {
+                setting, samples, ..
+            } = point;
+            progress.update(format_args!("{setting}, {samples} samples"));
+        };
+        let measured = measure(&base, &reference, &settings, sizes, show)?;
+        progress.end();
+        let json = self.report(&measured);
+        if self.json {
+            writeln!(out, "{}", json::to_pretty(&json))?;
+        } else {
+            self.print(&measured, out)?;
+        }
+        out.flush()?;
+        let Some([page, data]) = files else {
+            return Ok(());
+        };
+        data.write(|out| writeln!(out, "{}", json::to_pretty(&json)))?;
+        page.write(|out| out.write_all(report::to_page(&json).as_bytes()))
+    }
+
+    /// The files of the report, opened before the measurement to be sure that they are writable.
+    fn files(&self) -> Result<Option<[Output; 2]>, CommandError> {
+        let Some(folder) = &self.out else {
+            return Ok(None);
+        };
+        std::fs::create_dir_all(folder).map_err(|source| file_error(folder, source))?;
+        let page = Output::create(&folder.join("report.html"))?;
+        Ok(Some([page, Output::create(&folder.join("lab.json"))?]))
+    }
+
+    /// The scene, the camera and the lights.
+    fn context(&self) -> Result<Context, CommandError> {
+        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        loaded.scene = self.crease.apply(loaded.scene);
+        let scene = &loaded.scene;
+        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
+        let intersector: Arc<dyn Intersector> = scene.intersector(self.kernel.kernel()).into();
+        let memory = self.mesh.memory;
+        let size = camera.resolution();
+        // The reference and a picture, and two packed scenes.
+        let (bytes, packed) = (2 * picture_bytes(size), 2 * intersector.bytes());
+        memory.require(
+            bytes,
+            scene,
+            packed,
+            format_args!("a reference and a picture"),
+        )?;
+        Ok(Context {
+            scene: Arc::clone(scene),
+            second: Arc::clone(&intersector),
+            intersector,
+            camera,
+            shading: self.shading.into(),
+            background: from_display(DARK_BACKGROUND),
+            lighting: self.light.lighting(&loaded, &camera, memory.bytes())?,
+        })
+    }
+
+    /// Parses a setting.
+    fn setting(&self, text: &str) -> Result<LightSetting, CommandError> {
+        let refuse = |why: String| CommandError::Usage(format!("setting “{text}”: {why}"));
+        let mut words = text.split(',');
+        let name = words.next().unwrap_or_default();
+        let view = integrator(name).filter(|view| view.needs.uses(Setting::Exposure));
+        let view =
+            view.ok_or_else(|| refuse(format!("“{name}” is no view whose colours are light")))?;
+        let mut setting = LightSetting {
+            name: text.to_owned(),
+            view,
+            kernel: self.kernel.kernel(),
+            spawn: None,
+            depth: None,
+        };
+        for word in words {
+            let unknown = || refuse(format!("“{word}” is unknown"));
+            match word.split_once('=').ok_or_else(unknown)? {
+                ("depth", depth) if view.needs.uses(Setting::Depth) => {
+                    setting.depth = Some(depth.parse().map_err(|_| unknown())?);
+                }
+                ("depth", _) => {
+                    return Err(refuse(format!("depth has no effect on the view “{name}”")));
+                }
+                ("spawn", policy) => {
+                    setting.spawn = Some(spawn_policy(policy).ok_or_else(unknown)?);
+                }
+                ("kernel", kernel) => setting.kernel = kernel_named(kernel).ok_or_else(unknown)?,
+                _ => return Err(unknown()),
+            }
+        }
+        Ok(setting)
+    }
+
+    fn report(&self, measured: &Convergence) -> Value {
+        json!({
+            "about": {
+                "version": env!("CARGO_PKG_VERSION"),
+                "command": "hitscope converge",
+                "machine": machine(),
+            },
+            "file": self.file.display().to_string(),
+            "convergence": measured,
+        })
+    }
+
+    fn print(&self, measured: &Convergence, out: &mut dyn Write) -> std::io::Result<()> {
+        let Convergence {
+            size: [width, height],
+            reference,
+            points,
+        } = measured;
+        writeln!(out, "{}", machine())?;
+        writeln!(
+            out,
+            "{width} x {height} pixels; reference: {}, {} samples per pixel, {:.2} CPU s, relative standard error {:.2e}",
+            reference.setting, reference.samples, reference.cpu_s, reference.relative_error
+        )?;
+        writeln!(
+            out,
+            "{:<32} {:>8} {:>10} {:>14}",
+            "setting", "samples", "CPU s", "relative RMSE"
+        )?;
+        for point in points {
+            let ConvergencePoint {
+                setting,
+                samples,
+                cpu_s,
+                relative_rmse,
+            } = point;
+            writeln!(
+                out,
+                "{setting:<32} {samples:>8} {cpu_s:>10.3} {relative_rmse:>14.3e}"
+            )?;
+        }
+        Ok(())
+    }
+}
+
+/// `2.5`.
+fn parse_seconds(text: &str) -> Result<f64, String> {
+    match text.parse::<f64>() {
+        Ok(seconds) if seconds > 0.0 && seconds.is_finite() => Ok(seconds),
+        _ => Err("expected seconds above 0".to_owned()),
+    }
+}

@@ -1,0 +1,91 @@
+//! The section *Paths* of the *Inspect* tab: the path of one sample of the picked pixel.
+
+use super::table::table_ui;
+use super::{row_ui, rows_ui};
+use crate::numbers::significant;
+use egui::RichText;
+use hitscope_lab::inspection::{PathReport, VertexReport, light_text};
+
+/// The path of a sample.
+pub struct PathView<'p> {
+    /// The path, once it has been followed.
+    pub path: Option<&'p PathReport>,
+    /// The selected sample.
+    pub sample: u32,
+    /// The last sample that can be selected.
+    pub last: u32,
+}
+
+/// Shows a path and a choice of samples. Returns the sample that the user selects.
+pub fn path_ui(ui: &mut egui::Ui, view: &PathView<'_>) -> Option<u32> {
+    let mut selected = view.sample;
+    ui.add_space(2.0);
+    ui.label(RichText::new("Paths").strong())
+        .on_hover_text("The path of one sample, drawn over the picture with its rays to lights");
+    ui.horizontal(|ui| {
+        let name = ui.label("Sample");
+        let step = egui::DragValue::new(&mut selected).range(0..=view.last);
+        ui.add(step).labelled_by(name.id);
+        let (first, last) = (view.sample == 0, view.sample == view.last);
+        if ui
+            .add_enabled(!first, egui::Button::new("Previous"))
+            .clicked()
+        {
+            selected = view.sample - 1;
+        }
+        if ui.add_enabled(!last, egui::Button::new("Next")).clicked() {
+            selected = view.sample + 1;
+        }
+        ui.label(RichText::new(format!("of 0 to {}", view.last)).weak());
+    });
+    if let Some(path) = view.path {
+        rows_ui(ui, |ui| {
+            row_ui(ui, "colour", light_text(path.radiance));
+            row_ui(ui, "light from afar", light_text(path.from_afar));
+            row_ui(ui, "end", path.end);
+        });
+        tables_ui(ui, path);
+    }
+    (selected != view.sample).then_some(selected)
+}
+
+/// Shows the vertices in tables, of which the first fits into the panel's default width.
+fn tables_ui(ui: &mut egui::Ui, path: &PathReport) {
+    let vertices = || (1..).zip(&path.vertices);
+    egui::ScrollArea::horizontal()
+        .id_salt("path tables")
+        .show(ui, |ui| {
+            ui.label("Vertices, and the throughput behind them (linear RGB)");
+            let row = |(number, vertex): (usize, &VertexReport)| {
+                let VertexReport {
+                    t,
+                    shape,
+                    primitive,
+                    throughput,
+                    ..
+                } = vertex;
+                [
+                    number.to_string(),
+                    significant(f64::from(*t), 5),
+                    format!("{shape} {primitive}"),
+                    light_text(*throughput),
+                ]
+            };
+            let columns = ["", "t", "primitive", "throughput"];
+            table_ui(ui, columns, vertices().map(row));
+            ui.add_space(4.0);
+            ui.label("Light added to the sample's colour");
+            let row = |(number, vertex): (usize, &VertexReport)| {
+                let [emission, direct] = [vertex.emission, vertex.direct].map(light_text);
+                [number.to_string(), emission, direct]
+            };
+            table_ui(ui, ["", "emitted", "from lights"], vertices().map(row));
+            for (number, vertex) in vertices() {
+                let notes = vertex.notes();
+                if !notes.is_empty() {
+                    let text = RichText::new(format!("{number}: {notes}")).weak();
+                    ui.add(egui::Label::new(text).extend());
+                }
+            }
+        });
+}

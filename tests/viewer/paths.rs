@@ -1,0 +1,70 @@
+//! The path of a sample of the picked pixel.
+
+use crate::harness::{Window, app_with, click, in_picture, wait};
+use egui_kittest::kittest::Queryable as _;
+use glam::UVec2;
+use hitscope::app::App;
+use hitscope::settings::Settings;
+
+/// A window with the finished picture of a view, of which the middle is picked.
+fn picked(view: &str, samples: u32) -> Option<Window> {
+    let mut window = app_with(Settings {
+        view: view.to_owned(),
+        samples,
+        ..Settings::default()
+    })?;
+    wait(&mut window, "all samples", App::is_settled);
+    let at = in_picture(&window, 0.5, 0.5);
+    click(&mut window, at);
+    wait(&mut window, "the pick", |app| app.inspection().is_some());
+    Some(window)
+}
+
+#[test]
+fn the_path_of_the_only_sample_has_the_colour_of_the_pixel() {
+    let Some(mut window) = picked("path", 1) else {
+        return;
+    };
+    wait(&mut window, "the path", |app| app.path().is_some());
+    let app = window.state();
+    let pixel = app.inspection().expect("a pick").pixel;
+    let path = app.path().expect("a path");
+    assert_eq!((path.view, path.sample), ("path", 0));
+    assert!(!path.vertices.is_empty(), "the scene is in the middle");
+    let in_picture = app.film().radiance(UVec2::from_array(pixel));
+    assert_eq!(
+        Some(path.radiance),
+        in_picture.map(|light| light.to_array())
+    );
+}
+
+#[test]
+fn another_sample_is_selected_by_a_button() {
+    let Some(mut window) = picked("path", 4) else {
+        return;
+    };
+    wait(&mut window, "the path", |app| app.path().is_some());
+    window.run_steps(2);
+    window.get_by_label("of 0 to 3");
+    let first = window.state().path().expect("a path").clone();
+    window.get_by_label("Next").click_accesskit();
+    wait(&mut window, "the next path", |app| {
+        app.path().is_some_and(|path| path.sample == 1)
+    });
+    window.run_steps(2);
+    window.get_by_label("Previous").click_accesskit();
+    wait(&mut window, "the first path", |app| {
+        app.path() == Some(&first)
+    });
+    wait(&mut window, "the path's lines", App::is_settled);
+}
+
+#[test]
+fn a_view_that_follows_no_paths_shows_none() {
+    let Some(mut window) = picked("normal", 1) else {
+        return;
+    };
+    window.run_steps(5);
+    assert!(window.state().path().is_none());
+    assert!(window.query_by_label("Paths").is_none());
+}
