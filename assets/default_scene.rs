@@ -1,8 +1,8 @@
 //! Makes the scene that the viewer shows without a file: `assets/default.obj` and `default.mtl`.
 //!
 //! Run `cargo run -p hitscope-core --example default_scene` after a change; it prints the paths that
-//! it wrote. A knot shows flat against smooth, a gem is meant to be flat, a shell is made of thin
-//! triangles, and the floor of two large ones.
+//! it wrote. A knot of rough copper shows flat against smooth, a gem of glass is meant to be flat, a shell is made
+//! of thin triangles, and the floor of two large ones.
 
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -20,14 +20,16 @@ fn main() -> std::io::Result<()> {
 }
 
 fn materials() -> String {
-    let colours = [
-        ("floor", [0.32, 0.33, 0.35]),
-        ("knot", [0.80, 0.42, 0.22]),
-        ("gem", [0.25, 0.48, 0.72]),
-        ("shell", [0.46, 0.62, 0.34]),
+    let materials = [
+        ("floor", [0.32, 0.33, 0.35], "Pr 0.35\nPm 0"),
+        ("knot", [0.93, 0.56, 0.36], "Pr 0.22\nPm 1"),
+        ("gem", [0.25, 0.48, 0.72], "illum 7\nNi 1.5\nTf 0.7 0.88 1"),
+        ("shell", [0.46, 0.62, 0.34], "Pr 0.6\nPm 0"),
     ];
-    let material = |(name, [r, g, b]): (&str, [f64; 3])| format!("newmtl {name}\nKd {r} {g} {b}\n");
-    colours.into_iter().map(material).collect()
+    let material = |(name, [r, g, b], finish): (&str, [f64; 3], &str)| {
+        format!("newmtl {name}\nKd {r} {g} {b}\n{finish}\n")
+    };
+    materials.into_iter().map(material).collect()
 }
 
 fn scene() -> String {
@@ -48,9 +50,10 @@ struct Obj {
 }
 
 impl Obj {
-    /// Starts an object, whose material has the same name.
-    fn object(&mut self, name: &str) {
-        _ = writeln!(self.text, "o {name}\nusemtl {name}");
+    /// Starts an object, whose material has the same name. Smooth shading leaves the edges of one that isn't smooth.
+    fn object(&mut self, name: &str, is_smooth: bool) {
+        let smoothing = if is_smooth { "1" } else { "off" };
+        _ = writeln!(self.text, "o {name}\nusemtl {name}\ns {smoothing}");
     }
 
     /// Adds a vertex, and returns its index.
@@ -73,7 +76,7 @@ impl Obj {
 
 /// One large quad.
 fn floor(obj: &mut Obj) {
-    obj.object("floor");
+    obj.object("floor", false);
     let corners = [(-3.2, -2.4), (-3.2, 2.4), (3.2, 2.4), (3.2, -2.4)];
     let corners = corners.map(|(x, z)| obj.vertex(DVec3::new(x, 0.0, z)));
     obj.face(&corners);
@@ -84,7 +87,7 @@ fn knot(obj: &mut Obj) {
     const ALONG: usize = 160;
     const AROUND: usize = 16;
     const TUBE: f64 = 0.21;
-    obj.object("knot");
+    obj.object("knot", true);
     let centre = |s: f64| {
         let (p, q) = (2.0 * s, 3.0 * s);
         let r = 0.68 + 0.27 * q.cos();
@@ -112,7 +115,7 @@ fn knot(obj: &mut Obj) {
 
 /// An icosahedron with its corners cut off: pentagons and hexagons.
 fn gem(obj: &mut Obj) {
-    obj.object("gem");
+    obj.object("gem", false);
     let golden = (1.0 + 5f64.sqrt()) / 2.0;
     let mut points = Vec::new();
     for (a, b, c) in [
@@ -177,7 +180,7 @@ fn convex_faces(points: &[DVec3]) -> Vec<Vec<usize>> {
 /// A cone of thin triangles, two for each of its ribs.
 fn shell(obj: &mut Obj) {
     const RIBS: usize = 96;
-    obj.object("shell");
+    obj.object("shell", false);
     let axis = DVec3::new(-0.25, 0.35, 0.9).normalize();
     let side = axis.cross(DVec3::Y).normalize();
     let up = side.cross(axis);

@@ -2,15 +2,29 @@
 
 use glam::DVec3;
 
-/// The largest radiance, irradiance or intensity of a light in a colour channel: 2⁴⁸, about 2.8e14. A pixel has at most
+/// The largest radiance or irradiance of a light in a colour channel: 2⁴⁸, about 2.8e14. A pixel has at most
 /// 2¹⁶ samples, whose sum the [film](crate::film) cuts at 2⁶⁴: below the limit, it never does.
 pub const MAX_BRIGHTNESS: f32 = (1_u64 << 48) as f32;
 
-/// Checks linear RGB of a light.
+/// Checks the radiance or the irradiance of a light.
 ///
 /// # Errors
 /// A channel is negative, NaN, or above [`MAX_BRIGHTNESS`]. The message is a predicate without subject.
 pub fn check_brightness(rgb: DVec3) -> Result<(), String> {
+    check(rgb, MAX_BRIGHTNESS, too_bright)
+}
+
+/// Checks the intensity of a point, which is divided by the square of a distance, so that it may be larger.
+///
+/// # Errors
+/// A channel is negative, NaN, or too large for f32. The message is a predicate without subject.
+pub(crate) fn check_intensity(rgb: DVec3) -> Result<(), String> {
+    check(rgb, f32::MAX, || {
+        "is too large for 32-bit numbers, which end at 3.4e38".to_owned()
+    })
+}
+
+fn check(rgb: DVec3, most: f32, too_large: fn() -> String) -> Result<(), String> {
     let channels = rgb.to_array();
     if channels.iter().any(|x| x.is_nan()) {
         return Err("isn't a number".to_owned());
@@ -18,8 +32,8 @@ pub fn check_brightness(rgb: DVec3) -> Result<(), String> {
     if channels.iter().any(|&x| x < 0.0) {
         return Err("must not be negative".to_owned());
     }
-    if channels.iter().any(|&x| x > MAX_BRIGHTNESS.into()) {
-        return Err(too_bright());
+    if channels.iter().any(|&x| x > most.into()) {
+        return Err(too_large());
     }
     Ok(())
 }
@@ -51,5 +65,7 @@ mod tests {
                 (found, expected) => panic!("{channel}: {found:?}, not {expected:?}"),
             }
         }
+        assert_eq!(check_intensity(DVec3::splat(1e38)), Ok(()));
+        assert!(check_intensity(DVec3::splat(1e39)).is_err());
     }
 }

@@ -229,6 +229,9 @@ fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
     Ok(())
 }
 
+/// The view of the built-in scene.
+const BUILT_IN_VIEW: &str = "path";
+
 /// Opens the window, or renders a picture if there is no display.
 fn open_window(cli: &Cli) -> Result<(), CommandError> {
     // Open the output before the window, so that an unwritable path fails at once.
@@ -241,9 +244,13 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
     let start = StartOptions {
         file: cli.file.clone(),
         // A screenshot uses the default settings, not the stored ones.
-        settings: match cli.screenshot {
-            Some(_) => Settings::default(),
-            None => stored_settings(),
+        settings: match (&cli.screenshot, &cli.file) {
+            (Some(_), _) => Settings::default(),
+            (None, Some(_)) => stored_settings(),
+            (None, None) => Settings {
+                file_view: Some(BUILT_IN_VIEW),
+                ..stored_settings()
+            },
         },
         load_options,
         screenshot: output.map(|output| ScreenshotOptions {

@@ -2,6 +2,7 @@
 
 use crate::task::{KeyedTask, Task, TaskPanicked};
 use hitscope_core::kernel::KernelChoice;
+use hitscope_core::light::{Environment, EnvironmentMap, Light, MapPlacement, PlacedMap};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions, LoadReport};
@@ -16,6 +17,8 @@ use std::time::SystemTime;
 
 pub(crate) const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
+/// The rotation of the studio that lights the built-in scene, so that its brightest lamp isn't in the picture.
+const STUDIO_ROTATION: f32 = 3.5;
 
 /// Results of checking all triangles and edges.
 #[derive(Clone, Debug)]
@@ -311,7 +314,16 @@ pub fn embedded_scene() -> LoadedScene {
         &progress,
     );
     let loaded = loaded.expect("a test opens the built-in scene");
-    LoadedScene::of(loaded, SceneOptions::default(), &progress).expect("never cancelled")
+    let loaded = LoadedScene::of(loaded, SceneOptions::default(), &progress);
+    let placement = MapPlacement {
+        rotation_radians: STUDIO_ROTATION,
+        ..MapPlacement::default()
+    };
+    let studio = PlacedMap::new(EnvironmentMap::built_in(), placement);
+    LoadedScene {
+        lights: vec![Light::Environment(Environment::Map(studio))],
+        ..loaded.expect("never cancelled")
+    }
 }
 
 #[cfg(test)]

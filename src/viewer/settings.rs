@@ -110,6 +110,9 @@ pub struct Settings {
     pub tone_curve: String,
     /// Whether the noise of views that need lights is shown instead of their picture.
     pub shows_noise: bool,
+    /// Name of the view that the open file asks for, which is used instead.
+    #[serde(skip)]
+    pub file_view: Option<&'static str>,
     /// Whether the mesh's z axis points up.
     pub is_z_up: bool,
     /// The axis that points up in the open file's view, which is used instead.
@@ -170,6 +173,7 @@ impl Default for Settings {
             shows_noise: false,
             is_z_up: false,
             file_up_axis: None,
+            file_view: None,
             has_crease: false,
             // The default of modelling programs.
             crease_degrees: 30.0,
@@ -187,7 +191,14 @@ impl Default for Settings {
 impl Settings {
     /// The view.
     pub fn view(&self) -> &'static Integrator {
-        integrator(&self.view).unwrap_or(INTEGRATORS[0])
+        let name = self.file_view.unwrap_or(&self.view);
+        integrator(name).unwrap_or(INTEGRATORS[0])
+    }
+
+    /// Uses the view of this name and keeps it between runs.
+    pub fn keep_view(&mut self, name: &str) {
+        self.file_view = None;
+        name.clone_into(&mut self.view);
     }
 
     /// The kernel.
@@ -337,6 +348,19 @@ mod tests {
         let stored = serde_json::to_string(&settings).expect("plain data");
         let later: Settings = serde_json::from_str(&stored).expect("what was stored");
         assert_eq!(later.kernel().info.name, "exact");
+    }
+
+    #[test]
+    fn a_chosen_view_is_stored_but_not_that_of_a_file() {
+        let mut settings = Settings::default();
+        settings.keep_view("normal");
+        settings.file_view = Some("path");
+        assert_eq!(settings.view().name, "path");
+        let stored = serde_json::to_string(&settings).expect("plain data");
+        let later: Settings = serde_json::from_str(&stored).expect("what was stored");
+        assert_eq!(later.view().name, "normal");
+        settings.keep_view("depth");
+        assert_eq!(settings.view().name, "depth");
     }
 
     #[test]

@@ -42,7 +42,15 @@ pub fn stored_settings() -> Settings {
     let folder = eframe::storage_dir(APP_ID);
     folder
         .and_then(|folder| read(&folder.join("app.ron")))
-        .unwrap_or_default()
+        .unwrap_or_else(of_first_run)
+}
+
+/// The settings of the first run: the default ones, with smooth shading.
+fn of_first_run() -> Settings {
+    Settings {
+        is_smooth: true,
+        ..Settings::default()
+    }
 }
 
 fn read(path: &Path) -> Option<Settings> {

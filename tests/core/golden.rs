@@ -15,12 +15,13 @@ use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, integrator};
 use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::light::{DirectionalLight, Environment, Light, Lights};
 use hitscope_core::mesh::shapes::{Placement, torus};
+use hitscope_core::mesh::{Assigned, Attributes, Illumination, Material, Runs};
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::scene::scene;
 use hitscope_core::spawn::SPAWN_POLICIES;
-use hitscope_core::{Camera, Film, Intersector};
+use hitscope_core::{Camera, Film, Intersector, TriangleMesh};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -31,9 +32,27 @@ const PERSPECTIVE: Projection = Projection::Perspective {
 };
 const ORTHOGRAPHIC: Projection = Projection::Orthographic { height: 2.5 };
 
+/// The torus; half a mirror in the view *Recursive*, which would look like *Direct light* without one.
+fn mesh(view: &str) -> TriangleMesh {
+    let mesh = torus(24, 12, Placement::UNIT);
+    if view != "whitted" {
+        return mesh;
+    }
+    let mirror = Material {
+        diffuse: Some(Vec3::splat(0.3)),
+        specular: Vec3::splat(0.6),
+        illumination: Illumination::Mirror,
+        ..Material::default()
+    };
+    mesh.with_attributes(Attributes {
+        materials: Assigned::new(vec![mirror], Runs::default()),
+        ..Attributes::default()
+    })
+}
+
 /// A job that draws a torus from above in the named view.
 pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
-    let scene = Arc::new(scene(torus(24, 12, Placement::UNIT)));
+    let scene = Arc::new(scene(mesh(view)));
     let view = integrator(view).expect("a view");
     let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
     let eye = DVec3::new(1.25, -2.0, 2.25);
@@ -104,10 +123,8 @@ fn golden_pictures_differ_from_each_other() {
     let names = names.chain(["shaded-smooth", "normal-smooth", "shaded-orthographic"]);
     let pictures: Vec<Vec<u8>> = names.map(|name| read_ppm(&golden_path(name))).collect();
     for (k, picture) in pictures.iter().enumerate() {
-        assert!(
-            !pictures[..k].contains(picture),
-            "picture {k} equals an earlier one"
-        );
+        let same = pictures[..k].iter().position(|earlier| earlier == picture);
+        assert_eq!(same, None, "picture {k} equals an earlier one");
     }
 }
 

@@ -111,10 +111,11 @@ fn occlusion_ends_at_the_distance() {
 fn two_spawn_policies_are_compared() {
     let folder = folder(DARK);
     let pixels = |options: &str| {
-        let rendered = rendered(&folder, &format!("--view spawning {options}"));
+        let camera = "--eye 0,0,100 --target 0,0,0 --fov 4";
+        let rendered = rendered(&folder, &format!("--view spawning {camera} {options}"));
         rendered.film.pixels().to_vec()
     };
-    // At a distance of 10, many points of the sphere are rounded by more than the fixed ε.
+    // At a distance of 100, many points are rounded by more than the fixed ε.
     assert_ne!(pixels(""), pixels("--second-spawn combined"));
     assert_eq!(pixels(""), pixels("--second-spawn fixed-epsilon"));
     let args =

@@ -194,11 +194,11 @@ fn options_without_effect_are_refused() {
         ),
         (
             &format!("{render} --view normal --exposure 1"),
-            "no effect on the view “normal”: it needs --view shaded or",
+            "no effect on the view “normal”: it needs --view shaded, direct",
         ),
         (
             &format!("{render} --view normal --tone clip"),
-            "no effect on the view “normal”: it needs --view shaded or",
+            "no effect on the view “normal”: it needs --view shaded, direct",
         ),
         (
             &format!("{render} --crease 30"),

@@ -10,7 +10,7 @@ use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
 use super::textures::{self, Nested, Texture};
-use crate::brightness::check_brightness;
+use crate::brightness::{check_brightness, check_intensity};
 use glam::{DMat3, DMat4, DVec3};
 
 /// The emitters that are read.
@@ -190,7 +190,11 @@ fn light(parameters: &mut Parameters, name: &'static str) -> Result<DVec3, Probl
             return at(format!("{name} must be <rgb>, not <{element}>"));
         }
     };
-    match check_brightness(rgb) {
+    let checked = match name {
+        "intensity" => check_intensity(rgb),
+        _ => check_brightness(rgb),
+    };
+    match checked {
         Ok(()) => Ok(rgb),
         Err(fault) => at(format!("{} {fault}", quoted(name))),
     }

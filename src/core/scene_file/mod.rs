@@ -146,9 +146,10 @@
 //! | `directional` | `direction` = (0, 0, 1) in which the light travels, or `to_world`; `irradiance` = 1. A scale in `to_world` doesn't change the light, unlike in Mitsuba |
 //! | `envmap` | `filename`: a latitude–longitude picture, Radiance HDR or OpenEXR; `scale` = 1; `to_world`: a rotation. `mis_compensation` has no effect |
 //!
-//! Light is `rgb` (linear), `spectrum` with one number or `float`, from 0 to 2.8e14: brighter light would exceed the
-//! picture's range. A scene has at most one `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light
-//! and a warning. The `radiance` of `area` can be a texture; in place of other colours, one gives a warning.
+//! Light is `rgb` (linear), `spectrum` with one number or `float`, and isn't negative. Radiance, irradiance and
+//! `scale` are at most 2.8e14: brighter light would exceed the picture's range. A scene has at most one
+//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. The `radiance` of `area`
+//! can be a texture; in place of other colours, one gives a warning.
 //!
 //! ## Integrators
 //!

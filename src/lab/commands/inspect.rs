@@ -67,7 +67,7 @@ Examples:
   hitscope inspect bunny.obj --pixel 640,360
   hitscope inspect bunny.obj --pixel 12,7 --size 100x100 --eye 0,0.1,1 --json
   hitscope inspect bunny.obj --pixel 640,360 --kernel exact --shading smooth
-  hitscope inspect bunny.obj --pixel 640,360 --view path --sample 3 --environment studio
+  hitscope inspect bunny.obj --pixel 640,360 --view path --sample 3
 
 Exit status:
   0  success, even if the ray hits nothing

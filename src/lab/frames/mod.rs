@@ -14,11 +14,14 @@
 //!
 //! A ray from more than 2⁴⁸ times the mesh's size away can't be moved near it: an f64 number doesn't hold t that well.
 
+mod precise;
+
 use glam::{DVec3, Vec3};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::ray::RayError;
 use hitscope_core::{Intersector, Ray, Scene};
+use precise::Precise;
 use std::sync::{Arc, OnceLock};
 
 /// Another start or frame is used if it reduces the rounding by more than this factor. Otherwise the ray that the
@@ -344,42 +347,6 @@ impl Ball {
         let slack = to_centre.length() * 2f64.powi(-48);
         let half = (self.radius * (1.0 + 2f64.powi(-20)) + slack) / length;
         [middle - half, middle + half]
-    }
-}
-
-/// A number as the sum of two f64, accurate to about 100 bits; `high` is the rounded sum.
-#[derive(Clone, Copy, Debug)]
-struct Precise {
-    high: f64,
-    low: f64,
-}
-
-impl Precise {
-    /// a + b, exactly. Source: Knuth, The Art of Computer Programming 2, 4.2.2, theorem B.
-    fn sum(a: f64, b: f64) -> Self {
-        let high = a + b;
-        let part = high - a;
-        Self {
-            high,
-            low: (a - (high - part)) + (b - part),
-        }
-    }
-
-    /// a + b + c·d, to about 100 bits.
-    fn sum_with_product(a: f64, b: f64, c: f64, d: f64) -> Self {
-        if c == 0.0 {
-            return Self::sum(a, b);
-        }
-        let product = c * d;
-        // A fused multiplication rounds once, so that this is the exact error of the product.
-        let product_error = c.mul_add(d, -product);
-        let (sum, total) = (Self::sum(a, b), Self::sum(a + b, product));
-        Self::sum(total.high, total.low + (sum.low + product_error))
-    }
-
-    /// The error of a rounded number: how much it is larger.
-    fn error_of(self, rounded: f32) -> f64 {
-        (f64::from(rounded) - self.high) - self.low
     }
 }
 

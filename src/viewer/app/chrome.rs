@@ -67,9 +67,11 @@ impl App {
             .height(400.0)
             .show_ui(ui, |ui| {
                 for choice in INTEGRATORS {
-                    let name = choice.name.to_owned();
-                    ui.selectable_value(&mut self.settings.view, name, choice.title)
-                        .on_hover_text(choice.about);
+                    let is_chosen = choice.name == view.name;
+                    let button = ui.selectable_label(is_chosen, choice.title);
+                    if button.on_hover_text(choice.about).clicked() {
+                        self.settings.keep_view(choice.name);
+                    }
                 }
             })
             .response

@@ -4,9 +4,11 @@ use super::App;
 use hitscope_core::camera::{Turntable, UpAxis};
 
 impl App {
-    /// Shows the view of the file's sensor, or the scene from the default direction.
+    /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
+    /// there is one.
     pub(super) fn use_first_view(&mut self) {
         self.settings.file_up_axis = None;
+        self.settings.file_view = self.document.loaded.integrator().map(|view| view.name);
         let turntable = &mut self.turntable;
         if let Some(own) = self.own_projection.take() {
             (turntable.fov_y_radians, turntable.is_orthographic) = own;

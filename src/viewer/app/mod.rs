@@ -284,7 +284,7 @@ impl eframe::App for App {
         let second = self.settings.second_kernel();
         if let Err(broken) = self.document.use_second(second, ctx) {
             self.error(broken);
-            self.settings.view = Settings::default().view;
+            self.settings.keep_view(&Settings::default().view);
         }
         if let Err(broken) = self.document.improve(ctx) {
             self.error(broken);

@@ -52,7 +52,10 @@ fn chosen_view_ui(
     ui.label(RichText::new("View").strong());
     ui.horizontal_wrapped(|ui| {
         for choice in INTEGRATORS {
-            ui.selectable_value(&mut settings.view, choice.name.to_owned(), choice.title);
+            let is_chosen = choice.name == settings.view().name;
+            if ui.selectable_label(is_chosen, choice.title).clicked() {
+                settings.keep_view(choice.name);
+            }
         }
     });
     ui.label(RichText::new(settings.view().about).weak());

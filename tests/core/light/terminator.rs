@@ -22,7 +22,7 @@ fn coarse_sphere(shading: Shading) -> Context {
         irradiance: Vec3::ONE,
     };
     let context = lit(
-        scene(sphere(4, Placement::UNIT)),
+        scene(sphere(2, Placement::UNIT)),
         vec![Light::Directional(lamp)],
     );
     Context { shading, ..context }

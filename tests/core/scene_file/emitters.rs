@@ -150,7 +150,7 @@ const REFUSED: &[(&str, &str)] = &[
     ),
     (
         "<emitter type='point'>\n<float name='intensity' value='1e39'/></emitter>",
-        "3: “intensity” is too bright: a picture holds at most 2.8e14 per colour channel",
+        "3: “intensity” is too large for 32-bit numbers, which end at 3.4e38",
     ),
     (
         "<emitter type='point'>\n<point name='intensity' value='1'/></emitter>",

@@ -30,6 +30,11 @@ pub trait Sampled: Grouped + Oracle {
         0.5 * self.bounds().extent().max_element()
     }
 
+    /// Whether a point lies beyond an apex.
+    fn is_beyond_apex(&self, _: DVec3) -> bool {
+        false
+    }
+
     /// The corners of a triangle.
     fn corners(&self) -> Option<[Vec3; 3]> {
         None
@@ -122,6 +127,11 @@ impl Sampled for Cone {
             radius,
             is_capped,
         }
+    }
+
+    fn is_beyond_apex(&self, point: DVec3) -> bool {
+        let [p0, apex] = [self.p0, self.p1].map(Vec3::as_dvec3);
+        (point - apex).dot(apex - p0) > 0.0
     }
 
     fn edge_point(&self, random: &mut Random) -> Option<DVec3> {

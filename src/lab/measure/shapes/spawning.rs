@@ -4,7 +4,7 @@
 //! with the outer normals at the start and at the hit have opposite signs. A hit at which they are equal is a self-hit.
 //! A convex shape that was left outwards can't be hit at all, so there every hit counts. A ray that leaves a part of the
 //! surface inwards, closer to an edge than a point is rounded, may begin beyond the part that adjoins there, and hit that
-//! one from outside. Such hits count separately. For a solid, the oracle decides whether a ray began beyond an edge.
+//! one from outside. Close to a cone's apex, it may begin beyond the apex. Such hits count separately. For a solid, the oracle decides whether a ray began beyond an edge.
 //!
 //! Source of the sizes and offsets: Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, the tests of
 //!   its shapes.
@@ -110,8 +110,10 @@ impl<S: Sampled> SpawnSurface for Primitive<'_, S> {
         self.shape.corners()
     }
 
-    fn judge(&self, left: &Hit, is_outwards: bool, _: &Ray, again: &Hit) -> Again {
-        if S::IS_CONVEX && is_outwards || S::part(again) == S::part(left) {
+    fn judge(&self, left: &Hit, is_outwards: bool, ray: &Ray, again: &Hit) -> Again {
+        let is_same_part = S::part(again) == S::part(left)
+            && (is_outwards || !self.shape.is_beyond_apex(ray.origin.as_dvec3()));
+        if S::IS_CONVEX && is_outwards || is_same_part {
             Again::Same
         } else {
             Again::BeyondEdge

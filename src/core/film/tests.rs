@@ -1,0 +1,209 @@
+//! Tests of films.
+
+use super::*;
+use crate::brightness::MAX_BRIGHTNESS;
+use crate::random::Random;
+
+fn sum_of(samples: &[Vec3]) -> SampleSum {
+    let mut sum = SampleSum::default();
+    samples.iter().for_each(|&sample| _ = sum.add(sample));
+    sum
+}
+
+#[test]
+fn the_mean_of_equal_samples_is_that_sample() {
+    let grey = Vec3::splat(0.215_861);
+    assert_eq!(sum_of(&[grey; 4]).mean(4), grey);
+}
+
+#[test]
+fn a_changed_display_gives_the_pixels_of_a_film_that_had_it_from_the_start() {
+    let display = Display::new(1.5, crate::tone::TONE_CURVES[1]);
+    // Blocks at the right and lower border are cut.
+    let plan = Plan::new(UVec2::new(101, 53), 16, 2);
+    let background = Vec3::new(0.1, 0.2, 0.3);
+    let mut with = Film::new(plan.clone(), background);
+    assert!(with.set_display(display));
+    assert!(!with.set_display(display));
+    let mut without = Film::new(plan.clone(), background);
+    let shade = |p: UVec2| Vec3::new(p.x as f32, 2.0 * p.y as f32, 9.0) / 50.0;
+    for unit in (0..plan.unit_count()).map(|k| plan.unit(k)) {
+        let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
+        let tile = TileSamples { unit, sums };
+        with.add(&tile);
+        without.add(&tile);
+        if unit.tile % 2 == 0 {
+            without.set_display(display);
+            assert!(without.pixels() == with.pixels(), "{unit:?}");
+            without.set_display(Display::default());
+        }
+    }
+    // A restart keeps the display.
+    with.restart(Plan::new(UVec2::ONE, 1, 1), background);
+    assert_eq!(with.display(), display);
+    assert_eq!(with.pixels(), [display.encode(background)]);
+}
+
+#[test]
+fn non_finite_samples_are_rejected_and_bright_ones_are_not_clamped() {
+    let mut sum = SampleSum::default();
+    assert!(!sum.add(Vec3::new(0.0, f32::NAN, 0.0)));
+    assert!(!sum.add(Vec3::new(0.0, f32::INFINITY, 0.0)));
+    assert!(sum.add(Vec3::splat(-1.0)));
+    assert_eq!(sum.mean(1), Vec3::ZERO);
+    assert!(sum.add(Vec3::new(1e9, 1e-9, 3.0)));
+    assert_eq!(sum.mean(1), Vec3::new(1e9, 1e-9, 3.0));
+    (0..3).for_each(|_| _ = sum.add(Vec3::splat(f32::MAX)));
+    // The end of the range, 2⁶⁴.
+    assert_eq!(sum.mean(1), Vec3::splat(ONE as f32));
+}
+
+#[test]
+fn no_sum_of_the_brightest_light_is_cut() {
+    let samples = vec![Vec3::splat(MAX_BRIGHTNESS); 1 << 16];
+    // The sum is 2⁶⁴ less one unit of the sums, which the mean rounds away.
+    let mean = sum_of(&samples).mean(1 << 16);
+    assert_eq!(mean, Vec3::splat(MAX_BRIGHTNESS));
+}
+
+#[test]
+fn the_order_of_samples_of_any_brightness_does_not_change_their_sum() {
+    let mut random = Random::new(4);
+    let mut samples = [(); 100].map(|()| {
+        let exponent = random.index(60) as i32 - 40;
+        Vec3::from_array([(); 3].map(|()| random.unit() as f32 * 2f32.powi(exponent)))
+    });
+    let sum = sum_of(&samples);
+    samples.reverse();
+    assert_eq!(sum_of(&samples), sum);
+    samples.sort_by(|a, b| a.x.total_cmp(&b.x));
+    assert_eq!(sum_of(&samples), sum);
+}
+
+#[test]
+fn the_variance_is_that_of_single_samples() {
+    let grey = |x: f32| Vec3::splat(x);
+    // Of 1, 2, 3, 6: deviations −2, −1, 0, 3, and 14/3.
+    let sum = sum_of(&[1.0, 2.0, 3.0, 6.0].map(grey));
+    // Luminances are rounded to f32.
+    assert!((sum.variance(4) - 14.0 / 3.0).abs() < 1e-5);
+    assert_eq!(sum_of(&[grey(0.25); 2]).variance(1), 0.0);
+    assert!(sum_of(&[grey(0.1); 9]).variance(9) < 1e-9);
+}
+
+#[test]
+fn the_order_of_tiles_does_not_change_the_picture() {
+    let plan = Plan::new(UVec2::new(70, 50), 4, 4);
+    let tiles: Vec<TileSamples> = (0..plan.unit_count())
+        .map(|k| {
+            let unit = plan.unit(k);
+            let shade = |p: UVec2| Vec3::new(p.x as f32, p.y as f32, k as f32) / 90.0;
+            let samples = plan.pass(unit.pass).samples_per_pixel() as usize;
+            let sums = plan.pixels(unit).map(|p| sum_of(&vec![shade(p); samples]));
+            TileSamples {
+                unit,
+                sums: sums.collect(),
+            }
+        })
+        .collect();
+    let mut forwards = Film::new(plan.clone(), Vec3::ZERO);
+    let mut backwards = forwards.clone();
+    tiles.iter().for_each(|tile| _ = forwards.add(tile));
+    tiles.iter().rev().for_each(|tile| _ = backwards.add(tile));
+    assert!(forwards.is_complete() && backwards.is_complete());
+    assert_eq!(forwards.pixels(), backwards.pixels());
+    assert_eq!(forwards.samples(), 4);
+}
+
+#[test]
+fn a_pixel_without_a_sample_shows_the_colour_of_its_block() {
+    // Of whole blocks: at the border a block's pixel may have been sampled for a larger one.
+    let size = UVec2::new(144, 96);
+    let shade = |p: UVec2| Vec3::new(p.x as f32, 2.0 * p.y as f32, 1.0) / 192.0;
+    for first_step in [16, 12, 6] {
+        let plan = Plan::new(size, first_step, 1);
+        let mut film = Film::new(plan.clone(), Vec3::ONE);
+        let mut has_sample = vec![false; size.element_product() as usize];
+        for pass in 0..plan.pass_count() {
+            for tile in 0..plan.tile_count() {
+                let unit = WorkUnit { pass, tile };
+                plan.pixels(unit)
+                    .for_each(|p| has_sample[film.index(p)] = true);
+                let sums = plan.pixels(unit).map(|p| sum_of(&[shade(p)])).collect();
+                film.add(&TileSamples { unit, sums });
+            }
+            let Pass::Lattice { step } = plan.pass(pass) else {
+                panic!("{pass} is a pass of a plan of one sample");
+            };
+            for i in 0..size.element_product() {
+                let p = UVec2::new(i % size.x, i / size.x);
+                let middle = p / step * step + step / 2;
+                let shown = if has_sample[i as usize] { p } else { middle };
+                let expected = Display::default().encode(shade(shown));
+                assert_eq!(film.pixels()[i as usize], expected, "{p} by {step}");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_restarted_film_of_the_same_size_keeps_its_colours() {
+    let size = UVec2::new(50, 2);
+    let mut film = Film::new(Plan::new(size, 1, 1), Vec3::ZERO);
+    let white = |film: &mut Film| {
+        for tile in 0..film.plan().tile_count() {
+            let unit = film.plan().unit(tile);
+            let sums = film
+                .plan()
+                .pixels(unit)
+                .map(|_| sum_of(&[Vec3::ONE]))
+                .collect();
+            film.add(&TileSamples { unit, sums });
+        }
+    };
+    white(&mut film);
+    assert_eq!((film.samples(), film.is_complete()), (1, true));
+    film.restart(Plan::new(size, 2, 1), Vec3::ZERO);
+    assert_eq!((film.samples(), film.passes_done()), (0, 0));
+    assert!(film.pixels().iter().all(|&p| p == [255; 4]));
+    // Nothing is left of the samples before: white once more is no brighter.
+    white(&mut film);
+    assert_eq!(film.counts.iter().filter(|&&n| n == 1).count(), 25);
+    let size = UVec2::new(51, 2);
+    film.restart(Plan::new(size, 1, 1), Vec3::ZERO);
+    assert_eq!(film.size(), size);
+    assert_eq!(film.pixels(), [[0, 0, 0, 255]; 102]);
+}
+
+#[test]
+fn a_film_counts_skipped_tiles_as_done() {
+    let plan = Plan::new(UVec2::new(50, 50), 1, 1);
+    let mut film = Film::new(plan.clone(), Vec3::ONE);
+    (0..plan.unit_count()).for_each(|k| film.skip(plan.unit(k)));
+    assert!(film.is_complete());
+    assert!(film.pixels().iter().all(|&p| p == [255; 4]));
+}
+
+#[test]
+fn the_union_of_rectangles_contains_both() {
+    let rect = |a, b, c, d| PixelRect {
+        min: UVec2::new(a, b),
+        max: UVec2::new(c, d),
+    };
+    let (first, second) = (rect(3, 1, 5, 9), rect(2, 4, 8, 6));
+    assert_eq!(first.union(second), rect(2, 1, 8, 9));
+    assert_eq!(second.union(first), rect(2, 1, 8, 9));
+}
+
+#[test]
+fn the_first_pass_covers_the_whole_picture() {
+    let plan = Plan::new(UVec2::new(101, 53), 8, 1);
+    let mut film = Film::new(plan.clone(), Vec3::ZERO);
+    for tile in 0..plan.tile_count() {
+        let unit = plan.unit(tile);
+        let sums = plan.pixels(unit).map(|_| sum_of(&[Vec3::ONE])).collect();
+        film.add(&TileSamples { unit, sums });
+    }
+    assert!(film.pixels().iter().all(|&p| p == [255; 4]));
+    assert_eq!((film.passes_done(), film.samples()), (1, 0));
+}
