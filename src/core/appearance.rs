@@ -1,53 +1,51 @@
 //! What a surface looks like at a hit: its material with textures and vertex colours.
 
-use crate::bsdf::{Black, Bsdf, Dielectric, Diffuse, Gain, MetalRough, Phong, Polished, Scatter};
-use crate::interaction::{texture_coordinates, vertex_colour};
-use crate::mesh::{Illumination, Material, Property, TextureMap};
-use crate::ray::Hit;
+use crate::bsdf::{Black, Bsdf, Scatter};
+use crate::interaction::{SurfaceInteraction, texture_coordinates, texture_frame, vertex_colour};
+use crate::mesh::{Material, Property, Relief, Side, TextureMap, Tilt};
+use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
 use crate::srgb::{from_display, luminance};
+use crate::statements::{self, CLAY, Values};
 use glam::{Vec2, Vec3};
-
-/// Reflectance of faces without a material.
-const CLAY: Vec3 = Vec3::new(0.68, 0.66, 0.63);
 
 /// A material at a hit.
 pub(crate) struct Appearance<'a> {
     scene: &'a Scene,
     material: Option<&'a Material>,
+    position: Vec3,
     hit: &'a Hit,
 }
 
 impl<'a> Appearance<'a> {
-    pub fn new(scene: &'a Scene, material: Option<&'a Material>, hit: &'a Hit) -> Self {
+    pub fn new(
+        scene: &'a Scene,
+        material: Option<&'a Material>,
+        position: Vec3,
+        hit: &'a Hit,
+    ) -> Self {
         Self {
             scene,
             material,
+            position,
             hit,
         }
     }
 
     /// Texture coordinates. A face without them shows no texture.
     fn uv(&self) -> Option<Vec2> {
-        texture_coordinates(self.scene, self.hit)
+        texture_coordinates(self.scene, self.position, self.hit)
     }
 
-    /// The values of a texture, without conversion from sRGB; 1 without a texture.
-    fn values(&self, material: &Material, property: Property) -> Vec3 {
-        let map = material.further_map(property).zip(self.uv());
-        let textures = &self.scene.mesh().attributes().textures;
-        map.map_or(Vec3::ONE, |(map, uv)| map.values(textures, uv))
-    }
-
-    /// The colour of a texture; white without one.
-    fn colour(&self, material: &Material, property: Property) -> Vec3 {
+    /// The value of a property's texture; 1 without one.
+    fn value(&self, material: &Material, property: Property) -> Vec3 {
         let map = material.further_map(property);
         self.of_texture(map).unwrap_or(Vec3::ONE)
     }
 
     fn of_texture(&self, map: Option<&TextureMap>) -> Option<Vec3> {
         let textures = &self.scene.mesh().attributes().textures;
-        map.zip(self.uv()).map(|(map, uv)| map.colour(textures, uv))
+        Some(map?.value(textures, self.uv()?))
     }
 
     /// The product of the colours of texture and vertices, if there are any.
@@ -62,14 +60,19 @@ impl<'a> Appearance<'a> {
 
     /// The product of the colours of material, texture and vertices; clay if there are none.
     pub fn diffuse(&self) -> Vec3 {
-        let of_material = self.material.and_then(|material| material.diffuse);
+        let of_material = match self.material.and_then(|m| m.sides.as_deref()) {
+            Some(sides) if !sides.front.maps.is_empty() => {
+                Some(self.textured(&sides.front).colour())
+            }
+            _ => self.material.and_then(|material| material.diffuse),
+        };
         let colours = [of_material, self.tint()].into_iter().flatten();
         colours.reduce(|a, b| a * b).unwrap_or(CLAY)
     }
 
     /// The specular reflectance.
     pub fn specular(&self) -> Vec3 {
-        let specular = |m: &Material| m.specular * self.colour(m, Property::Specular);
+        let specular = |m: &Material| m.specular * self.value(m, Property::Specular);
         self.material.map_or(Vec3::ZERO, specular)
     }
 
@@ -77,7 +80,7 @@ impl<'a> Appearance<'a> {
     pub fn emission(&self) -> Vec3 {
         match self.material {
             Some(material) if material.emission != Vec3::ZERO => {
-                material.emission * self.colour(material, Property::Emission)
+                material.emission * self.value(material, Property::Emission)
             }
             _ => Vec3::ZERO,
         }
@@ -101,7 +104,7 @@ impl<'a> Appearance<'a> {
         let alpha = |map: Option<&TextureMap>| map?.alpha(textures, self.uv()?);
         let mut opacity = material.opacity * alpha(material.diffuse_map.as_ref()).unwrap_or(1.0);
         if let Some(map) = material.further_map(Property::Opacity) {
-            let brightness = || luminance(self.values(material, Property::Opacity));
+            let brightness = || luminance(self.value(material, Property::Opacity));
             opacity *= alpha(Some(map)).unwrap_or_else(brightness);
         }
         opacity
@@ -112,72 +115,83 @@ impl<'a> Appearance<'a> {
         let Some(material) = self.material else {
             return self.of_statements(&Material::default());
         };
-        let Some(sides) = &material.sides else {
+        if material.sides.is_none() {
             let bsdf = self.of_statements(material);
             let is_visible = is_front || material.is_two_sided || bsdf.model().transmits;
             return if is_visible { bsdf } else { Bsdf::Black(Black) };
+        }
+        let Some(side) = self.side(is_front) else {
+            return Bsdf::Black(Black);
         };
-        let side = if is_front || sides.front.model().transmits {
-            sides.front
-        } else {
-            sides.back.unwrap_or(Bsdf::Black(Black))
-        };
-        self.tint().map_or(side, |tint| side.tinted(tint))
+        let bsdf = self.textured(side);
+        vertex_colour(self.scene, self.hit).map_or(bsdf, |colour| bsdf.tinted(from_display(colour)))
+    }
+
+    /// The side of a material of a scene file; `None` for others, and for a back that is black.
+    fn side(&self, is_front: bool) -> Option<&'a Side> {
+        let sides = self.material?.sides.as_deref()?;
+        if is_front || sides.front.bsdf.model().transmits {
+            return Some(&sides.front);
+        }
+        sides.back.as_ref()
+    }
+
+    /// The model of a side with the values of its textures.
+    fn textured(&self, side: &Side) -> Bsdf {
+        let value = |map| self.of_texture(Some(map));
+        side.maps
+            .iter()
+            .filter_map(|(slot, map)| Some((*slot, value(map)?)))
+            .fold(side.bsdf, |bsdf, (slot, value)| bsdf.with(slot, value))
+    }
+
+    /// The texture that tilts the shading normal.
+    fn relief(&self, is_front: bool) -> Option<&'a Relief> {
+        let material = self.material?;
+        match material.sides {
+            Some(_) => self.side(is_front)?.relief.as_ref(),
+            None => material.relief.as_ref(),
+        }
+    }
+
+    /// How a texture tilts the front's shading normal, on either side.
+    pub fn tilt(&self, normal: Vec3, is_front: bool) -> Option<Tilt> {
+        let relief = self.relief(is_front)?;
+        let frame = texture_frame(self.scene, self.position, self.hit)?;
+        relief.tilt(normal, &frame, &self.scene.mesh().attributes().textures)
+    }
+
+    /// The shading normal, tilted by a texture, on the side that the ray comes from.
+    pub fn facing_normal(&self, surface: &SurfaceInteraction, ray: &Ray) -> Vec3 {
+        let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
+        let normal = surface.facing_normal(ray);
+        match self.tilt(surface.shading_normal, is_front) {
+            Some(tilt) => tilt.applied_to(normal, (-ray.dir).normalize_or(normal)),
+            None => normal,
+        }
     }
 
     /// What the statements of a material library say.
     fn of_statements(&self, material: &Material) -> Bsdf {
-        if material.is_glass() {
-            return Bsdf::Dielectric(Dielectric {
-                eta: material.refraction,
-                reflectance: Vec3::ONE,
-                transmittance: material.filter.unwrap_or(Vec3::ONE),
-            });
-        }
-        let colour = self.diffuse();
-        let has = |property| material.further_map(property).is_some();
-        let [has_roughness, has_metalness] = [
-            material.roughness.is_some() || has(Property::Roughness),
-            material.metalness.is_some() || has(Property::Metalness),
-        ];
-        if has_roughness || has_metalness {
-            // A texture alone gives the whole value. Without a statement, nothing is a metal, and all is rough.
-            let of_texture = |property| self.values(material, property).x;
-            let metalness = material
-                .metalness
-                .unwrap_or(if has_metalness { 1.0 } else { 0.0 });
-            return Bsdf::MetalRough(MetalRough::new(
-                colour,
-                metalness * of_texture(Property::Metalness),
-                material.roughness.unwrap_or(1.0) * of_texture(Property::Roughness),
-            ));
-        }
-        let specular = self.specular();
-        let illumination = material.illumination;
-        if !illumination.has_highlights() || specular == Vec3::ZERO {
-            return Bsdf::Diffuse(Diffuse {
-                reflectance: colour,
-            });
-        }
-        match illumination {
-            Illumination::Mirror => Bsdf::Polished(Polished::new(colour, specular, Gain::Constant)),
-            Illumination::FresnelMirror => {
-                Bsdf::Polished(Polished::new(colour, specular, Gain::Fresnel))
-            }
-            // Programs write an exponent of 0 for matt materials.
-            _ if material.shininess == 0.0 => Bsdf::Diffuse(Diffuse {
-                reflectance: colour,
-            }),
-            _ => Bsdf::Phong(Phong::new(colour, specular, material.shininess)),
-        }
+        let values = Values {
+            diffuse: self.diffuse(),
+            specular: self.specular(),
+            metalness: self.value(material, Property::Metalness).x,
+            roughness: self.value(material, Property::Roughness).x,
+        };
+        statements::bsdf(material, values)
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::bsdf::Plastic;
-    use crate::mesh::{Assigned, Attributes, CornerValues, Runs, Sides, Texture, shapes::soup};
+    use crate::bsdf::{Dielectric, Plastic, Slot};
+    use crate::mesh::{
+        Assigned, Attributes, Bitangent, CornerValues, Encoding, Illumination, ReliefKind, Runs,
+        Sides, Texture, shapes::soup,
+    };
+    use crate::scene::Shading;
     use glam::UVec2;
 
     /// What `f` says of a triangle with a material and a texture, half red and transparent to 0.2, half white and opaque,
@@ -200,14 +214,8 @@ mod tests {
             primitive: 0,
         };
         let material = scene.mesh().attributes().materials.get(0);
-        f(&Appearance::new(&scene, material, &hit))
+        f(&Appearance::new(&scene, material, Vec3::splat(0.25), &hit))
     }
-
-    const MAP: TextureMap = TextureMap {
-        texture: 0,
-        scale: Vec2::ONE,
-        offset: Vec2::ZERO,
-    };
 
     fn statements(illumination: Illumination) -> Material {
         Material {
@@ -256,8 +264,8 @@ mod tests {
         let material = Material {
             emission: Vec3::splat(2.0),
             opacity: 0.5,
-            diffuse_map: Some(MAP),
-            further_maps: all.map(|property| (property, MAP)).to_vec(),
+            diffuse_map: Some(TextureMap::of(0)),
+            further_maps: all.map(|property| (property, TextureMap::of(0))).to_vec(),
             ..statements(Illumination::Highlights)
         };
         seen(material, |appearance| {
@@ -271,17 +279,61 @@ mod tests {
     }
 
     #[test]
+    fn a_normal_map_leans_the_normal_that_faces_the_viewer_along_the_texture() {
+        let texture = Texture::new("t", UVec2::ONE, vec![255, 128, 191]).expect("a texel");
+        let coordinates = vec![Vec2::ZERO, Vec2::X, Vec2::Y];
+        let kind = ReliefKind::Normals {
+            strength: 1.0,
+            bitangent: Bitangent::AlongTexture,
+        };
+        let map = TextureMap::of(0).encoded(Encoding::Linear);
+        let material = Material {
+            relief: Some(Relief { map, kind }),
+            ..Material::default()
+        };
+        let mesh = soup(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]).with_attributes(Attributes {
+            materials: Assigned::new(vec![material.clone()], Runs::default()),
+            texture_coordinates: CornerValues::new(coordinates, [[0, 1, 2]]),
+            textures: vec![texture],
+            ..Attributes::default()
+        });
+        let scene = crate::scene::scene(mesh);
+        let hit = Hit {
+            t: 1.0,
+            u: 0.25,
+            v: 0.25,
+            primitive: 0,
+        };
+        for side in [Vec3::Z, Vec3::NEG_Z] {
+            let ray = Ray::new(Vec3::new(0.25, 0.25, 0.0) + side, -side).expect("a ray");
+            let appearance = Appearance::new(&scene, Some(&material), Vec3::ZERO, &hit);
+            let surface = SurfaceInteraction::new(&scene, &ray, hit, Shading::Flat);
+            let normal = appearance.facing_normal(&surface, &ray);
+            // The texel stands for (1, 0.004, 0.498).
+            let expected = Vec3::new(1.0, 0.004, 0.0) + 0.498 * side;
+            assert!((normal - expected.normalize()).length() < 1e-3, "{normal}");
+        }
+    }
+
+    #[test]
     fn a_scene_files_sides_replace_the_statements_and_light_passes_through_both_sides_of_glass() {
         let plastic = Plastic::new(Vec3::ONE, Vec3::ONE, 1.5, false);
-        let sides = |front, back| Material {
-            sides: Some(Box::new(Sides { front, back })),
-            diffuse_map: Some(MAP),
+        let mapped = |bsdf: Bsdf| Side {
+            maps: vec![(Slot::Diffuse, TextureMap::of(0))],
+            ..bsdf.into()
+        };
+        let sides = |front, back: Option<Bsdf>| Material {
+            sides: Some(Box::new(Sides {
+                front: mapped(front),
+                back: back.map(Side::from),
+            })),
             ..Material::default()
         };
         let two = sides(Bsdf::Plastic(plastic), Some(Bsdf::Black(Black)));
         seen(two, |appearance| {
             assert_eq!(appearance.bsdf(true).colour(), Vec3::X);
             assert_eq!(appearance.bsdf(false), Bsdf::Black(Black));
+            assert_eq!(appearance.diffuse(), Vec3::X);
         });
         let glass = Bsdf::Dielectric(Dielectric {
             eta: 1.5,

@@ -1,6 +1,7 @@
 //! The surface at a hit: normals, material, texture coordinates and colour.
 
 use crate::barycentric::{spherical_mean, weighted};
+use crate::mesh::TextureFrame;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use crate::shape::SurfacePoint;
@@ -67,15 +68,22 @@ fn interpolated_normal(scene: &Scene, hit: Hit, shading: Shading) -> Option<Vec3
     }
 }
 
-/// Texture coordinates at a hit of a triangle; `None` if a corner has none.
-pub fn texture_coordinates(scene: &Scene, hit: &Hit) -> Option<Vec2> {
-    if !scene.is_triangle(hit.primitive) {
-        return None;
+/// Texture coordinates at a hit at a position; `None` if a corner of a triangle or the primitive has none.
+pub fn texture_coordinates(scene: &Scene, position: Vec3, hit: &Hit) -> Option<Vec2> {
+    if scene.is_triangle(hit.primitive) {
+        return scene.mesh().texture_coordinates_at(hit);
     }
-    let coordinates = &scene.mesh().attributes().texture_coordinates;
-    let [a, b, c] = coordinates.of_triangle(hit.primitive);
-    let [l1, l2, l3] = hit.barycentric();
-    Some(l1 * a? + l2 * b? + l3 * c?)
+    texture_frame(scene, position, hit).map(|frame| frame.uv)
+}
+
+/// Texture coordinates and their derivatives at a hit at a position; `None` if there are none, or if those of a triangle
+/// lie on a line.
+pub(crate) fn texture_frame(scene: &Scene, position: Vec3, hit: &Hit) -> Option<TextureFrame> {
+    if scene.is_triangle(hit.primitive) {
+        return scene.mesh().texture_frame(hit);
+    }
+    let (group, index) = scene.group_of(hit.primitive);
+    group.texture_frame(index, position)
 }
 
 /// Vertex colour interpolated at a hit of a triangle, in sRGB; `None` if the mesh has no vertex colours.

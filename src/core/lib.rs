@@ -20,6 +20,7 @@
 //! | [`barycentric`] | barycentric coordinates and interpolation |
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
 //! | `appearance` | the material at a hit, with textures and vertex colours |
+//! | `statements` | the BSDF that the statements of a material library describe |
 //! | [`bsdf`] | how surfaces scatter light, one file a model |
 //! | [`light`] | lights, one file a kind |
 //! | [`integrator`] | the views: from a hit to a colour |
@@ -69,6 +70,7 @@ pub mod shape;
 pub mod simd;
 pub mod spawn;
 pub mod srgb;
+mod statements;
 pub mod terminator;
 pub mod tone;
 

@@ -200,6 +200,7 @@ impl Fuzzer {
                 recentre: [Recentre::Auto, Recentre::Off][self.below(2)],
                 faults: [FaultPolicy::Strict, FaultPolicy::Lenient][self.below(2)],
                 max_memory: 64 << 20,
+                keeps_coordinates: self.below(2) == 0,
             },
         };
         let victim = match self.below(10) {

@@ -164,6 +164,78 @@ fn info_lists_the_groups() {
 }
 
 #[test]
+fn info_lists_the_materials_with_their_textures_and_use() {
+    let folder = Folder::new();
+    folder.write(
+        "scene.xml",
+        r#"<scene version="3.0.0">
+           <bsdf type="twosided" id="tiles"><bsdf type="diffuse"><texture name="reflectance" type="checkerboard"/></bsdf></bsdf>
+           <bsdf type="dielectric" id="unused"/>
+           <shape type="disk"><ref id="tiles"/></shape>
+           <shape type="sphere"><ref id="tiles"/></shape>
+           <shape type="sphere"><bsdf type="mask"><float name="opacity" value="0.25"/><bsdf type="diffuse"/></bsdf>
+             <transform name="to_world"><translate x="9"/></transform></shape>
+           </scene>"#,
+    );
+    let info = folder.json(|f, out| f.args::<InfoArgs>("@scene.xml --json").run(out));
+    let (grey, none) = ([0.5, 0.5, 0.5], [0.0, 0.0, 0.0]);
+    let maps = json!([{ "of": "diffuse", "texture": "checkerboard" }]);
+    let found = info["material_list"].as_array().expect("a list");
+    let expected = json!({
+        "name": "tiles", "model": "diffuse", "back": null, "colour": grey, "emission": none,
+        "opacity": 1.0, "maps": maps, "triangles": 0, "shapes": 2
+    });
+    assert_eq!(found[0], expected);
+    assert_eq!(found[1]["name"], "unused");
+    assert_eq!(found[1]["shapes"], 0);
+    let expected = json!({
+        "name": "", "model": "diffuse", "back": "black", "colour": grey, "emission": none,
+        "opacity": 0.25, "maps": [], "triangles": 0, "shapes": 1
+    });
+    assert_eq!(found[2], expected);
+    assert_eq!(found.len(), 3);
+    let text = folder.text(|f, out| f.args::<InfoArgs>("@scene.xml").run(out));
+    for line in [
+        "tiles: diffuse, colour [0.5, 0.5, 0.5], diffuse from checkerboard; 2 shapes",
+        "unused: dielectric, colour [1.0, 1.0, 1.0]; not used",
+        "(no name): diffuse, colour [0.5, 0.5, 0.5], back black, opacity 0.25; 1 shape",
+    ] {
+        let line = format!("material            {line}\n");
+        assert!(text.contains(&line), "{text}");
+    }
+}
+
+#[test]
+fn info_lists_the_materials_of_a_library() {
+    let folder = Folder::new();
+    folder.write(
+        "m.mtl",
+        "newmtl red\nKd 1 0 0\nKs 0.5 0.5 0.5\nNs 20\nnewmtl spare\n",
+    );
+    folder.write(
+        "red.obj",
+        "mtllib m.mtl\nv 0 0 0\nv 1 0 0\nv 0 1 0\nv 1 1 0\nf 1 2 3\nusemtl red\nf 2 4 3\n",
+    );
+    let info = folder.json(|f, out| f.args::<InfoArgs>("@red.obj --json").run(out));
+    let list = info["material_list"].as_array().expect("a list");
+    let found: Vec<_> = list
+        .iter()
+        .map(|m| {
+            (
+                m["name"].as_str(),
+                m["model"].as_str(),
+                m["triangles"].as_u64(),
+            )
+        })
+        .collect();
+    let expected = [
+        (Some(""), Some("diffuse"), Some(1)),
+        (Some("red"), Some("phong"), Some(1)),
+    ];
+    assert_eq!(found, expected);
+}
+
+#[test]
 fn lab_measures_the_kernels_of_the_scenes_shapes() {
     let folder = Folder::new();
     let scene = r#"<scene version="3.0.0"><shape type="sphere"/><shape type="torus"><point name="center" x="3" y="0" z="0"/></shape></scene>"#;

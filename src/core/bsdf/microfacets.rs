@@ -37,6 +37,11 @@ impl Microfacets {
         }
     }
 
+    /// The same law with another roughness.
+    pub(super) fn with_roughness(self, alpha: f32) -> Self {
+        Self::new(self.law, alpha)
+    }
+
     /// The area of facets with normal `m` per area of the surface and solid angle.
     pub(super) fn area(&self, m: Vec3) -> f32 {
         if m.z <= 0.0 {

@@ -19,6 +19,7 @@ mod polished;
 mod rough_conductor;
 mod rough_dielectric;
 mod rough_plastic;
+mod textured;
 mod thin_dielectric;
 
 pub use black::Black;
@@ -35,6 +36,7 @@ pub use polished::{Gain, Polished};
 pub use rough_conductor::RoughConductor;
 pub use rough_dielectric::RoughDielectric;
 pub use rough_plastic::RoughPlastic;
+pub use textured::Slot;
 pub use thin_dielectric::ThinDielectric;
 
 use glam::{Vec2, Vec3};

@@ -1,7 +1,9 @@
 //! The material and the side of each primitive of a group.
 
-use crate::mesh::Runs;
+use super::Placement;
+use crate::mesh::{Runs, TextureFrame};
 use crate::shape::{AddLine, LinePoint, SurfacePoint};
+use glam::Vec3;
 
 /// The material and the side of each primitive of a group. By default, primitives have the mesh's first material, and no
 /// normal is reversed.
@@ -11,6 +13,8 @@ pub struct Appearance {
     pub materials: Runs,
     /// 1 for primitives whose normals are reversed. This changes no hit: it is looked up for shading and display.
     pub flipped: Runs,
+    /// Primitives with texture coordinates, by ascending index. The materials of others show no texture.
+    pub placements: Vec<(u32, Placement)>,
 }
 
 impl From<Runs> for Appearance {
@@ -34,6 +38,14 @@ impl Appearance {
             surface.normal = -surface.normal;
         }
         surface
+    }
+
+    /// The texture coordinates of a point of a primitive; `None` if it has none.
+    pub(super) fn texture_frame(&self, index: u32, position: Vec3) -> Option<TextureFrame> {
+        let found = self
+            .placements
+            .binary_search_by_key(&index, |(index, _)| *index);
+        Some(self.placements[found.ok()?].1.frame(position))
     }
 
     /// Passes the lines from `lines` to `add`, with the normals on the primitive's side.

@@ -2,6 +2,7 @@
 
 mod appearance;
 mod csg;
+mod placement;
 mod table;
 mod tree;
 
@@ -10,6 +11,7 @@ pub(crate) use csg::CsgGroup;
 pub use csg::{
     CSG_KERNELS, CsgOperation, INFO as SOLID_INFO, LineIntervals, Solid, SolidNode, SolidOperand,
 };
+pub use placement::{Placement, UnitShape};
 pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
 pub use tree::{FirstTree, SceneOptions};
 
@@ -19,6 +21,7 @@ use crate::intersector::GroupIntersector;
 use crate::kernel::{
     KernelChoice, KernelInfo, KernelList, LineEquation, equations_along, exact_answer,
 };
+use crate::mesh::TextureFrame;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{
@@ -62,6 +65,11 @@ pub trait Group: Debug + Send + Sync {
 
     /// The surface where a ray hits a primitive; `hit.primitive` is its index in the group.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;
+
+    /// The texture coordinates of a point of a primitive; `None` if it has none.
+    fn texture_frame(&self, _index: u32, _position: Vec3) -> Option<TextureFrame> {
+        None
+    }
 
     /// The area of a primitive; see [`Shape::area`].
     fn area(&self, _index: u32) -> f64 {
@@ -185,6 +193,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
         self.appearance.surface(hit.primitive, surface)
+    }
+
+    fn texture_frame(&self, index: u32, position: Vec3) -> Option<TextureFrame> {
+        self.appearance.texture_frame(index, position)
     }
 
     fn area(&self, index: u32) -> f64 {

@@ -64,9 +64,10 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
 /// highlights.
 fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let mesh = context.scene.mesh();
-    let surface = SurfaceInteraction::new(&context.scene, ray, hit, context.shading);
+    let point = context.scene.surface(ray, &hit);
+    let surface = SurfaceInteraction::of_surface(&context.scene, &point, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
-    let appearance = Appearance::new(&context.scene, material, &hit);
+    let appearance = Appearance::new(&context.scene, material, point.position, &hit);
     let diffuse = appearance.diffuse();
     let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
     let emission = appearance.emission_of_side(is_front);
@@ -76,7 +77,7 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
         return (diffuse + emission, opacity);
     }
 
-    let normal = surface.facing_normal(ray);
+    let normal = appearance.facing_normal(&surface, ray);
     let lamps = studio::lamps(&context.camera);
     let of_lamp = |lamp: Lamp| lamp.strength * normal.dot(lamp.to_lamp).max(0.0);
     let light = AMBIENT + lamps.into_iter().map(of_lamp).sum::<f32>();
@@ -196,13 +197,8 @@ mod tests {
 
     #[test]
     fn texture_and_vertex_colours_multiply_the_materials_colour() {
-        let map = TextureMap {
-            texture: 0,
-            scale: Vec2::ONE,
-            offset: Vec2::ZERO,
-        };
         let mapped = Material {
-            diffuse_map: Some(map),
+            diffuse_map: Some(TextureMap::of(0)),
             ..constant(Vec3::new(1.0, 0.5, 1.0), 1.0)
         };
         // Magenta to the left of x = 0.5, where the ray comes down.

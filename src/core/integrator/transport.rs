@@ -21,6 +21,8 @@ pub(super) struct ShadingPoint<'a> {
     surface: SurfacePoint,
     /// About the shading normal, on the side that the ray comes from unless light passes through the surface.
     frame: Frame,
+    /// The shading normal before a texture tilts it, on the same side.
+    untilted: Vec3,
     /// The geometric normal on the same side.
     normal: Vec3,
     /// The direction to where the ray comes from, in the frame.
@@ -45,7 +47,7 @@ impl<'a> ShadingPoint<'a> {
             .materials
             .get(interaction.material);
         let is_front = interaction.geometric_normal.dot(ray.dir) <= 0.0;
-        let appearance = Appearance::new(scene, material, &hit);
+        let appearance = Appearance::new(scene, material, surface.position, &hit);
         let bsdf = appearance.bsdf(is_front);
         let has_medium_behind = bsdf.model().transmits;
         let side = if is_front || has_medium_behind {
@@ -53,7 +55,10 @@ impl<'a> ShadingPoint<'a> {
         } else {
             -1.0
         };
-        let frame = Frame::about(side * interaction.shading_normal);
+        let (untilted, to_eye) = (side * interaction.shading_normal, -ray.dir.normalize());
+        let tilt = appearance.tilt(interaction.shading_normal, is_front);
+        let shading_normal = tilt.map_or(untilted, |tilt| tilt.applied_to(untilted, to_eye));
+        let frame = Frame::about(shading_normal);
         let emission = appearance.emission_of_side(is_front);
         let opacity = appearance.opacity();
         Self {
@@ -61,8 +66,9 @@ impl<'a> ShadingPoint<'a> {
             ray: *ray,
             hit,
             surface,
-            outgoing: frame.to_local(-ray.dir.normalize()),
+            outgoing: frame.to_local(to_eye),
             frame,
+            untilted,
             normal: side * interaction.geometric_normal,
             bsdf,
             offset: terminator_offset(context, &hit, is_front),
@@ -90,7 +96,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     fn departure(&self, dir: Vec3) -> Departure<'_> {
-        let goes_back = self.frame.z.dot(dir) * self.outgoing.z > 0.0;
+        let goes_back = self.goes_back(dir);
         Departure {
             arrived_by: &self.ray,
             hit: &self.hit,
@@ -99,6 +105,12 @@ impl<'a> ShadingPoint<'a> {
             dir,
             offset: if goes_back { self.offset } else { Vec3::ZERO },
         }
+    }
+
+    /// Whether a direction leads to the side that the ray comes from, by the shading normal before a texture tilts it:
+    /// the repairs of the shadow terminator know the surface without relief.
+    fn goes_back(&self, dir: Vec3) -> bool {
+        self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
     /// The ray that leaves in a direction; `None` if numbers overflow.
@@ -120,36 +132,38 @@ impl<'a> ShadingPoint<'a> {
     /// carries no light.
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
         let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        let scattered = self.bsdf.sample(self.outgoing, at, choice)?;
-        let incoming = self.frame.to_world(scattered.incoming);
-        let part = match scattered.density {
-            Some(_) => self.remaining_part(incoming),
-            None => 1.0,
-        };
-        self.is_consistent(scattered.incoming, incoming)
-            .then_some(Scattered {
-                incoming,
-                weight: part * scattered.weight,
-                ..scattered
-            })
+        self.in_world(self.bsdf.sample(self.outgoing, at, choice)?)
     }
 
     /// The part of light from a direction that the repair of the shadow terminator leaves. Single directions keep all.
     fn remaining_part(&self, dir: Vec3) -> f32 {
         let part = self.context.lighting.terminator.part;
-        part.map_or(1.0, |part| part(self.normal, self.frame.z, dir))
+        part.map_or(1.0, |part| part(self.normal, self.untilted, dir))
     }
 
     /// The single directions that light comes from, in the world, each with the part of light that it scatters.
     pub fn single_directions(&self) -> impl Iterator<Item = Scattered> {
         let singles = self.bsdf.single_directions(self.outgoing);
-        singles.into_iter().flatten().filter_map(|scattered| {
-            let incoming = self.frame.to_world(scattered.incoming);
-            self.is_consistent(scattered.incoming, incoming)
-                .then_some(Scattered {
-                    incoming,
-                    ..scattered
-                })
+        let singles = singles.into_iter().flatten();
+        singles.filter_map(|scattered| self.in_world(scattered))
+    }
+
+    /// A scattered direction of the frame in the world; `None` if the shading normal puts it on the other side of the
+    /// surface.
+    fn in_world(&self, scattered: Scattered) -> Option<Scattered> {
+        let incoming = self.frame.to_world(scattered.incoming);
+        if !self.is_consistent(scattered.incoming, incoming) {
+            return None;
+        }
+        let repaired = match scattered.density {
+            Some(_) => self.remaining_part(incoming),
+            None => 1.0,
+        };
+        let part = repaired * self.unshadowed(incoming);
+        Some(Scattered {
+            incoming,
+            weight: part * scattered.weight,
+            ..scattered
         })
     }
 
@@ -177,8 +191,27 @@ impl<'a> ShadingPoint<'a> {
     /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
     /// Rays that start above the surface may point through it.
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
-        let starts_above = self.offset != Vec3::ZERO && local.z * self.outgoing.z > 0.0;
+        let is_reflected = local.z * self.outgoing.z > 0.0;
+        let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
         starts_above || local.z * self.normal.dot(dir) > 0.0
+    }
+
+    /// The part of light from a direction that the relief of a texture lets through: if it tilts the normal, the surface
+    /// consists of facets that are tilted as much. Without it, light would end at a hard border.
+    ///
+    /// Source: Conty Estevez, Lecocq, Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem",
+    /// Ray Tracing Gems, 2019; with Mitsuba's factor.
+    fn unshadowed(&self, dir: Vec3) -> f32 {
+        if self.untilted == self.frame.z {
+            return 1.0;
+        }
+        let squared_tangent = |dir: Vec3| {
+            // At least the smallest normal number, so that the quotient is finite.
+            let squared_cosine = self.untilted.dot(dir).powi(2).max(f32::MIN_POSITIVE);
+            (1.0 - squared_cosine).max(0.0) / squared_cosine
+        };
+        let squared_roughness = (0.125 * squared_tangent(self.frame.z)).min(1.0);
+        2.0 / (1.0 + (1.0 + squared_roughness * squared_tangent(dir)).sqrt())
     }
 
     /// The light from one of the lights that is scattered towards the ray's origin, weighted against the density of
@@ -222,7 +255,7 @@ impl<'a> ShadingPoint<'a> {
         if !self.is_consistent(incoming, sample.dir) {
             return Vec3::ZERO;
         }
-        let part = self.remaining_part(sample.dir);
+        let part = self.remaining_part(sample.dir) * self.unshadowed(sample.dir);
         let mut light = part * sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
         if let Some(density) = sample.density {
             light *= balance(density, self.bsdf.density(self.outgoing, incoming));

@@ -75,16 +75,16 @@ impl AreaLight {
                 surface,
                 corners: scene.corners(self.primitive),
             }),
-            weight: self.radiance_at(scene, &hit) / density,
+            weight: self.radiance_at(scene, surface.position, &hit) / density,
             density: Some(density),
         })
     }
 
     /// The light at a hit, which a texture may dim.
-    fn radiance_at(&self, scene: &Scene, hit: &Hit) -> Vec3 {
+    fn radiance_at(&self, scene: &Scene, position: Vec3, hit: &Hit) -> Vec3 {
         let materials = &scene.mesh().attributes().materials;
         let material = materials.get(scene.material(self.primitive));
-        Appearance::new(scene, material, hit).emission()
+        Appearance::new(scene, material, position, hit).emission()
     }
 
     /// The density of the point that a ray hits, as seen from a point on its line.

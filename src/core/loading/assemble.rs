@@ -1,23 +1,27 @@
 //! A scene from the description of a scene file.
 
+mod pictures;
+mod warnings;
+
 use super::lights::{self, EmittingMaterials};
 use super::materials::materials;
-use super::memory::Needs;
+use super::memory::{BYTES_PER_ALLOCATION, Needs};
 use super::merge::{Part, bounds_of, merged};
 use super::placed::{
-    Groups, Look, Placed, is_flipped, is_mirroring, misfit, placed, require_invertible,
+    Groups, Look, Placed, is_flipped, is_mirroring, misfit, placed, placement, require_invertible,
 };
 use super::refusal::{Refusal, in_object};
+use super::textures::Textures;
 use super::{LoadedScene, StartView, size_warning};
-use crate::brightness::{check_brightness, too_bright};
-use crate::light::{EnvironmentMap, LoadedMap};
+use crate::group::Placement;
+use crate::light::EnvironmentMap;
 use crate::mesh::TriangleMesh;
-use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre, Warning, shown};
+use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Recentre};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::scene::{Scene, SceneOptions};
 use crate::scene_file::{self, EmitterKind, Place, SceneFile, Shape, ShapeKind};
 use glam::DVec3;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use std::time::Instant;
@@ -27,6 +31,14 @@ const NEEDS_OF_ENTRY: Needs = Needs {
     loaded: 0,
     placed: size_of::<PlacedShape>() as u64,
     shapes: 2 * size_of::<(u32, u32)>() as u64,
+    merged: 0,
+    primitive_count: 0,
+};
+/// The texture coordinates of a shape, before and in its group.
+const NEEDS_OF_PLACEMENT: Needs = Needs {
+    loaded: 0,
+    placed: (size_of::<Placement>() + BYTES_PER_ALLOCATION) as u64,
+    shapes: 2 * size_of::<(u32, Placement)>() as u64,
     merged: 0,
     primitive_count: 0,
 };
@@ -98,6 +110,9 @@ struct Contents {
     fits: bool,
     /// Materials that come after those of the file.
     emitting: EmittingMaterials,
+    textures: Textures,
+    /// The kinds of shapes that have a texture, but no texture coordinates.
+    without_coordinates: HashSet<&'static str>,
     /// The picture of the environment.
     map: Option<Arc<EnvironmentMap>>,
     report: LoadReport,
@@ -115,9 +130,14 @@ impl Contents {
             parts: Vec::new(),
             shapes: Vec::new(),
             emitting: EmittingMaterials::default(),
+            textures: Textures::default(),
+            without_coordinates: HashSet::new(),
             map: None,
             meshes: HashMap::new(),
-            options,
+            options: LoadOptions {
+                keeps_coordinates: file.textures().next().is_some(),
+                ..options
+            },
             held,
             needs: Needs::default(),
             fits: true,
@@ -138,6 +158,8 @@ impl Contents {
             }
         }
         if contents.fits {
+            let cancelled = |Cancelled| LoadError::Cancelled { path: main_file() };
+            contents.load_textures(file, progress).map_err(cancelled)?;
             contents.load_environment(file, progress)?;
             return Ok(contents);
         }
@@ -176,7 +198,11 @@ impl Contents {
                     self.warn_about_mirrored_light(file, shape);
                 }
                 self.needs.add(part.needs());
+                let has_coordinates = part.has_coordinates();
                 self.parts.push(part);
+                if file.is_textured(shape) && !has_coordinates {
+                    self.warn_without_coordinates(file, shape);
+                }
             }
             return Ok(());
         }
@@ -186,10 +212,17 @@ impl Contents {
         }
         self.needs.add(placed.needs());
         self.needs.add(NEEDS_OF_ENTRY);
+        let placement = file.is_textured(shape).then(|| placement(shape));
+        match placement {
+            Some(None) => self.warn_without_coordinates(file, shape),
+            Some(Some(_)) => self.needs.add(NEEDS_OF_PLACEMENT),
+            None => {}
+        }
         if self.fits {
             let look = Look {
                 material: material.unwrap_or(0),
                 is_flipped: is_flipped(shape),
+                placement: placement.flatten().map(Box::new),
             };
             self.shapes.push(PlacedShape {
                 shape: placed,
@@ -200,73 +233,17 @@ impl Contents {
         Ok(())
     }
 
-    /// Loads the picture of the environment.
-    fn load_environment(&mut self, file: &SceneFile, progress: &Progress) -> Result<(), LoadError> {
-        for emitter in &file.emitters {
-            if let EmitterKind::Envmap {
-                file: path, scale, ..
-            } = &emitter.kind
-            {
-                let limit = self.options.max_memory.saturating_sub(self.bytes());
-                let loaded = EnvironmentMap::load(path, limit, progress);
-                let named = |error| in_object(file, emitter.place, "emitter “envmap”", error);
-                let LoadedMap { map, warnings } = loaded.map_err(named)?;
-                if check_brightness(DVec3::splat(scale * f64::from(map.brightest()))).is_err() {
-                    let message = format!("the picture times “scale” {}", too_bright());
-                    return Err(Refusal::new(emitter.place, message).in_file(file));
-                }
-                self.map = Some(map);
-                self.take_messages(path, warnings, Vec::new());
-            }
-        }
-        Ok(())
-    }
-
     /// The index of a shape's material; `None` for none, or for those of an OBJ file.
     fn material(&mut self, file: &SceneFile, shape: &Shape) -> Option<u32> {
         // The first material stands for none.
         let material = shape.material.map(|material| material + 1);
         match shape.emitter.as_ref().map(|emitter| &emitter.kind) {
-            Some(EmitterKind::Area { radiance }) => {
-                let copy = self.emitting.index(material, *radiance);
+            Some(EmitterKind::Area { radiance, texture }) => {
+                let copy = self.emitting.index(material, *radiance, texture.as_deref());
                 Some(1 + file.materials.len() as u32 + copy)
             }
             _ => material,
         }
-    }
-
-    /// Warns about parts of a shape that have no effect.
-    fn warn_about(&mut self, file: &SceneFile, shape: &Shape) {
-        if let ShapeKind::Csg(csg) = &shape.kind {
-            for child in &csg.children {
-                if let Some(emitter) = &child.emitter {
-                    let message = "an emitter of a part of a csg has no effect".to_owned();
-                    self.warn(file, emitter.place, message);
-                }
-                self.warn_about(file, child);
-            }
-        }
-    }
-
-    /// Warns about a light whose sides a mirroring transform exchanges.
-    fn warn_about_mirrored_light(&mut self, file: &SceneFile, shape: &Shape) {
-        if let Some(emitter) = shape.emitter.as_ref().filter(|_| !shape.flip_normals) {
-            let message = "the transform mirrors the shape, so that its light shines from the other side, as in Mitsuba; “flip_normals” turns it back";
-            self.warn(file, emitter.place, message.to_owned());
-        }
-    }
-
-    fn warn(&mut self, file: &SceneFile, place: Place, message: String) {
-        // Lines of included files are told with the file.
-        let message = if place.file == 0 {
-            message
-        } else {
-            format!("{}: {message}", shown(file.path_of(place)))
-        };
-        self.report.warnings.push(Warning {
-            line: Some(place.line as usize),
-            message,
-        });
     }
 
     /// The mesh of an OBJ file, which is loaded unless it was before.
@@ -297,22 +274,6 @@ impl Contents {
         Ok(Arc::clone(mesh))
     }
 
-    /// Adds the warnings about an OBJ file, and the files that it names.
-    fn take_messages(&mut self, path: &Path, warnings: Vec<Warning>, files: Vec<PathBuf>) {
-        let told = warnings.into_iter().map(|warning| {
-            let line = warning
-                .line
-                .map_or(String::new(), |line| format!(":{line}"));
-            Warning {
-                line: None,
-                message: format!("{}{line}: {}", shown(path), warning.message),
-            }
-        });
-        self.report.warnings.extend(told);
-        self.report.files.push(path.to_owned());
-        self.report.files.extend(files);
-    }
-
     fn scene(
         mut self,
         file: &SceneFile,
@@ -323,12 +284,13 @@ impl Contents {
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
         for PlacedShape { shape, look, .. } in self.shapes {
-            shape.push_to(&mut groups, origin, look);
+            shape.push_to(&mut groups, origin, look.about(origin));
         }
-        let mut materials = materials(file);
-        self.emitting.append_to(&mut materials);
+        let mut materials = materials(file, &self.textures);
+        self.emitting.append_to(&mut materials, &self.textures);
         drop(self.meshes);
-        let mesh = merged(self.parts, origin, materials);
+        let textures = self.textures.into_list();
+        let mesh = merged(self.parts, origin, (materials, textures));
         let mut scene = Scene::with_options(mesh, options, progress)?;
         groups.add_to(&mut scene, options, progress)?;
         Ok((scene, self.report))

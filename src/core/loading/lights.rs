@@ -1,12 +1,13 @@
 //! Lights of a scene file's emitters, and materials that emit light.
 
 use super::refusal::Refusal;
+use super::textures::Textures;
 use crate::light::{
     DirectionalLight, Environment, EnvironmentMap, Light, MapPlacement, PlacedMap, PointLight,
 };
-use crate::mesh::{Illumination, Material};
+use crate::mesh::{Illumination, Material, Property};
 use crate::obj::LoadError;
-use crate::scene_file::{EmitterKind, SceneFile};
+use crate::scene_file::{EmitterKind, SceneFile, Texture};
 use glam::{DMat3, DVec3, Vec3};
 use std::collections::HashMap;
 use std::sync::Arc;
@@ -86,41 +87,70 @@ fn orthonormal(matrix: DMat3) -> DMat3 {
     DMat3::from_cols(x, y, z.reject_from_normalized(y).normalize())
 }
 
+/// A copied material that emits light.
+struct Copied {
+    /// The index of the material, or `None` for a black one.
+    material: Option<u32>,
+    radiance: DVec3,
+    /// In place of the radiance.
+    texture: Option<Texture>,
+}
+
 /// Copies of materials that emit light on their front.
 #[derive(Default)]
 pub(super) struct EmittingMaterials {
-    /// The index of the copied material, or `None` for a black one, and the radiance.
-    copies: Vec<(Option<u32>, DVec3)>,
+    copies: Vec<Copied>,
+    /// The indices of copies without texture.
     indices: HashMap<(Option<u32>, [u64; 3]), u32>,
 }
 
 impl EmittingMaterials {
     /// The index among the copies of a material that emits this radiance.
-    pub fn index(&mut self, material: Option<u32>, radiance: DVec3) -> u32 {
+    pub fn index(
+        &mut self,
+        material: Option<u32>,
+        radiance: DVec3,
+        texture: Option<&Texture>,
+    ) -> u32 {
         let next = self.copies.len() as u32;
         let bits = radiance.to_array().map(f64::to_bits);
-        let index = *self.indices.entry((material, bits)).or_insert(next);
+        let index = match texture {
+            None => *self.indices.entry((material, bits)).or_insert(next),
+            Some(_) => next,
+        };
         if index == next {
-            self.copies.push((material, radiance));
+            self.copies.push(Copied {
+                material,
+                radiance,
+                texture: texture.cloned(),
+            });
         }
         index
     }
 
     /// Appends the copies to the list of materials.
-    pub fn append_to(&self, materials: &mut Vec<Material>) {
-        for (copied, radiance) in &self.copies {
-            let copied = copied.and_then(|index| materials.get(index as usize));
+    pub fn append_to(&self, materials: &mut Vec<Material>, textures: &Textures) {
+        for copy in &self.copies {
+            let copied = copy
+                .material
+                .and_then(|index| materials.get(index as usize));
             // What Mitsuba uses for an emitting shape without a bsdf.
             let black = || Material {
                 diffuse: Some(Vec3::ZERO),
                 illumination: Illumination::Diffuse,
                 ..Material::default()
             };
-            let material = Material {
-                emission: radiance.as_vec3(),
+            let mut material = Material {
+                emission: copy.radiance.as_vec3(),
                 emits_on_back: false,
                 ..copied.cloned().unwrap_or_else(black)
             };
+            let map = copy
+                .texture
+                .as_ref()
+                .and_then(|texture| textures.map(texture));
+            let map = map.map(|map| (Property::Emission, map));
+            material.further_maps.extend(map);
             materials.push(material);
         }
     }
@@ -139,9 +169,9 @@ mod tests {
         let mut materials = vec![Material::default(), red.clone()];
         let mut emitting = EmittingMaterials::default();
         let asked = [(Some(1), 2.0), (None, 2.0), (Some(1), 3.0), (Some(1), 2.0)];
-        let indices = asked.map(|(index, all)| emitting.index(index, DVec3::splat(all)));
+        let indices = asked.map(|(index, all)| emitting.index(index, DVec3::splat(all), None));
         assert_eq!(indices, [0, 1, 2, 0]);
-        emitting.append_to(&mut materials);
+        emitting.append_to(&mut materials, &Textures::default());
         assert_eq!(materials.len(), 5);
         assert_eq!(materials[1], red, "the original emits nothing");
         let copy = Material {

@@ -1,45 +1,80 @@
 //! The materials of a scene file.
 
+use super::textures::Textures;
 use crate::bsdf::{
     self, Conductor, Dielectric, Diffuse, Law, Microfacets, Plastic, RoughConductor,
     RoughDielectric, RoughPlastic, Scatter, ThinDielectric,
 };
-use crate::mesh::{Illumination, Material, Sides};
+use crate::mesh::{
+    Bitangent, HeightUnit, Illumination, Material, Property, Relief, ReliefKind, Side, Sides,
+};
 use crate::scene_file::{self, Bsdf, Form, Roughness, SceneFile};
 use glam::Vec3;
 
 /// The materials of a scene file; the first stands for none.
-pub(super) fn materials(file: &SceneFile) -> Vec<Material> {
+pub(super) fn materials(file: &SceneFile, textures: &Textures) -> Vec<Material> {
     let none = std::iter::once(Material::default());
-    none.chain(file.materials.iter().map(material)).collect()
+    let described = file.materials.iter();
+    none.chain(described.map(|described| material(described, textures)))
+        .collect()
 }
 
-fn material(material: &scene_file::Material) -> Material {
-    let front = bsdf(&material.front);
-    let sides = Sides {
-        front,
-        back: match &material.back {
-            Some(back) if *back == material.front => Some(front),
-            back => back.as_ref().map(bsdf),
-        },
+fn material(material: &scene_file::Material, textures: &Textures) -> Material {
+    let front = side(&material.front, textures);
+    let back = match &material.back {
+        // Rough plastic takes time.
+        Some(back) if *back == material.front => Some(front.clone()),
+        back => back.as_ref().map(|back| side(back, textures)),
     };
-    let is_matt = matches!(material.front, Bsdf::Diffuse { .. });
+    let is_matt = matches!(material.front.bsdf, Bsdf::Diffuse { .. });
     // Views without global light show a highlight in place of reflections.
     let (illumination, specular) = if is_matt {
         (Illumination::Diffuse, Vec3::ZERO)
     } else {
         (Illumination::Highlights, Vec3::splat(0.25))
     };
+    let opacity_map = material.opacity_texture.as_ref();
+    let opacity_map = opacity_map.and_then(|texture| textures.map(texture));
     Material {
         name: material.id.clone().unwrap_or_default(),
-        diffuse: Some(front.colour()),
+        diffuse: Some(front.bsdf.colour()),
         specular,
         shininess: 50.0,
         illumination,
         opacity: material.opacity as f32,
-        sides: Some(Box::new(sides)),
+        further_maps: opacity_map
+            .map(|map| (Property::Opacity, map))
+            .into_iter()
+            .collect(),
+        sides: Some(Box::new(Sides { front, back })),
         ..Material::default()
     }
+}
+
+fn side(side: &scene_file::Side, textures: &Textures) -> Side {
+    let maps = side.textures.iter();
+    let maps = maps.filter_map(|(slot, texture)| Some((*slot, textures.map(texture)?)));
+    let relief = side.relief.as_ref();
+    Side {
+        bsdf: bsdf(&side.bsdf),
+        maps: maps.collect(),
+        relief: relief.and_then(|described| relief_of(described, textures)),
+    }
+}
+
+fn relief_of(relief: &scene_file::Relief, textures: &Textures) -> Option<Relief> {
+    let kind = match relief.kind {
+        scene_file::ReliefKind::Normals => ReliefKind::Normals {
+            strength: 1.0,
+            bitangent: Bitangent::RightHanded,
+        },
+        scene_file::ReliefKind::Heights { scale } => ReliefKind::Heights {
+            scale: scale as f32,
+            unit: HeightUnit::Scene,
+        },
+    };
+    let map = textures.map(&relief.texture)?;
+    Some(Relief { map, kind })
 }
 
 fn facets(roughness: Roughness) -> Microfacets {

@@ -78,7 +78,7 @@ impl Part {
     }
 
     /// Whether the file has texture coordinates.
-    fn has_coordinates(&self) -> bool {
+    pub fn has_coordinates(&self) -> bool {
         !self.mesh.attributes().texture_coordinates.is_empty()
     }
 
@@ -143,10 +143,15 @@ impl Part {
     }
 }
 
-/// Merges meshes relative to an origin. `materials` come first in the merged list.
-pub(super) fn merged(parts: Vec<Part>, origin: DVec3, materials: Vec<Material>) -> TriangleMesh {
+/// Merges meshes relative to an origin. `materials` and their textures come first in the merged lists.
+pub(super) fn merged(
+    parts: Vec<Part>,
+    origin: DVec3,
+    (materials, textures): (Vec<Material>, Vec<Texture>),
+) -> TriangleMesh {
     let mut merged = Merged {
         materials,
+        textures,
         groups: vec![String::new()],
         ..Merged::default()
     };
@@ -249,15 +254,12 @@ impl Merged {
             self.normals
                 .extend(attributes.normals.values().iter().map(turned));
         }
-        let coordinates = attributes.texture_coordinates.values().iter();
-        self.coordinates.extend(coordinates.map(|&uv| {
-            let is_flipped = part.has_flipped_coordinates;
-            if is_flipped {
-                Vec2::new(uv.x, 1.0 - uv.y)
-            } else {
-                uv
-            }
-        }));
+        let upwards = |&uv: &Vec2| match part.has_flipped_coordinates {
+            true => Vec2::new(uv.x, 1.0 - uv.y),
+            false => uv,
+        };
+        let coordinates = attributes.texture_coordinates.values();
+        self.coordinates.extend(coordinates.iter().map(upwards));
         self.append_triangles(part, &offsets);
         let vertex = |vertex: u32| offsets.position + vertex;
         self.lines
@@ -286,7 +288,7 @@ impl Merged {
         self.materials
             .extend(attributes.materials.entries().iter().map(|material| {
                 let mut material = material.clone();
-                if let Some(map) = &mut material.diffuse_map {
+                for map in material.maps_mut() {
                     map.texture += first_texture;
                 }
                 material

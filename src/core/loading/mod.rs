@@ -4,7 +4,7 @@
 //! |---|---|
 //! | **a scene from the description of a scene file** | `assemble` |
 //! | the shapes of the core that a transformed shape becomes | `placed` |
-//! | its materials | `materials` |
+//! | its materials and textures | `materials`, `textures` |
 //! | all meshes as one | `merge` |
 //! | the memory that this takes | `memory` |
 //! | errors with lines | `refusal` |
@@ -22,6 +22,7 @@ mod merge;
 mod placed;
 mod refusal;
 mod saving;
+mod textures;
 mod view;
 
 pub use saving::scene_text;

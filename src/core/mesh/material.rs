@@ -1,8 +1,8 @@
 //! Materials of faces: colours, highlights and textures.
 
-use super::Texture;
-use crate::bsdf::Bsdf;
-use glam::{Vec2, Vec3};
+use super::{Relief, Texture, TextureMap};
+use crate::bsdf::{Bsdf, Slot};
+use glam::Vec3;
 
 /// A material of the MTL format. Colours are linear RGB.
 #[derive(Clone, Debug, PartialEq)]
@@ -37,6 +37,8 @@ pub struct Material {
     pub diffuse_map: Option<TextureMap>,
     /// Textures that multiply other properties, at most one a property.
     pub further_maps: Vec<(Property, TextureMap)>,
+    /// Texture that tilts the shading normal (`norm`, `bump`).
+    pub relief: Option<Relief>,
     /// How both sides scatter light, if a scene file says so instead of the statements above. Views without global light
     /// use those.
     pub sides: Option<Box<Sides>>,
@@ -61,9 +63,30 @@ pub enum Property {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Sides {
     /// The front, the side of the normal. If light passes through it, it is the back, too.
-    pub front: Bsdf,
+    pub front: Side,
     /// The back; `None` if it is black.
-    pub back: Option<Bsdf>,
+    pub back: Option<Side>,
+}
+
+/// How a side of a surface scatters light.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Side {
+    /// The model. Where the surface has no texture coordinates, all its parameters count.
+    pub bsdf: Bsdf,
+    /// Textures that replace parameters of the model.
+    pub maps: Vec<(Slot, TextureMap)>,
+    /// Texture that tilts the shading normal.
+    pub relief: Option<Relief>,
+}
+
+impl From<Bsdf> for Side {
+    fn from(bsdf: Bsdf) -> Self {
+        Self {
+            bsdf,
+            maps: Vec::new(),
+            relief: None,
+        }
+    }
 }
 
 /// The shading terms of a material.
@@ -91,40 +114,10 @@ impl Illumination {
     }
 }
 
-/// A texture and its mapping: the texture is sampled at `scale`·(u, v) + `offset`.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub struct TextureMap {
-    /// Index into the mesh's textures.
-    pub texture: u32,
-    /// Repetitions per unit of the texture coordinates.
-    pub scale: Vec2,
-    /// Offset, added to the scaled texture coordinates.
-    pub offset: Vec2,
-}
-
-impl TextureMap {
-    /// The colour at texture coordinates `uv`, in linear RGB; white if `textures` lacks the texture. A coordinate that
-    /// isn't finite counts as 0.
-    pub fn colour(&self, textures: &[Texture], uv: Vec2) -> Vec3 {
-        let texture = textures.get(self.texture as usize);
-        texture.map_or(Vec3::ONE, |texture| {
-            texture.colour(self.scale * uv + self.offset)
-        })
-    }
-
-    /// The values at texture coordinates `uv`, from 0 to 1, without conversion from sRGB; otherwise as
-    /// [`colour`](Self::colour).
-    pub fn values(&self, textures: &[Texture], uv: Vec2) -> Vec3 {
-        let texture = textures.get(self.texture as usize);
-        texture.map_or(Vec3::ONE, |texture| {
-            texture.values(self.scale * uv + self.offset)
-        })
-    }
-
-    /// The alpha channel at texture coordinates `uv`; `None` if the texture has none.
-    pub fn alpha(&self, textures: &[Texture], uv: Vec2) -> Option<f32> {
-        let texture = textures.get(self.texture as usize)?;
-        texture.alpha(self.scale * uv + self.offset)
+impl Side {
+    fn maps_mut(&mut self) -> impl Iterator<Item = &mut TextureMap> {
+        let relief = self.relief.iter_mut().map(|relief| &mut relief.map);
+        self.maps.iter_mut().map(|(_, map)| map).chain(relief)
     }
 }
 
@@ -149,7 +142,13 @@ impl Material {
     /// All textures.
     pub fn maps_mut(&mut self) -> impl Iterator<Item = &mut TextureMap> {
         let further = self.further_maps.iter_mut().map(|(_, map)| map);
-        self.diffuse_map.iter_mut().chain(further)
+        let relief = self.relief.iter_mut().map(|relief| &mut relief.map);
+        let sides = self.sides.iter_mut().flat_map(|sides| {
+            let Sides { front, back } = &mut **sides;
+            std::iter::once(front).chain(back).flat_map(Side::maps_mut)
+        });
+        let maps = self.diffuse_map.iter_mut().chain(further);
+        maps.chain(relief).chain(sides)
     }
 
     /// Whether light may pass through parts of a surface of this material without being scattered.
@@ -191,6 +190,7 @@ impl Default for Material {
             metalness: None,
             diffuse_map: None,
             further_maps: Vec::new(),
+            relief: None,
             sides: None,
         }
     }

@@ -1,23 +1,94 @@
 //! Textures: images mapped onto surfaces.
 
 use crate::srgb::from_texel;
-use glam::{UVec2, Vec2, Vec3};
+use glam::{IVec2, UVec2, Vec2, Vec3};
 
-/// An image that repeats over the plane. Its lower left corner is at (0, 0), its upper right corner at (1, 1).
+/// An image. Its lower left corner is at (0, 0), its upper right corner at (1, 1).
 #[derive(Clone, Debug, PartialEq)]
 pub struct Texture {
-    /// The name in the file; empty for the checkerboard.
+    /// The name in the file; empty for checkerboards.
     pub name: String,
     size: UVec2,
-    /// sRGB, three bytes per texel, row by row from the top.
+    /// Three bytes per texel, row by row from the top; empty for a checkerboard.
     texels: Vec<u8>,
     /// The alpha channel, a byte per texel; empty if all texels are opaque.
     alpha: Vec<u8>,
+    /// The two values of a checkerboard.
+    checkers: Option<[Vec3; 2]>,
+}
+
+/// How values between and beyond the texels follow from them.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Sampling {
+    /// Between texels.
+    pub filter: Filter,
+    /// Beyond the image.
+    pub wrap: Wrap,
+    /// The meaning of texels.
+    pub encoding: Encoding,
+}
+
+/// Values between texel centres.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Filter {
+    /// Bilinear interpolation.
+    #[default]
+    Bilinear,
+    /// The value of the nearest texel.
+    Nearest,
+}
+
+/// Values beyond the image.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Wrap {
+    /// The image repeats.
+    #[default]
+    Repeat,
+    /// The image repeats, each time mirrored.
+    Mirror,
+    /// The texels of the border continue.
+    Clamp,
+}
+
+/// The meaning of texels.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Encoding {
+    /// sRGB, for colours.
+    #[default]
+    Srgb,
+    /// Proportional to the value, for all else.
+    Linear,
+}
+
+impl Wrap {
+    /// The texel that stands for one of `count` texels in a row or column, of which there may be none at `index`.
+    fn texel(self, index: i32, count: u32) -> usize {
+        // In 64 bits, where twice the count can't overflow.
+        let (index, count) = (i64::from(index), i64::from(count));
+        let inside = match self {
+            Self::Repeat => index.rem_euclid(count),
+            Self::Clamp => index.clamp(0, count - 1),
+            Self::Mirror => {
+                let in_pair = index.rem_euclid(2 * count);
+                in_pair.min(2 * count - 1 - in_pair)
+            }
+        };
+        inside as usize
+    }
+
+    /// A coordinate from which the texels' indices fit into 32 bits: the same by period, or by clamping.
+    fn reduced(self, x: f32) -> f32 {
+        match self {
+            Self::Repeat => x - x.floor(),
+            Self::Mirror => x - 2.0 * (0.5 * x).floor(),
+            Self::Clamp => x.clamp(-1.0, 2.0),
+        }
+    }
 }
 
 impl Texture {
-    /// Creates a texture from sRGB texels, three bytes each, row by row from the top. `None` if their number doesn't
-    /// match `size` (width and height in texels) or is 0.
+    /// Creates a texture from texels, three bytes each, row by row from the top. `None` if their number doesn't match
+    /// `size` (width and height in texels) or is 0.
     pub fn new(name: &str, size: UVec2, texels: Vec<u8>) -> Option<Self> {
         let count = 3 * size.x as usize * size.y as usize;
         (count > 0 && texels.len() == count).then(|| Self {
@@ -25,12 +96,24 @@ impl Texture {
             size,
             texels,
             alpha: Vec::new(),
+            checkers: None,
         })
+    }
+
+    /// A checkerboard of four fields: the first value where both coordinates are in the same half of 0…1.
+    pub fn checkerboard(values: [Vec3; 2]) -> Self {
+        Self {
+            name: String::new(),
+            size: UVec2::splat(2),
+            texels: Vec::new(),
+            alpha: Vec::new(),
+            checkers: Some(values),
+        }
     }
 
     /// The texture with an alpha channel, a byte per texel in the same order. Without effect if their number doesn't match.
     pub fn with_alpha(mut self, alpha: Vec<u8>) -> Self {
-        if 3 * alpha.len() == self.texels.len() {
+        if 3 * alpha.len() == self.texels.len() && self.checkers.is_none() {
             self.alpha = alpha;
         }
         self
@@ -41,7 +124,7 @@ impl Texture {
         !self.alpha.is_empty()
     }
 
-    /// A checkerboard, the replacement for a missing image.
+    /// A dark and pink pattern, the replacement for a missing image.
     pub fn checker() -> Self {
         // Eight fields per side. Several texels per field give sharp edges.
         const SIDE: u32 = 64;
@@ -59,46 +142,70 @@ impl Texture {
             size: UVec2::splat(SIDE),
             texels: (0..SIDE * SIDE).flat_map(texel).collect(),
             alpha: Vec::new(),
+            checkers: None,
         }
     }
 
-    /// The colour at `uv` in linear RGB, bilinearly interpolated. A coordinate that isn't finite counts as 0.
-    pub fn colour(&self, uv: Vec2) -> Vec3 {
-        self.interpolated(uv, |k| from_texel(self.texel(k)))
+    /// Width and height in texels.
+    pub fn size(&self) -> UVec2 {
+        self.size
     }
 
-    /// The values at `uv`, from 0 to 1, without conversion from sRGB; otherwise as [`colour`](Self::colour).
-    pub fn values(&self, uv: Vec2) -> Vec3 {
-        self.interpolated(uv, |k| {
-            Vec3::from_array(self.texel(k).map(f32::from)) / 255.0
-        })
+    /// The value at `uv`, from 0 to 1. A coordinate that isn't finite counts as 0.
+    pub fn value(&self, uv: Vec2, sampling: Sampling) -> Vec3 {
+        if let Some(values) = self.checkers {
+            return values[usize::from(is_odd_field(uv))];
+        }
+        match sampling.encoding {
+            Encoding::Srgb => self.between(uv, sampling, |k| from_texel(self.texel(k))),
+            Encoding::Linear => self.between(uv, sampling, |k| {
+                Vec3::from_array(self.texel(k).map(f32::from)) / 255.0
+            }),
+        }
     }
 
     /// The alpha channel at `uv`, from 0 to 1; `None` if there is none.
-    pub fn alpha(&self, uv: Vec2) -> Option<f32> {
+    pub fn alpha(&self, uv: Vec2, sampling: Sampling) -> Option<f32> {
         let texel = |k: usize| Vec3::splat(f32::from(self.alpha[k]) / 255.0);
-        self.has_alpha().then(|| self.interpolated(uv, texel).x)
+        self.has_alpha()
+            .then(|| self.between(uv, sampling, texel).x)
+    }
+
+    /// Whether the image looks like one of normals: coloured, and on average near (½, ½, 1).
+    pub fn looks_like_normals(&self) -> bool {
+        /// Flat images have 128 and 255; those of rough surfaces deviate by less.
+        const RANGE: [std::ops::Range<f64>; 3] = [96.0..160.0, 96.0..160.0, 192.0..256.0];
+        let count = self.texels.len() / 3;
+        let mean = |channel: usize| {
+            let values = self.texels.iter().skip(channel).step_by(3);
+            values.map(|&value| u64::from(value)).sum::<u64>() as f64 / count as f64
+        };
+        count > 0 && (0..3).all(|channel| RANGE[channel].contains(&mean(channel)))
     }
 
     fn texel(&self, index: usize) -> [u8; 3] {
         [0, 1, 2].map(|channel| self.texels[3 * index + channel])
     }
 
-    /// The values of texels, by their index, interpolated at `uv`.
-    fn interpolated(&self, uv: Vec2, value: impl Fn(usize) -> Vec3) -> Vec3 {
-        let size = self.size.as_vec2();
-        // Texel centres are at half-integers; rows are counted from the top.
+    /// The values of texels, by their index, filtered at `uv`.
+    fn between(&self, uv: Vec2, sampling: Sampling, value: impl Fn(usize) -> Vec3) -> Vec3 {
         let uv = uv.map(|x| if x.is_finite() { x } else { 0.0 });
-        let at = Vec2::new(uv.x, 1.0 - uv.y);
-        let at = (at - at.floor()) * size - 0.5;
-        let (corner, part) = (at.floor(), at - at.floor());
-        let texel = |dx: i32, dy: i32| {
-            let x = (corner.x as i32 + dx).rem_euclid(self.size.x as i32);
-            let y = (corner.y as i32 + dy).rem_euclid(self.size.y as i32);
-            value(y as usize * self.size.x as usize + x as usize)
+        // Rows are counted from the top.
+        let at =
+            Vec2::new(uv.x, 1.0 - uv.y).map(|x| sampling.wrap.reduced(x)) * self.size.as_vec2();
+        let texel = |at: IVec2| {
+            let x = sampling.wrap.texel(at.x, self.size.x);
+            let y = sampling.wrap.texel(at.y, self.size.y);
+            value(y * self.size.x as usize + x)
         };
-        let above = texel(0, 0).lerp(texel(1, 0), part.x);
-        let below = texel(0, 1).lerp(texel(1, 1), part.x);
+        if sampling.filter == Filter::Nearest {
+            return texel(at.floor().as_ivec2());
+        }
+        // Texel centres are at half-integers.
+        let at = at - 0.5;
+        let (corner, part) = (at.floor().as_ivec2(), at - at.floor());
+        let above = texel(corner).lerp(texel(corner + IVec2::X), part.x);
+        let below = texel(corner + IVec2::Y).lerp(texel(corner + IVec2::ONE), part.x);
         above.lerp(below, part.y)
     }
 
@@ -106,6 +213,13 @@ impl Texture {
     pub fn bytes(&self) -> usize {
         size_of_val(&self.texels[..]) + size_of_val(&self.alpha[..])
     }
+}
+
+/// Whether a point is in a field of the second value of a checkerboard, as in Mitsuba: rows are counted from the top, and
+/// the middle belongs to the first half.
+fn is_odd_field(uv: Vec2) -> bool {
+    let in_second_half = |x: f32| x - x.floor() > 0.5;
+    in_second_half(uv.x) != in_second_half(1.0 - uv.y)
 }
 
 #[cfg(test)]
@@ -128,21 +242,94 @@ mod tests {
             ([1.75, -0.25], Vec3::Y),
             ([0.5, 0.25], Vec3::new(0.5, 0.5, 1.0)),
         ] {
-            let found = texture.colour(Vec2::from(uv));
+            let found = texture.value(Vec2::from(uv), Sampling::default());
             assert!((found - colour).length() < 1e-5, "{uv:?}: {found}");
         }
-        let (nan, huge) = (Vec2::NAN, Vec2::splat(f32::MAX));
-        assert!(texture.colour(nan).is_finite() && texture.colour(huge).is_finite());
+        for wrap in [Wrap::Repeat, Wrap::Mirror, Wrap::Clamp] {
+            let sampling = Sampling {
+                wrap,
+                ..Sampling::default()
+            };
+            for uv in [Vec2::NAN, Vec2::splat(f32::MAX), Vec2::splat(f32::MIN)] {
+                assert!(texture.value(uv, sampling).is_finite());
+            }
+        }
     }
 
     #[test]
     fn the_alpha_channel_is_interpolated_and_values_are_not_decoded() {
         let texture = texture().with_alpha(vec![0, 255, 51, 255]);
-        assert_eq!(texture.alpha(Vec2::new(0.25, 0.75)), Some(0.0));
-        assert_eq!(texture.alpha(Vec2::new(0.25, 0.25)), Some(0.2));
+        let alpha = |texture: &Texture, u, v| texture.alpha(Vec2::new(u, v), Sampling::default());
+        assert_eq!(alpha(&texture, 0.25, 0.75), Some(0.0));
+        assert_eq!(alpha(&texture, 0.25, 0.25), Some(0.2));
         let grey = Texture::new("t", UVec2::ONE, vec![51; 3]).expect("a texel");
-        assert_eq!(grey.values(Vec2::ZERO), Vec3::splat(0.2));
-        assert!(!grey.has_alpha() && grey.alpha(Vec2::ZERO).is_none());
+        let linear = Sampling {
+            encoding: Encoding::Linear,
+            ..Sampling::default()
+        };
+        assert_eq!(grey.value(Vec2::ZERO, linear), Vec3::splat(0.2));
+        assert!(!grey.has_alpha() && alpha(&grey, 0.0, 0.0).is_none());
+    }
+
+    #[test]
+    fn filters_and_borders_are_those_of_mitsuba() {
+        // Texels of Mitsuba 3.9.1's `bitmap`, times 255: the first channel is 20, 80, 140, 200 from left to right, the
+        // second one the same from top to bottom.
+        let texel = |k: u8| [60 * (k % 4) + 20, 60 * (k / 4) + 20, 100];
+        let texels: Vec<u8> = (0..16).flat_map(texel).collect();
+        let texture = Texture::new("t", UVec2::splat(4), texels).expect("16 texels");
+        for (filter, wrap, at, expected) in [
+            (Filter::Bilinear, Wrap::Repeat, [0.3, 0.2], [62.0, 38.0]),
+            (Filter::Bilinear, Wrap::Repeat, [0.01, 0.5], [102.8, 110.0]),
+            (Filter::Bilinear, Wrap::Repeat, [1.1, -0.2], [38.0, 182.0]),
+            (Filter::Nearest, Wrap::Repeat, [0.3, 0.2], [80.0, 20.0]),
+            (Filter::Nearest, Wrap::Repeat, [-0.3, 1.4], [140.0, 80.0]),
+            (Filter::Bilinear, Wrap::Clamp, [0.01, 0.5], [20.0, 110.0]),
+            (Filter::Bilinear, Wrap::Clamp, [1.1, -0.2], [200.0, 20.0]),
+            (Filter::Bilinear, Wrap::Mirror, [1.1, -0.2], [200.0, 38.0]),
+            (Filter::Bilinear, Wrap::Mirror, [-0.3, 1.4], [62.0, 134.0]),
+        ] {
+            let sampling = Sampling {
+                filter,
+                wrap,
+                encoding: Encoding::Linear,
+            };
+            // Mitsuba's second coordinate points down.
+            let found = 255.0 * texture.value(Vec2::new(at[0], 1.0 - at[1]), sampling);
+            let expected = Vec3::new(expected[0], expected[1], 100.0);
+            // The coordinates' rounding, some 2⁻²², times the slope, 240 per unit.
+            assert!(
+                (found - expected).length() < 1e-3,
+                "{wrap:?} {at:?}: {found}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_checkerboard_has_the_first_value_where_both_coordinates_are_in_the_same_half() {
+        let board = Texture::checkerboard([Vec3::X, Vec3::splat(7.0)]);
+        for (u, v, is_first) in [
+            (0.2, 0.2, true),
+            (0.7, 0.2, false),
+            (0.7, 0.7, true),
+            (0.2, 0.7, false),
+            (-0.2, 0.2, false),
+            (0.5, 0.2, true),
+        ] {
+            // Mitsuba's second coordinate points down.
+            let value = board.value(Vec2::new(u, 1.0 - v), Sampling::default());
+            assert_eq!(value == Vec3::X, is_first, "{u} {v}");
+        }
+        assert!(!board.looks_like_normals());
+    }
+
+    #[test]
+    fn images_of_normals_are_told_from_heights_by_their_colour() {
+        let even = |texel: [u8; 3]| Texture::new("t", UVec2::ONE, texel.to_vec()).expect("a texel");
+        assert!(even([128, 128, 255]).looks_like_normals());
+        for texel in [[128; 3], [255; 3], [0, 128, 255]] {
+            assert!(!even(texel).looks_like_normals(), "{texel:?}");
+        }
     }
 
     #[test]

@@ -40,7 +40,7 @@ pub(super) fn assemble(
     warnings.extend(warning);
     let mut found = materials::resolve(&contents, files, options.max_memory, progress)?;
     warnings.append(&mut found.warnings);
-    let has_textures = !found.textures.is_empty();
+    let has_textures = options.keeps_coordinates || !found.textures.is_empty();
     progress.check()?;
 
     let chosen = choose_origin(&contents.positions, &surface, options.recentre);
@@ -61,7 +61,13 @@ pub(super) fn assemble(
     let (mut triangles, parts) = triangulate(&assembly, elements)?;
     progress.check()?;
 
-    let (attributes, oddities) = gather(&mut triangles, parts, &mut contents, found, colours);
+    let (attributes, oddities) = gather(
+        &mut triangles,
+        parts,
+        &mut contents,
+        (found, has_textures),
+        colours,
+    );
     let dropped = oddities.dropped(&contents.skipped);
     warnings.extend(oddities.warnings());
     progress.check()?;
@@ -146,17 +152,17 @@ fn gather(
     triangles: &mut Vec<[u32; 3]>,
     parts: Vec<ChunkTriangles>,
     contents: &mut Contents,
-    found: ResolvedMaterials,
+    (found, has_textures): (ResolvedMaterials, bool),
     colours: Vec<Vec3>,
 ) -> (Attributes, Oddities) {
     close_gaps(triangles, &parts);
     let normals = std::mem::take(&mut contents.normals);
     let coordinates = std::mem::take(&mut contents.textures);
     // Without a texture, texture coordinates aren't used.
-    let coordinates = if found.textures.is_empty() {
-        Vec::new()
-    } else {
+    let coordinates = if has_textures {
         coordinates
+    } else {
+        Vec::new()
     };
     let mut attributes = Attributes {
         colours,

@@ -59,7 +59,7 @@ pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
 pub(crate) use fence::fenced;
 pub use materials::ReadFile;
-pub(crate) use materials::read_past;
+pub(crate) use materials::{Picture, read_past, read_picture};
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
 pub use tally::LineRuns;
@@ -105,6 +105,8 @@ pub struct LoadOptions {
     pub faults: FaultPolicy,
     /// Memory in bytes that loading and building the tree may use; a file that needs more is refused.
     pub max_memory: u64,
+    /// Whether texture coordinates are kept although no material of the file has a texture.
+    pub keeps_coordinates: bool,
 }
 
 impl Default for LoadOptions {
@@ -115,6 +117,7 @@ impl Default for LoadOptions {
             recentre: Recentre::default(),
             faults: FaultPolicy::default(),
             max_memory: MAX_MEMORY,
+            keeps_coordinates: false,
         }
     }
 }

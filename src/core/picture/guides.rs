@@ -149,12 +149,13 @@ struct Sum {
 impl Sum {
     fn add(&mut self, context: &Context, ray: &Ray, hit: Hit, sample: u32) {
         let scene = &context.scene;
-        let interaction = SurfaceInteraction::new(scene, ray, hit, context.shading);
+        let surface = scene.surface(ray, &hit);
+        let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
         let materials = &scene.mesh().attributes().materials;
         let material = materials.get(interaction.material);
-        let appearance = Appearance::new(scene, material, &hit);
+        let appearance = Appearance::new(scene, material, surface.position, &hit);
         self.albedo += appearance.bsdf(true).colour().as_dvec3();
-        self.normal += interaction.facing_normal(ray).as_dvec3();
+        self.normal += appearance.facing_normal(&interaction, ray).as_dvec3();
         // Camera rays have unit length.
         self.depth += f64::from(hit.t);
         self.hit_count += 1;

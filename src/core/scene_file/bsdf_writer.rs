@@ -2,8 +2,10 @@
 
 use super::bsdf::{Bsdf, Form, Roughness};
 use super::description::Material;
+use super::side::Side;
 use super::writer::{Writer, attributes};
 use super::xml::{WriteError, vector};
+use crate::bsdf::Slot;
 use glam::DVec3;
 
 impl Writer<'_> {
@@ -12,6 +14,17 @@ impl Writer<'_> {
         material: &Material,
         id: Option<&str>,
     ) -> Result<(), WriteError> {
+        let Some(texture) = &material.opacity_texture else {
+            return self.masked(material, id);
+        };
+        self.xml.open("bsdf", &attributes("mask", id, None))?;
+        self.texture("opacity", texture)?;
+        self.masked(material, None)?;
+        self.xml.close();
+        Ok(())
+    }
+
+    fn masked(&mut self, material: &Material, id: Option<&str>) -> Result<(), WriteError> {
         if material.opacity == 1.0 {
             return self.sides(material, id);
         }
@@ -23,19 +36,21 @@ impl Writer<'_> {
     }
 
     fn sides(&mut self, material: &Material, id: Option<&str>) -> Result<(), WriteError> {
-        let Some(back) = material.back else {
-            return self.bsdf(&material.front, id);
+        let Some(back) = &material.back else {
+            return self.side(&material.front, id);
         };
         self.xml.open("bsdf", &attributes("twosided", id, None))?;
-        self.bsdf(&material.front, None)?;
-        if back != material.front {
-            self.bsdf(&back, None)?;
+        self.side(&material.front, None)?;
+        if *back != material.front {
+            self.side(back, None)?;
         }
         self.xml.close();
         Ok(())
     }
 
-    fn bsdf(&mut self, bsdf: &Bsdf, id: Option<&str>) -> Result<(), WriteError> {
+    /// Writes a side without its relief.
+    pub(super) fn bsdf(&mut self, side: &Side, id: Option<&str>) -> Result<(), WriteError> {
+        let bsdf = &side.bsdf;
         let kind = match bsdf {
             Bsdf::Diffuse { .. } => "diffuse",
             Bsdf::Conductor {
@@ -54,7 +69,9 @@ impl Writer<'_> {
         };
         self.xml.open("bsdf", &attributes(kind, id, None))?;
         match *bsdf {
-            Bsdf::Diffuse { reflectance } => self.colour("reflectance", reflectance)?,
+            Bsdf::Diffuse { reflectance } => {
+                self.value(side, (Slot::Diffuse, "reflectance"), reflectance)?;
+            }
             Bsdf::Conductor {
                 eta,
                 k,
@@ -63,8 +80,12 @@ impl Writer<'_> {
             } => {
                 self.colour("eta", eta)?;
                 self.colour("k", k)?;
-                self.factor("specular_reflectance", specular_reflectance)?;
-                self.roughness(roughness)?;
+                self.factor(
+                    side,
+                    (Slot::Specular, "specular_reflectance"),
+                    specular_reflectance,
+                )?;
+                self.roughness(side, roughness)?;
             }
             Bsdf::Dielectric {
                 eta,
@@ -73,10 +94,18 @@ impl Writer<'_> {
                 form,
             } => {
                 self.index(eta)?;
-                self.factor("specular_reflectance", specular_reflectance)?;
-                self.factor("specular_transmittance", specular_transmittance)?;
+                self.factor(
+                    side,
+                    (Slot::Specular, "specular_reflectance"),
+                    specular_reflectance,
+                )?;
+                self.factor(
+                    side,
+                    (Slot::Transmittance, "specular_transmittance"),
+                    specular_transmittance,
+                )?;
                 if let Form::Rough(roughness) = form {
-                    self.roughness(Some(roughness))?;
+                    self.roughness(side, Some(roughness))?;
                 }
             }
             Bsdf::Plastic {
@@ -87,12 +116,20 @@ impl Writer<'_> {
                 roughness,
             } => {
                 self.index(eta)?;
-                self.colour("diffuse_reflectance", diffuse_reflectance)?;
-                self.factor("specular_reflectance", specular_reflectance)?;
+                self.value(
+                    side,
+                    (Slot::Diffuse, "diffuse_reflectance"),
+                    diffuse_reflectance,
+                )?;
+                self.factor(
+                    side,
+                    (Slot::Specular, "specular_reflectance"),
+                    specular_reflectance,
+                )?;
                 if is_nonlinear {
                     self.boolean("nonlinear", true)?;
                 }
-                self.roughness(roughness)?;
+                self.roughness(side, roughness)?;
             }
         }
         self.xml.close();
@@ -105,23 +142,44 @@ impl Writer<'_> {
         self.float("ext_ior", 1.0)
     }
 
-    /// A colour whose default is white.
-    fn factor(&mut self, name: &str, colour: DVec3) -> Result<(), WriteError> {
-        if colour == DVec3::ONE {
-            return Ok(());
+    /// A colour, or the texture in its place.
+    fn value(
+        &mut self,
+        side: &Side,
+        (slot, name): (Slot, &str),
+        colour: DVec3,
+    ) -> Result<(), WriteError> {
+        match side.texture(slot) {
+            Some(texture) => self.texture(name, texture),
+            None => self.colour(name, colour),
         }
-        self.colour(name, colour)
     }
 
-    fn colour(&mut self, name: &str, colour: DVec3) -> Result<(), WriteError> {
+    /// The same, where white is the default.
+    fn factor(
+        &mut self,
+        side: &Side,
+        (slot, name): (Slot, &str),
+        colour: DVec3,
+    ) -> Result<(), WriteError> {
+        if colour == DVec3::ONE && side.texture(slot).is_none() {
+            return Ok(());
+        }
+        self.value(side, (slot, name), colour)
+    }
+
+    pub(super) fn colour(&mut self, name: &str, colour: DVec3) -> Result<(), WriteError> {
         self.property("rgb", name, &vector(colour))
     }
 
-    fn roughness(&mut self, roughness: Option<Roughness>) -> Result<(), WriteError> {
+    fn roughness(&mut self, side: &Side, roughness: Option<Roughness>) -> Result<(), WriteError> {
         let Some(Roughness { is_ggx, alpha }) = roughness else {
             return Ok(());
         };
         self.text("distribution", if is_ggx { "ggx" } else { "beckmann" })?;
-        self.float("alpha", alpha)
+        match side.texture(Slot::Roughness) {
+            Some(texture) => self.texture("alpha", texture),
+            None => self.float("alpha", alpha),
+        }
     }
 }

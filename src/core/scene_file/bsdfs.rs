@@ -8,6 +8,8 @@ use super::plugin::Value;
 use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
+use super::side::{Side, assigned};
+use super::textures;
 use glam::DVec3;
 
 /// The BSDFs that are read and contain no others.
@@ -105,23 +107,31 @@ const MEDIA: [(&str, f64); 23] = [
 ];
 
 /// Reads one of [`PLAIN`].
-pub(super) fn plain(reader: &mut Reader, element: Element, kind: &str) -> Result<Bsdf, Problem> {
+pub(super) fn plain(reader: &mut Reader, element: Element, kind: &str) -> Result<Side, Problem> {
     let mut parameters = Parameters::new("bsdf", kind, element.place);
+    let mut nested = Vec::new();
     reader.each_child(element, &mut |reader, child| {
         if let Some(parameter) = properties::parameter(reader, child)? {
             return parameters.add(parameter);
         }
-        if child.tag() == "ref" {
-            objects::reference(reader, child)?;
-            let message = "textures aren't supported; the parameter's default is used";
-            reader.warnings.add(child.place, message.to_owned());
+        if let Some(texture) = textures::nested(reader, child)? {
+            nested.push(texture);
             return Ok(());
+        }
+        if child.tag() == "ref" {
+            let id = quoted(&objects::reference(reader, child)?);
+            let message = format!("no texture {id} is defined before this line");
+            return Err(child.problem(message));
         }
         objects::skip(reader, child, &parameters.object())
     })?;
+    let textures = assigned(reader, &parameters, kind, nested)?;
     let bsdf = bsdf(reader, &mut parameters, kind)?;
     parameters.finish(&mut reader.memory)?;
-    Ok(bsdf)
+    Ok(Side {
+        textures,
+        ..bsdf.into()
+    })
 }
 
 fn bsdf(reader: &mut Reader, parameters: &mut Parameters, kind: &str) -> Result<Bsdf, Problem> {
@@ -192,7 +202,7 @@ fn three(parameters: &mut Parameters, name: &'static str) -> Result<Option<DVec3
 }
 
 /// Three numbers from 0 to 1.
-fn reflectance(
+pub(super) fn reflectance(
     parameters: &mut Parameters,
     name: &'static str,
     default: f64,

@@ -1,10 +1,11 @@
 //! The contents of a scene file, as plain f64 numbers: no mesh is loaded and no shape is built.
 
-use super::bsdf::Bsdf;
 use super::emitter::Emitter;
 use super::integrators::Integrator;
 use super::kinds::ShapeKind;
 use super::sensor::Sensor;
+use super::side::Side;
+use super::textures::Texture;
 use crate::obj::Warning;
 use glam::DMat4;
 use std::path::{Path, PathBuf};
@@ -33,6 +34,22 @@ impl SceneFile {
     pub fn path_of(&self, place: Place) -> &Path {
         let path = self.files.get(place.file as usize);
         path.map_or(Path::new(""), PathBuf::as_path)
+    }
+
+    /// The textures of all materials and emitters.
+    pub fn textures(&self) -> impl Iterator<Item = &Texture> {
+        let of_emitters = self.shapes.iter().filter_map(Shape::emitted_texture);
+        let of_materials = self.materials.iter().flat_map(Material::textures);
+        of_materials.chain(of_emitters)
+    }
+
+    /// Whether a shape's material or emitter has a texture.
+    pub fn is_textured(&self, shape: &Shape) -> bool {
+        let material = shape
+            .material
+            .and_then(|index| self.materials.get(index as usize));
+        let mut textures = material.into_iter().flat_map(Material::textures);
+        textures.next().is_some() || shape.emitted_texture().is_some()
     }
 }
 
@@ -67,6 +84,13 @@ pub struct Shape {
     pub emitter: Option<Box<Emitter>>,
 }
 
+impl Shape {
+    /// The texture of its emitter.
+    pub fn emitted_texture(&self) -> Option<&Texture> {
+        self.emitter.as_ref()?.kind.texture()
+    }
+}
+
 /// A material.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
@@ -75,9 +99,19 @@ pub struct Material {
     /// The `id` attribute.
     pub id: Option<String>,
     /// The front, the side of the normal.
-    pub front: Bsdf,
+    pub front: Side,
     /// The back; `None` outside `twosided`: then it is black, unless light passes through the front.
-    pub back: Option<Bsdf>,
+    pub back: Option<Side>,
     /// The part of the surface that is there, from 0 to 1: `mask`.
     pub opacity: f64,
+    /// A texture that multiplies the opacity.
+    pub opacity_texture: Option<Texture>,
+}
+
+impl Material {
+    /// Its textures.
+    pub fn textures(&self) -> impl Iterator<Item = &Texture> {
+        let sides = std::iter::once(&self.front).chain(&self.back);
+        sides.flat_map(Side::textures).chain(&self.opacity_texture)
+    }
 }

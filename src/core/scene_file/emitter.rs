@@ -2,6 +2,7 @@
 
 use super::description::Place;
 use super::plugin::Plugin;
+use super::textures::Texture;
 use glam::{DMat4, DVec3};
 use std::path::PathBuf;
 
@@ -25,6 +26,8 @@ pub enum EmitterKind {
     Area {
         /// The radiance of every point to every direction.
         radiance: DVec3,
+        /// A texture in place of the radiance.
+        texture: Option<Box<Texture>>,
     },
     /// Light from infinitely far away, the same from all directions.
     Constant {
@@ -59,6 +62,14 @@ pub enum EmitterKind {
 }
 
 impl EmitterKind {
+    /// The texture of an `area` emitter.
+    pub fn texture(&self) -> Option<&Texture> {
+        match self {
+            Self::Area { texture, .. } => texture.as_deref(),
+            _ => None,
+        }
+    }
+
     /// Whether it gives light to rays that leave the scene in any direction. A scene has at most one of these.
     pub fn is_environment(&self) -> bool {
         matches!(self, Self::Constant { .. } | Self::Envmap { .. })

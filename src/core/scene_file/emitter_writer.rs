@@ -23,7 +23,11 @@ impl Writer<'_> {
         };
         self.xml.open("emitter", &attributes(kind, id, name))?;
         match &emitter.kind {
-            EmitterKind::Area { radiance } | EmitterKind::Constant { radiance } => {
+            EmitterKind::Area {
+                texture: Some(texture),
+                ..
+            } => self.texture("radiance", texture)?,
+            EmitterKind::Area { radiance, .. } | EmitterKind::Constant { radiance } => {
                 self.light("radiance", *radiance)?;
             }
             EmitterKind::Point {

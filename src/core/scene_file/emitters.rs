@@ -6,9 +6,10 @@ use super::emitter::{Emitter, EmitterKind};
 use super::objects::{self, Head};
 use super::parameters::Parameters;
 use super::plugin::Value;
-use super::problem::{Problem, quoted};
+use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
+use super::textures::{self, Nested, Texture};
 use crate::brightness::{check_brightness, check_intensity};
 use glam::{DMat3, DMat4, DVec3};
 
@@ -59,9 +60,17 @@ pub(super) fn emitter(
         .memory
         .take(2 * size_of::<Emitter>() as u64, element.place)?;
     let mut parameters = Parameters::new("emitter", &head.kind, element.place);
+    let mut texture = None;
     reader.each_child(element, &mut |reader, child| {
         if let Some(parameter) = properties::parameter(reader, child)? {
             return parameters.add(parameter);
+        }
+        if head.kind == "area"
+            && let Some(found) = textures::nested(reader, child)?
+            && let Some(found) = of_radiance(found, &parameters, &texture)?
+        {
+            texture = Some(Box::new(found));
+            return Ok(());
         }
         if matches!(child.tag(), "ref" | "texture") {
             let message = format!(
@@ -73,7 +82,13 @@ pub(super) fn emitter(
         }
         objects::skip(reader, child, &parameters.object())
     })?;
-    let kind = kind_of(&head.kind, &mut parameters, element, reader)?;
+    let mut kind = kind_of(&head.kind, &mut parameters, element, reader)?;
+    if let EmitterKind::Area {
+        texture: of_kind, ..
+    } = &mut kind
+    {
+        *of_kind = texture;
+    }
     // It changes noise, not the picture.
     parameters.warn_about(&["sampling_weight"], &mut reader.warnings);
     parameters.finish(&mut reader.memory)?;
@@ -83,6 +98,27 @@ pub(super) fn emitter(
         name: head.name,
         kind,
     })
+}
+
+/// The texture of a radiance; `None` if it isn't supported.
+///
+/// # Errors
+/// The radiance is given twice, or this is another parameter.
+fn of_radiance(
+    nested: Nested,
+    parameters: &Parameters,
+    other: &Option<Box<Texture>>,
+) -> Result<Option<Texture>, Problem> {
+    let name = &nested.name;
+    if name != "radiance" {
+        let message = unknown("parameter of emitter “area”:", name, &["radiance"]);
+        return Err(Problem::at(nested.place, message));
+    }
+    if other.is_some() || parameters.place_of(&["radiance"]).is_some() {
+        let message = "parameter “radiance” is given twice";
+        return Err(Problem::at(nested.place, message));
+    }
+    Ok(nested.texture)
 }
 
 /// An emitter of Mitsuba's that isn't supported, with a warning.
@@ -122,6 +158,7 @@ fn kind_of(
             }
             EmitterKind::Area {
                 radiance: light(parameters, "radiance")?,
+                texture: None,
             }
         }
         "constant" => EmitterKind::Constant {

@@ -11,6 +11,10 @@ use super::parameters::Parameters;
 use super::problem::{Problem, quoted, unknown};
 use super::properties;
 use super::reader::Reader;
+use super::relief;
+use super::side::Side;
+use super::textures::{self, Texture};
+use crate::bsdf::Slot;
 use std::collections::HashMap;
 
 /// The BSDFs of Mitsuba 3.9.1.
@@ -41,11 +45,9 @@ const BSDFS: [&str; 23] = [
 ];
 
 /// BSDFs that aren't supported, and the most similar one that is.
-const MOST_SIMILAR: [(&str, &str); 7] = [
+const MOST_SIMILAR: [(&str, &str); 5] = [
     ("blendbsdf", "diffuse"),
-    ("bumpmap", "diffuse"),
     ("measured", "roughconductor"),
-    ("normalmap", "diffuse"),
     ("pplastic", "plastic"),
     ("principled", "roughplastic"),
     ("principledthin", "thindielectric"),
@@ -182,7 +184,10 @@ pub(super) fn define(reader: &mut Reader, element: Element) -> Result<u32, Probl
 /// The temporary index of a new material, whose memory is taken.
 fn add(reader: &mut Reader, material: Material) -> Result<u32, Problem> {
     let id = material.id.as_deref();
-    let bytes = 2 * size_of::<Material>() as u64 + id.map_or(0, bytes_of_id);
+    // A list with one texture has room for four.
+    let texture = |texture: &Texture| 4 * size_of::<(Slot, Texture)>() + texture.path_bytes();
+    let textures = material.textures().map(texture).sum::<usize>() as u64;
+    let bytes = 2 * size_of::<Material>() as u64 + id.map_or(0, bytes_of_id) + textures;
     reader.memory.take(bytes, material.place)?;
     Ok(reader.materials.define(material))
 }
@@ -192,16 +197,32 @@ fn bsdf(reader: &mut Reader, element: Element) -> Result<Material, Problem> {
     let mut material = Material {
         place: element.place,
         id: head.id,
-        front: Bsdf::GREY,
+        front: Bsdf::GREY.into(),
         back: None,
         opacity: 1.0,
+        opacity_texture: None,
     };
     match head.kind.as_str() {
         kind if PLAIN.contains(&kind) => material.front = bsdfs::plain(reader, element, kind)?,
         "mask" => {
-            let (opacity, masked) = masked(reader, element)?;
-            (material.front, material.back) = (masked.front, masked.back);
-            material.opacity = opacity * masked.opacity;
+            let masked = masked(reader, element)?;
+            material = Material {
+                place: material.place,
+                id: material.id,
+                ..masked
+            };
+        }
+        "bumpmap" | "normalmap" => {
+            let kind = if head.kind == "bumpmap" {
+                "bumpmap"
+            } else {
+                "normalmap"
+            };
+            material = Material {
+                place: material.place,
+                id: material.id,
+                ..relief::read(reader, element, kind)?
+            };
         }
         "twosided" => {
             let (front, back) = both_sides(reader, element)?;
@@ -219,7 +240,7 @@ fn bsdf(reader: &mut Reader, element: Element) -> Result<Material, Problem> {
                 "bsdf {kind} isn't supported; a diffuse reflectance of 0.5 is used{similar}"
             );
             reader.warnings.add(element.place, message);
-            material.back = Some(Bsdf::GREY);
+            material.back = Some(Bsdf::GREY.into());
         }
         kind => return Err(element.problem(unknown("bsdf", kind, &BSDFS))),
     }
@@ -227,7 +248,7 @@ fn bsdf(reader: &mut Reader, element: Element) -> Result<Material, Problem> {
 }
 
 /// A nested BSDF, or the one that a nested reference names, which must be defined before; `None` for other elements.
-fn nested(reader: &mut Reader, child: Element) -> Result<Option<Material>, Problem> {
+pub(super) fn nested(reader: &mut Reader, child: Element) -> Result<Option<Material>, Problem> {
     match child.tag() {
         "bsdf" => {
             let nested = bsdf(reader, child)?;
@@ -255,13 +276,19 @@ fn nested(reader: &mut Reader, child: Element) -> Result<Option<Material>, Probl
     }
 }
 
-/// The opacity of a `mask` BSDF and the BSDF that it contains.
-fn masked(reader: &mut Reader, element: Element) -> Result<(f64, Material), Problem> {
+/// The BSDF that a `mask` contains, with its opacity.
+fn masked(reader: &mut Reader, element: Element) -> Result<Material, Problem> {
     let mut parameters = Parameters::new("bsdf", "mask", element.place);
-    let mut inner = None;
+    let (mut inner, mut texture) = (None, None);
     reader.each_child(element, &mut |reader, child| {
         if let Some(parameter) = properties::parameter(reader, child)? {
             return parameters.add(parameter);
+        }
+        if let Some(found) = textures::nested(reader, child)? {
+            if texture.replace(found).is_some() {
+                return Err(child.problem("bsdf “mask” contains two textures"));
+            }
+            return Ok(());
         }
         match nested(reader, child)? {
             Some(_) if inner.is_some() => Err(child.problem("bsdf “mask” contains two BSDFs")),
@@ -279,22 +306,33 @@ fn masked(reader: &mut Reader, element: Element) -> Result<(f64, Material), Prob
         }
         found => found.map_or(0.5, |(opacity, _)| opacity),
     };
-    let Some(inner) = inner else {
+    let Some(mut inner) = inner else {
         return Err(parameters.problem("a nested bsdf is missing"));
     };
     parameters.finish(&mut reader.memory)?;
-    Ok((opacity, inner))
+    match texture.map(|nested| (nested.place, nested.texture)) {
+        Some((_, Some(texture))) if inner.opacity_texture.is_none() => {
+            inner.opacity_texture = Some(texture);
+        }
+        Some((place, _)) => {
+            let message = "bsdf “mask”: its texture isn't supported; an opacity of 0.5 is used";
+            reader.warnings.add(place, message.to_owned());
+            inner.opacity *= opacity;
+        }
+        None => inner.opacity *= opacity,
+    }
+    Ok(inner)
 }
 
 /// The front and the back of a `twosided` BSDF, which contains one BSDF for both or two.
-fn both_sides(reader: &mut Reader, element: Element) -> Result<(Bsdf, Bsdf), Problem> {
+fn both_sides(reader: &mut Reader, element: Element) -> Result<(Side, Side), Problem> {
     let parameters = Parameters::new("bsdf", "twosided", element.place);
     let mut sides = Vec::new();
     reader.each_child(element, &mut |reader, child| {
         let Some(side) = nested(reader, child)? else {
             return objects::skip(reader, child, &parameters.object());
         };
-        if side.front.transmits() {
+        if side.front.bsdf.transmits() {
             let message = "light passes through this bsdf, so it can't stand in “twosided”: use it alone, it has both sides";
             return Err(child.problem(message));
         }
@@ -304,9 +342,10 @@ fn both_sides(reader: &mut Reader, element: Element) -> Result<(Bsdf, Bsdf), Pro
         sides.push(side.front);
         Ok(())
     })?;
-    match *sides {
-        [both] => Ok((both, both)),
-        [front, back] => Ok((front, back)),
+    let mut sides = sides.into_iter();
+    match (sides.next(), sides.next()) {
+        (Some(both), None) => Ok((both.clone(), both)),
+        (Some(front), Some(back)) => Ok((front, back)),
         _ => Err(parameters.problem("a nested bsdf is missing")),
     }
 }

@@ -103,10 +103,28 @@
 //! | `plastic` | `int_ior` = polypropylene, `ext_ior` = air, `diffuse_reflectance` = 0.5, `specular_reflectance` = 1, `nonlinear` = false. The back is black |
 //! | `roughconductor`, `roughdielectric`, `roughplastic` | the same, and `distribution` = beckmann or `ggx`, `alpha` = 0.1 |
 //! | `mask` | `opacity` = 0.5 and a nested `bsdf` |
+//! | `normalmap` | a nested texture of normals, 0…1 for −1…1, and a nested `bsdf` |
+//! | `bumpmap` | a nested texture of heights in the scene's unit, `scale` = 1, and a nested `bsdf` |
 //! | `twosided` | one nested `bsdf` for both sides, or two for front and back; light mustn't pass through them |
 //!
 //! Metals are Ag, Al, Au, Be, Cr, Cu, Hg, Ir, Rh, TiN and W. Different `alpha_u` and `alpha_v` give a warning. Mitsuba's
-//! other BSDFs give a warning and a diffuse reflectance of 0.5, textures a warning and the parameter's default.
+//! other BSDFs give a warning and a diffuse reflectance of 0.5.
+//!
+//! ### Textures
+//!
+//! A `<texture>` can stand in place of `reflectance`, `diffuse_reflectance`, `specular_reflectance`,
+//! `specular_transmittance`, `opacity`, and `alpha` of `roughconductor` and `roughdielectric`; in place of others it gives
+//! a warning, and the parameter's default is used. So can a `<ref>` to one that is defined before.
+//!
+//! | texture | parameters and defaults |
+//! |---|---|
+//! | `bitmap` | `filename`: PNG or JPEG; `raw` = false: whether texels aren't sRGB; `filter_type` = bilinear or `nearest`; `wrap_mode` = repeat, `mirror` or `clamp`. A file that can't be read gives a warning and the parameter's default |
+//! | `checkerboard` | `color0` = 0.4, `color1` = 0.2, constant |
+//!
+//! `to_uv` maps the surface's texture coordinates to the texture's, of which (0, 0) is the upper left corner and (1, 1) the
+//! lower right one. An `obj` has the coordinates of its file, with 1 − v in place of v if `flip_tex_coords` is true;
+//! `sphere`, `cylinder`, `disk`, `rectangle` and `cube` have Mitsuba's, and a `box` those of a cube. Other shapes have
+//! none: a warning says that the parameters' defaults are used.
 //!
 //! ## Sensors
 //!
@@ -130,8 +148,8 @@
 //!
 //! Light is `rgb` (linear), `spectrum` with one number or `float`, and isn't negative. Radiance, irradiance and
 //! `scale` are at most 2.8e14: brighter light would exceed the picture's range. A scene has at most one
-//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. So does a texture in
-//! place of a colour.
+//! `constant` or `envmap`. Mitsuba's other emitters are kept, but give no light and a warning. The `radiance` of `area`
+//! can be a texture; in place of other colours, one gives a warning.
 //!
 //! ## Integrators
 //!
@@ -168,12 +186,15 @@ mod plugin;
 mod problem;
 mod properties;
 mod reader;
+mod relief;
 mod sensor;
 mod sensors;
 mod shape_writer;
 mod shapes;
+mod side;
 mod stored;
 mod text;
+mod textures;
 mod transform;
 mod warnings;
 mod writer;
@@ -193,7 +214,10 @@ pub(crate) use memory::exceeded;
 pub use plugin::{Parameter, Plugin, Value};
 pub(crate) use reader::load_counted;
 pub use reader::{load, parse};
+pub use relief::{Relief, ReliefKind};
 pub use sensor::{Crop, FieldOfView, Film, FovAxis, Sensor, SensorKind};
+pub use side::Side;
 pub use stored::ReadFile;
+pub use textures::{Bitmap, Checkerboard, Texture, TextureKind};
 pub use writer::to_xml;
 pub use xml::WriteError;

@@ -186,7 +186,12 @@ impl Parameters {
 
     /// The transform from the object's coordinates.
     pub(super) fn world_transform(&mut self) -> Result<DMat4, Problem> {
-        let found = self.converted("to_world", "transform", |value| match value {
+        self.transform("to_world")
+    }
+
+    /// A transform; the identity by default.
+    pub(super) fn transform(&mut self, name: &'static str) -> Result<DMat4, Problem> {
+        let found = self.converted(name, "transform", |value| match value {
             Value::Transform(matrix) => Some(**matrix),
             _ => None,
         })?;

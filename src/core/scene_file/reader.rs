@@ -15,6 +15,7 @@ use super::problem::{Problem, quoted};
 use super::sensors;
 use super::shapes;
 use super::stored::{self, ReadFile};
+use super::textures::{self, Textures};
 use super::warnings::Warnings;
 use crate::obj::{LoadError, shown};
 use crate::progress::Progress;
@@ -73,6 +74,7 @@ fn parse_counted(
         memory: Memory::new(max_memory),
         warnings: Warnings::default(),
         materials: Materials::default(),
+        textures: Textures::default(),
         ids: HashMap::new(),
         includes: Includes::default(),
         read_file,
@@ -98,6 +100,7 @@ pub(super) struct Reader<'r> {
     pub memory: Memory,
     pub warnings: Warnings,
     pub materials: Materials,
+    pub textures: Textures,
     pub includes: Includes,
     pub read_file: ReadFile<'r>,
     /// The objects with identifiers.
@@ -168,6 +171,7 @@ impl<'r> Reader<'r> {
             "bsdf" => {
                 super::materials::define(self, element)?;
             }
+            "texture" if element.node.has_attribute("id") => textures::define(self, element)?,
             "sensor" => {
                 let sensor = sensors::sensor(self, element)?;
                 self.scene.sensors.extend(sensor);

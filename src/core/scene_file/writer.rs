@@ -153,7 +153,7 @@ impl Writer<'_> {
         self.xml.empty(tag, &[("name", name), ("value", value)])
     }
 
-    fn transform(&mut self, name: &str, transform: DMat4) -> Result<(), WriteError> {
+    pub(super) fn transform(&mut self, name: &str, transform: DMat4) -> Result<(), WriteError> {
         self.xml.open("transform", &[("name", name)])?;
         self.xml.empty("matrix", &[("value", &matrix(transform))])?;
         self.xml.close();

@@ -61,6 +61,7 @@ impl MeshArgs {
                 FaultPolicy::Strict
             },
             max_memory: self.memory.bytes(),
+            ..LoadOptions::default()
         };
         let options = SceneOptions {
             packing: if self.compact {

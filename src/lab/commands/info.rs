@@ -4,6 +4,7 @@ use super::args::MeshArgs;
 use super::input::is_stdin;
 use super::inspect::at_most;
 use super::lights::LightInfo;
+use super::materials::MaterialInfo;
 use super::{CommandError, file_error};
 use crate::json;
 use crate::measure::speed::default_camera;
@@ -23,7 +24,7 @@ use std::fs::File;
 use std::io::Write;
 use std::path::{Path, PathBuf};
 
-/// Show the contents of a file: counts, bounds, lights, memory, mesh health, required kernel tier
+/// Show the contents of a file: counts, bounds, materials, lights, memory, mesh health, required kernel tier
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Examples:
@@ -53,6 +54,8 @@ struct Info {
     triangles: usize,
     polygons: usize,
     materials: usize,
+    /// The materials with their use.
+    material_list: Vec<MaterialInfo>,
     groups: usize,
     /// Segments of the file's polylines.
     lines: usize,
@@ -225,6 +228,7 @@ impl Info {
             triangles: mesh.triangles().len(),
             polygons: mesh.face_count(),
             materials: mesh.named_material_count(),
+            material_list: MaterialInfo::of(scene),
             groups: mesh.named_group_count(),
             lines: mesh.attributes().lines.len(),
             points: mesh.attributes().points.len(),
@@ -276,6 +280,7 @@ impl Info {
         writeln!(out, "groups              {}", self.groups)?;
         writeln!(out, "lines, points       {}, {}", self.lines, self.points)?;
         self.print_shapes(out)?;
+        self.print_materials(out)?;
         for light in &self.lights {
             writeln!(out, "light               {light}")?;
         }
@@ -312,6 +317,18 @@ impl Info {
             Bounds::print(group.bounds.as_ref(), "", "no bounds", out)?;
         }
         Ok(())
+    }
+
+    fn print_materials(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        /// As many as fit on a screen or two.
+        const MAX_LISTED: usize = 100;
+        for material in self.material_list.iter().take(MAX_LISTED) {
+            writeln!(out, "material            {material}")?;
+        }
+        match self.material_list.len().saturating_sub(MAX_LISTED) {
+            0 => Ok(()),
+            more => writeln!(out, "                    and {} more", grouped(more)),
+        }
     }
 
     fn print_memory(&self, out: &mut dyn Write) -> std::io::Result<()> {

@@ -12,6 +12,7 @@ mod inspect;
 mod lab;
 mod light;
 mod lights;
+mod materials;
 mod output;
 mod path;
 mod picture;

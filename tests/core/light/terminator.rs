@@ -1,6 +1,6 @@
 //! Repairs of the shadow terminator on a coarse sphere under a distant light.
 
-use super::lamps::radiance;
+use super::lamps::{loaded, radiance};
 use super::lit;
 use glam::Vec3;
 use hitscope_core::Ray;
@@ -11,6 +11,7 @@ use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::random::Random;
 use hitscope_core::scene::{Shading, scene};
 use hitscope_core::terminator::terminator_repair;
+use std::sync::Arc;
 
 /// Along no edge of the mesh, whose terminators would coincide with the light's.
 const TO_LIGHT: Vec3 = Vec3::new(0.36, 0.48, 0.8);
@@ -83,4 +84,24 @@ fn flat_shading_has_no_terminator_to_repair() {
         assert!((chiang - none).abs() <= 1e-6 * none, "{ray:?}");
         assert_eq!(none, hanika, "{ray:?}");
     }
+}
+
+#[test]
+fn repairs_change_nothing_where_only_a_texture_tilts_the_normal() {
+    let loaded = loaded(
+        r#"<shape type="rectangle"><bsdf type="normalmap"><bsdf type="diffuse"/>
+             <texture name="normalmap" type="checkerboard">
+               <rgb name="color0" value="0.8 0.5 0.9"/><rgb name="color1" value="0.8 0.5 0.9"/>
+             </texture></bsdf></shape>
+           <emitter type="directional"><vector name="direction" value="-2, 0, -1"/></emitter>"#,
+    );
+    let scene = Arc::into_inner(loaded.scene).expect("no other owner");
+    let mut context = lit(scene, loaded.lights);
+    context.shading = Shading::Smooth;
+    let ray = Ray::new(Vec3::new(0.1, 0.2, 1.0), Vec3::NEG_Z).expect("a ray");
+    let [none, chiang, hanika] = repaired(&mut context, &ray);
+    assert!(none > 0.1, "{none}");
+    // The ratio of equal cosines over the square of a unit normal's length.
+    assert!((chiang - none).abs() <= 1e-6 * none, "{chiang} {none}");
+    assert_eq!(none, hanika);
 }

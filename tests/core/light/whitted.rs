@@ -65,6 +65,31 @@ fn a_mirror_shows_the_emitter_times_its_reflectance_after_one_surface() {
     assert_eq!(radiance(&context, "whitted", &ray), Some(found));
 }
 
+#[test]
+fn a_mirror_reflects_about_the_normal_that_a_texture_tilts() {
+    // Everywhere the normal (0.6, 0, 0.8).
+    let mirror = r#"<shape type="rectangle"><bsdf type="normalmap"><bsdf type="conductor"/>
+                      <texture name="normalmap" type="checkerboard">
+                        <rgb name="color0" value="0.8 0.5 0.9"/><rgb name="color1" value="0.8 0.5 0.9"/>
+                      </texture></bsdf></shape>"#;
+    // Where the reflected ray goes, along (0.96, 0, 0.28).
+    let beside = r#"<rotate y="1" angle="-90"/><translate x="4.8" z="1.4"/>"#;
+    let context = context(&format!("{mirror}{}", emitter("1 1 1", beside)));
+    let down = ray(DVec3::new(0.1, 0.2, 1.0), DVec3::NEG_Z);
+    // Facets shadow each other, by the squared tangents of the tilt and of the reflected ray.
+    let (of_tilt, of_ray) = ((0.6f64 / 0.8).powi(2), (0.96f64 / 0.28).powi(2));
+    let expected = 2.0 / (1.0 + (1.0 + 0.125 * of_tilt * of_ray).sqrt());
+    for view in ["whitted", "path"] {
+        let found = radiance(&context, view, &down).expect("a hit").y;
+        // The cosine 0.28 is rounded as numbers of size 1 are, about ten times, and enters squared.
+        let bound = 2.0 * 10.0 / 0.28 / f64::from(1 << 24);
+        assert!(
+            (found - expected).abs() < bound,
+            "{view}: {found} {expected}"
+        );
+    }
+}
+
 /// A plate of glass in the plane z = 0 with half this thickness.
 fn plate(half: f64) -> String {
     format!(

@@ -1,7 +1,6 @@
-//! What scenes can't hold is refused or told with its line; what shapes share.
+//! What scenes can't hold is refused or told with its line.
 
 use super::{Files, loaded};
-use glam::Vec2;
 
 /// The message about a scene file that is refused, after its path.
 fn refusal(contents: &str) -> String {
@@ -148,34 +147,4 @@ fn a_mirrored_light_gives_a_warning_and_its_side_is_told() {
             "{shape} {parts:?}"
         );
     }
-}
-
-/// An OBJ file with a texture, and texture coordinates v from 0 to 0.25.
-fn textured(files: &Files) {
-    let folder = files.folder.path();
-    let obj = "mtllib t.mtl\nusemtl t\nv 0 0 0\nv 1 0 0\nv 0 1 0\nvt 0 0\nvt 1 0.25\nvt 0 0\nf 1/1 2/2 3/3\n";
-    std::fs::write(folder.join("textured.obj"), obj).expect("written");
-    std::fs::write(folder.join("t.mtl"), "newmtl t\nmap_Kd t.png\n").expect("written");
-    let picture = image::RgbImage::from_pixel(64, 64, image::Rgb([255, 0, 0]));
-    picture.save(folder.join("t.png")).expect("written");
-}
-
-#[test]
-fn shapes_of_one_file_share_its_textures_and_flip_the_coordinates_alone() {
-    let shape = |parts: &str| {
-        format!("<shape type='obj'><string name='filename' value='textured.obj'/>{parts}</shape>")
-    };
-    let flipped = shape("<boolean name='flip_tex_coords' value='false'/>");
-    let files = Files::new(&[shape(""), flipped, shape("<bsdf type='diffuse'/>")].concat());
-    textured(&files);
-    let scene = files.load().expect("a scene").scene;
-    let attributes = scene.mesh().attributes();
-    assert_eq!(attributes.textures.len(), 1);
-    let material = |triangle: u32| attributes.materials.index(triangle);
-    assert_eq!(material(0), material(1));
-    assert_ne!(material(0), material(2));
-    let second = |triangle: u32| attributes.texture_coordinates.of_triangle(triangle)[1];
-    // As Mitsuba 3.9.1 shows the texture.
-    assert_eq!(second(0), Some(Vec2::new(1.0, 0.25)));
-    assert_eq!(second(1), Some(Vec2::new(1.0, 0.75)));
 }

@@ -21,11 +21,11 @@ fn unusual_materials_are_read_and_skipped_statements_are_reported() {
     assert_eq!(materials["dim"].opacity, 0.75);
     let map = materials["mapped"].diffuse_map.expect("a map");
     assert_eq!(
-        (map.scale, map.offset),
-        (Vec2::splat(2.0), Vec2::new(0.5, 0.0))
+        map.transform.transform_point2(Vec2::ONE),
+        Vec2::new(2.5, 2.0)
     );
     // Half of texel.png is red, half is green; (0.375, 0) of the surface maps to u = 1.25.
-    let colour = map.colour(&loaded.mesh.attributes().textures, Vec2::new(0.375, 0.0));
+    let colour = map.value(&loaded.mesh.attributes().textures, Vec2::new(0.375, 0.0));
     assert_eq!(colour, Vec3::X);
     let skipped = ["Kd", "Ps", "Pc", "map_Ns", "illum", "map_Kd", "map_Kd -bm"];
     let warnings = warnings(&loaded);
@@ -80,7 +80,7 @@ fn a_missing_library_or_texture_gives_a_warning_and_the_mesh_loads() {
     let looked_for = |name: &str| loaded.report.files.iter().any(|path| path.ends_with(name));
     assert!(looked_for("nowhere.mtl") && looked_for("lost.png"));
     let map = materials(&loaded)["picture"].diffuse_map.expect("a map");
-    let of = |x| map.colour(&loaded.mesh.attributes().textures, Vec2::new(x, 1.0 / 16.0));
+    let of = |x| map.value(&loaded.mesh.attributes().textures, Vec2::new(x, 1.0 / 16.0));
     assert_ne!(of(1.0 / 16.0), of(3.0 / 16.0));
 }
 

@@ -43,6 +43,7 @@ const fn options(faults: FaultPolicy) -> LoadOptions {
         recentre: obj::Recentre::Auto,
         faults,
         max_memory: 1 << 30,
+        keeps_coordinates: false,
     }
 }
 

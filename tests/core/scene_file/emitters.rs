@@ -52,6 +52,7 @@ fn emitters_have_mitsubas_defaults() {
     let emitter = lamp.shapes[0].emitter.as_ref().expect("an emitter");
     let expected = EmitterKind::Area {
         radiance: DVec3::ONE,
+        texture: None,
     };
     assert_eq!(emitter.kind, expected);
 }

@@ -1,10 +1,12 @@
 //! Every element and parameter that is read, and its default.
 
 use super::{parse, parse_bytes, scene, warnings};
-use glam::{DMat4, DVec3};
+use glam::{DMat4, DVec2, DVec3};
+use hitscope_core::bsdf::Slot;
+use hitscope_core::mesh::{Filter, Wrap};
 use hitscope_core::scene_file::{
-    Bsdf, Cone, Csg, CsgOperation, Cube, Cuboid, Cylinder, Disk, Obj, Place, Plane, Rectangle,
-    SceneFile, ShapeKind, Sphere, Torus,
+    Bsdf, Checkerboard, Cone, Csg, CsgOperation, Cube, Cuboid, Cylinder, Disk, Obj, Place, Plane,
+    Rectangle, ReliefKind, SceneFile, ShapeKind, Side, Sphere, TextureKind, Torus,
 };
 use std::path::PathBuf;
 
@@ -227,10 +229,10 @@ fn materials_are_found_before_and_after_their_definition() {
     assert_eq!(warnings(&scene), [""; 0]);
     let materials = scene.materials.iter();
     let materials: Vec<_> = materials
-        .map(|m| (m.id.as_deref(), m.front, m.back))
+        .map(|m| (m.id.as_deref(), m.front.clone(), m.back.clone()))
         .collect();
     let (half, early) = (DVec3::splat(0.5), DVec3::new(0.1, 0.2, 0.3));
-    let of = |reflectance| Bsdf::Diffuse { reflectance };
+    let of = |reflectance| Side::from(Bsdf::Diffuse { reflectance });
     let expected = [
         (Some("late"), of(DVec3::ONE), Some(of(DVec3::ONE))),
         (Some("early"), of(early), None),
@@ -247,27 +249,81 @@ fn materials_are_found_before_and_after_their_definition() {
 fn other_bsdfs_and_textures_are_replaced_with_a_warning() {
     let scene = read(
         "<bsdf type='principled' id='a'><float name='roughness' value='0.1'/></bsdf>
-         <texture type='bitmap' id='t'/>
+         <texture type='volume' id='t'/>
          <shape type='disk'><bsdf type='diffuse'><ref name='reflectance' id='t'/></bsdf></shape>
-         <shape type='disk'><bsdf type='diffuse'><texture name='reflectance' type='bitmap'/></bsdf></shape>
+         <shape type='disk'><bsdf type='conductor'><texture name='eta' type='checkerboard'/></bsdf></shape>
          <bsdf type='diffuse'/>
          <shape type='disk'><medium type='homogeneous'/><ref id='a'/></shape>
          words",
     );
     assert_eq!(
-        (scene.materials[0].front, scene.materials[0].back),
-        (Bsdf::GREY, Some(Bsdf::GREY))
+        (&scene.materials[0].front, &scene.materials[0].back),
+        (&Bsdf::GREY.into(), &Some(Bsdf::GREY.into()))
     );
     let expected = [
         "line 2: bsdf “principled” isn't supported; a diffuse reflectance of 0.5 is used; the most similar one that is supported is “roughplastic”",
-        "line 3: texture “bitmap” in scene isn't used",
-        "line 4: textures aren't supported; the parameter's default is used",
-        "line 5: texture “bitmap” in bsdf “diffuse” isn't used",
+        "line 3: texture “volume” isn't supported",
+        "line 4: bsdf “diffuse”: the texture of “reflectance” isn't supported; the default is used",
+        "line 5: bsdf “conductor”: a texture for “eta” isn't supported; the default is used",
         "line 6: bsdf “diffuse” in scene without id isn't used",
         "line 7: medium “homogeneous” in shape “disk” isn't used",
         "line 8: text “words” isn't used",
     ];
     assert_eq!(warnings(&scene), expected);
+}
+
+#[test]
+fn textures_replace_parameters_and_reliefs_wrap_both_sides() {
+    let scene = read(
+        "<texture type='bitmap' id='t'><string name='filename' value='t.png'/><boolean name='raw' value='true'/>
+           <string name='filter_type' value='nearest'/><string name='wrap_mode' value='mirror'/>
+           <transform name='to_uv'><scale x='2' y='3'/><translate x='0.5'/></transform></texture>
+         <shape type='disk'><bsdf type='mask'><ref name='opacity' id='t'/><bsdf type='twosided'>
+           <bsdf type='roughconductor'><ref name='alpha' id='t'/></bsdf>
+           <bsdf type='plastic'><texture type='checkerboard' name='diffuse_reflectance'>
+             <rgb name='color0' value='0.1 0.2 0.3'/></texture></bsdf></bsdf></bsdf></shape>
+         <shape type='disk'><bsdf type='bumpmap'><float name='scale' value='2'/><ref id='t'/>
+           <bsdf type='twosided'><bsdf type='diffuse'/></bsdf></bsdf></shape>
+         <shape type='disk'><bsdf type='normalmap'><ref name='normalmap' id='t'/>
+           <boolean name='use_shadowing_function' value='false'/><bsdf type='diffuse'/></bsdf></shape>",
+    );
+    let warning = "line 12: bsdf “normalmap”: “use_shadowing_function” is always true here";
+    assert_eq!(warnings(&scene), [warning]);
+    let [masked, bumpy, normal] = &scene.materials[..] else {
+        panic!("three materials");
+    };
+    let bitmap = masked.opacity_texture.as_ref().expect("a texture");
+    let TextureKind::Bitmap(picture) = &bitmap.kind else {
+        panic!("a picture");
+    };
+    assert!(picture.is_raw && picture.file.ends_with("t.png"));
+    assert_eq!(
+        (picture.filter, picture.wrap),
+        (Filter::Nearest, Wrap::Mirror)
+    );
+    assert_eq!(
+        bitmap.to_uv.transform_point2(DVec2::ONE),
+        DVec2::new(2.5, 3.0)
+    );
+    assert_eq!(masked.opacity, 1.0);
+    assert_eq!(masked.front.texture(Slot::Roughness), Some(bitmap));
+    let back = masked.back.as_ref().expect("a back");
+    let board = Checkerboard {
+        colours: [DVec3::new(0.1, 0.2, 0.3), DVec3::splat(0.2)],
+    };
+    let kind = back.texture(Slot::Diffuse).map(|texture| &texture.kind);
+    assert_eq!(kind, Some(&TextureKind::Checkerboard(board)));
+    for (side, kind) in [
+        (Some(&bumpy.front), ReliefKind::Heights { scale: 2.0 }),
+        (bumpy.back.as_ref(), ReliefKind::Heights { scale: 2.0 }),
+        (Some(&normal.front), ReliefKind::Normals),
+    ] {
+        let relief = side
+            .and_then(|side| side.relief.as_ref())
+            .expect("a relief");
+        assert_eq!((relief.kind, &relief.texture), (kind, bitmap));
+    }
+    assert_eq!(normal.back, None);
 }
 
 #[test]

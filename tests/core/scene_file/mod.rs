@@ -18,6 +18,9 @@ mod features;
 // Refused files and their messages.
 mod refused;
 
+// Refused textures and their messages.
+mod refused_textures;
+
 // Malicious files.
 mod hostile;
 

@@ -3,7 +3,7 @@
 use super::{parse, parse_files, scene};
 use glam::{DMat4, DVec3};
 use hitscope_core::scene_file::{
-    self, Emitter, EmitterKind, Obj, Place, Plugin, SceneFile, Shape, ShapeKind,
+    self, Emitter, EmitterKind, Material, Obj, Place, Plugin, SceneFile, Shape, ShapeKind,
 };
 use std::path::{Path, PathBuf};
 
@@ -36,6 +36,18 @@ const ALL: &str = r##"
 <shape type="rectangle"><transform name="to_world"><rotate value="0.6 0.8 0" angle="17"/><translate x="0.1"/></transform>
   <emitter type="area"><rgb name="radiance" value="1 2 3"/></emitter></shape>
 <shape type="cube"><bsdf type="twosided"><bsdf type="diffuse"/></bsdf></shape>
+<texture type="bitmap" id="wood"><string name="filename" value="sub/wood.png"/><boolean name="raw" value="true"/>
+  <string name="filter_type" value="nearest"/><string name="wrap_mode" value="clamp"/>
+  <transform name="to_uv"><rotate z="1" angle="33"/><scale x="2" y="3"/><translate x="0.1" y="0.7"/></transform></texture>
+<bsdf type="normalmap" id="wooden"><ref name="normalmap" id="wood"/><bsdf type="roughplastic">
+  <texture name="diffuse_reflectance" type="checkerboard"><rgb name="color1" value="0.1 0.2 0.3"/></texture>
+  <ref name="specular_reflectance" id="wood"/></bsdf></bsdf>
+<shape type="cube"><ref id="wooden"/></shape>
+<shape type="cube"><emitter type="area"><ref name="radiance" id="wood"/></emitter></shape>
+<shape type="cube"><bsdf type="twosided"><bsdf type="bumpmap"><float name="scale" value="-0.3"/><ref id="wood"/><bsdf type="diffuse"/></bsdf>
+  <bsdf type="roughconductor"><ref name="alpha" id="wood"/></bsdf></bsdf></shape>
+<shape type="cube"><bsdf type="mask"><ref name="opacity" id="wood"/><bsdf type="mask"><float name="opacity" value="0.3"/>
+  <bsdf type="dielectric"><ref name="specular_transmittance" id="wood"/></bsdf></bsdf></bsdf></shape>
 <shape type="cube"><bsdf type="twosided"><bsdf type="conductor"><string name="material" value="Au"/></bsdf><bsdf type="plastic"/></bsdf></shape>
 <shape type="cube"><bsdf type="roughconductor"><rgb name="eta" value="0.1 1 2"/><float name="k" value="3"/><string name="distribution" value="ggx"/>
   <float name="alpha" value="0.3"/><rgb name="specular_reflectance" value="0.9"/></bsdf></shape>
@@ -67,6 +79,13 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
     }
     fn of_emitter(emitter: &mut Emitter) {
         emitter.place = Place::default();
+        if let EmitterKind::Area {
+            texture: Some(texture),
+            ..
+        } = &mut emitter.kind
+        {
+            texture.place = Place::default();
+        }
         if let EmitterKind::Other(plugin) = &mut emitter.kind {
             of_plugin(plugin);
         }
@@ -81,11 +100,20 @@ fn without_places(mut scene: SceneFile) -> SceneFile {
             csg.children.iter_mut().for_each(of_shape);
         }
     }
+    fn of_material(material: &mut Material) {
+        material.place = Place::default();
+        for side in std::iter::once(&mut material.front).chain(&mut material.back) {
+            let relief = side.relief.iter_mut().map(|relief| &mut relief.texture);
+            let textures = side.textures.iter_mut().map(|(_, texture)| texture);
+            textures
+                .chain(relief)
+                .for_each(|texture| texture.place = Place::default());
+        }
+        let opacity = material.opacity_texture.iter_mut();
+        opacity.for_each(|texture| texture.place = Place::default());
+    }
     scene.shapes.iter_mut().for_each(of_shape);
-    scene
-        .materials
-        .iter_mut()
-        .for_each(|m| m.place = Place::default());
+    scene.materials.iter_mut().for_each(of_material);
     scene
         .sensors
         .iter_mut()

@@ -2,6 +2,7 @@
 
 use super::similarity::scale_across;
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::group::UnitShape;
 use crate::scene_file::{self, Place};
 use crate::shape::{Cone, Cylinder};
 use glam::{DMat3, DMat4, DVec3};
@@ -59,6 +60,15 @@ impl Placeable for scene_file::Cylinder {
         };
         let axial = axial.transformed(place, to_world)?;
         Ok(Box::new(PlacedCylinder(axial)))
+    }
+
+    /// Mitsuba measures angles from an axis across the cylinder's own.
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        let axis = self.p1 - self.p0;
+        let (x, y) = axis.try_normalize()?.any_orthonormal_pair();
+        let linear = DMat3::from_cols(self.radius * x, self.radius * y, axis);
+        let place = DMat4::from_translation(self.p0);
+        Some((UnitShape::Cylinder, place * DMat4::from_mat3(linear)))
     }
 }
 

@@ -1,6 +1,7 @@
 //! Boxes.
 
 use super::{Placeable, Placed, PlacedPrimitive, Refusal, axis_of};
+use crate::group::UnitShape;
 use crate::scene_file::{self, Place};
 use crate::shape::{AxisBox, Cuboid};
 use glam::{DMat3, DMat4, DVec3};
@@ -9,11 +10,21 @@ impl Placeable for scene_file::Cube {
     fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(placed(to_world, DVec3::NEG_ONE, DVec3::ONE))
     }
+
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        Some((UnitShape::Cube, DMat4::IDENTITY))
+    }
 }
 
 impl Placeable for scene_file::Cuboid {
     fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(placed(to_world, self.min, self.max))
+    }
+
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        let centre = DMat4::from_translation(0.5 * (self.min + self.max));
+        let half = DMat4::from_scale(0.5 * (self.max - self.min));
+        Some((UnitShape::Cube, centre * half))
     }
 }
 

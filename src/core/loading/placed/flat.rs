@@ -1,6 +1,7 @@
 //! Disks and rectangles.
 
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::group::UnitShape;
 use crate::scene_file::{self, Place};
 use crate::shape::{Disk, Rectangle, Span};
 use glam::{DMat3, DMat4, DVec3};
@@ -49,6 +50,10 @@ impl Placeable for scene_file::Disk {
     fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(Box::new(PlacedDisk(PlacedSpan::new(to_world))))
     }
+
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        Some((UnitShape::Disk, DMat4::IDENTITY))
+    }
 }
 
 impl Placeable for scene_file::Rectangle {
@@ -57,6 +62,10 @@ impl Placeable for scene_file::Rectangle {
 
     fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(Box::new(PlacedRectangle(PlacedSpan::new(to_world))))
+    }
+
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        Some((UnitShape::Rectangle, DMat4::IDENTITY))
     }
 }
 

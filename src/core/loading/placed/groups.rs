@@ -1,8 +1,9 @@
 //! The groups of a scene file's shapes, before their trees are built.
 
-use crate::group::{Appearance, Grouped, Solid};
+use crate::group::{Appearance, Grouped, Placement, Solid};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
+use glam::DVec3;
 use std::any::Any;
 
 /// Groups of shapes, each of one kind, in the order in which the kinds were first added; solids come last.
@@ -12,13 +13,26 @@ pub struct Groups {
     pub solids: List<Solid>,
 }
 
-/// The material of a shape, and its side.
-#[derive(Clone, Copy, Debug)]
+/// The material of a shape, its side, and its texture coordinates.
+#[derive(Clone, Debug)]
 pub struct Look {
     /// Index into the scene's materials.
     pub material: u32,
     /// Whether its normals are reversed.
     pub is_flipped: bool,
+    /// Its texture coordinates, in the world, if it needs any.
+    pub placement: Option<Box<Placement>>,
+}
+
+impl Look {
+    /// The look in coordinates about an origin.
+    pub fn about(self, origin: DVec3) -> Self {
+        let moved = |placement: Box<Placement>| Box::new(placement.about(origin));
+        Self {
+            placement: self.placement.map(moved),
+            ..self
+        }
+    }
 }
 
 /// Shapes of one kind, with their materials and sides.
@@ -43,6 +57,8 @@ impl<S> List<S> {
         self.appearance.materials.begin(index, look.material);
         let side = u32::from(look.is_flipped);
         self.appearance.flipped.begin(index, side);
+        let placement = look.placement.map(|placement| (index, *placement));
+        self.appearance.placements.extend(placement);
     }
 }
 

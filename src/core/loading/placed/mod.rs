@@ -17,7 +17,7 @@ pub(super) use groups::{Groups, Look};
 
 use super::memory::{BYTES_PER_ALLOCATION, Needs};
 use super::refusal::Refusal;
-use crate::group::{Grouped, Solid};
+use crate::group::{Grouped, Placement, Solid, UnitShape};
 use crate::scene_file::{self, Place, Shape, ShapeKind, with_kinds};
 use crate::shape::{Shape as _, numbers_of};
 use glam::{DMat3, DMat4, DVec3};
@@ -33,6 +33,11 @@ trait Placeable {
     /// # Errors
     /// The transformed shape isn't supported.
     fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal>;
+
+    /// The unit shape whose texture coordinates it has, and the map from it; `None` if it has none.
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        None
+    }
 }
 
 /// A shape in the world's coordinates.
@@ -180,6 +185,14 @@ macro_rules! placing {
             match &shape.kind {
                 $(ShapeKind::$kind(kind) => kind.placed(shape.place, to_world),)*
             }
+        }
+
+        /// The texture coordinates of a shape in the world.
+        pub(super) fn placement(shape: &Shape) -> Option<Placement> {
+            let (unit, to_shape) = match &shape.kind {
+                $(ShapeKind::$kind(kind) => kind.unit(),)*
+            }?;
+            Some(Placement::new(unit, shape.to_world * to_shape))
         }
 
         /// Whether the normals of a placed shape are reversed: by `flip_normals`, or by a transform that mirrors.

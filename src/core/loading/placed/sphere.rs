@@ -3,6 +3,7 @@
 use super::quadric::PlacedQuadric;
 use super::similarity::scale_of;
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
+use crate::group::UnitShape;
 use crate::scene_file::{self, Place};
 use crate::shape::Sphere;
 use glam::{DMat3, DMat4, DVec3};
@@ -22,6 +23,14 @@ impl Placeable for scene_file::Sphere {
             }),
             None => Box::new(PlacedQuadric::ellipsoid(centre, linear * self.radius)),
         })
+    }
+
+    fn unit(&self) -> Option<(UnitShape, DMat4)> {
+        let size = DMat4::from_scale(DVec3::splat(self.radius));
+        Some((
+            UnitShape::Sphere,
+            DMat4::from_translation(self.center) * size,
+        ))
     }
 }
 

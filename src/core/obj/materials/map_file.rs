@@ -1,14 +1,18 @@
-//! Parser of `map_Kd` statements.
+//! Parser of statements that name a picture, such as `map_Kd`.
 
 use super::mtl::number;
 use glam::Vec2;
 
-/// The file name of a `map_Kd` statement, and the picture's placement on the surface.
+/// The file name of a statement, and the picture's placement on the surface.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct MapFile {
     pub name: String,
     pub scale: Vec2,
     pub offset: Vec2,
+    /// What multiplies the values of a bump map (`-bm`).
+    pub multiplier: f32,
+    /// Whether the multiplier is given.
+    pub has_multiplier: bool,
 }
 
 /// Parses `-option value… name with spaces`. Also returns the options that shading doesn't use, each once.
@@ -17,6 +21,8 @@ pub(super) fn parse(rest: &str) -> Option<(MapFile, Vec<&str>)> {
         name: String::new(),
         scale: Vec2::ONE,
         offset: Vec2::ZERO,
+        multiplier: 1.0,
+        has_multiplier: false,
     };
     let mut skipped = Vec::new();
     let mut rest = rest.trim();
@@ -45,6 +51,7 @@ pub(super) fn parse(rest: &str) -> Option<(MapFile, Vec<&str>)> {
         match option {
             "-s" => map.scale = pair,
             "-o" => map.offset = Vec2::new(values[0], values.get(1).copied().unwrap_or(0.0)),
+            "-bm" => (map.multiplier, map.has_multiplier) = (values[0], true),
             _ if skipped.contains(&option) => {}
             _ => skipped.push(option),
         }

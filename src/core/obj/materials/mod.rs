@@ -2,12 +2,14 @@
 
 mod libraries;
 mod map_file;
+mod map_statements;
 mod mtl;
 mod picture;
 mod referenced_files;
 mod stored_file;
 mod textures;
 
+pub(crate) use picture::{Picture, read as read_picture};
 pub use referenced_files::ReadFile;
 pub(super) use referenced_files::{Folder, NamedFiles, ReferencedFiles};
 pub(crate) use stored_file::read_past;
@@ -17,7 +19,7 @@ use super::contents::Contents;
 use super::error::Problem;
 use super::tally::shortened;
 use crate::counts::{counted, grouped};
-use crate::mesh::{Material, Texture};
+use crate::mesh::{Encoding, Material, Property, Texture};
 use crate::progress::Progress;
 use libraries::Libraries;
 use std::collections::HashSet;
@@ -64,8 +66,10 @@ pub(super) fn resolve(
             let map = textures.optional_map(map, folder);
             material
                 .further_maps
-                .extend(map.map(|map| (*property, map)));
+                .extend(map.map(|map| (*property, map.encoded(encoding(*property)))));
         }
+        let relief = definition.relief.as_ref();
+        material.relief = relief.and_then(|(kind, map)| textures.relief(*kind, map, folder));
         materials.push(material);
         is_invisible_by_tr.push(definition.is_invisible_only_by_tr());
     }
@@ -89,6 +93,14 @@ pub(super) fn resolve(
         textures: textures.list,
         warnings,
     })
+}
+
+/// The meaning of texels that give a property.
+fn encoding(property: Property) -> Encoding {
+    match property {
+        Property::Specular | Property::Emission => Encoding::Srgb,
+        Property::Opacity | Property::Roughness | Property::Metalness => Encoding::Linear,
+    }
 }
 
 /// If every face is invisible, makes the materials opaque that only `Tr 1` makes invisible. Returns a warning.

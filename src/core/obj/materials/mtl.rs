@@ -4,7 +4,8 @@
 //!
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995.
 
-use super::map_file::{self, MapFile};
+use super::map_file::MapFile;
+use super::map_statements::ReliefStatement;
 use crate::brightness::MAX_BRIGHTNESS;
 use crate::counts::counted;
 use crate::mesh::{Illumination, Material, Property};
@@ -24,6 +25,7 @@ pub(super) struct Definition {
     pub material: Material,
     pub diffuse_map: Option<MapFile>,
     pub further_maps: Vec<(Property, MapFile)>,
+    pub relief: Option<(ReliefStatement, MapFile)>,
     line: usize,
     /// Whether a `d` statement was read. It overrides `Tr`.
     has_opacity: bool,
@@ -248,9 +250,8 @@ impl Parser {
         }
         // A file name may contain a #.
         let rest = match lower_case.as_str() {
-            "map_kd" | "map_ks" | "map_ke" | "map_d" | "map_opacity" | "map_pr" | "map_pm" => {
-                rest.trim().to_owned()
-            }
+            "map_kd" | "map_ks" | "map_ke" | "map_d" | "map_opacity" | "map_pr" | "map_pm"
+            | "norm" | "map_norm" | "bump" | "map_bump" => rest.trim().to_owned(),
             _ => name(without_comment(rest.as_bytes())),
         };
         let current = self.current.as_mut();
@@ -337,29 +338,6 @@ impl Definition {
             _ => return self.apply_map(keyword, rest),
         }
         Some(Vec::new())
-    }
-
-    /// Applies a statement with a texture. Returns its skipped options, or `None` if the statement is malformed or
-    /// unknown.
-    fn apply_map(&mut self, keyword: &str, rest: &str) -> Option<Vec<String>> {
-        let property = match keyword {
-            "map_kd" => None,
-            "map_ks" => Some(Property::Specular),
-            "map_ke" => Some(Property::Emission),
-            "map_d" | "map_opacity" => Some(Property::Opacity),
-            "map_pr" => Some(Property::Roughness),
-            "map_pm" => Some(Property::Metalness),
-            _ => return None,
-        };
-        let (map, skipped) = map_file::parse(rest)?;
-        match property {
-            None => self.diffuse_map = Some(map),
-            Some(property) => {
-                self.further_maps.retain(|(other, _)| *other != property);
-                self.further_maps.push((property, map));
-            }
-        }
-        Some(skipped.into_iter().map(str::to_owned).collect())
     }
 }
 

@@ -1,17 +1,29 @@
 //! Decoder of texture pictures in PNG or JPEG format.
 
+use super::{reason, stored_file};
 use crate::mesh::Texture;
 use crate::obj::error::printable;
 use crate::obj::fence::fenced;
 use glam::UVec2;
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
+use std::path::Path;
 
 /// A decoded picture.
-pub(super) struct Picture {
+pub(crate) struct Picture {
     pub texture: Texture,
     /// Whether the file is truncated.
     pub is_truncated: bool,
+}
+
+/// Reads and decodes a picture with at most `max_bytes` of memory.
+///
+/// # Errors
+/// The reason; see [`decode`].
+pub(crate) fn read(path: &Path, max_bytes: u64) -> Result<Picture, String> {
+    let bytes = stored_file::read(path, max_bytes).map_err(|error| reason(&error))?;
+    let name = path.to_string_lossy();
+    decode(&name, &bytes, max_bytes.saturating_sub(bytes.len() as u64))
 }
 
 /// Decodes a picture with at most `max_bytes` of memory, not counting the file's bytes.

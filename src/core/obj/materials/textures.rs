@@ -1,14 +1,15 @@
 //! The textures of materials.
 
 use super::map_file::MapFile;
+use super::map_statements::ReliefStatement;
 use super::picture::{self, Picture};
 use super::referenced_files::ReferencedFiles;
 use super::{LimitedWarnings, reason};
-use crate::mesh::{Texture, TextureMap};
+use crate::mesh::{Bitangent, Encoding, HeightUnit, Relief, ReliefKind, Texture, TextureMap};
 use crate::obj::error::Warning;
 use crate::obj::tally::shortened;
 use crate::obj::words::before_comment;
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
 /// The textures read so far.
@@ -21,6 +22,8 @@ pub(super) struct Textures<'a> {
     by_name: HashMap<(String, String), Option<u32>>,
     /// Texture indices by path.
     by_path: HashMap<PathBuf, u32>,
+    /// Textures of bump statements that were found to hold normals.
+    normal_maps: HashSet<u32>,
     /// The checkerboard that replaces every unreadable texture.
     checker: Option<u32>,
     pub warnings: LimitedWarnings,
@@ -34,6 +37,7 @@ impl<'a> Textures<'a> {
             list: Vec::new(),
             by_name: HashMap::new(),
             by_path: HashMap::new(),
+            normal_maps: HashSet::new(),
             checker: None,
             warnings: LimitedWarnings::default(),
         }
@@ -49,6 +53,37 @@ impl<'a> Textures<'a> {
     pub(super) fn optional_map(&mut self, map: &MapFile, folder: &str) -> Option<TextureMap> {
         let found = self.texture(map, folder, "ignored");
         found.map(|texture| placed(map, texture))
+    }
+
+    /// The relief of a file in the library's folder or in the OBJ's, or `None` if the file can't be read. Heights are in
+    /// widths of a texel. Some programs write normal maps as heights.
+    pub(super) fn relief(
+        &mut self,
+        statement: ReliefStatement,
+        map: &MapFile,
+        folder: &str,
+    ) -> Option<Relief> {
+        let placed = self.optional_map(map, folder)?.encoded(Encoding::Linear);
+        let is_normal_map = self.list[placed.texture as usize].looks_like_normals();
+        if statement == ReliefStatement::Bump
+            && is_normal_map
+            && self.normal_maps.insert(placed.texture)
+        {
+            let message = "looks like a normal map, and is used as one instead of as a bump map";
+            self.warn(&map.name, message);
+        }
+        let kind = if statement == ReliefStatement::Normals || is_normal_map {
+            ReliefKind::Normals {
+                strength: map.multiplier,
+                bitangent: Bitangent::AlongTexture,
+            }
+        } else {
+            ReliefKind::Heights {
+                scale: map.multiplier,
+                unit: HeightUnit::Texel,
+            }
+        };
+        Some(Relief { map: placed, kind })
     }
 
     /// A texture; `None` if it can't be read, with a warning that names the `consequence`, at the first look-up.
@@ -133,9 +168,5 @@ impl<'a> Textures<'a> {
 }
 
 fn placed(map: &MapFile, texture: u32) -> TextureMap {
-    TextureMap {
-        texture,
-        scale: map.scale,
-        offset: map.offset,
-    }
+    TextureMap::of(texture).placed(map.scale, map.offset)
 }

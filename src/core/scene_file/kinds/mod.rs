@@ -110,7 +110,7 @@ macro_rules! shape_kinds {
 
         impl ShapeKind {
             /// The `type` attribute.
-            pub(super) fn name(&self) -> &'static str {
+            pub(crate) fn name(&self) -> &'static str {
                 match self {
                     $(Self::$kind(_) => $kind::NAME,)*
                 }

@@ -1,5 +1,6 @@
 //! Tests of the material library parser.
 
+use super::super::map_file;
 use super::*;
 use glam::Vec2;
 
@@ -123,6 +124,28 @@ fn every_property_used_by_light_is_read() {
         materials[3].material.illumination,
         Illumination::FresnelMirror
     );
+}
+
+#[test]
+fn a_normal_map_has_precedence_over_heights_and_multipliers_are_read() {
+    let (materials, warnings) = messages(
+        "newmtl a\nnorm -bm 2 n #1.png\nmap_Bump h.png\nnewmtl b\nbump -bm .25 -s 2 2 h.png\nmap_Kd -bm 1 k.png\nnewmtl c\nbump old.png\nmap_bump new.png\n",
+    );
+    let relief = |definition: &Definition| {
+        let (statement, map) = definition.relief.clone().expect("a relief");
+        (statement, map.name, map.multiplier)
+    };
+    let found: Vec<_> = materials.iter().map(relief).collect();
+    assert_eq!(
+        found,
+        [
+            (ReliefStatement::Normals, "n #1.png".to_owned(), 2.0),
+            (ReliefStatement::Bump, "h.png".to_owned(), 0.25),
+            (ReliefStatement::Bump, "new.png".to_owned(), 1.0),
+        ]
+    );
+    let skipped = "material library “m.mtl”: 1 “map_Kd -bm” statement skipped, on line 6";
+    assert_eq!(warnings, [skipped]);
 }
 
 #[test]
