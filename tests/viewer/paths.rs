@@ -1,12 +1,13 @@
 //! The path of a sample of the picked pixel.
 
 use crate::harness::{Window, app_with, click, in_picture, wait};
+use crate::pointer::on_the_mesh;
 use egui_kittest::kittest::Queryable as _;
 use glam::UVec2;
 use hitscope::app::App;
 use hitscope::settings::Settings;
 
-/// A window with the finished picture of a view, of which a pixel of the floor is picked.
+/// A window with the finished picture of a view, of which a pixel that shows the scene is picked.
 fn picked(view: &str, samples: u32) -> Option<Window> {
     let mut window = app_with(Settings {
         view: view.to_owned(),
@@ -14,7 +15,8 @@ fn picked(view: &str, samples: u32) -> Option<Window> {
         ..Settings::default()
     })?;
     wait(&mut window, "all samples", App::is_settled);
-    let at = in_picture(&window, 0.5, 0.72);
+    let (x, y) = on_the_mesh(&window);
+    let at = in_picture(&window, x, y);
     click(&mut window, at);
     wait(&mut window, "the pick", |app| app.inspection().is_some());
     Some(window)
@@ -30,7 +32,7 @@ fn the_path_of_the_only_sample_has_the_colour_of_the_pixel() {
     let pixel = app.inspection().expect("a pick").pixel;
     let path = app.path().expect("a path");
     assert_eq!((path.view, path.sample), ("path", 0));
-    assert!(!path.vertices.is_empty(), "the floor is there");
+    assert!(!path.vertices.is_empty(), "the pixel shows the scene");
     let in_picture = app.film().radiance(UVec2::from_array(pixel));
     assert_eq!(
         Some(path.radiance),

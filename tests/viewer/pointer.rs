@@ -72,7 +72,7 @@ fn drags_orbit_and_pan_and_the_wheel_zooms() {
 }
 
 /// A place in the picture where the mesh is visible, as fractions of its size.
-fn on_the_mesh(window: &Window) -> (f32, f32) {
+pub fn on_the_mesh(window: &Window) -> (f32, f32) {
     on(window, |_| true)
 }
 
