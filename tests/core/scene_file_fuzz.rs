@@ -258,6 +258,14 @@ impl Totals {
             for bytes in [&case.scene, &case.part] {
                 let shown = &bytes[..bytes.len().min(600)];
                 eprintln!("--- {}", String::from_utf8_lossy(shown));
+                // The line that makes a file large.
+                let lines: Vec<&[u8]> = bytes.split(|&b| b == b'\n').collect();
+                let runs = lines.chunk_by(|a, b| a == b);
+                let longest = runs.max_by_key(|run| run.len());
+                if let Some(run) = longest.filter(|run| run.len() > 100) {
+                    let line = String::from_utf8_lossy(run[0]);
+                    eprintln!("--- {} times {line}", run.len());
+                }
             }
         }
     }

@@ -62,7 +62,8 @@ pub(super) struct Materials {
     /// Those with identifiers, in the order in which they are mentioned.
     named: Vec<Named>,
     by_id: HashMap<String, u32>,
-    unnamed: Vec<Material>,
+    /// The others, until the shapes that use them are known.
+    unnamed: Vec<Option<Material>>,
 }
 
 struct Named {
@@ -88,17 +89,6 @@ impl Materials {
         index
     }
 
-    /// A temporary index of a new material.
-    fn define(&mut self, material: Material) -> u32 {
-        let Some(id) = material.id.clone() else {
-            self.unnamed.push(material);
-            return UNNAMED | (self.unnamed.len() as u32 - 1);
-        };
-        let index = self.mention(&id, material.place);
-        self.named[index as usize].material = Some(material);
-        index
-    }
-
     /// The list of materials. Replaces the shapes' temporary indices.
     ///
     /// # Errors
@@ -113,7 +103,8 @@ impl Materials {
             named.material.ok_or_else(missing)
         });
         let mut materials: Vec<Material> = named.collect::<Result<_, _>>()?;
-        let mut unnamed = self.unnamed.into_iter().map(Some).collect();
+        materials.reserve_exact(self.unnamed.len());
+        let mut unnamed = self.unnamed;
         resolve(shapes, &mut unnamed, &mut materials);
         Ok(materials)
     }
@@ -183,13 +174,24 @@ pub(super) fn define(reader: &mut Reader, element: Element) -> Result<u32, Probl
 
 /// The temporary index of a new material, whose memory is taken.
 fn add(reader: &mut Reader, material: Material) -> Result<u32, Problem> {
-    let id = material.id.as_deref();
+    let (id, place) = (material.id.clone(), material.place);
     // A list with one texture has room for four.
     let texture = |texture: &Texture| 4 * size_of::<(Slot, Texture)>() + texture.path_bytes();
-    let textures = material.textures().map(texture).sum::<usize>() as u64;
-    let bytes = 2 * size_of::<Material>() as u64 + id.map_or(0, bytes_of_id) + textures;
-    reader.memory.take(bytes, material.place)?;
-    Ok(reader.materials.define(material))
+    let textures = material.textures().map(texture).sum::<usize>();
+    // In the final list, besides the temporary one.
+    reader
+        .memory
+        .take((size_of::<Material>() + textures) as u64, place)?;
+    let Some(id) = id else {
+        let list = &mut reader.materials.unnamed;
+        reader.memory.push(list, Some(material), place)?;
+        return Ok(UNNAMED | (list.len() as u32 - 1));
+    };
+    let bytes = size_of::<Material>() as u64 + bytes_of_id(&id);
+    reader.memory.take(bytes, place)?;
+    let index = reader.materials.mention(&id, place);
+    reader.materials.named[index as usize].material = Some(material);
+    Ok(index)
 }
 
 fn bsdf(reader: &mut Reader, element: Element) -> Result<Material, Problem> {

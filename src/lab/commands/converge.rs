@@ -26,16 +26,19 @@ use std::sync::Arc;
 /// Measure the error of pictures against the CPU time that they take
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
-Each setting renders pictures with 1, 2, 4, … samples per pixel. Their error is the root mean square over all pixels of
-the difference of luminance from the reference, relative to the reference's mean luminance. The reference is the view
-“path” with --kernel, --spawn and --depth. It contains the pictures' samples; as pictures have at most a sixteenth of
-its samples, this lowers errors by at most 3 %.
+Each setting renders pictures with 1, 2, 4, … samples per pixel. Their error is
+the root mean square over all pixels of the difference of luminance from the
+reference, relative to the reference's mean luminance. The reference is the view
+“path” with --kernel, --spawn and --depth. It contains the pictures' samples; as
+pictures have at most a sixteenth of its samples, this lowers errors by at most
+3 %.
 
-A setting is the name of a view whose colours are light, and changes: path,depth=3,spawn=nvidia,kernel=fast
+A setting is the name of a view whose colours are light, and changes:
+path,depth=3,spawn=nvidia,kernel=fast
 
 Examples:
   hitscope converge bunny.obj --size 256x256 --environment studio
-  hitscope converge scene.xml --setting path --setting direct --setting path,kernel=fast --out report")]
+  hitscope converge scene.xml --setting path --setting direct --out report")]
 pub struct ConvergeArgs {
     /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
     pub file: PathBuf,
