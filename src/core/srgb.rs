@@ -1,6 +1,6 @@
 //! Conversion between linear RGB and sRGB.
 
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use std::sync::LazyLock;
 
 /// Linear RGB from sRGB values, which are clamped to 0…1; NaN stays NaN.
@@ -36,11 +36,19 @@ pub fn from_texel(texel: [u8; 3]) -> Vec3 {
     Vec3::from_array(texel.map(|x| LINEAR[usize::from(x)]))
 }
 
-/// The luminance of linear RGB.
+/// The luminance of red, green and blue of brightness 1.
 ///
 /// Source: ITU-R BT.709.
+const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
+
+/// The luminance of linear RGB.
 pub fn luminance(rgb: Vec3) -> f32 {
-    rgb.dot(Vec3::new(0.2126, 0.7152, 0.0722))
+    rgb.dot(LUMINANCE.as_vec3())
+}
+
+/// The luminance of linear RGB in f64, which is positive for every colour but black.
+pub(crate) fn luminance_f64(rgb: Vec3) -> f64 {
+    rgb.as_dvec3().dot(LUMINANCE)
 }
 
 #[cfg(test)]

@@ -109,7 +109,8 @@ mod tests {
             remaining_part(geometric, shading, Vec3::new(sin, 0.0, cos))
         };
         assert_eq!(remaining_part(geometric, geometric, shading), 1.0);
-        // Along the shading normal, and where the geometric normal sees more, the ratio is at least 1.
+        // Along the shading normal, at 16.26°, the ratio is 1, where the slope by it is 0; where the geometric normal sees
+        // more, it is above 1.
         assert!((at(16.26) - 1.0).abs() < 1e-5);
         assert_eq!(at(-30.0), 1.0);
         // Behind the geometric normal is none.

@@ -76,7 +76,7 @@ fn a_setting_ends_at_its_time_and_the_report_has_the_figures() {
 fn impossible_settings_are_refused() {
     let folder = folder();
     for (setting, why) in [
-        ("normal", "“normal” is no view whose colours are light"),
+        ("normal", "“normal” isn't a view of light"),
         ("direct,depth=2", "depth has no effect on the view “direct”"),
         ("path,speed=2", "“speed=2” is unknown"),
         ("path,kernel=none", "“kernel=none” is unknown"),

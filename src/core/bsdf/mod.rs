@@ -140,19 +140,6 @@ pub enum Bsdf {
 }
 
 impl Bsdf {
-    /// The model with its diffuse reflectance multiplied by a colour.
-    pub fn tinted(mut self, colour: Vec3) -> Self {
-        match &mut self {
-            Self::Diffuse(Diffuse {
-                reflectance: diffuse,
-            })
-            | Self::Plastic(Plastic { diffuse, .. })
-            | Self::RoughPlastic(RoughPlastic { diffuse, .. }) => *diffuse *= colour,
-            _ => {}
-        }
-        self
-    }
-
     fn scatter(&self) -> &dyn Scatter {
         match self {
             Self::Black(model) => model,

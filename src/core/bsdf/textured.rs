@@ -1,7 +1,6 @@
-//! Parameters of models that textures can give.
+//! Parameters of models that textures and vertex colours change.
 
-use super::{Bsdf, Conductor, Dielectric, Diffuse, Plastic, RoughConductor, RoughDielectric};
-use super::{RoughPlastic, ThinDielectric};
+use super::{Bsdf, RoughConductor, RoughDielectric};
 use crate::srgb::luminance;
 use glam::Vec3;
 
@@ -19,8 +18,8 @@ pub enum Slot {
 }
 
 impl Bsdf {
-    /// The model with another value of a parameter; the same model if it has no such parameter. A value that isn't from 0
-    /// to 1 is clamped, NaN counts as 0. Roughness is the brightness of the value.
+    /// The model with another value of a parameter; the same model if it has no such parameter. The value is clamped to
+    /// 0…1; NaN counts as 0. Roughness is the brightness of the value.
     #[must_use]
     pub fn with(mut self, slot: Slot, value: Vec3) -> Self {
         let value = value.max(Vec3::ZERO).min(Vec3::ONE);
@@ -41,84 +40,38 @@ impl Bsdf {
         self
     }
 
-    fn colour_of(&mut self, slot: Slot) -> Option<&mut Vec3> {
-        match (slot, self) {
-            (
-                Slot::Diffuse,
-                Self::Diffuse(Diffuse {
-                    reflectance: colour,
-                })
-                | Self::Plastic(Plastic {
-                    diffuse: colour, ..
-                })
-                | Self::RoughPlastic(RoughPlastic {
-                    diffuse: colour, ..
-                }),
-            )
-            | (
-                Slot::Specular,
-                Self::Conductor(Conductor {
-                    reflectance: colour,
-                    ..
-                })
-                | Self::RoughConductor(RoughConductor {
-                    metal:
-                        Conductor {
-                            reflectance: colour,
-                            ..
-                        },
-                    ..
-                })
-                | Self::Dielectric(Dielectric {
-                    reflectance: colour,
-                    ..
-                })
-                | Self::RoughDielectric(RoughDielectric {
-                    media:
-                        Dielectric {
-                            reflectance: colour,
-                            ..
-                        },
-                    ..
-                })
-                | Self::ThinDielectric(ThinDielectric {
-                    reflectance: colour,
-                    ..
-                })
-                | Self::Plastic(Plastic {
-                    specular: colour, ..
-                })
-                | Self::RoughPlastic(RoughPlastic {
-                    specular: colour, ..
-                }),
-            )
-            | (
-                Slot::Transmittance,
-                Self::Dielectric(Dielectric {
-                    transmittance: colour,
-                    ..
-                })
-                | Self::RoughDielectric(RoughDielectric {
-                    media:
-                        Dielectric {
-                            transmittance: colour,
-                            ..
-                        },
-                    ..
-                })
-                | Self::ThinDielectric(ThinDielectric {
-                    transmittance: colour,
-                    ..
-                }),
-            ) => Some(colour),
-            _ => None,
+    /// The model with its diffuse reflectance multiplied by a colour; the same model if it has none.
+    #[must_use]
+    pub fn tinted(mut self, colour: Vec3) -> Self {
+        if let Some(diffuse) = self.colour_of(Slot::Diffuse) {
+            *diffuse *= colour;
         }
+        self
+    }
+
+    fn colour_of(&mut self, slot: Slot) -> Option<&mut Vec3> {
+        Some(match (slot, self) {
+            (Slot::Diffuse, Self::Diffuse(model)) => &mut model.reflectance,
+            (Slot::Diffuse, Self::Plastic(model)) => &mut model.diffuse,
+            (Slot::Diffuse, Self::RoughPlastic(model)) => &mut model.diffuse,
+            (Slot::Specular, Self::Conductor(model)) => &mut model.reflectance,
+            (Slot::Specular, Self::RoughConductor(model)) => &mut model.metal.reflectance,
+            (Slot::Specular, Self::Dielectric(model)) => &mut model.reflectance,
+            (Slot::Specular, Self::RoughDielectric(model)) => &mut model.media.reflectance,
+            (Slot::Specular, Self::ThinDielectric(model)) => &mut model.reflectance,
+            (Slot::Specular, Self::Plastic(model)) => &mut model.specular,
+            (Slot::Specular, Self::RoughPlastic(model)) => &mut model.specular,
+            (Slot::Transmittance, Self::Dielectric(model)) => &mut model.transmittance,
+            (Slot::Transmittance, Self::RoughDielectric(model)) => &mut model.media.transmittance,
+            (Slot::Transmittance, Self::ThinDielectric(model)) => &mut model.transmittance,
+            _ => return None,
+        })
     }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Law, MODELS, Microfacets, Scatter};
+    use super::super::{Conductor, Diffuse, Law, MODELS, Microfacets, Scatter};
     use super::*;
 
     #[test]

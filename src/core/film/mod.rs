@@ -1,8 +1,7 @@
 //! Film: accumulates samples and encodes them for a display.
 //!
 //! Sums are integers of 128 bits, so the picture doesn't depend on the order in which tiles arrive, and bright samples
-//! aren't clamped. Pixels without a
-//! sample show the colour of their block from a coarser pass.
+//! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass.
 
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
 use crate::srgb::luminance;

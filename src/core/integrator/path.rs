@@ -48,23 +48,22 @@ pub(super) fn follow(
         recorder.end(PathEnd::Left, ray, context.background);
         return context.background;
     }
-    let left = (ray.origin, None);
-    follow_scattered(context, *ray, hit, left, sampler, limit, recorder)
+    let from = (ray.origin, None);
+    follow_scattered(context, *ray, hit, from, sampler, limit, recorder)
 }
 
-/// The same for a ray that a surface scattered: `left` is where it left the surface, and the density of its direction.
+/// The same for a ray that left a surface at the point `from`, where the surface scattered it with the density `density`;
+/// `None` for single directions and rays of the camera.
 pub(super) fn follow_scattered(
     context: &Context,
     mut ray: Ray,
     mut hit: Option<Hit>,
-    left: (Vec3, Option<f32>),
+    (mut from, mut density): (Vec3, Option<f32>),
     sampler: &mut Sampler,
     limit: Option<u32>,
     recorder: &mut impl Recorder,
 ) -> Vec3 {
     let (mut light, mut throughput) = (Vec3::ZERO, Vec3::ONE);
-    // Where the ray left the last surface that scattered it, and with which density.
-    let (mut from, mut density) = left;
     // The product of the squared indices of refraction.
     let mut scale = 1.0;
     let mut surfaces = 0;
@@ -101,13 +100,10 @@ pub(super) fn follow_scattered(
         throughput *= scattered.weight;
         scale *= scattered.eta * scattered.eta;
         if surfaces > SURE_SURFACES {
-            // Refraction scales radiance, but not what is left of the path.
-            let survival = (throughput.max_element() * scale).min(MOST_LIKELY);
-            recorder.roulette(survival);
-            if sampler.next_1d() >= survival {
+            let Some(surviving) = roulette(throughput, scale, sampler, recorder) else {
                 break PathEnd::RussianRoulette;
-            }
-            throughput /= survival;
+            };
+            throughput = surviving;
         }
         let Some(onward) = point.spawn(scattered.incoming) else {
             break PathEnd::Overflow;
@@ -119,4 +115,18 @@ pub(super) fn follow_scattered(
     };
     recorder.end(end, &ray, Vec3::ZERO);
     light
+}
+
+/// The throughput of a path that Russian roulette lets continue; `None` if it ends the path. `scale` is the product of the
+/// squared indices of refraction along the path.
+fn roulette(
+    throughput: Vec3,
+    scale: f32,
+    sampler: &mut Sampler,
+    recorder: &mut impl Recorder,
+) -> Option<Vec3> {
+    // Refraction scales radiance, but not what is left of the path.
+    let survival = (throughput.max_element() * scale).min(MOST_LIKELY);
+    recorder.roulette(survival);
+    (sampler.next_1d() < survival).then(|| throughput / survival)
 }

@@ -1,5 +1,6 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
+use super::transport::INVISIBLE;
 use super::{Context, Integrator, Needs, Setting};
 use crate::appearance::Appearance;
 use crate::interaction::SurfaceInteraction;
@@ -25,8 +26,6 @@ pub(super) static SHADED: Integrator = Integrator {
 
 /// Maximum number of transparent surfaces along a ray; behind the last one it sees the background.
 const MOST_LAYERS: usize = 32;
-/// Transmittance below which a ray is ended: half a step of 8 bits.
-const INVISIBLE: f32 = 1.0 / 512.0;
 
 /// Light of the lamps reflected by both sides of surfaces, and emission; through transparent surfaces also what is
 /// behind them. The lamps cast no shadows.

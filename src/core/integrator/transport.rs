@@ -28,7 +28,7 @@ pub(super) struct ShadingPoint<'a> {
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
     bsdf: Bsdf,
-    /// Of rays that leave on the side that the ray comes from, by the repair of the shadow terminator.
+    /// What the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray comes from.
     offset: Vec3,
     /// The light that the surface emits towards the ray's origin.
     pub emission: Vec3,
@@ -329,6 +329,9 @@ pub(super) fn transmittance(context: &Context, mut ray: Ray) -> f32 {
 pub(super) fn balance(own: f32, other: f32) -> f32 {
     own / (own + other)
 }
+
+/// The part of light below which a ray isn't followed: half a step of 8 bits.
+pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
 /// The light of a ray that hits nothing. `scattered_with` is the density of its direction, `None` for single directions
 /// and rays of the camera.

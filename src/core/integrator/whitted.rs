@@ -5,7 +5,7 @@
 //! shadow; lights may have extent, and surfaces coverage.
 
 use super::path::follow_scattered;
-use super::transport::{ShadingPoint, emitted, from_afar};
+use super::transport::{INVISIBLE, ShadingPoint, emitted, from_afar};
 use super::{Context, Integrator, Needs};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -21,8 +21,6 @@ pub(super) static WHITTED: Integrator = Integrator {
     radiance,
 };
 
-/// The part of light below which a branch ends: half a step of 8 bits.
-const INVISIBLE: f32 = 1.0 / 512.0;
 /// The most surfaces on a branch, which ends branches between mirrors and in total reflection. As surfaces scatter no more
 /// light than arrives, the tree has at most 512 branches that are visible after each number of surfaces.
 const MOST_SURFACES: u32 = 64;

@@ -93,10 +93,7 @@ impl AliasTable {
         Some((index, self.slots[index].probability, rest))
     }
 
-    /// The probability of an index.
-    ///
-    /// # Panics
-    /// If there is no such index.
+    /// The probability of an index; 0 if there is no such index.
     pub fn probability(&self, index: usize) -> f32 {
         self.slots.get(index).map_or(0.0, |slot| slot.probability)
     }

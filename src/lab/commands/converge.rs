@@ -176,8 +176,7 @@ impl ConvergeArgs {
         let mut words = text.split(',');
         let name = words.next().unwrap_or_default();
         let view = integrator(name).filter(|view| view.needs.uses(Setting::Exposure));
-        let view =
-            view.ok_or_else(|| refuse(format!("“{name}” is no view whose colours are light")))?;
+        let view = view.ok_or_else(|| refuse(format!("“{name}” isn't a view of light")))?;
         let mut setting = LightSetting {
             name: text.to_owned(),
             view,

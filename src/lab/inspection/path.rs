@@ -116,7 +116,9 @@ impl VertexReport {
             Some(part) => notes.push(format!("{:.3} % of the light arrives", 100.0 * part)),
         }
         if let Some(survival) = self.survival {
-            notes.push(format!("Russian roulette: goes on with {survival:.3}"));
+            notes.push(format!(
+                "Russian roulette: survival probability {survival:.3}"
+            ));
         }
         notes.join(", ")
     }

@@ -20,6 +20,7 @@
 use super::cumulative::Cumulative;
 use crate::brightness::MAX_BRIGHTNESS;
 use crate::progress::{Cancelled, Progress};
+use crate::srgb::luminance_f64;
 use glam::{DVec3, UVec2, Vec2, Vec3};
 use std::f32::consts;
 use std::f64::consts::{PI, TAU};
@@ -139,7 +140,7 @@ impl EnvironmentMap {
         let (mut row_weights, mut flux) = (Vec::new(), DVec3::ZERO);
         for row in 0..self.size.y as usize - 1 {
             progress.check()?;
-            let weight = |column| self.corners(row, column).map(brightness).iter().sum();
+            let weight = |column| self.corners(row, column).map(luminance_f64).iter().sum();
             let weights: Vec<f64> = (0..columns).map(weight).collect();
             let solid_angle = self.solid_angle(row);
             row_weights.push(solid_angle * weights.iter().sum::<f64>());
@@ -190,7 +191,7 @@ impl EnvironmentMap {
         let (row, across_rows) = self.rows.sample(at.y.into())?;
         let (column, across_columns) = self.cells[row].sample(at.x.into())?;
         // A point in the cell.
-        let [a, b, c, d] = self.corners(row, column).map(brightness);
+        let [a, b, c, d] = self.corners(row, column).map(luminance_f64);
         let along_cos = sample_linear(across_rows, a + b, c + d);
         let along_phi = sample_linear(across_columns, mix(a, c, along_cos), mix(b, d, along_cos));
         // Its direction.
@@ -220,7 +221,7 @@ impl EnvironmentMap {
     }
 
     fn density_at(&self, place: &Place) -> f32 {
-        let corners = self.corners(place.row, place.column).map(brightness);
+        let corners = self.corners(place.row, place.column).map(luminance_f64);
         let mean = 0.25 * corners.iter().sum::<f64>();
         if mean == 0.0 {
             return 0.0;
@@ -281,11 +282,6 @@ impl EnvironmentMap {
     fn intervals(&self) -> f64 {
         f64::from(self.size.y - 1)
     }
-}
-
-/// The luminance in f64, which is positive for every positive texel.
-fn brightness(rgb: Vec3) -> f64 {
-    rgb.as_dvec3().dot(DVec3::new(0.2126, 0.7152, 0.0722))
 }
 
 fn mix(from: f64, to: f64, part: f64) -> f64 {
