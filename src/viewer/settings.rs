@@ -108,7 +108,9 @@ pub struct Settings {
     pub exposure_stops: f32,
     /// Name of the tone curve of views with light.
     pub tone_curve: String,
-    /// Whether the noise of views that need lights is shown instead of their picture.
+    /// Whether the noise of views that need lights is shown instead of their picture. Not kept, so that no window opens with
+    /// a picture of noise.
+    #[serde(skip)]
     pub shows_noise: bool,
     /// Name of the view that the open file asks for, which is used instead.
     #[serde(skip)]

@@ -185,7 +185,7 @@ fn spawn_ui(ui: &mut egui::Ui, name: &str, chosen: &SpawnPolicy, kept: &mut Stri
 
 fn terminator_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.horizontal(|ui| {
-        let label = ui.label("Terminator repair");
+        let label = ui.label("Terminator repair (not exact)");
         let chosen = settings.terminator();
         egui::ComboBox::from_id_salt("terminator")
             .selected_text(chosen.title)
