@@ -37,7 +37,7 @@ fn each_view_shows_the_options_that_it_uses() {
         "Open environment…",
         "Stop after",
         "Stop at noise",
-        "Terminator repair",
+        "Terminator repair (not exact)",
     ];
     for (view, expected) in [
         (
