@@ -96,7 +96,7 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
 
     /// The lanes whose primitives a line may meet, given its origin and direction; `None` if the shape has no test that
     /// rejects more lines than the primitive's box. A primitive that isn't met is missed in exact arithmetic, and by
-    /// kernels that are [filtered](crate::kernel::Kernel::IS_FILTERED).
+    /// kernels that are filtered.
     #[inline(always)]
     fn may_meet<L: Lane>(_line: [&[L; 3]; 2], _numbers: &impl Values<L>) -> Option<L::Mask> {
         None
