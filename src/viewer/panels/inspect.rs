@@ -145,11 +145,11 @@ fn shape_ui(ui: &mut egui::Ui, hit: &HitReport) {
 fn parameters_ui(ui: &mut egui::Ui, parameters: Option<&Parameters>) {
     for parameter in parameters.iter().flat_map(|parameters| &parameters.0) {
         let ParameterReport { name, symbol, .. } = parameter;
-        let name = name.replace('_', " ");
-        let name = if name == *symbol {
-            name
+        let words = name.replace('_', " ");
+        let name = if name == symbol {
+            words
         } else {
-            format!("{name} {symbol}")
+            format!("{words} {symbol}")
         };
         let value = match parameter.value {
             ParameterValue::Point(p) => lines(p),
