@@ -44,7 +44,9 @@ pub fn path_ui(ui: &mut egui::Ui, view: &PathView<'_>) -> Option<u32> {
             row_ui(ui, "light from afar", light_text(path.from_afar));
             row_ui(ui, "end", path.end);
         });
-        tables_ui(ui, path);
+        if !path.vertices.is_empty() {
+            tables_ui(ui, path);
+        }
     }
     (selected != view.sample).then_some(selected)
 }
