@@ -194,27 +194,35 @@ mod tests {
     use crate::scene::Shading;
     use glam::UVec2;
 
+    const HIT: Hit = Hit {
+        t: 1.0,
+        u: 0.25,
+        v: 0.25,
+        primitive: 0,
+    };
+
+    /// A triangle in the plane z = 0 with a material and a texture.
+    fn triangle(material: Material, coordinates: CornerValues<Vec2>, texture: Texture) -> Scene {
+        crate::scene::scene(
+            soup(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]).with_attributes(Attributes {
+                materials: Assigned::new(vec![material], Runs::default()),
+                texture_coordinates: coordinates,
+                textures: vec![texture],
+                ..Attributes::default()
+            }),
+        )
+    }
+
     /// What `f` says of a triangle with a material and a texture, half red and transparent to 0.2, half white and opaque,
     /// where it is red.
     fn seen<T>(material: Material, f: impl FnOnce(&Appearance) -> T) -> T {
         let texels = [[255, 0, 0], [255; 3]];
         let texture = Texture::new("t", UVec2::new(2, 1), texels.as_flattened().to_vec());
         let texture = texture.expect("two texels").with_alpha(vec![51, 255]);
-        let mesh = soup(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]).with_attributes(Attributes {
-            materials: Assigned::new(vec![material], Runs::default()),
-            texture_coordinates: CornerValues::new(vec![Vec2::new(0.25, 0.5)], [[0; 3]]),
-            textures: vec![texture],
-            ..Attributes::default()
-        });
-        let scene = crate::scene::scene(mesh);
-        let hit = Hit {
-            t: 1.0,
-            u: 0.25,
-            v: 0.25,
-            primitive: 0,
-        };
+        let coordinates = CornerValues::new(vec![Vec2::new(0.25, 0.5)], [[0; 3]]);
+        let scene = triangle(material, coordinates, texture);
         let material = scene.mesh().attributes().materials.get(0);
-        f(&Appearance::new(&scene, material, Vec3::splat(0.25), &hit))
+        f(&Appearance::new(&scene, material, Vec3::splat(0.25), &HIT))
     }
 
     fn statements(illumination: Illumination) -> Material {
@@ -291,23 +299,12 @@ mod tests {
             relief: Some(Relief { map, kind }),
             ..Material::default()
         };
-        let mesh = soup(&[[Vec3::ZERO, Vec3::X, Vec3::Y]]).with_attributes(Attributes {
-            materials: Assigned::new(vec![material.clone()], Runs::default()),
-            texture_coordinates: CornerValues::new(coordinates, [[0, 1, 2]]),
-            textures: vec![texture],
-            ..Attributes::default()
-        });
-        let scene = crate::scene::scene(mesh);
-        let hit = Hit {
-            t: 1.0,
-            u: 0.25,
-            v: 0.25,
-            primitive: 0,
-        };
+        let coordinates = CornerValues::new(coordinates, [[0, 1, 2]]);
+        let scene = triangle(material.clone(), coordinates, texture);
         for side in [Vec3::Z, Vec3::NEG_Z] {
             let ray = Ray::new(Vec3::new(0.25, 0.25, 0.0) + side, -side).expect("a ray");
-            let appearance = Appearance::new(&scene, Some(&material), Vec3::ZERO, &hit);
-            let surface = SurfaceInteraction::new(&scene, &ray, hit, Shading::Flat);
+            let appearance = Appearance::new(&scene, Some(&material), Vec3::ZERO, &HIT);
+            let surface = SurfaceInteraction::new(&scene, &ray, HIT, Shading::Flat);
             let normal = appearance.facing_normal(&surface, &ray);
             // The texel stands for (1, 0.004, 0.498).
             let expected = Vec3::new(1.0, 0.004, 0.0) + 0.498 * side;

@@ -4,7 +4,7 @@
 //! Carlo Methods for Light Transport Simulation", 1997.
 
 use super::record::{PathEnd, Recorder};
-use super::transport::{ShadingPoint, emitted, from_afar};
+use super::transport::{ShadingPoint, emitted, from_afar, shows_background};
 use super::{Context, Integrator, Needs};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -44,7 +44,7 @@ pub(super) fn follow(
     limit: Option<u32>,
     recorder: &mut impl Recorder,
 ) -> Vec3 {
-    if hit.is_none() && context.lighting.lights.environment().is_none() {
+    if shows_background(context, hit) {
         recorder.end(PathEnd::Left, ray, context.background);
         return context.background;
     }

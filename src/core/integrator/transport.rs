@@ -333,6 +333,11 @@ pub(super) fn balance(own: f32, other: f32) -> f32 {
 /// The part of light below which a ray isn't followed: half a step of 8 bits.
 pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
+/// Whether a camera's ray shows the background: it hits nothing, and there is no environment.
+pub(super) fn shows_background(context: &Context, hit: Option<Hit>) -> bool {
+    hit.is_none() && context.lighting.lights.environment().is_none()
+}
+
 /// The light of a ray that hits nothing. `scattered_with` is the density of its direction, `None` for single directions
 /// and rays of the camera.
 pub(super) fn from_afar(context: &Context, ray: &Ray, scattered_with: Option<f32>) -> Vec3 {

@@ -5,7 +5,7 @@
 //! shadow; lights may have extent, and surfaces coverage.
 
 use super::path::follow_scattered;
-use super::transport::{INVISIBLE, ShadingPoint, emitted, from_afar};
+use super::transport::{INVISIBLE, ShadingPoint, emitted, from_afar, shows_background};
 use super::{Context, Integrator, Needs};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -51,7 +51,7 @@ impl Branch {
 }
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    if hit.is_none() && context.lighting.lights.environment().is_none() {
+    if shows_background(context, hit) {
         return context.background;
     }
     let limit = context.lighting.depth_limit.unwrap_or(MOST_SURFACES);

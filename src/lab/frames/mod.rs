@@ -81,6 +81,8 @@ pub struct Frames<'a> {
     scene: &'a Scene,
     kernel: KernelChoice,
     max_memory: u64,
+    in_mesh: Frame,
+    in_file: Frame,
     mesh: Box<dyn Intersector>,
     has_file_frame: OnceLock<bool>,
     file: OnceLock<Option<Box<dyn Intersector>>>,
@@ -94,6 +96,8 @@ impl<'a> Frames<'a> {
             scene,
             kernel,
             max_memory,
+            in_mesh: Frame::of_mesh(scene),
+            in_file: Frame::of_file(scene),
             mesh: scene.intersector(kernel),
             has_file_frame: OnceLock::new(),
             file: OnceLock::new(),
@@ -128,7 +132,7 @@ impl<'a> Frames<'a> {
         if !has_interval {
             return Err(RayError::IntervalEmpty);
         }
-        let frame = Frame::of_mesh(self.scene);
+        let frame = &self.in_mesh;
         let placed = frame.place_at_origin(given);
         if placed.is_ok_and(|placed| placed.loss() == 0.0) {
             return placed;
@@ -137,7 +141,7 @@ impl<'a> Frames<'a> {
         if placed.is_ok_and(|placed| placed.loss() == 0.0) || !self.has_file_frame() {
             return placed;
         }
-        let frame = Frame::of_file(self.scene);
+        let frame = &self.in_file;
         let in_file = better(frame.place_at_origin(given), frame.place_near_mesh(given));
         let in_file = better(placed, Some(in_file));
         match in_file {

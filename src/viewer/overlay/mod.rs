@@ -338,9 +338,7 @@ impl OverlayLayer {
         }
         Ok(())
     }
-}
 
-impl OverlayLayer {
     /// Prepares the lines of the path.
     fn prepare_path(
         &mut self,
