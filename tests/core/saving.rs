@@ -26,7 +26,14 @@ fn camera_of(scene: &LoadedScene) -> Camera {
     let view = scene.view.expect("a sensor");
     let eye = view.eye - scene.scene.mesh().origin();
     let target = eye + view.forward;
-    Camera::look_at(eye, target, view.up, view.projection(), view.size).expect("a camera")
+    Camera::look_at(
+        eye,
+        target,
+        view.up,
+        view.projection_in(view.size),
+        view.size,
+    )
+    .expect("a camera")
 }
 
 /// What the ray of each pixel hits.

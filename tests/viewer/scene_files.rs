@@ -12,9 +12,10 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 use tempfile::TempDir;
 
-/// A sphere in front of a box, and a sensor that looks at them along −z.
+/// A sphere in front of a box, and a sensor that looks at them along −z. Its film is narrower than the window's picture.
 const SCENE: &str = r#"<scene version="3.0.0">
 <sensor type="perspective"><float name="fov" value="30"/><string name="fov_axis" value="y"/>
+  <film type="hdrfilm"><integer name="width" value="300"/><integer name="height" value="600"/></film>
   <transform name="to_world"><lookat origin="0,0,10" target="0,0,0" up="0,1,0"/></transform></sensor>
 <shape type="sphere"><float name="radius" value="2"/></shape>
 <shape type="cube"><transform name="to_world"><translate z="-5"/></transform></shape>
@@ -64,6 +65,19 @@ fn the_window_opens_in_the_sensors_view_and_home_returns_to_it() {
     press(&mut window, Key::Home);
     assert!((eye(&window) - expected).length() > 1.0);
     assert!((camera(&window).back() - DVec3::Z).length() < 1e-12);
+}
+
+#[test]
+fn the_window_shows_the_whole_film_of_a_sensor_that_is_wider() {
+    let text = SCENE.replace(r#"value="300""#, r#"value="2400""#);
+    let Some((window, _folder)) = opened("wide.xml", &text) else {
+        return;
+    };
+    let size = window.state().film().size().as_dvec2();
+    let half_height = (0.5 * window.state().turntable().fov_y_radians).tan();
+    let half_width = half_height * size.x / size.y;
+    let of_film = 4.0 * 15_f64.to_radians().tan();
+    assert!((half_width - of_film).abs() < 1e-12, "{half_width}");
 }
 
 #[test]
@@ -138,6 +152,7 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
 /// A cube with a dent in the side that faces the sensor.
 const DENTED: &str = r#"<scene version="3.0.0">
 <sensor type="perspective"><float name="fov" value="30"/><string name="fov_axis" value="y"/>
+  <film type="hdrfilm"><integer name="width" value="300"/><integer name="height" value="600"/></film>
   <transform name="to_world"><lookat origin="0,0,10" target="0,0,0" up="0,1,0"/></transform></sensor>
 <shape type="csg"><string name="operation" value="difference"/><shape type="cube"/>
   <shape type="sphere"><point name="center" x="0" y="0" z="1"/><float name="radius" value="0.5"/></shape></shape>

@@ -61,12 +61,22 @@ impl StartView {
         }
     }
 
-    /// The projection.
-    pub fn projection(&self) -> Projection {
+    /// The projection for a picture of this size, which shows the whole film: in a narrower picture the height grows, in a
+    /// wider one more is seen at the sides. A picture without a size counts as one of the film's shape.
+    pub fn projection_in(&self, picture: UVec2) -> Projection {
+        let aspect = |size: UVec2| f64::from(size.x) / f64::from(size.y);
+        let growth = match picture {
+            UVec2 { x: 0, .. } | UVec2 { y: 0, .. } => 1.0,
+            _ => (aspect(self.size) / aspect(picture)).max(1.0),
+        };
         match self.fov_y_radians {
-            Some(fov_y_radians) => Projection::Perspective { fov_y_radians },
+            // Exact where nothing grows.
+            Some(fov_y_radians) if growth == 1.0 => Projection::Perspective { fov_y_radians },
+            Some(fov_y_radians) => Projection::Perspective {
+                fov_y_radians: 2.0 * (growth * (0.5 * fov_y_radians).tan()).atan(),
+            },
             None => Projection::Orthographic {
-                height: self.height,
+                height: growth * self.height,
             },
         }
     }
@@ -146,6 +156,40 @@ mod tests {
             assert!((again.height - view.height).abs() < 1e-15);
             let angle = |view: StartView| view.fov_y_radians.unwrap_or(0.0);
             assert!((angle(again) - angle(view)).abs() < 1e-15);
+        }
+    }
+
+    #[test]
+    fn a_picture_shows_the_whole_film() {
+        let film = UVec2::new(200, 100);
+        let view = |fov_y_radians| StartView {
+            eye: DVec3::ZERO,
+            forward: DVec3::Z,
+            up: DVec3::Y,
+            fov_y_radians,
+            height: 3.0,
+            size: film,
+        };
+        for (picture, growth) in [
+            (film, 1.0),
+            (UVec2::new(400, 100), 1.0),
+            (UVec2::new(1, 1), 2.0),
+            (UVec2::new(50, 100), 4.0),
+            (UVec2::ZERO, 1.0),
+        ] {
+            let Projection::Orthographic { height } = view(None).projection_in(picture) else {
+                panic!("the view is orthographic");
+            };
+            assert_eq!(height, growth * 3.0, "{picture}");
+            let Projection::Perspective { fov_y_radians } = view(Some(0.7)).projection_in(picture)
+            else {
+                panic!("the view is a perspective");
+            };
+            let tangent = (0.5 * fov_y_radians).tan();
+            assert!(
+                (tangent - growth * 0.35_f64.tan()).abs() < 1e-12,
+                "{picture}"
+            );
         }
     }
 

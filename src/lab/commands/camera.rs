@@ -83,7 +83,7 @@ impl CameraArgs {
     fn given(&self, scene: &Scene, view: &StartView, size: UVec2) -> Result<Camera, CameraError> {
         let eye = view.eye - scene.mesh().origin();
         let projection = match (self.fov, self.ortho) {
-            (None, None) => view.projection(),
+            (None, None) => view.projection_in(size),
             _ => self.projection(),
         };
         Camera::look_at(eye, eye + view.forward, view.up, projection, size)

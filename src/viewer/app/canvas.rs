@@ -83,13 +83,9 @@ impl App {
             response.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
             });
-            self.resolution = canvas.resolution;
             self.canvas_rect = canvas.rect;
             self.turntable.up_axis = self.settings.up_axis();
-            if std::mem::take(&mut self.is_unframed) {
-                let bounds = self.document.loaded.scene.bounds_with_elements();
-                self.turntable.frame(bounds, canvas.resolution);
-            }
+            self.use_resolution(canvas.resolution);
             self.pointer(ui, &response, canvas);
             self.rotate(ui);
             self.paint(ui, canvas, response.dragged());

@@ -1,11 +1,12 @@
 //! The view in which a document opens: that of its sensor, or one that frames the scene.
 
 use super::App;
+use glam::UVec2;
 use hitscope_core::camera::{Turntable, UpAxis};
 
 impl App {
     /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
-    /// there is one.
+    /// there is one. Before the first layout the picture has no size; the first layout then calls this again.
     pub(super) fn use_first_view(&mut self) {
         self.settings.file_up_axis = None;
         self.settings.file_view = self.document.loaded.integrator().map(|view| view.name);
@@ -14,6 +15,7 @@ impl App {
             (turntable.fov_y_radians, turntable.is_orthographic) = own;
         }
         let own = (turntable.fov_y_radians, turntable.is_orthographic);
+        self.is_unframed = self.resolution == UVec2::ZERO;
         match self.view_of_file() {
             Some(view) => {
                 self.own_projection = Some(own);
@@ -36,10 +38,23 @@ impl App {
         }
     }
 
+    /// Sets the picture's size. The file's view, while it is shown, keeps the whole film in the picture.
+    pub(super) fn use_resolution(&mut self, resolution: UVec2) {
+        if resolution == self.resolution {
+            return;
+        }
+        let is_files_view = self.view_of_file() == Some(self.turntable);
+        self.resolution = resolution;
+        if self.is_unframed {
+            self.use_first_view();
+        } else if let (true, Some(view)) = (is_files_view, self.view_of_file()) {
+            self.use_view(view);
+        }
+    }
+
     fn use_view(&mut self, view: Turntable) {
         self.settings.file_up_axis = Some(view.up_axis);
         self.turntable = view;
-        self.is_unframed = false;
     }
 
     /// The view of the file's sensor, about the axis for which the horizon is less tilted; of two, the one for which the
@@ -53,7 +68,8 @@ impl App {
         let eye = view.eye - loaded.scene.mesh().origin();
         let about = |axis| {
             let axes = [eye, view.forward, view.up];
-            Turntable::looking(axes, view.projection(), axis, bounds).ok()
+            let projection = view.projection_in(self.resolution);
+            Turntable::looking(axes, projection, axis, bounds).ok()
         };
         let tilt = |turntable: &Turntable| turntable.roll_radians.abs();
         let slope = |turntable: &Turntable| turntable.pitch_radians.abs();
@@ -79,7 +95,7 @@ impl App {
         turntable.fov_y_radians = self.turntable.fov_y_radians;
         turntable.is_orthographic = self.turntable.is_orthographic;
         turntable.up_axis = self.turntable.up_axis;
+        turntable.frame(bounds, self.resolution);
         self.turntable = turntable;
-        self.is_unframed = true;
     }
 }

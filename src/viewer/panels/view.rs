@@ -225,9 +225,11 @@ fn camera_ui(
     ui.horizontal(|ui| {
         let label = ui.label("Field of view");
         let mut degrees = turntable.fov_y_radians.to_degrees();
+        // Neither rounds nor clamps the angle of a file's sensor.
         let slider = egui::Slider::new(&mut degrees, 5.0..=120.0)
+            .clamping(egui::SliderClamping::Edits)
             .suffix("°")
-            .fixed_decimals(0);
+            .custom_formatter(|degrees, _| format!("{degrees:.0}"));
         if ui.add(slider).labelled_by(label.id).changed() {
             turntable.fov_y_radians = degrees.to_radians();
         }
