@@ -9,7 +9,7 @@ use super::elements::Elements;
 use super::error::{Problem, Warning};
 use super::materials::{self, ReferencedFiles, ResolvedMaterials};
 use super::oddities::{Oddities, no_triangles};
-use super::origin::{choose_origin, far_vertices, sample_surface};
+use super::origin::{ChosenOrigin, choose_origin, far_vertices, sample_surface};
 use super::report::LoadReport;
 use super::rounding::max_rounding;
 use super::triangulate::{Assembly, ChunkTriangles};
@@ -18,7 +18,7 @@ use super::{LoadOptions, Loaded};
 use crate::counts::counted_as;
 use crate::mesh::{Assigned, Attributes, CornerValues, Runs, TriangleMesh};
 use crate::progress::{Phase, Progress};
-use glam::Vec3;
+use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use std::sync::Mutex;
 
@@ -31,28 +31,23 @@ pub(super) fn assemble(
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
     let vertex_count = contents.positions.len();
-    let mut warnings = contents.warnings();
-    let (mut colours, warning) = contents.colours.take(vertex_count);
-    warnings.extend(warning);
-    let surface = sample_surface(&contents.elements, &contents.positions);
-    let used = keep_used(&mut contents, &mut colours);
-    let (unusable_normals, warning) = unusable(&contents.normals);
-    warnings.extend(warning);
+    let prepared = Prepared::of(&mut contents);
+    let mut warnings = prepared.warnings;
     let mut found = materials::resolve(&contents, files, options.max_memory, progress)?;
     warnings.append(&mut found.warnings);
     let has_textures = options.keeps_coordinates || !found.textures.is_empty();
     progress.check()?;
 
-    let chosen = choose_origin(&contents.positions, &surface, options.recentre);
-    let origin = chosen.origin;
+    let ChosenOrigin { origin, core } =
+        choose_origin(&contents.positions, &prepared.surface, options.recentre);
     let exact = std::mem::take(&mut contents.positions);
     let positions: Vec<Vec3> = exact.par_iter().map(|&p| (p - origin).as_vec3()).collect();
     let elements = std::mem::take(&mut contents.elements);
     let assembly = Assembly {
         exact: &exact,
         positions: &positions,
-        unusable_normals: &unusable_normals,
-        used: &used,
+        unusable_normals: &prepared.unusable_normals,
+        used: &prepared.used,
         has_textures,
         contents: &contents,
         large_polygons: Mutex::new(()),
@@ -61,13 +56,9 @@ pub(super) fn assemble(
     let (mut triangles, parts) = triangulate(&assembly, elements)?;
     progress.check()?;
 
-    let (attributes, oddities) = gather(
-        &mut triangles,
-        parts,
-        &mut contents,
-        (found, has_textures),
-        colours,
-    );
+    let found = (found, has_textures);
+    let colours = prepared.colours;
+    let (attributes, oddities) = gather(&mut triangles, parts, &mut contents, found, colours);
     let dropped = oddities.dropped(&contents.skipped);
     warnings.extend(oddities.warnings());
     progress.check()?;
@@ -78,11 +69,8 @@ pub(super) fn assemble(
         .with_origin(origin)
         .with_attributes(attributes);
     let has_long_numbers = contents.has_long_numbers;
-    warnings.extend(
-        chosen
-            .core
-            .and_then(|core| far_vertices(&mesh, &exact, core, has_long_numbers)),
-    );
+    let far = |core| far_vertices(&mesh, &exact, core, has_long_numbers);
+    warnings.extend(core.and_then(far));
     let report = LoadReport {
         max_rounding: max_rounding(&mesh, &exact, has_long_numbers),
         warnings,
@@ -92,6 +80,37 @@ pub(super) fn assemble(
         ..LoadReport::default()
     };
     Ok(Loaded { mesh, report })
+}
+
+/// What the assembly needs besides the contents that elements use.
+struct Prepared {
+    /// Points of the surface, for the choice of the origin.
+    surface: Vec<DVec3>,
+    colours: Vec<Vec3>,
+    used: Used,
+    /// See [`unusable`].
+    unusable_normals: Vec<bool>,
+    warnings: Vec<Warning>,
+}
+
+impl Prepared {
+    /// Takes the colours out of the contents, and removes the entries that no element uses.
+    fn of(contents: &mut Contents) -> Self {
+        let mut warnings = contents.warnings();
+        let (mut colours, warning) = contents.colours.take(contents.positions.len());
+        warnings.extend(warning);
+        let surface = sample_surface(&contents.elements, &contents.positions);
+        let used = keep_used(contents, &mut colours);
+        let (unusable_normals, warning) = unusable(&contents.normals);
+        warnings.extend(warning);
+        Self {
+            surface,
+            colours,
+            used,
+            unusable_normals,
+            warnings,
+        }
+    }
 }
 
 /// Removes the entries that no element uses.

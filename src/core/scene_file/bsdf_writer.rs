@@ -8,6 +8,32 @@ use super::xml::{WriteError, vector};
 use crate::bsdf::Slot;
 use glam::DVec3;
 
+/// A colour that a texture may replace, and the name of its parameter.
+type Colour = (Slot, &'static str);
+
+const SPECULAR: Colour = (Slot::Specular, "specular_reflectance");
+const TRANSMITTED: Colour = (Slot::Transmittance, "specular_transmittance");
+
+/// The type of the element that describes a model.
+fn plugin(bsdf: &Bsdf) -> &'static str {
+    match bsdf {
+        Bsdf::Diffuse { .. } => "diffuse",
+        Bsdf::Conductor {
+            roughness: None, ..
+        } => "conductor",
+        Bsdf::Conductor { .. } => "roughconductor",
+        Bsdf::Dielectric { form, .. } => match form {
+            Form::Smooth => "dielectric",
+            Form::Thin => "thindielectric",
+            Form::Rough(_) => "roughdielectric",
+        },
+        Bsdf::Plastic {
+            roughness: None, ..
+        } => "plastic",
+        Bsdf::Plastic { .. } => "roughplastic",
+    }
+}
+
 impl Writer<'_> {
     pub(super) fn material(
         &mut self,
@@ -50,27 +76,17 @@ impl Writer<'_> {
 
     /// Writes a side without its relief.
     pub(super) fn bsdf(&mut self, side: &Side, id: Option<&str>) -> Result<(), WriteError> {
-        let bsdf = &side.bsdf;
-        let kind = match bsdf {
-            Bsdf::Diffuse { .. } => "diffuse",
-            Bsdf::Conductor {
-                roughness: None, ..
-            } => "conductor",
-            Bsdf::Conductor { .. } => "roughconductor",
-            Bsdf::Dielectric { form, .. } => match form {
-                Form::Smooth => "dielectric",
-                Form::Thin => "thindielectric",
-                Form::Rough(_) => "roughdielectric",
-            },
-            Bsdf::Plastic {
-                roughness: None, ..
-            } => "plastic",
-            Bsdf::Plastic { .. } => "roughplastic",
-        };
-        self.xml.open("bsdf", &attributes(kind, id, None))?;
-        match *bsdf {
+        let attributes = attributes(plugin(&side.bsdf), id, None);
+        self.xml.open("bsdf", &attributes)?;
+        self.parameters(side)?;
+        self.xml.close();
+        Ok(())
+    }
+
+    fn parameters(&mut self, side: &Side) -> Result<(), WriteError> {
+        match side.bsdf {
             Bsdf::Diffuse { reflectance } => {
-                self.value(side, (Slot::Diffuse, "reflectance"), reflectance)?;
+                self.value(side, (Slot::Diffuse, "reflectance"), reflectance)
             }
             Bsdf::Conductor {
                 eta,
@@ -80,12 +96,8 @@ impl Writer<'_> {
             } => {
                 self.colour("eta", eta)?;
                 self.colour("k", k)?;
-                self.factor(
-                    side,
-                    (Slot::Specular, "specular_reflectance"),
-                    specular_reflectance,
-                )?;
-                self.roughness(side, roughness)?;
+                self.factor(side, SPECULAR, specular_reflectance)?;
+                self.roughness(side, roughness)
             }
             Bsdf::Dielectric {
                 eta,
@@ -94,18 +106,11 @@ impl Writer<'_> {
                 form,
             } => {
                 self.index(eta)?;
-                self.factor(
-                    side,
-                    (Slot::Specular, "specular_reflectance"),
-                    specular_reflectance,
-                )?;
-                self.factor(
-                    side,
-                    (Slot::Transmittance, "specular_transmittance"),
-                    specular_transmittance,
-                )?;
-                if let Form::Rough(roughness) = form {
-                    self.roughness(side, Some(roughness))?;
+                self.factor(side, SPECULAR, specular_reflectance)?;
+                self.factor(side, TRANSMITTED, specular_transmittance)?;
+                match form {
+                    Form::Smooth | Form::Thin => Ok(()),
+                    Form::Rough(roughness) => self.roughness(side, Some(roughness)),
                 }
             }
             Bsdf::Plastic {
@@ -116,24 +121,15 @@ impl Writer<'_> {
                 roughness,
             } => {
                 self.index(eta)?;
-                self.value(
-                    side,
-                    (Slot::Diffuse, "diffuse_reflectance"),
-                    diffuse_reflectance,
-                )?;
-                self.factor(
-                    side,
-                    (Slot::Specular, "specular_reflectance"),
-                    specular_reflectance,
-                )?;
+                let base = (Slot::Diffuse, "diffuse_reflectance");
+                self.value(side, base, diffuse_reflectance)?;
+                self.factor(side, SPECULAR, specular_reflectance)?;
                 if is_nonlinear {
                     self.boolean("nonlinear", true)?;
                 }
-                self.roughness(side, roughness)?;
+                self.roughness(side, roughness)
             }
         }
-        self.xml.close();
-        Ok(())
     }
 
     /// The relative index: the medium in front has index 1.
@@ -146,7 +142,7 @@ impl Writer<'_> {
     fn value(
         &mut self,
         side: &Side,
-        (slot, name): (Slot, &str),
+        (slot, name): Colour,
         colour: DVec3,
     ) -> Result<(), WriteError> {
         match side.texture(slot) {
@@ -159,7 +155,7 @@ impl Writer<'_> {
     fn factor(
         &mut self,
         side: &Side,
-        (slot, name): (Slot, &str),
+        (slot, name): Colour,
         colour: DVec3,
     ) -> Result<(), WriteError> {
         if colour == DVec3::ONE && side.texture(slot).is_none() {

@@ -44,17 +44,7 @@ pub(super) fn emitter(
     if !SUPPORTED.contains(&&*kind) {
         return unsupported(reader, element);
     }
-    match (&*kind, parent) {
-        ("area", Parent::Scene) => {
-            return Err(element.problem("emitter “area” must stand in a shape"));
-        }
-        ("area", Parent::Shape) | (_, Parent::Scene) => {}
-        (kind, Parent::Shape) => {
-            let kind = quoted(kind);
-            let message = format!("emitter {kind} can't stand in a shape, only “area” can");
-            return Err(element.problem(message));
-        }
-    }
+    require_place(element, &kind, parent)?;
     let head = Head::of(reader, element)?;
     reader
         .memory
@@ -98,6 +88,19 @@ pub(super) fn emitter(
         name: head.name,
         kind,
     })
+}
+
+/// Refuses an emitter in the wrong parent.
+fn require_place(element: Element, kind: &str, parent: Parent) -> Result<(), Problem> {
+    match (kind, parent) {
+        ("area", Parent::Scene) => Err(element.problem("emitter “area” must stand in a shape")),
+        ("area", Parent::Shape) | (_, Parent::Scene) => Ok(()),
+        (kind, Parent::Shape) => {
+            let kind = quoted(kind);
+            let message = format!("emitter {kind} can't stand in a shape, only “area” can");
+            Err(element.problem(message))
+        }
+    }
 }
 
 /// The texture of a radiance; `None` if it isn't supported.

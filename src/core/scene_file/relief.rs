@@ -41,29 +41,7 @@ pub(super) fn read(
     kind: &'static str,
 ) -> Result<Material, Problem> {
     let mut parameters = Parameters::new("bsdf", kind, element.place);
-    let (mut inner, mut texture) = (None, None);
-    reader.each_child(element, &mut |reader, child| {
-        if let Some(parameter) = properties::parameter(reader, child)? {
-            return parameters.add(parameter);
-        }
-        let object = parameters.object();
-        if let Some(found) = textures::nested(reader, child)? {
-            if texture.replace(found).is_some() {
-                return Err(child.problem(format!("{object} contains two textures")));
-            }
-            return Ok(());
-        }
-        match materials::nested(reader, child)? {
-            Some(_) if inner.is_some() => {
-                Err(child.problem(format!("{object} contains two BSDFs")))
-            }
-            Some(found) => {
-                inner = Some(found);
-                Ok(())
-            }
-            None => objects::skip(reader, child, &object),
-        }
-    })?;
+    let (inner, texture) = children(reader, element, &mut parameters)?;
     let relief_kind = if kind == "bumpmap" {
         let scale = parameters.float("scale")?;
         ReliefKind::Heights {
@@ -97,6 +75,42 @@ pub(super) fn read(
         }
     }
     Ok(material)
+}
+
+/// The nested BSDF's material and the nested texture, if the element has them. Its parameters are added to
+/// `parameters`.
+///
+/// # Errors
+/// There are two of either.
+fn children(
+    reader: &mut Reader,
+    element: Element,
+    parameters: &mut Parameters,
+) -> Result<(Option<Material>, Option<Nested>), Problem> {
+    let (mut inner, mut texture) = (None, None);
+    reader.each_child(element, &mut |reader, child| {
+        if let Some(parameter) = properties::parameter(reader, child)? {
+            return parameters.add(parameter);
+        }
+        let object = parameters.object();
+        if let Some(found) = textures::nested(reader, child)? {
+            if texture.replace(found).is_some() {
+                return Err(child.problem(format!("{object} contains two textures")));
+            }
+            return Ok(());
+        }
+        match materials::nested(reader, child)? {
+            Some(_) if inner.is_some() => {
+                Err(child.problem(format!("{object} contains two BSDFs")))
+            }
+            Some(found) => {
+                inner = Some(found);
+                Ok(())
+            }
+            None => objects::skip(reader, child, &object),
+        }
+    })?;
+    Ok((inner, texture))
 }
 
 /// Warns about switches that differ from Mitsuba's defaults, which are used.

@@ -38,6 +38,24 @@ impl Definition {
     pub(super) fn is_invisible_only_by_tr(&self) -> bool {
         self.material.opacity == 0.0 && !self.has_opacity
     }
+
+    /// Makes a texture visible that a factor of 0 would hide. Returns the warning about it; `about` names the library.
+    fn mend_colours(&mut self, about: &str) -> Option<String> {
+        let material = &mut self.material;
+        let mut further = self.further_maps.iter();
+        if material.emission == Vec3::ZERO && further.any(|(of, _)| *of == Property::Emission) {
+            // A texture alone says what is emitted.
+            material.emission = Vec3::ONE;
+        }
+        if material.diffuse != Some(Vec3::ZERO) || self.diffuse_map.is_none() {
+            return None;
+        }
+        material.diffuse = Some(Vec3::ONE);
+        let name = shortened(&material.name);
+        Some(format!(
+            "{about}: material “{name}”: “Kd 0” would hide the texture; treated as 1"
+        ))
+    }
 }
 
 /// Keywords that programs write for every material but shading doesn't use. Warnings about them would hide others.
@@ -126,53 +144,11 @@ pub(super) fn parse(
         return Ok(None);
     }
     let about = format!("material library “{}”", shortened(library));
-    let describe = |what: &str, tally: Tally, outcome: &str| {
-        let statements = counted(tally.count, &format!("{what} statement"));
-        let first = if tally.count == 1 { "" } else { "the first " };
-        let line = tally.first_line;
-        let warning = format!("{about}: {statements} {outcome}, {first}on line {line}");
-        (line, warning)
-    };
-    let quoted = |keyword: &str| format!("“{keyword}”");
-    let skipped = parser.skipped.iter();
-    let skipped = skipped.map(|(keyword, &tally)| describe(&quoted(keyword), tally, "skipped"));
-    let clamped = parser.clamped.iter().map(|(keyword, &tally)| {
-        let most = match keyword.eq_ignore_ascii_case("ke") {
-            true => format!("{MAX_BRIGHTNESS:.1e}"),
-            false => "1".to_owned(),
-        };
-        let outcome = format!("with a value above {most} clamped");
-        describe(&quoted(keyword), tally, &outcome)
-    });
-    let unknown =
-        (parser.unknown.count > 0).then(|| describe("unknown", parser.unknown, "skipped"));
-    let mut by_line: Vec<(usize, String)> = skipped.chain(clamped).chain(unknown).collect();
-    by_line.sort_by_key(|(line, _)| *line);
-    let by_line = by_line.into_iter().map(|(_, warning)| warning);
-    let mut warnings: Vec<String> = by_line.chain(failure).collect();
-    if parser.material_count > 0 && parser.transparent_count == parser.material_count {
-        for definition in &mut parser.found {
-            definition.material.opacity = 1.0;
-        }
-        warnings.push(format!(
-            "{about}: every material has “Tr 1” and no “d”; treated as opaque"
-        ));
-    }
-    for definition in &mut parser.found {
-        let material = &mut definition.material;
-        let mut further = definition.further_maps.iter();
-        if material.emission == Vec3::ZERO && further.any(|(of, _)| *of == Property::Emission) {
-            // A texture alone says what is emitted.
-            material.emission = Vec3::ONE;
-        }
-        if material.diffuse == Some(Vec3::ZERO) && definition.diffuse_map.is_some() {
-            material.diffuse = Some(Vec3::ONE);
-            let name = shortened(&material.name);
-            warnings.push(format!(
-                "{about}: material “{name}”: “Kd 0” would hide the texture; treated as 1"
-            ));
-        }
-    }
+    let skipped = parser.skipped_statements(&about);
+    let mut warnings: Vec<String> = skipped.into_iter().chain(failure).collect();
+    warnings.extend(parser.mend_opacity(&about));
+    let mended = parser.found.iter_mut();
+    warnings.extend(mended.filter_map(|definition| definition.mend_colours(&about)));
     Ok(Some(MaterialLibrary {
         definitions: parser.found,
         warnings: warnings.into_iter().map(Warning::of_file).collect(),
@@ -199,6 +175,47 @@ struct Parser {
 }
 
 impl Parser {
+    /// Warnings about skipped and changed statements, ordered by line; `about` names the library.
+    fn skipped_statements(&self, about: &str) -> Vec<String> {
+        let describe = |what: &str, tally: Tally, outcome: &str| {
+            let statements = counted(tally.count, &format!("{what} statement"));
+            let first = if tally.count == 1 { "" } else { "the first " };
+            let line = tally.first_line;
+            let warning = format!("{about}: {statements} {outcome}, {first}on line {line}");
+            (line, warning)
+        };
+        let quoted = |keyword: &str| format!("“{keyword}”");
+        let skipped = self.skipped.iter();
+        let skipped = skipped.map(|(keyword, &tally)| describe(&quoted(keyword), tally, "skipped"));
+        let clamped = self.clamped.iter().map(|(keyword, &tally)| {
+            let most = match keyword.eq_ignore_ascii_case("ke") {
+                true => format!("{MAX_BRIGHTNESS:.1e}"),
+                false => "1".to_owned(),
+            };
+            let outcome = format!("with a value above {most} clamped");
+            describe(&quoted(keyword), tally, &outcome)
+        });
+        let unknown =
+            (self.unknown.count > 0).then(|| describe("unknown", self.unknown, "skipped"));
+        let mut by_line: Vec<(usize, String)> = skipped.chain(clamped).chain(unknown).collect();
+        by_line.sort_by_key(|(line, _)| *line);
+        by_line.into_iter().map(|(_, warning)| warning).collect()
+    }
+
+    /// Makes the wanted materials opaque if `Tr 1` makes every material of the library invisible. Returns the warning
+    /// about it; `about` names the library.
+    fn mend_opacity(&mut self, about: &str) -> Option<String> {
+        if self.material_count == 0 || self.transparent_count != self.material_count {
+            return None;
+        }
+        for definition in &mut self.found {
+            definition.material.opacity = 1.0;
+        }
+        Some(format!(
+            "{about}: every material has “Tr 1” and no “d”; treated as opaque"
+        ))
+    }
+
     fn read_all(
         &mut self,
         bytes: &[u8],
