@@ -15,13 +15,13 @@ use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use hitscope_core::names::nearest;
-use hitscope_core::obj::{LoadOptions, Recentre, shown};
+use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
     BenchArgs, CommandError, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output,
     PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
 };
-use std::ffi::OsString;
+use std::ffi::{OsStr, OsString};
 use std::io::{self, BufWriter, Write, stdout};
 use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
@@ -330,19 +330,22 @@ fn no_window(error: &eframe::Error) -> String {
 /// Renders the file or the built-in scene to a picture in the current directory.
 fn render_instead(cli: &Cli) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
-    let PictureDefaults { mut picture } = PictureDefaults::parse_from(["hitscope"]);
-    picture.mesh.memory = cli.memory;
-    let file = cli.file.as_deref().unwrap_or(Path::new(""));
-    picture.check(file)?;
+    let built_in = Path::new("the built-in scene");
+    let file = cli.file.as_deref().unwrap_or(built_in);
+    // A file's name may begin with a hyphen.
+    let words = [OsStr::new("hitscope"), OsStr::new("--"), file.as_os_str()];
+    let PictureDefaults { mut picture } = PictureDefaults::parse_from(words);
+    picture.scene.mesh.memory = cli.memory;
+    picture.check()?;
     let output = Output::create(Path::new(OUTPUT))?;
-    let (input, loaded) = match &cli.file {
-        Some(path) => (shown(path), picture.mesh.load(path, Recentre::Auto)?),
-        None => ("the built-in scene".to_owned(), embedded_scene()),
+    let loaded = match cli.file {
+        Some(_) => picture.scene.load()?,
+        None => embedded_scene(),
     };
     let rendered = picture.trace(loaded, false)?;
     output.write_png(rendered.film.size(), rendered.film.pixels())?;
     let mut out = stdout().lock();
-    writeln!(out, "rendered {input} to {OUTPUT}")?;
+    writeln!(out, "rendered {} to {OUTPUT}", shown(file))?;
     writeln!(
         out,
         "to choose view, size and output: hitscope render FILE -o OUT.png"
@@ -382,7 +385,11 @@ mod tests {
         all.build();
         let commands = [&all].into_iter().chain(all.get_subcommands());
         for command in commands {
-            let texts = [command.get_long_about(), command.get_after_help()];
+            let texts = [
+                command.get_long_about(),
+                command.get_after_help(),
+                command.get_after_long_help(),
+            ];
             for text in texts.into_iter().flatten() {
                 let text = text.to_string();
                 // A paragraph on a single line is broken once.

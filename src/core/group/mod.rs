@@ -45,8 +45,11 @@ pub trait Group: Debug + Send + Sync {
     /// The number of primitives.
     fn count(&self) -> usize;
 
-    /// The box around all primitives that rays can hit.
+    /// The box around all primitives that rays can hit, as far as they are bounded.
     fn bounds(&self) -> Aabb;
+
+    /// Whether all primitives are bounded.
+    fn is_bounded(&self) -> bool;
 
     /// The current tree; [`improve`](Self::improve) may replace it.
     fn bvh(&self) -> Arc<Bvh>;
@@ -172,6 +175,10 @@ impl<S: Grouped> Group for ShapeGroup<S> {
 
     fn bounds(&self) -> Aabb {
         self.bounds
+    }
+
+    fn is_bounded(&self) -> bool {
+        S::IS_BOUNDED
     }
 
     fn bvh(&self) -> Arc<Bvh> {

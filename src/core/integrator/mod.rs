@@ -109,8 +109,6 @@ pub struct Needs {
     pub vertex_normals: bool,
     /// Whether the view needs lights.
     pub lights: bool,
-    /// Whether the view compares two spawn policies.
-    pub second_policy: bool,
     /// Whether the view depends on the tree, as the cost of rays does. Hits don't.
     pub final_tree: bool,
     /// The settings that change the picture.
@@ -124,6 +122,8 @@ pub enum Setting {
     Lights,
     /// How rays leave surfaces.
     Spawn,
+    /// The way of leaving surfaces with which the view compares.
+    SecondSpawn,
     /// The most surfaces on a path.
     Depth,
     /// The repair of the shadow terminator.
@@ -140,7 +140,6 @@ impl Needs {
         second: Comparison::Nothing,
         vertex_normals: false,
         lights: false,
-        second_policy: false,
         final_tree: false,
         settings: &[],
     };

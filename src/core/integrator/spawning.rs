@@ -14,8 +14,7 @@ pub(super) static SPAWNING: Integrator = Integrator {
     title: "Spawn policies",
     about: "Where rays that leave the surface by the chosen policy are blocked and those by the second one aren't, or the other way round.",
     needs: Needs {
-        second_policy: true,
-        settings: &[Setting::Spawn],
+        settings: &[Setting::Spawn, Setting::SecondSpawn],
         ..Needs::LIGHTS
     },
     legend,

@@ -15,6 +15,9 @@ pub enum Tier {
 }
 
 impl Tier {
+    /// All tiers.
+    pub const ALL: [Self; 4] = [Self::Fast, Self::Watertight, Self::Precise, Self::Exact];
+
     /// The name that `--kernel` takes.
     pub fn name(self) -> &'static str {
         match self {

@@ -283,9 +283,10 @@ impl Contents {
     ) -> Result<(Scene, LoadReport), Cancelled> {
         self.report.max_rounding = self.report.max_rounding.max(self.rounding(origin));
         let mut groups = Groups::default();
-        for PlacedShape { shape, look, .. } in self.shapes {
+        for PlacedShape { shape, look, .. } in std::mem::take(&mut self.shapes) {
             shape.push_to(&mut groups, origin, look.about(origin));
         }
+        self.warn_about_empty_solids(file, &groups.empty);
         let mut materials = materials(file, &self.textures);
         self.emitting.append_to(&mut materials, &self.textures);
         drop(self.meshes);

@@ -255,9 +255,12 @@ impl TriangleMesh {
         !self.attributes.lines.is_empty() || !self.attributes.points.is_empty()
     }
 
-    /// Number of materials that faces name, without the default material.
+    /// Number of materials with a name.
     pub fn named_material_count(&self) -> usize {
-        self.attributes.materials.entries().len().saturating_sub(1)
+        let materials = self.attributes.materials.entries().iter();
+        materials
+            .filter(|material| !material.name.is_empty())
+            .count()
     }
 
     /// Number of groups and objects that contain faces.

@@ -2,36 +2,16 @@
 
 use super::CommandError;
 use super::input::{load, print_warnings};
-use super::picture::ShadingArg;
 use clap::Args;
 use clap::builder::PossibleValuesParser;
 use clap::builder::TypedValueParser as _;
 use hitscope_core::Scene;
-use hitscope_core::group::{all_kernels, kernel_named};
 use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
-use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::{LoadedScene, is_scene_file};
-use hitscope_core::mesh::Crease;
 use hitscope_core::obj::{FaultPolicy, LoadOptions, Recentre};
 use hitscope_core::scene::SceneOptions;
 use std::path::Path;
-use std::sync::Arc;
-
-/// The kernel that traces the rays.
-#[derive(Args, Clone, Debug)]
-pub struct KernelArg {
-    /// Intersection kernel, by name or tier
-    #[arg(long, value_name = "KERNEL", default_value = "watertight", value_parser = kernel_names())]
-    pub kernel: String,
-}
-
-impl KernelArg {
-    /// The kernel of each shape.
-    pub fn kernel(&self) -> KernelChoice {
-        kernel_named(&self.kernel).expect("clap accepts only names in the tables")
-    }
-}
 
 /// How a mesh is loaded and stored for tracing.
 #[derive(Args, Clone, Copy, Debug)]
@@ -91,7 +71,7 @@ impl MemoryArg {
         self.max_memory << 20
     }
 
-    /// Fails if `bytes` of work exceed the limit together with a scene whose packed triangles take `packed_bytes`.
+    /// Fails if `bytes` of work exceed the limit together with a scene whose packed primitives take `packed_bytes`.
     ///
     /// # Errors
     /// [`CommandError::Other`].
@@ -110,40 +90,8 @@ impl MemoryArg {
         let [bytes, held] = [bytes, held].map(|bytes| bytes.div_ceil(1 << 20));
         let limit = self.max_memory;
         Err(CommandError::Other(format!(
-            "{what} takes {bytes} MB in addition to the mesh's {held} MB; the limit is {limit} MB (--max-memory)"
+            "{what} takes {bytes} MB in addition to the scene's {held} MB; the limit is {limit} MB (--max-memory)"
         )))
-    }
-}
-
-/// Crease angle of smooth shading.
-#[derive(Args, Clone, Copy, Debug)]
-pub struct CreaseArg {
-    /// With smooth shading: keep edges sharp where triangles meet at a larger angle than this, and ignore the
-    /// file's normals and smoothing groups
-    #[arg(long, value_name = "DEGREES", allow_negative_numbers = true, value_parser = parse_crease)]
-    pub crease: Option<f32>,
-}
-
-impl CreaseArg {
-    /// Refuses a crease angle with flat shading, which has no use for it.
-    ///
-    /// # Errors
-    /// [`CommandError::Usage`].
-    pub fn check(self, shading: ShadingArg) -> Result<(), CommandError> {
-        if self.crease.is_some() && shading == ShadingArg::Flat {
-            let message =
-                "--crease has no effect on flat shading: it needs --shading smooth or spherical";
-            return Err(CommandError::Usage(message.to_owned()));
-        }
-        Ok(())
-    }
-
-    /// The scene with this crease angle.
-    pub fn apply(self, scene: Arc<Scene>) -> Arc<Scene> {
-        match self.crease {
-            Some(degrees) => Arc::new(scene.with_crease(Crease::Above(degrees.to_radians()))),
-            None => scene,
-        }
     }
 }
 
@@ -174,20 +122,6 @@ impl ViewArg {
     }
 }
 
-pub(super) fn kernel_names() -> impl clap::builder::TypedValueParser<Value = String> {
-    let mut names: Vec<&'static str> = Vec::new();
-    let kernels = all_kernels().into_iter().flat_map(|shape| shape.kernels);
-    for kernel in kernels {
-        let tier = kernel.tier.map(|tier| tier.name());
-        for name in tier.into_iter().chain([kernel.name]) {
-            if !names.contains(&name) {
-                names.push(name);
-            }
-        }
-    }
-    PossibleValuesParser::new(names).map(|name| name)
-}
-
 fn view_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(INTEGRATORS.iter().map(|view| view.name)).map(|name| name)
 }
@@ -199,14 +133,6 @@ fn parse_megabytes(text: &str) -> Result<u64, String> {
     match text.parse() {
         Ok(megabytes @ 1..=MOST) => Ok(megabytes),
         _ => Err(format!("expected an integer from 1 to {MOST}")),
-    }
-}
-
-/// `30`.
-fn parse_crease(text: &str) -> Result<f32, String> {
-    match text.parse() {
-        Ok(degrees) if (0.0..=180.0).contains(&degrees) => Ok(degrees),
-        _ => Err("expected degrees from 0 to 180".to_owned()),
     }
 }
 

@@ -1,18 +1,20 @@
-//! `hitscope bench`: measures the speed of loading a mesh, building its tree and tracing rays.
+//! `hitscope bench`: measures the speed of loading a scene, building its trees and tracing rays.
 
-use super::args::{MeshArgs, kernel_names};
+use super::args::MeshArgs;
 use super::camera::CameraArgs;
+use super::kernel::parse_kernel;
 use super::{CommandError, ThreadsArg, default_thread_count};
 use crate::json;
+use crate::measure::scene::counted_primitives;
 use crate::measure::speed::{RAYS_AT_ONCE, median};
 use crate::measure::workloads::{WORKLOADS, workloads};
 use clap::Args;
 use cpu_time::ThreadTime;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::group::kernel_named;
-use hitscope_core::kernel::KernelChoice;
+use hitscope_core::counts::grouped;
+use hitscope_core::kernel::{KernelChoice, KernelTable as _, Tier};
 use hitscope_core::obj::Recentre;
-use hitscope_core::shape::bounds_in;
+use hitscope_core::shape::{Triangle, bounds_in};
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Intersector, Ray, TriangleMesh};
 use serde::Serialize;
@@ -45,9 +47,10 @@ pub struct BenchArgs {
     /// Camera of the primary rays.
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Kernel, by name or tier; repeat the option for several [default: the four tiers]
-    #[arg(long = "kernel", value_name = "KERNEL", value_parser = kernel_names())]
-    pub kernels: Vec<String>,
+    /// Kernel, by tier or by a name that `hitscope lab --help` lists; repeat the option for several
+    /// [default: the four tiers]
+    #[arg(long = "kernel", value_name = "KERNEL", value_parser = parse_kernel)]
+    pub kernels: Vec<KernelChoice>,
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
@@ -72,14 +75,18 @@ struct Report {
     triangles: usize,
     /// Of all shapes.
     primitives: usize,
+    /// The primitives in words.
+    #[serde(skip)]
+    contents: String,
     simd: &'static str,
     load_ms: f64,
-    /// Building the tree, on all cores.
+    /// Building the trees, on all cores.
     build_ms: f64,
-    /// Building the quick tree that the window starts with. No rays are traced through it here.
+    /// Building the quick tree of triangles that the window starts with. No rays are traced through it here.
     quick_build_ms: f64,
-    /// The tree and the packed triangles of the first kernel.
-    bytes_per_triangle: f64,
+    /// The trees and the packed primitives of the first kernel.
+    #[serde(flatten)]
+    bytes: BytesEach,
     /// `None` if the system doesn't report it.
     peak_rss_bytes: Option<u64>,
     kernels: Vec<PackedKernel>,
@@ -90,7 +97,26 @@ struct Report {
 struct PackedKernel {
     kernel: &'static str,
     pack_ms: f64,
+    #[serde(flatten)]
+    bytes: BytesEach,
+}
+
+/// The memory of the trees and the packed primitives, per primitive.
+#[derive(Clone, Copy, Serialize)]
+struct BytesEach {
+    /// The same figure, under the name for scenes of triangles.
     bytes_per_triangle: f64,
+    bytes_per_primitive: f64,
+}
+
+impl BytesEach {
+    fn new(bytes: usize, primitives: usize) -> Self {
+        let each = bytes as f64 / primitives.max(1) as f64;
+        Self {
+            bytes_per_triangle: each,
+            bytes_per_primitive: each,
+        }
+    }
 }
 
 #[derive(Serialize)]
@@ -124,9 +150,7 @@ impl BenchArgs {
         let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
-        let triangles = scene.mesh().triangles().len();
         let primitives = scene.primitive_count();
-        let per_triangle = |bytes: usize| bytes as f64 / primitives.max(1) as f64;
         let mut packed = Vec::new();
         let mut intersectors = Vec::new();
         for kernel in self.kernels() {
@@ -135,18 +159,19 @@ impl BenchArgs {
             packed.push(PackedKernel {
                 kernel: kernel.info.short_name(),
                 pack_ms: milliseconds(start.elapsed()),
-                bytes_per_triangle: per_triangle(scene.tree_bytes() + intersector.bytes()),
+                bytes: BytesEach::new(scene.tree_bytes() + intersector.bytes(), primitives),
             });
             intersectors.push(intersector);
         }
         let report = Report {
-            triangles,
+            triangles: scene.mesh().triangles().len(),
             primitives,
+            contents: counted_primitives(scene),
             simd: SimdLevel::current().name(),
             load_ms: milliseconds(loaded.report.duration),
             build_ms: milliseconds(scene.build_time()),
             quick_build_ms: milliseconds(quick_build_time(scene.mesh())),
-            bytes_per_triangle: packed[0].bytes_per_triangle,
+            bytes: packed[0].bytes,
             // Measured before the rays are generated: the viewer stores none.
             peak_rss_bytes: peak_rss_bytes(),
             kernels: packed,
@@ -162,15 +187,11 @@ impl BenchArgs {
     }
 
     fn kernels(&self) -> Vec<KernelChoice> {
-        let tiers = ["fast", "watertight", "precise", "exact"].map(str::to_owned);
-        let names = if self.kernels.is_empty() {
-            &tiers[..]
-        } else {
-            &self.kernels
-        };
-        let named =
-            |name: &String| kernel_named(name).expect("clap accepts only names in the tables");
-        names.iter().map(named).collect()
+        if !self.kernels.is_empty() {
+            return self.kernels.clone();
+        }
+        let of_tier = |tier| Triangle::kernel_of(tier).into();
+        Tier::ALL.map(of_tier).to_vec()
     }
 
     fn rows(&self, intersectors: &[Box<dyn Intersector>], workloads: &[Vec<Ray>; 3]) -> Vec<Row> {
@@ -283,21 +304,25 @@ fn hit_count(intersector: &dyn Intersector, query: WorkloadQuery, rays: &[Ray]) 
 
 impl Report {
     fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        writeln!(
+        write!(
             out,
-            "{} triangles, {}; loaded in {:.0} ms, tree built in {:.0} ms, quick tree in {:.0} ms",
-            self.triangles, self.simd, self.load_ms, self.build_ms, self.quick_build_ms
+            "{}; {}; loaded in {:.0} ms, tree built in {:.0} ms",
+            self.contents, self.simd, self.load_ms, self.build_ms
         )?;
+        if self.triangles > 0 {
+            write!(out, ", quick tree in {:.0} ms", self.quick_build_ms)?;
+        }
+        writeln!(out)?;
         if let Some(bytes) = self.peak_rss_bytes {
             writeln!(out, "peak memory {:.0} MB", bytes as f64 / 1e6)?;
         }
         writeln!(
             out,
             "\n{:<24}{:>12}{:>18}",
-            "kernel", "packed, ms", "bytes/triangle"
+            "kernel", "packed, ms", "bytes/primitive"
         )?;
         for packed in &self.kernels {
-            let (ms, bytes) = (packed.pack_ms, packed.bytes_per_triangle);
+            let (ms, bytes) = (packed.pack_ms, packed.bytes.bytes_per_primitive);
             writeln!(out, "{:<24}{ms:>12.1}{bytes:>18.1}", packed.kernel)?;
         }
         writeln!(
@@ -306,17 +331,22 @@ impl Report {
             "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "wall-clock"
         )?;
         for row in &self.workloads {
+            // Without rays there is no rate.
+            let rate = |rate: f64| match row.rays {
+                0 => "–".to_owned(),
+                _ => format!("{rate:.2}"),
+            };
             writeln!(
                 out,
-                "{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10.2}{:>12.2}",
+                "{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>12}",
                 row.name,
                 row.kernel,
                 row.rays_together,
                 row.threads,
-                row.rays,
-                row.hits,
-                row.mrays_per_s,
-                row.mrays_per_s_wall
+                grouped(row.rays),
+                grouped(row.hits as usize),
+                rate(row.mrays_per_s),
+                rate(row.mrays_per_s_wall)
             )?;
         }
         Ok(())

@@ -1,9 +1,10 @@
 //! `hitscope converge`: the error of pictures against the time that they take.
 
-use super::args::{CreaseArg, KernelArg, MeshArgs};
 use super::camera::CameraArgs;
+use super::kernel::parse_kernel;
 use super::lab::machine;
-use super::picture::{ShadingArg, picture_bytes};
+use super::picture::picture_bytes;
+use super::scene::SceneArgs;
 use super::stderr::ProgressLine;
 use super::{CommandError, DARK_BACKGROUND, LightArgs, Output, ThreadsArg, file_error};
 use crate::json;
@@ -12,10 +13,7 @@ use crate::measure::convergence::{
 };
 use crate::report;
 use clap::Args;
-use hitscope_core::Intersector;
-use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{Context, Setting, integrator};
-use hitscope_core::obj::Recentre;
 use hitscope_core::spawn::spawn_policy;
 use hitscope_core::srgb::from_display;
 use serde_json::{Value, json};
@@ -40,8 +38,9 @@ Examples:
   hitscope converge bunny.obj --size 256x256 --environment studio
   hitscope converge scene.xml --setting path --setting direct --out report")]
 pub struct ConvergeArgs {
-    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
-    pub file: PathBuf,
+    /// Scene, shading and kernel.
+    #[command(flatten)]
+    pub scene: SceneArgs,
     /// Setting to measure; repeat the option for several
     /// [default: path; path,depth=2; direct; path,kernel=fast]
     #[arg(long = "setting", value_name = "VIEW[,NAME=VALUE]...")]
@@ -55,21 +54,9 @@ pub struct ConvergeArgs {
     /// Camera.
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Shading of triangles
-    #[arg(long, default_value = "flat")]
-    pub shading: ShadingArg,
     /// Light.
     #[command(flatten)]
     pub light: LightArgs,
-    /// Kernel.
-    #[command(flatten)]
-    pub kernel: KernelArg,
-    /// Crease angle of smooth shading.
-    #[command(flatten)]
-    pub crease: CreaseArg,
-    /// How the mesh is loaded.
-    #[command(flatten)]
-    pub mesh: MeshArgs,
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadsArg,
@@ -91,7 +78,7 @@ impl ConvergeArgs {
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         self.camera.check()?;
-        self.crease.check(self.shading)?;
+        self.scene.check()?;
         let reference = self.setting("path")?;
         self.light.check(reference.view)?;
         let named = self.settings.iter().map(String::as_str);
@@ -144,12 +131,11 @@ impl ConvergeArgs {
 
     /// The scene, the camera and the lights.
     fn context(&self) -> Result<Context, CommandError> {
-        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
-        loaded.scene = self.crease.apply(loaded.scene);
+        let loaded = self.scene.load()?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
-        let intersector: Arc<dyn Intersector> = scene.intersector(self.kernel.kernel()).into();
-        let memory = self.mesh.memory;
+        let intersector = self.scene.intersector(scene);
+        let memory = self.scene.mesh.memory;
         let size = camera.resolution();
         // The reference and a picture, and two packed scenes.
         let (bytes, packed) = (2 * picture_bytes(size), 2 * intersector.bytes());
@@ -164,7 +150,7 @@ impl ConvergeArgs {
             second: Arc::clone(&intersector),
             intersector,
             camera,
-            shading: self.shading.into(),
+            shading: self.scene.shading.into(),
             background: from_display(DARK_BACKGROUND),
             lighting: self.light.lighting(&loaded, &camera, memory.bytes())?,
         })
@@ -180,7 +166,7 @@ impl ConvergeArgs {
         let mut setting = LightSetting {
             name: text.to_owned(),
             view,
-            kernel: self.kernel.kernel(),
+            kernel: self.scene.kernel.choice,
             spawn: None,
             depth: None,
         };
@@ -196,7 +182,10 @@ impl ConvergeArgs {
                 ("spawn", policy) => {
                     setting.spawn = Some(spawn_policy(policy).ok_or_else(unknown)?);
                 }
-                ("kernel", kernel) => setting.kernel = kernel_named(kernel).ok_or_else(unknown)?,
+                ("kernel", kernel) => {
+                    let refused = |why| refuse(format!("“{word}”: {why}"));
+                    setting.kernel = parse_kernel(kernel).map_err(refused)?;
+                }
                 _ => return Err(unknown()),
             }
         }
@@ -210,7 +199,7 @@ impl ConvergeArgs {
                 "command": "hitscope converge",
                 "machine": machine(),
             },
-            "file": self.file.display().to_string(),
+            "file": self.scene.file.display().to_string(),
             "convergence": measured,
         })
     }

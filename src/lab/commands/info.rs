@@ -53,21 +53,22 @@ struct Info {
     vertices: usize,
     triangles: usize,
     polygons: usize,
+    /// The length of the list.
     materials: usize,
-    /// The materials with their use.
+    /// The materials with their use: those that primitives have, and all that have a name.
     material_list: Vec<MaterialInfo>,
     groups: usize,
     /// Segments of the file's polylines.
     lines: usize,
     points: usize,
-    /// The groups of primitives, one per shape.
+    /// The groups of primitives, one per shape; none if the scene is empty.
     shapes: Vec<ShapeGroup>,
     /// Empty if nothing emits light.
     lights: Vec<LightInfo>,
-    /// Null if the scene is empty or only of infinite planes.
+    /// Null if nothing has a box: the scene is empty, or only of infinite planes and of empty or infinite solids.
     bounds: Option<Bounds>,
     origin: [f64; 3],
-    /// Largest difference per coordinate between the file's decimals and the traced mesh.
+    /// Largest difference per coordinate between the file's decimals and the vertices of the traced mesh.
     max_rounding: f64,
     bytes: BTreeMap<&'static str, usize>,
     /// Memory of the same surface in other representations.
@@ -124,7 +125,7 @@ struct ShapeGroup {
     build_ms: f64,
     /// How many primitives have normals that are the opposite of their shape's.
     reversed_normals: usize,
-    /// Null if there is none, as for planes, which are infinite.
+    /// Null if there is none, as for planes, which are infinite, and for empty solids.
     bounds: Option<Bounds>,
     #[serde(skip)]
     text: String,
@@ -221,22 +222,20 @@ impl Info {
         let bounds = scene.bounds_with_elements();
         let mut bytes = BTreeMap::from(mesh.bytes());
         bytes.insert("tree", scene.tree_bytes());
-        bytes.insert("packed triangles", packed_bytes);
+        bytes.insert("packed primitives", packed_bytes);
         let health = Health::of(mesh);
+        let material_list = MaterialInfo::of(scene);
+        let groups = scene.groups().iter().filter(|group| group.count() > 0);
         Self {
             vertices: loaded.report.vertex_count,
             triangles: mesh.triangles().len(),
             polygons: mesh.face_count(),
-            materials: mesh.named_material_count(),
-            material_list: MaterialInfo::of(scene),
+            materials: material_list.len(),
+            material_list,
             groups: mesh.named_group_count(),
             lines: mesh.attributes().lines.len(),
             points: mesh.attributes().points.len(),
-            shapes: scene
-                .groups()
-                .iter()
-                .map(|group| ShapeGroup::of(&**group, mesh))
-                .collect(),
+            shapes: groups.map(|group| ShapeGroup::of(&**group, mesh)).collect(),
             lights: LightInfo::of(loaded),
             bounds: Bounds::of(bounds, mesh),
             origin: mesh.origin().to_array(),
@@ -273,12 +272,17 @@ impl Info {
     }
 
     fn print(&self, out: &mut dyn Write) -> std::io::Result<()> {
-        writeln!(out, "vertices            {}", self.vertices)?;
-        writeln!(out, "triangles           {}", self.triangles)?;
-        writeln!(out, "polygons            {}", self.polygons)?;
-        writeln!(out, "materials           {}", self.materials)?;
-        writeln!(out, "groups              {}", self.groups)?;
-        writeln!(out, "lines, points       {}, {}", self.lines, self.points)?;
+        for (title, count) in [
+            ("vertices", self.vertices),
+            ("triangles", self.triangles),
+            ("polygons", self.polygons),
+            ("materials", self.materials),
+            ("groups", self.groups),
+        ] {
+            writeln!(out, "{title:<20}{}", grouped(count))?;
+        }
+        let [lines, points] = [self.lines, self.points].map(grouped);
+        writeln!(out, "lines, points       {lines}, {points}")?;
         self.print_shapes(out)?;
         self.print_materials(out)?;
         for light in &self.lights {
@@ -286,12 +290,13 @@ impl Info {
         }
         Bounds::print(self.bounds.as_ref(), "bounds", "none", out)?;
         writeln!(out, "origin              {:?}", self.origin)?;
-        writeln!(out, "rounded by          {}", at_most(self.max_rounding))?;
         self.print_memory(out)?;
         for (reason, count) in &self.dropped {
-            writeln!(out, "dropped             {count} {reason}")?;
+            writeln!(out, "dropped             {} {reason}", grouped(*count))?;
         }
-        self.print_health(out)?;
+        if self.triangles > 0 {
+            self.print_mesh(out)?;
+        }
         writeln!(
             out,
             "load, build         {:.1} ms, {:.1} ms",
@@ -308,11 +313,15 @@ impl Info {
     }
 
     fn print_shapes(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        if self.shapes.is_empty() {
+            return writeln!(out, "shape               none: the scene is empty");
+        }
         for group in &self.shapes {
+            let (bytes, ms) = (grouped(group.tree_bytes), group.build_ms);
             writeln!(
                 out,
-                "shape               {}: tree of {} bytes in {:.1} ms",
-                group.text, group.tree_bytes, group.build_ms
+                "shape               {}: tree of {bytes} bytes in {ms:.1} ms",
+                group.text
             )?;
             Bounds::print(group.bounds.as_ref(), "", "no bounds", out)?;
         }
@@ -333,19 +342,22 @@ impl Info {
 
     fn print_memory(&self, out: &mut dyn Write) -> std::io::Result<()> {
         for (part, bytes) in &self.bytes {
-            writeln!(out, "bytes               {bytes} {part}")?;
-        }
-        for (way, bytes) in &self.bytes_as {
-            writeln!(out, "{:<20}{bytes} bytes", format!("as {way}"))?;
+            writeln!(out, "bytes               {} {part}", grouped(*bytes))?;
         }
         Ok(())
     }
 
-    fn print_health(&self, out: &mut dyn Write) -> std::io::Result<()> {
+    /// What holds for triangles alone.
+    fn print_mesh(&self, out: &mut dyn Write) -> std::io::Result<()> {
+        let rounding = at_most(self.max_rounding);
+        writeln!(out, "vertices rounded by {rounding}")?;
+        for (way, bytes) in &self.bytes_as {
+            writeln!(out, "{:<20}{} bytes", format!("as {way}"), grouped(*bytes))?;
+        }
         for info in &FLAWS {
             let title = info.title.to_lowercase();
             match self.health.flaws[info.name] {
-                Some(count) => writeln!(out, "{title:<20}{count}")?,
+                Some(count) => writeln!(out, "{title:<20}{}", grouped(count))?,
                 None => writeln!(out, "{title:<20}not checked: too many border edges")?,
             }
         }

@@ -1,8 +1,8 @@
-//! Loads the mesh of a command from a file or from standard input.
+//! Loads the scene of a command from a file or from standard input.
 
 use super::CommandError;
 use super::stderr::{ProgressLine, print_line};
-use hitscope_core::counts::counted;
+use crate::measure::scene::counted_primitives;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::{self, LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
@@ -33,9 +33,9 @@ pub(super) fn load(
     } else {
         LoadedScene::load(path, load_options, options, &Progress::default())?
     };
-    let triangles = counted(loaded.scene.mesh().triangles().len(), "triangle");
+    let contents = counted_primitives(&loaded.scene);
     let ms = (loaded.report.duration + loaded.scene.build_time()).as_secs_f64() * 1e3;
-    ProgressLine::new().print(format_args!("{}: {triangles} in {ms:.0} ms", shown(name)));
+    ProgressLine::new().print(format_args!("{}: {contents} in {ms:.0} ms", shown(name)));
     Ok(loaded)
 }
 

@@ -1,20 +1,16 @@
 //! `hitscope inspect`: prints the inspection of one pixel's ray.
 
 use super::CommandError;
-use super::args::{CreaseArg, KernelArg, MeshArgs};
 use super::camera::CameraArgs;
 use super::path::{PathArgs, print_path};
-use super::picture::ShadingArg;
+use super::scene::SceneArgs;
 use crate::inspection::{CrossingReport, HitReport, Inspection, OperandName, SolidReport};
 use clap::Args;
 use glam::UVec2;
-use hitscope_core::Intersector;
 use hitscope_core::counts::{counted, counted_as};
-use hitscope_core::obj::{Recentre, shown};
+use hitscope_core::obj::shown;
 use std::fmt::Debug;
 use std::io::Write;
-use std::path::PathBuf;
-use std::sync::Arc;
 
 const ABOUT: &str = "\
 Show the ray of one pixel: its hit with the formula, all crossings, the exact
@@ -78,26 +74,15 @@ Exit status:
 #[derive(Args, Clone, Debug)]
 #[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct InspectArgs {
-    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
-    pub file: PathBuf,
+    /// Scene, shading and kernel.
+    #[command(flatten)]
+    pub scene: SceneArgs,
     /// Pixel; 0,0 is at the top left
     #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_pixel)]
     pub pixel: UVec2,
     /// Camera
     #[command(flatten)]
     pub camera: CameraArgs,
-    /// Shading that determines the shading normal
-    #[arg(long, default_value = "flat")]
-    pub shading: ShadingArg,
-    /// Kernel
-    #[command(flatten)]
-    pub kernel: KernelArg,
-    /// Crease angle of smooth shading.
-    #[command(flatten)]
-    pub crease: CreaseArg,
-    /// How the mesh is loaded.
-    #[command(flatten)]
-    pub mesh: MeshArgs,
     /// The path of a sample.
     #[command(flatten)]
     pub path: PathArgs,
@@ -112,22 +97,21 @@ impl InspectArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        if let Some(size) = self.camera.known_size(&self.file) {
+        if let Some(size) = self.camera.known_size(&self.scene.file) {
             self.check_pixel(size)?;
         }
         self.camera.check()?;
-        self.crease.check(self.shading)?;
+        self.scene.check()?;
         self.path.check()?;
-        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
-        loaded.scene = self.crease.apply(loaded.scene);
+        let loaded = self.scene.load()?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         self.check_pixel(camera.resolution())?;
-        let intersector: Arc<dyn Intersector> = Arc::from(scene.intersector(self.kernel.kernel()));
-        let (shading, pixel) = (self.shading.into(), self.pixel);
+        let intersector = self.scene.intersector(scene);
+        let (shading, pixel) = (self.scene.shading.into(), self.pixel);
         let mut inspection = Inspection::of_pixel(scene, &*intersector, shading, &camera, pixel);
         inspection.find_line(&loaded.report.face_lines);
-        let for_path = (pixel, self.mesh.memory.bytes());
+        let for_path = (pixel, self.scene.mesh.memory.bytes());
         inspection.path = self
             .path
             .report(&loaded, intersector, &camera, shading, for_path)?;

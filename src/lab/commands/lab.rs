@@ -2,6 +2,7 @@
 
 use super::args::MeshArgs;
 use super::camera::CameraArgs;
+use super::kernel::kernel_list;
 use super::stderr::ProgressLine;
 use super::{CommandError, Output, default_thread_count, file_error};
 use crate::json;
@@ -10,6 +11,7 @@ use crate::measure::statistics::{rate_text, short};
 use crate::measure::{self, CaseInfo, Measurements, RunProgress, Sizes};
 use crate::report::{self, RunInfo};
 use clap::Args;
+use hitscope_core::counts::grouped;
 use hitscope_core::obj::Recentre;
 use hitscope_core::progress::Progress;
 use hitscope_core::simd::SimdLevel;
@@ -19,6 +21,16 @@ use std::io::{self, Write};
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant, SystemTime};
 
+const EXAMPLES: &str = "\
+Examples:
+  hitscope lab --quick
+  hitscope lab --out report
+  hitscope lab --case closed --case order --seed 7
+  hitscope lab --scene bunny.obj --eye 3,2,4
+
+All results except times are the same on every machine for the same seed. Uses
+one thread per core.";
+
 /// Measure accuracy and speed of every kernel against exact arithmetic
 ///
 /// Without --scene, the kernels are measured on built-in cases that cover extreme sizes, shapes and positions. With
@@ -27,15 +39,8 @@ use std::time::{Duration, Instant, SystemTime};
 #[derive(Args, Clone, Debug)]
 #[command(
     mut_args(only_with_scene),
-    after_help = "\
-Examples:
-  hitscope lab --quick
-  hitscope lab --out report
-  hitscope lab --case closed --case order --seed 7
-  hitscope lab --scene bunny.obj --eye 3,2,4
-
-All results except times are the same on every machine for the same seed. Uses
-one thread per core."
+    after_help = EXAMPLES,
+    after_long_help = format!("{EXAMPLES}\n\n{}", kernel_list())
 )]
 pub struct LabArgs {
     /// Measure fewer rays: half a minute instead of several minutes
@@ -265,7 +270,9 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     writeln!(out, "{}", machine())?;
     writeln!(
         out,
-        "Mrays/s by CPU time of one thread; errors against the oracle for {n} camera and bounce rays, {hits} of which hit"
+        "Mrays/s by CPU time of one thread; errors against the exact answer for {} camera and bounce rays, {} of which hit",
+        grouped(n as usize),
+        grouped(hits as usize)
     )?;
     writeln!(
         out,
@@ -287,18 +294,19 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
             writeln!(out, "{}", row.shape)?;
         }
         let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
+        // There are no bounce rays where nothing is hit, and no random rays at what has no bounds.
+        let rate = |rate: f64| match rate > 0.0 {
+            true => short(rate),
+            false => "–".to_owned(),
+        };
         let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
         writeln!(
             out,
             "  {:<22} {:>9} {:>9} {:>9} {:>10.3}   {:>10} {:>10} {:>10} {:>9} {:>9}",
             row.kernel,
-            short(rates.primary),
-            if rates.bounce > 0.0 {
-                short(rates.bounce)
-            } else {
-                "–".to_owned()
-            },
-            short(rates.random),
+            rate(rates.primary),
+            rate(rates.bounce),
+            rate(rates.random),
             row.speed.time_relative_to_fast,
             rate_text(row.missed, row.n),
             rate_text(row.false_hits, row.n),

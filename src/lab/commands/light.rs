@@ -65,21 +65,19 @@ pub enum EnvironmentSource {
 
 impl LightArgs {
     /// The options that are given, with the setting that each of them changes.
-    fn given(&self) -> [(&'static str, bool, Setting); 6] {
+    fn given(&self) -> [(&'static str, bool, Setting); 7] {
+        use Setting::{Depth, Lights, OcclusionDistance, SecondSpawn, Spawn, Terminator};
         [
-            ("--environment", self.environment.is_some(), Setting::Lights),
-            ("--rotation", self.rotation.is_some(), Setting::Lights),
-            ("--spawn", self.spawn.is_some(), Setting::Spawn),
-            ("--depth", self.depth.is_some(), Setting::Depth),
-            (
-                "--terminator",
-                self.terminator.is_some(),
-                Setting::Terminator,
-            ),
+            ("--environment", self.environment.is_some(), Lights),
+            ("--rotation", self.rotation.is_some(), Lights),
+            ("--spawn", self.spawn.is_some(), Spawn),
+            ("--second-spawn", self.second_spawn.is_some(), SecondSpawn),
+            ("--depth", self.depth.is_some(), Depth),
+            ("--terminator", self.terminator.is_some(), Terminator),
             (
                 "--ao-distance",
                 self.ao_distance.is_some(),
-                Setting::OcclusionDistance,
+                OcclusionDistance,
             ),
         ]
     }
@@ -89,11 +87,9 @@ impl LightArgs {
     /// # Errors
     /// [`CommandError::Usage`].
     pub(super) fn refuse_all(&self, lacking: &str) -> Result<(), CommandError> {
-        let second = ("--second-spawn", self.second_spawn.is_some());
-        let given = self.given().map(|(option, is_given, _)| (option, is_given));
-        let mut given = given.into_iter().chain([second]);
-        match given.find(|(_, is_given)| *is_given) {
-            Some((option, _)) => Err(CommandError::Usage(format!(
+        let mut given = self.given().into_iter();
+        match given.find(|(_, is_given, _)| *is_given) {
+            Some((option, ..)) => Err(CommandError::Usage(format!(
                 "{option} has no effect: it needs {lacking}"
             ))),
             None => Ok(()),
@@ -106,13 +102,6 @@ impl LightArgs {
     /// [`CommandError::Usage`].
     pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
         refuse_without_effect(view, &self.given())?;
-        if self.second_spawn.is_some() && !view.needs.second_policy {
-            let message = format!(
-                "--second-spawn has no effect on the view “{}”: it needs --view spawning",
-                view.name
-            );
-            return Err(CommandError::Usage(message));
-        }
         let is_even = matches!(
             self.environment,
             Some(EnvironmentSource::Studio | EnvironmentSource::Constant(_))

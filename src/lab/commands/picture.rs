@@ -1,13 +1,15 @@
 //! Options of a traced picture, and its tracing.
 
-use super::args::{CreaseArg, KernelArg, MeshArgs, ViewArg, kernel_names};
+use super::args::ViewArg;
 use super::camera::CameraArgs;
+use super::kernel::parse_kernel;
+use super::scene::SceneArgs;
 use super::{CommandError, DisplayArgs, LightArgs, ThreadsArg};
-use clap::{Args, ValueEnum};
+use clap::Args;
 use glam::{UVec2, Vec3};
 use hitscope_core::film::BYTES_PER_PIXEL;
-use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{Comparison, Context, Integrator, Lighting};
+use hitscope_core::kernel::{KernelChoice, exact_triangle_kernel};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::{Guides, guides};
 use hitscope_core::plan::Plan;
@@ -17,21 +19,20 @@ use hitscope_core::scene::Shading;
 use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Film, Intersector};
 use std::fmt;
-use std::path::Path;
 use std::sync::Arc;
 
 /// Options of a traced picture
 #[derive(Args, Clone, Debug)]
 pub struct PictureArgs {
+    /// Scene, shading and kernel.
+    #[command(flatten)]
+    pub scene: SceneArgs,
     /// Camera.
     #[command(flatten)]
     pub camera: CameraArgs,
     /// Samples per pixel, 1 to 65536, rounded up to a power of two
     #[arg(long, value_name = "N", default_value_t = 16, allow_negative_numbers = true, value_parser = clap::value_parser!(u32).range(1..=65536))]
     pub samples: u32,
-    /// Shading of triangles
-    #[arg(long, default_value = "flat")]
-    pub shading: ShadingArg,
     /// View.
     #[command(flatten)]
     pub view: ViewArg,
@@ -41,42 +42,12 @@ pub struct PictureArgs {
     /// Exposure and tone.
     #[command(flatten)]
     pub display: DisplayArgs,
-    /// Kernel.
-    #[command(flatten)]
-    pub kernel: KernelArg,
-    /// Crease angle of smooth shading.
-    #[command(flatten)]
-    pub crease: CreaseArg,
-    /// How the mesh is loaded.
-    #[command(flatten)]
-    pub mesh: MeshArgs,
     /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact]
-    #[arg(long, value_name = "KERNEL", value_parser = kernel_names(), hide_possible_values = true)]
-    pub against: Option<String>,
+    #[arg(long, value_name = "KERNEL", value_parser = parse_kernel)]
+    pub against: Option<KernelChoice>,
     /// Threads.
     #[command(flatten)]
     pub threads: ThreadsArg,
-}
-
-/// How normals vary over a triangle.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-pub enum ShadingArg {
-    /// One normal per triangle
-    Flat,
-    /// Interpolated linearly between the vertices, then normalised
-    Smooth,
-    /// Interpolated between the vertices on the unit sphere
-    Spherical,
-}
-
-impl From<ShadingArg> for Shading {
-    fn from(arg: ShadingArg) -> Self {
-        match arg {
-            ShadingArg::Flat => Self::Flat,
-            ShadingArg::Smooth => Self::Smooth,
-            ShadingArg::Spherical => Self::Spherical,
-        }
-    }
 }
 
 /// A traced picture, and the camera and scene for drawing over it.
@@ -155,18 +126,19 @@ impl PictureArgs {
     ///
     /// # Errors
     /// [`CommandError::Usage`].
-    pub fn check(&self, file: &Path) -> Result<(), CommandError> {
+    pub fn check(&self) -> Result<(), CommandError> {
         let refuse = |message: String| Err(CommandError::Usage(message));
         self.camera.check()?;
+        let file = &self.scene.file;
         if let Some(view) = self.view.known(file) {
             self.check_view(view)?;
         }
-        self.crease.check(self.shading)?;
+        self.scene.check()?;
         // The size of a scene file's picture may be known only later.
         let Some(size) = self.camera.known_size(file) else {
             return Ok(());
         };
-        let (bytes, memory) = (picture_bytes(size), self.mesh.memory);
+        let (bytes, memory) = (picture_bytes(size), self.scene.mesh.memory);
         if bytes > memory.bytes() {
             let UVec2 { x, y } = size;
             let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
@@ -194,18 +166,12 @@ impl PictureArgs {
     ///
     /// # Errors
     /// See [`CommandError`].
-    pub fn trace(
-        &self,
-        mut loaded: LoadedScene,
-        has_guides: bool,
-    ) -> Result<Rendered, CommandError> {
-        loaded.scene = self.crease.apply(loaded.scene);
+    pub fn trace(&self, loaded: LoadedScene, has_guides: bool) -> Result<Rendered, CommandError> {
         let camera = self.camera.camera(&loaded.scene, loaded.view.as_ref())?;
-        let shading = self.shading.into();
-        let intersector: Arc<dyn Intersector> =
-            Arc::from(loaded.scene.intersector(self.kernel.kernel()));
-        let against = self.against.as_deref().unwrap_or("exact");
-        let chosen = kernel_named(against).expect("clap accepts only names in the tables");
+        let shading = self.scene.shading.into();
+        let intersector = self.scene.intersector(&loaded.scene);
+        let default = || exact_triangle_kernel().into();
+        let chosen = self.against.unwrap_or_else(default);
         let view = self.view.view(&loaded);
         self.check_view(view)?;
         let second = view.second(&loaded.scene, &intersector, chosen);
@@ -254,7 +220,7 @@ impl PictureArgs {
         if !view.needs.lights {
             return Ok(Lighting::default());
         }
-        let max_memory = self.mesh.memory.bytes();
+        let max_memory = self.scene.mesh.memory.bytes();
         self.light.lighting(loaded, camera, max_memory)
     }
 
@@ -271,7 +237,7 @@ impl PictureArgs {
         }
         let UVec2 { x, y } = size;
         let what = format_args!("a picture of {x}x{y} pixels");
-        let memory = self.mesh.memory;
+        let memory = self.scene.mesh.memory;
         memory.require(picture_bytes(size), &loaded.scene, packed_bytes, what)
     }
 }

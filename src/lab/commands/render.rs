@@ -3,10 +3,9 @@
 use super::output::is_stream;
 use super::{CommandError, PictureArgs, Rendered};
 use clap::Args;
-use hitscope_core::obj::Recentre;
 use std::path::{Path, PathBuf};
 
-/// Render a mesh to a PNG or OpenEXR file
+/// Render a picture to a PNG or OpenEXR file
 #[derive(Args, Clone, Debug)]
 #[command(after_help = "\
 Examples:
@@ -23,8 +22,6 @@ normal, Z, id, sampleCount and variance, for denoisers and compositing;
 exposure and tone curve don't change it. The output file appears under its
 name once it is complete. A picture takes 73 bytes of memory per pixel.")]
 pub struct RenderArgs {
-    /// OBJ file, plain or gzipped, or scene file (.xml); - for an OBJ on standard input
-    pub file: PathBuf,
     /// PNG or OpenEXR file, or a pipe or device for PNG, to write
     #[arg(short, long, value_name = "OUT.png|OUT.exr", value_parser = parse_picture)]
     pub output: PathBuf,
@@ -58,7 +55,7 @@ impl RenderArgs {
         if self.noise && is_stream(&self.output) {
             return refuse("--noise prints to standard output; write the picture to a file");
         }
-        self.picture.check(&self.file)
+        self.picture.check()
     }
 
     /// Traces the picture. Drawing the overlay is left to the caller, which may have a GPU.
@@ -67,7 +64,7 @@ impl RenderArgs {
     /// See [`CommandError`].
     pub fn trace(&self) -> Result<Rendered, CommandError> {
         self.check()?;
-        let loaded = self.picture.mesh.load(&self.file, Recentre::Auto)?;
+        let loaded = self.picture.scene.load()?;
         self.picture.trace(loaded, self.is_exr())
     }
 

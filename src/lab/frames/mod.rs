@@ -17,12 +17,11 @@
 mod precise;
 
 use glam::{DVec3, Vec3};
-use hitscope_core::group::Group;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::ray::RayError;
 use hitscope_core::{Intersector, Ray, Scene};
 use precise::Precise;
-use std::sync::{Arc, OnceLock};
+use std::sync::OnceLock;
 
 /// Another start or frame is used if it reduces the rounding by more than this factor. Otherwise the ray that the
 /// user expects is traced, which loses at most two bits.
@@ -200,13 +199,12 @@ struct Frame {
 
 impl Frame {
     fn of_mesh(scene: &Scene) -> Self {
-        let is_plane = |group: &Arc<dyn Group>| group.bounds().is_empty();
         Self {
             kind: FrameKind::Mesh,
             origin: scene.mesh().origin(),
             ball: Ball::around(scene),
             has_other_shapes: scene.has_other_shapes(),
-            is_unbounded: scene.other_groups().iter().any(is_plane),
+            is_unbounded: !scene.other_groups().iter().all(|group| group.is_bounded()),
         }
     }
 

@@ -34,6 +34,7 @@ pub mod workloads;
 
 use boxes::{BOX_CASES, BoxCell};
 use contestants::{Contestant, contestants};
+use hitscope_core::counts::counted;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::progress::{Cancelled, Progress};
@@ -333,7 +334,7 @@ fn shape_tasks(sizes: Sizes, seed: u64) -> impl Iterator<Item = NamedTasks> {
 
 fn speed_on_sphere(sizes: Sizes, seed: u64, progress: &Progress) -> Result<Vec<Speed>, Cancelled> {
     let mesh = sphere(sizes.speed_cells, Placement::UNIT);
-    let name = format!("sphere, {} triangles", mesh.triangles().len());
+    let name = format!("sphere, {}", counted(mesh.triangles().len(), "triangle"));
     let scene = hitscope_core::scene::scene(mesh);
     let camera = speed::default_camera(&scene);
     let workloads = workloads::workloads(&scene, &camera, sizes.speed_rays, seed);

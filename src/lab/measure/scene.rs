@@ -66,8 +66,11 @@ pub struct SceneRow {
     pub speed: Speed,
 }
 
-/// The scene's primitives, as in “12 triangles, 3 spheres”.
-fn counted_primitives(scene: &Scene) -> String {
+/// The scene's primitives, as in “12 triangles, 3 spheres”, or “an empty scene”.
+pub(crate) fn counted_primitives(scene: &Scene) -> String {
+    if scene.primitive_count() == 0 {
+        return "an empty scene".to_owned();
+    }
     let counted = scene.groups().iter().map(|group| {
         let shape = group.shape();
         counted_as(group.count(), shape.name, shape.plural)

@@ -5,8 +5,10 @@
 
 use super::enclosing::{Enclosing, EnclosingShape};
 use super::exact_t::ExactT;
-use hitscope_core::Ray;
 use hitscope_core::group::{CsgOperation, Solid};
+use hitscope_core::mesh::{Runs, TriangleMesh};
+use hitscope_core::progress::Progress;
+use hitscope_core::{Ray, Scene};
 use std::cmp::Ordering;
 use std::fmt::Debug;
 use std::sync::Arc;
@@ -45,6 +47,15 @@ impl OracleSolid {
                 Solid::combined(*operation, parts.iter().map(Self::solid).collect())
             }
         }
+    }
+
+    /// A scene of this solid alone, for kernels.
+    pub fn scene(&self) -> Scene {
+        let mut scene = hitscope_core::scene::scene(TriangleMesh::default());
+        let solids = vec![self.solid()];
+        let added = scene.add_solids(solids, Runs::default(), &Progress::default());
+        added.expect("nobody cancels");
+        scene
     }
 
     /// The shapes, in the order of the tree.

@@ -5,6 +5,7 @@ use crate::measure::Measurements;
 use crate::measure::lecture::{BOX_AS_PRINTED, LECTURE, PrintedInfo};
 use crate::measure::shapes::ShapeCell;
 use crate::measure::statistics::{Quantiles, per_million, rate_text, short};
+use hitscope_core::counts::grouped;
 use hitscope_core::group::all_kernels;
 use hitscope_core::kernel::KernelInfo;
 use hitscope_core::shape::{AxisBox, Shape as _};
@@ -32,7 +33,7 @@ fn print_packing(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.shape.to_owned(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
+            grouped(cell.n),
             short(cell.ns_per_primitive),
             short(cell.bytes_per_primitive),
             short(cell.tree_bytes_per_primitive),
@@ -69,8 +70,8 @@ fn print_hits(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.clone(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
-            cell.hits.to_string(),
+            grouped(cell.n as usize),
+            grouped(cell.hits as usize),
             rate_text(cell.missed, cell.n),
             rate_text(cell.false_hits, cell.n),
             text(cell.t_ulps, |q| q.p50),
@@ -104,7 +105,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.clone(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
+            grouped(cell.n as usize),
             rate_text(cell.self_hits, cell.n),
             rate_text(cell.edge_hits, cell.n),
             short(cell.height_p50),

@@ -4,6 +4,7 @@ use crate::measure::contestants::{Contestant, contestants};
 use crate::measure::statistics::{per_million, rate_text, short};
 use crate::measure::triangles::TriangleCell;
 use crate::measure::{Measurements, cells_of};
+use hitscope_core::counts::grouped;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
 use hitscope_core::shape::Triangle;
 use std::fmt::Write as _;
@@ -129,11 +130,11 @@ fn print_triangles(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.clone(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
-            cell.hits.to_string(),
+            grouped(cell.n as usize),
+            grouped(cell.hits as usize),
             rate_text(cell.missed, cell.n),
             rate_text(cell.false_hits, cell.n),
-            cell.non_finite.to_string(),
+            grouped(cell.non_finite as usize),
             t(|q| q.p50),
             t(|q| q.p99),
             t(|q| q.max),
@@ -167,7 +168,7 @@ fn print_meshes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.clone(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
+            grouped(cell.n as usize),
             rate_text(cell.missed, cell.n),
             if cell.doubled == 0 {
                 format!("0 (<{})", short(cell.doubled_bound_per_million))
@@ -189,7 +190,7 @@ fn print_meshes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             "all".to_owned(),
             kernel.info.name.to_owned(),
-            n.to_string(),
+            grouped(n as usize),
             rate_text(missed, n),
             String::new(),
             String::new(),
@@ -219,8 +220,8 @@ fn print_order(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.to_owned(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
-            cell.ties.to_string(),
+            grouped(cell.n as usize),
+            grouped(cell.ties as usize),
             rate_text(cell.wrong_nearest, cell.n),
             rate_text(cell.wrong_crossings, cell.n),
         ]);
@@ -242,7 +243,7 @@ fn print_boxes(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         rows.push(vec![
             cell.case.to_owned(),
             String::new(),
-            cell.n.to_string(),
+            grouped(cell.n as usize),
             lost,
         ]);
     }
@@ -271,7 +272,7 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
             cell.case.clone(),
             cell.policy.to_owned(),
             cell.kernel.to_owned(),
-            cell.n.to_string(),
+            grouped(cell.n as usize),
             rate_text(cell.self_hits, cell.n),
             short(cell.height_p50),
             short(cell.height_max),

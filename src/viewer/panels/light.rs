@@ -65,7 +65,7 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
         let chosen = settings.spawn();
         spawn_ui(ui, "Spawn policy", chosen, &mut settings.spawn);
     }
-    if needs.second_policy {
+    if needs.uses(Setting::SecondSpawn) {
         let chosen = settings.second_spawn();
         spawn_ui(ui, "compared with", chosen, &mut settings.second_spawn);
     }

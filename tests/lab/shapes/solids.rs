@@ -7,8 +7,6 @@ use super::sum_over;
 use glam::{DVec3, Vec3};
 use hitscope_core::group::{CsgOperation, LineIntervals, SolidNode, kernel_named};
 use hitscope_core::kernel::Tier;
-use hitscope_core::mesh::{Runs, TriangleMesh};
-use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
     AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Plane, Quadric, Sphere, Torus,
@@ -39,10 +37,7 @@ struct Checked<'a> {
 
 impl<'a> Checked<'a> {
     fn new(solid: &'a OracleSolid) -> Self {
-        let mut scene = hitscope_core::scene::scene(TriangleMesh::default());
-        let solids = vec![solid.solid()];
-        let added = scene.add_solids(solids, Runs::default(), &Progress::default());
-        added.expect("nobody cancels");
+        let scene = solid.scene();
         let exact = kernel_named(Tier::Exact.name()).expect("a tier");
         Self {
             operands: solid.operands(),
@@ -193,7 +188,7 @@ fn crossings_of_random_solids_are_where_points_change_from_outside_to_inside() {
     check_all(0.1, |random| {
         let size = 2f64.powf(4.0 * random.signed());
         let near = 4.0 * size * random.in_cube();
-        let SampledSolid { solid, points } = SampledSolid::random(random, near, size, 3);
+        let SampledSolid { solid, points, .. } = SampledSolid::random(random, near, size, 3);
         let ray = |_| ray_at(random, &points, near, size);
         (solid, (0..RAYS_PER_SOLID).map(ray).collect())
     });
@@ -324,7 +319,8 @@ fn the_oracle_finds_crossings_in_order() {
     let mut random = Random::new(1);
     let mut crossings = 0;
     for _ in 0..200 {
-        let SampledSolid { solid, points } = SampledSolid::random(&mut random, DVec3::ZERO, 1.0, 2);
+        let sampled = SampledSolid::random(&mut random, DVec3::ZERO, 1.0, 2);
+        let SampledSolid { solid, points, .. } = sampled;
         let ray = ray_at(&mut random, &points, DVec3::ZERO, 1.0);
         let Some(mut division) = solid.division(&ray) else {
             continue;

@@ -111,6 +111,10 @@ impl Group for CsgGroup {
         self.bounds
     }
 
+    fn is_bounded(&self) -> bool {
+        self.solids.iter().all(|solid| solid.bounds().is_some())
+    }
+
     fn bvh(&self) -> Arc<Bvh> {
         Arc::clone(&self.bvh)
     }

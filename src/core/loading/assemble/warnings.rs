@@ -1,6 +1,7 @@
 //! Warnings about the contents of a scene file.
 
 use super::Contents;
+use crate::counts::grouped;
 use crate::obj::{Warning, shown};
 use crate::scene_file::{Place, SceneFile, Shape, ShapeKind};
 use std::path::{Path, PathBuf};
@@ -36,6 +37,20 @@ impl Contents {
             let message = "the transform mirrors the shape, so that its light shines from the other side, as in Mitsuba; “flip_normals” turns it back";
             self.warn(file, emitter.place, message.to_owned());
         }
+    }
+
+    /// Warns about solids at these places, which are empty.
+    pub(super) fn warn_about_empty_solids(&mut self, file: &SceneFile, places: &[Place]) {
+        let Some((first, others)) = places.split_first() else {
+            return;
+        };
+        let others = match others.len() {
+            0 => String::new(),
+            1 => "; so is another one".to_owned(),
+            count => format!("; so are {} others", grouped(count)),
+        };
+        let message = format!("the csg is empty: the boxes around its parts don't overlap{others}");
+        self.warn(file, *first, message);
     }
 
     pub(super) fn warn(&mut self, file: &SceneFile, place: Place, message: String) {

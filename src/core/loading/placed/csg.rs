@@ -8,6 +8,7 @@ use glam::{DMat4, DVec3};
 
 #[derive(Debug)]
 struct PlacedSolid {
+    place: Place,
     operation: CsgOperation,
     operands: Vec<Box<dyn Placed>>,
 }
@@ -15,7 +16,7 @@ struct PlacedSolid {
 impl Placeable for scene_file::Csg {
     /// # Errors
     /// A nested shape can't be placed or isn't a solid.
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let operand = |shape: &Shape| {
             let operand = placed(shape, &(*to_world * shape.to_world))?;
             let refused = |message| Refusal::new(shape.place, message);
@@ -23,6 +24,7 @@ impl Placeable for scene_file::Csg {
             Ok(operand)
         };
         Ok(Box::new(PlacedSolid {
+            place,
             operation: self.operation,
             operands: self
                 .children
@@ -41,16 +43,24 @@ impl Placed for PlacedSolid {
     }
 
     fn push_to(&self, groups: &mut Groups, origin: DVec3, look: Look) {
-        groups.solids.push(self.solid(origin), look);
+        let solid = self.solid(origin, &mut groups.empty);
+        groups.solids.push(solid, look);
     }
 
     fn check_closed(&self) -> Result<(), String> {
         Ok(())
     }
 
-    fn solid(&self, origin: DVec3) -> Solid {
-        let operands = self.operands.iter().map(|operand| operand.solid(origin));
-        Solid::combined(self.operation, operands.collect())
+    fn solid(&self, origin: DVec3, empty: &mut Vec<Place>) -> Solid {
+        let known = empty.len();
+        let operands = self.operands.iter();
+        let operands = operands.map(|operand| operand.solid(origin, empty));
+        let solid = Solid::combined(self.operation, operands.collect());
+        let has_empty_box = solid.bounds().is_some_and(|bounds| bounds.is_empty());
+        if has_empty_box && empty.len() == known {
+            empty.push(self.place);
+        }
+        solid
     }
 
     fn fits(&self, origin: DVec3) -> bool {

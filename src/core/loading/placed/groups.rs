@@ -3,6 +3,7 @@
 use crate::group::{Appearance, Grouped, Placement, Solid};
 use crate::progress::{Cancelled, Progress};
 use crate::scene::{Scene, SceneOptions};
+use crate::scene_file::Place;
 use glam::DVec3;
 use std::any::Any;
 
@@ -11,6 +12,8 @@ use std::any::Any;
 pub struct Groups {
     lists: Vec<Box<dyn PendingGroup>>,
     pub solids: List<Solid>,
+    /// Where the solids, or parts of solids, stand that are certainly empty.
+    pub empty: Vec<Place>,
 }
 
 /// The material of a shape, its side, and its texture coordinates.

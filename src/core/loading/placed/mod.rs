@@ -54,8 +54,9 @@ pub(super) trait Placed: Debug {
     /// Why it isn't one.
     fn check_closed(&self) -> Result<(), String>;
 
-    /// The interior of the shape, relative to an origin and rounded to f32.
-    fn solid(&self, origin: DVec3) -> Solid;
+    /// The interior of the shape, relative to an origin and rounded to f32. Adds the places of the parts that are certainly
+    /// empty, and not only because a part of theirs is, to `empty`.
+    fn solid(&self, origin: DVec3, empty: &mut Vec<Place>) -> Solid;
 
     /// Whether rays can hit the shape after it is rounded to f32 relative to an origin: nothing overflows, and it doesn't
     /// shrink to a point.
@@ -111,7 +112,7 @@ impl<P: PlacedPrimitive> Placed for P {
         P::check_closed(self)
     }
 
-    fn solid(&self, origin: DVec3) -> Solid {
+    fn solid(&self, origin: DVec3, _: &mut Vec<Place>) -> Solid {
         P::solid(self.rounded(origin))
     }
 

@@ -3,7 +3,8 @@
 mod answers;
 mod lines;
 
-use super::args::{KernelArg, MeshArgs};
+use super::args::MeshArgs;
+use super::kernel::KernelArg;
 use super::{CommandError, ThreadsArg, file_error, is_stdin};
 use crate::frames::Frames;
 use crate::json;
@@ -25,7 +26,7 @@ const BATCH: usize = 1 << 16;
 const LEAST_PER_THREAD: usize = 256;
 
 const ABOUT: &str = "\
-Trace rays through a mesh and print one JSON object per ray
+Trace rays through a scene and print one JSON object per ray
 
 Input: one ray per line, as six or eight numbers in the file's coordinates.
 
@@ -82,15 +83,16 @@ comments produce no output.
 
 Numbers parse as doubles without loss.
 
-Rounding: rays and meshes are traced as f32 numbers relative to an origin near
-the mesh (--recentre). A ray with more digits, or from far away, is rounded.
+Rounding: rays and scenes are traced as f32 numbers relative to an origin near
+the scene (--recentre). A ray with more digits, or from far away, is rounded.
 To lose as little as possible, the traced ray starts where the given ray comes
-near the mesh, or is traced in the file's coordinates if that is more
+near the scene, or is traced in the file's coordinates if that is more
 accurate. ray_rounding bounds the remaining error: the largest distance per
 coordinate between the traced and the given ray at the same t, over the part
-of the ray within the mesh's bounding sphere. 0 means that the ray is traced
-exactly as given. tmin and tmax are rounded outwards to f32. `hitscope info`
-shows how far the mesh itself is rounded.";
+of the ray within the scene's bounding sphere. At an infinite plane farther
+away, the distance may be larger. 0 means that the ray is traced exactly as
+given. tmin and tmax are rounded outwards to f32. `hitscope info` shows how
+far the vertices of meshes are rounded.";
 
 const EXAMPLES: &str = "\
 Examples:
@@ -102,11 +104,11 @@ Examples:
 
 Exit status:
   0  success, even if some lines are not rays; their answers have the reason
-  1  the mesh or the file of rays can't be read; one line on stderr has the
+  1  the scene or the file of rays can't be read; one line on stderr has the
      reason
   2  the command line is wrong";
 
-/// Trace rays through a mesh and print one JSON object per ray
+/// Trace rays through a scene and print one JSON object per ray
 #[derive(Args, Clone, Debug)]
 #[command(long_about = ABOUT, after_help = EXAMPLES)]
 pub struct TraceArgs {
@@ -121,13 +123,13 @@ pub struct TraceArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
-    /// Store positions relative to an origin near the mesh, so that rounding to f32 loses fewer digits
+    /// Store positions relative to an origin near the scene, so that rounding to f32 loses fewer digits
     #[arg(long, default_value = "on")]
     pub recentre: RecentreArg,
     /// Print only whether anything is hit
     #[arg(long, conflicts_with = "all")]
     pub any: bool,
-    /// Print all hits, sorted by t, as {"hits":[...]}; "also" lists other triangles at the same t
+    /// Print all hits, sorted by t, as {"hits":[...]}; "also" lists other primitives at the same t
     #[arg(long)]
     pub all: bool,
     /// Add to each hit the derivation of t, and the tree of operations of a solid
@@ -144,7 +146,7 @@ pub struct TraceArgs {
 /// The origin relative to which positions are stored.
 #[derive(Clone, Copy, Debug, ValueEnum)]
 pub enum RecentreArg {
-    /// An origin near the mesh, if the mesh is far from (0, 0, 0) for its size
+    /// An origin near the scene, if the scene is far from (0, 0, 0) for its size
     On,
     /// (0, 0, 0)
     Off,
@@ -186,7 +188,7 @@ impl TraceArgs {
         // Opened before the mesh is loaded, so that a missing file of rays is reported at once.
         let input = open(&self.rays)?;
         let scene = self.mesh.load(&self.file, recentre)?.scene;
-        let frames = Frames::new(&scene, self.kernel.kernel(), self.mesh.memory.bytes());
+        let frames = Frames::new(&scene, self.kernel.choice, self.mesh.memory.bytes());
         let tracer = Tracing {
             answerer: RayAnswerer {
                 scene: &scene,

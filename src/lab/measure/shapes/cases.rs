@@ -1,12 +1,12 @@
 //! The cases in which kernels of all shapes are measured.
 
-use super::cells::{ShapeCell, measure};
+use super::cells::{ShapeCell, measure_shape};
 use super::rays::{Aim, aimed};
 use super::samples::Sampled;
+use super::solid_cells::measure_solids;
 use super::solid_spawning::measure_all;
 use super::spawning::{ShapeSpawnCell, SpawnPlace, measure_spawning, spawn_places};
 use super::special;
-use crate::measure::contestants::contestants;
 use hitscope_core::Ray;
 use hitscope_core::group::SOLID_INFO;
 use hitscope_core::kernel::KernelRow;
@@ -128,16 +128,30 @@ fn cases_of<S: Sampled>(special: &[Special<S>]) -> Vec<ShapeCase<ShapeCell>> {
         let name = format!("{}-{name}", prefix(S::INFO.name));
         let measured = name.clone();
         let rays = move |random: &mut Random| aimed::<S>(random, aim, distance);
-        let run = move |n, seed| measure(&measured, &contestants(), &rays, n, seed);
+        let run = move |n, seed| measure_shape(&measured, &rays, n, seed);
         case(&name, title, about, Arc::new(run))
     });
     let special = special.iter().map(|&(name, title, about, rays)| {
         let name = format!("{}-{name}", prefix(S::INFO.name));
         let measured = name.clone();
-        let run = move |n, seed| measure(&measured, &contestants(), &rays, n, seed);
+        let run = move |n, seed| measure_shape(&measured, &rays, n, seed);
         case(&name, title, about, Arc::new(run))
     });
     common.chain(special).collect()
+}
+
+fn solid_cases() -> Vec<ShapeCase<ShapeCell>> {
+    let case = |(name, title, about, aim, distance)| {
+        let name = format!("{}-{name}", prefix(SOLID_INFO.name));
+        let measured = name.clone();
+        ShapeCase {
+            name,
+            title: format!("{}, {title}", SOLID_INFO.name),
+            about,
+            measure: Arc::new(move |n, seed| measure_solids(&measured, aim, distance, n, seed)),
+        }
+    };
+    KINDS.into_iter().map(case).collect()
 }
 
 fn spawn_cases_of<S: Sampled>() -> Vec<ShapeCase<ShapeSpawnCell>> {
@@ -179,6 +193,7 @@ pub fn shape_cases() -> Vec<ShapeCase<ShapeCell>> {
         cases_of::<Cone>(&[]),
         cases_of::<Torus>(special::TORI),
         cases_of::<Quadric>(&[]),
+        solid_cases(),
     ]
     .concat()
 }

@@ -1,7 +1,7 @@
 //! Errors of a shape's kernels in one case.
 
 use super::samples::Sampled;
-use crate::measure::contestants::Contestant;
+use crate::measure::contestants::contestants;
 use crate::measure::statistics::{Quantiles, bound_per_million, per_million};
 use crate::oracle::ExactT;
 use hitscope_core::random::Random;
@@ -53,32 +53,63 @@ struct Counts {
     errors: Vec<f64>,
 }
 
-/// Measures all contestants with the same `n` rays.
-pub(super) fn measure<S: Sampled>(
+/// The answers to one ray.
+pub(super) struct Answers {
+    /// The exact t of the first crossing.
+    pub t: Option<f64>,
+    /// The length of the ray's direction in sizes of the primitive.
+    pub length: f64,
+    /// The hit of each contestant.
+    pub hits: Vec<Option<Hit>>,
+}
+
+/// Measures all contestants with the same `n` rays at primitives of a shape.
+pub(super) fn measure_shape<S: Sampled>(
     case: &str,
-    contestants: &[Contestant<S>],
     sample: &dyn Fn(&mut Random) -> (Ray, S),
     n: u64,
     seed: u64,
 ) -> Vec<ShapeCell> {
+    let contestants = contestants::<S>();
+    let names: Vec<&'static str> = contestants.iter().map(|each| each.name()).collect();
+    let answers = |random: &mut Random| {
+        let (ray, shape) = sample(random);
+        let contestants = contestants.iter();
+        Answers {
+            t: shape.crossings(&ray).first_mut().map(ExactT::to_f64),
+            length: f64::from(ray.dir.length()) / shape.size(),
+            hits: contestants
+                .map(|contestant| contestant.intersect(&ray, shape.clone()))
+                .collect(),
+        }
+    };
+    measure(case, (S::INFO.name, &names), answers, n, seed)
+}
+
+/// Measures contestants with these names, whose answers to a random ray `answers` returns in the same order.
+pub(super) fn measure(
+    case: &str,
+    (shape, names): (&'static str, &[&'static str]),
+    mut answers: impl FnMut(&mut Random) -> Answers,
+    n: u64,
+    seed: u64,
+) -> Vec<ShapeCell> {
     let mut random = Random::new(seed);
-    let mut counts: Vec<Counts> = contestants.iter().map(|_| Counts::default()).collect();
+    let mut counts: Vec<Counts> = names.iter().map(|_| Counts::default()).collect();
     let mut hits = 0;
     for _ in 0..n {
-        let (ray, shape) = sample(&mut random);
-        let t = shape.crossings(&ray).first_mut().map(ExactT::to_f64);
-        hits += u64::from(t.is_some());
-        let length = f64::from(ray.dir.length()) / shape.size();
-        for (contestant, counts) in contestants.iter().zip(&mut counts) {
-            counts.add(contestant.intersect(&ray, shape.clone()), t, length);
+        let answers = answers(&mut random);
+        hits += u64::from(answers.t.is_some());
+        for (hit, counts) in answers.hits.into_iter().zip(&mut counts) {
+            counts.add(hit, answers.t, answers.length);
         }
     }
-    let cells = contestants.iter().zip(counts);
+    let cells = names.iter().zip(counts);
     cells
-        .map(|(contestant, counts)| ShapeCell {
+        .map(|(kernel, counts)| ShapeCell {
             case: case.to_owned(),
-            shape: S::INFO.name,
-            kernel: contestant.name(),
+            shape,
+            kernel,
             n,
             hits,
             missed: counts.missed,

@@ -6,7 +6,7 @@
 //! | `solids` | random combined solids |
 //! | `rays` | rays at them |
 //! | `cases`, `special` | the cases of every shape, and those of one shape alone |
-//! | `cells` | wrong decisions and errors of t |
+//! | `cells`, `solid_cells` | wrong decisions and errors of t for primitives and for solids |
 //! | `spawning`, `solid_spawning` | self-hits of rays spawned on primitives and on solids |
 //!
 //! To measure another shape, implement its oracle and `Sampled`, and add a row to each table in `cases`.
@@ -17,6 +17,7 @@ mod cells;
 mod flat;
 mod rays;
 mod samples;
+mod solid_cells;
 mod solid_spawning;
 mod solids;
 mod spawning;

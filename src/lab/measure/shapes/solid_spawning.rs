@@ -6,8 +6,6 @@ use crate::oracle::{EnclosingShape, OracleSolid};
 use glam::DVec3;
 use hitscope_core::group::{CSG_KERNELS, SOLID_INFO};
 use hitscope_core::kernel::{KernelChoice, KernelInfo};
-use hitscope_core::mesh::{Runs, TriangleMesh};
-use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
 use hitscope_core::shape::SurfacePoint;
 use hitscope_core::{Hit, Intersector, Ray, Scene};
@@ -51,10 +49,7 @@ struct PackedSolid {
 
 impl PackedSolid {
     fn new(solid: OracleSolid, kernel: KernelChoice) -> Self {
-        let mut scene = hitscope_core::scene::scene(TriangleMesh::default());
-        let solids = vec![solid.solid()];
-        let added = scene.add_solids(solids, Runs::default(), &Progress::default());
-        added.expect("nobody cancels");
+        let scene = solid.scene();
         Self {
             operands: solid.operands(),
             intersector: scene.intersector(kernel),

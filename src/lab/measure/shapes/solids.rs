@@ -2,7 +2,7 @@
 
 use super::samples::Sampled;
 use crate::oracle::{Enclosing, OracleSolid};
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use hitscope_core::group::CsgOperation;
 use hitscope_core::random::Random;
 use hitscope_core::shape::{
@@ -16,6 +16,8 @@ pub struct SampledSolid {
     pub solid: OracleSolid,
     /// A point of an edge or of the surface of each of its shapes.
     pub points: Vec<DVec3>,
+    /// The direction of an axis, or of a normal, of each of its shapes.
+    pub axes: Vec<Vec3>,
 }
 
 /// A random primitive of one shape.
@@ -62,6 +64,7 @@ fn sampled<S: Sampled + Enclosing>(random: &mut Random, near: DVec3, size: f64) 
 fn one<S: Sampled + Enclosing>(random: &mut Random, shape: S) -> SampledSolid {
     SampledSolid {
         points: shape.edge_point(random).into_iter().collect(),
+        axes: vec![shape.axis()],
         solid: OracleSolid::of(shape),
     }
 }
@@ -94,8 +97,10 @@ impl SampledSolid {
         let part = |_| Self::of_shapes(shapes, random, near, size, depth - 1);
         let parts: Vec<Self> = (0..count).map(part).collect();
         let points = parts.iter().flat_map(|part| &part.points).copied();
+        let axes = parts.iter().flat_map(|part| &part.axes).copied();
         Self {
             points: points.collect(),
+            axes: axes.collect(),
             solid: OracleSolid::Combined(
                 operation,
                 parts.into_iter().map(|part| part.solid).collect(),
