@@ -181,12 +181,15 @@ fn info_counts_the_elements_of_a_file() {
         ("vertices", 8),
         ("triangles", 12),
         ("polygons", 6),
-        ("materials", 1),
+        // “red”, and the one without a name that the other faces have.
+        ("materials", 2),
         ("groups", 1),
     ];
     for (key, count) in expected {
         assert_eq!(info[key], count, "{key}");
     }
+    let listed = info["material_list"].as_array().expect("a list");
+    assert_eq!(info["materials"], listed.len());
     assert_eq!(info["bounds"]["max"], serde_json::json!([1.0, 1.0, 1.0]));
     assert_eq!(info["health"]["open_edges"], 0);
     assert_eq!(info["tier"]["name"], "watertight");
@@ -258,7 +261,12 @@ fn bench_prints_a_row_per_workload_and_kernel() {
     let line = "@cube.obj --size 24x16 --rounds 1 --threads 2 --kernel fast --kernel exact --json";
     let report = folder.json(|folder, out| folder.args::<BenchArgs>(line).run(out));
     assert_eq!(report["triangles"], 12);
-    for figure in ["load_ms", "build_ms", "bytes_per_triangle"] {
+    for figure in [
+        "load_ms",
+        "build_ms",
+        "bytes_per_triangle",
+        "bytes_per_primitive",
+    ] {
         assert!(report[figure].as_f64().is_some_and(|x| x > 0.0), "{figure}");
     }
     let rows = report["workloads"].as_array().expect("rows");
@@ -298,7 +306,7 @@ fn compact_triangles_give_the_same_answers_in_less_memory() {
             let line = format!("@cube.obj --json{more}");
             folder.args::<InfoArgs>(&line).run(out)
         });
-        info["bytes"]["packed triangles"]
+        info["bytes"]["packed primitives"]
             .as_u64()
             .expect("a number")
     };

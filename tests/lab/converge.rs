@@ -79,7 +79,10 @@ fn impossible_settings_are_refused() {
         ("normal", "“normal” isn't a view of light"),
         ("direct,depth=2", "depth has no effect on the view “direct”"),
         ("path,speed=2", "“speed=2” is unknown"),
-        ("path,kernel=none", "“kernel=none” is unknown"),
+        (
+            "path,kernel=fsat",
+            "“kernel=fsat”: did you mean fast? `hitscope lab --help` lists all kernels",
+        ),
         ("path,depth", "“depth” is unknown"),
     ] {
         let line = format!("@scene.xml --setting {setting}");

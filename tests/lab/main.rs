@@ -22,6 +22,9 @@ mod exact;
 // The commands on scene files with other shapes than triangles.
 mod scene_files;
 
+// The commands on scenes that hold only a plane, only a solid, or nothing.
+mod bare_scenes;
+
 // Options of light, and the list of lights.
 mod light;
 // The error of pictures against time.
@@ -33,6 +36,9 @@ mod solids;
 
 // The table in docs/accuracy.md matches a new measurement.
 mod accuracy;
+
+// The report of all measurements.
+mod report;
 
 // Errors in the lecture's programs.
 mod lecture;

@@ -307,23 +307,3 @@ fn reversed_normals_are_told() {
         assert_eq!(found["normal"][2], z, "{line}");
     }
 }
-
-#[test]
-fn scenes_without_size_have_no_bounds() {
-    let folder = Folder::new();
-    for (contents, reason) in [
-        ("", "The scene is empty."),
-        (
-            "<shape type=\"plane\"/>",
-            "The scene has no triangles, between which gaps could show; for other shapes, watertight is the default.",
-        ),
-    ] {
-        let text = format!("<scene version=\"3.0.0\">{contents}</scene>");
-        folder.write("flat.xml", &text);
-        let info = folder.json(|f, out| f.args::<InfoArgs>("@flat.xml --json").run(out));
-        assert_eq!(info["bounds"], Value::Null);
-        assert_eq!(info["tier"]["reasons"], json!([reason]));
-        let text = folder.text(|f, out| f.args::<InfoArgs>("@flat.xml").run(out));
-        assert!(text.contains("\nbounds              none\n"), "{text}");
-    }
-}

@@ -1,6 +1,7 @@
 //! Tests of usage errors: exit status 2, before the mesh is loaded.
 
 use crate::program::{Program, assert_fails, stderr, stdout};
+use hitscope_core::group::all_kernels;
 
 #[test]
 fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
@@ -108,6 +109,18 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         (
             "inspect none.obj --pixel 0,0 --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
+        ),
+        (
+            &format!("{render} --kernel watertihgt"),
+            "did you mean watertight? `hitscope lab --help` lists all kernels",
+        ),
+        (
+            "bench none.obj --kernel fast --kernel axis-box",
+            "did you mean axis-box-slabs, axis-box-slabs-f64, axis-box-padded or axis-box-padded-f64?",
+        ),
+        (
+            &format!("{render} --against embree"),
+            "expected fast, watertight, precise, exact, or an algorithm that `hitscope lab --help` lists",
         ),
         ("bench none.obj --threads 9999999", "is not in 1..=1024"),
         ("bench none.obj --rounds 0", "0 is not in 1..=1000"),
@@ -264,6 +277,26 @@ fn misspelt_commands_and_several_files_get_a_hint() {
     let ran = program.run("rander");
     assert_eq!(ran.status.code(), Some(1));
     assert!(stderr(&ran).contains("rander:2: "), "{}", stderr(&ran));
+}
+
+#[test]
+fn only_the_help_of_lab_lists_all_kernels() {
+    let program = Program::new();
+    let help = |line: &str| stdout(&program.run(line));
+    for command in ["render", "inspect", "trace", "bench", "converge"] {
+        for option in ["-h", "--help"] {
+            let text = help(&format!("{command} {option}"));
+            assert!(text.contains("`hitscope lab --help`"), "{text}");
+            assert!(!text.contains("torus-shifted"), "{text}");
+        }
+    }
+    assert!(!help("lab -h").contains("torus-shifted"));
+    let all = help("lab --help");
+    for shape in all_kernels() {
+        for kernel in shape.kernels {
+            assert!(all.contains(&format!(" {}", kernel.name)), "{all}");
+        }
+    }
 }
 
 #[test]

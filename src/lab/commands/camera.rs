@@ -74,7 +74,13 @@ impl CameraArgs {
             });
         };
         let origin = scene.mesh().origin();
-        let centre = scene.bounds().centre().as_dvec3();
+        let bounds = scene.bounds();
+        // As in the default view of a scene without bounds.
+        let centre = if bounds.is_empty() {
+            DVec3::ZERO
+        } else {
+            bounds.centre().as_dvec3()
+        };
         let target = self.target.map_or(centre, |target| target - origin);
         self.look_at(eye - origin, target, size).map_err(usage)
     }

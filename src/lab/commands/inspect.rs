@@ -4,7 +4,9 @@ use super::CommandError;
 use super::camera::CameraArgs;
 use super::path::{PathArgs, print_path};
 use super::scene::SceneArgs;
-use crate::inspection::{CrossingReport, HitReport, Inspection, OperandName, SolidReport};
+use crate::inspection::{
+    CrossingReport, ExactReport, HitReport, Inspection, KernelRow, OperandName, SolidReport,
+};
 use clap::Args;
 use glam::UVec2;
 use hitscope_core::counts::{counted, counted_as};
@@ -45,7 +47,7 @@ Values, in the text and in JSON:
   barycentric_error  largest error of a barycentric coordinate
   ray_rounding       largest distance per coordinate, in units of the file,
                      between this ray and the camera's ray in f64, where they
-                     may meet the mesh. It is large for a distant camera.
+                     may meet the scene. It is large for a distant camera.
   path               of a sample, with --view or --sample: the surfaces that it
                      meets, and the light in linear RGB that each adds to the
                      sample's colour, emitted there (emission) or scattered
@@ -67,7 +69,7 @@ Examples:
 
 Exit status:
   0  success, even if the ray hits nothing
-  1  the mesh can't be read; one line on stderr has the reason
+  1  the scene can't be read; one line on stderr has the reason
   2  the command line is wrong, for example the pixel is outside the picture";
 
 /// Show the ray of one pixel: its hit with the formula, all crossings, the exact answer, every kernel's answer
@@ -169,20 +171,29 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     )?;
     print_hit(kernel, hit.as_ref(), out)?;
     print_crossings(crossings, out)?;
-    match exact {
-        None => writeln!(out, "exact: no hit")?,
-        Some(exact) => match &exact.fractions {
-            Some(fractions) => {
-                writeln!(out, "exact: triangle {}, counted from 0", exact.primitive)?;
-                writeln!(out, "  t            {} = {}", exact.t, fractions.t_fraction)?;
-                writeln!(out, "  barycentric  {}", list(fractions.barycentric))?;
-            }
-            None => {
-                writeln!(out, "exact: primitive {}, counted from 0", exact.primitive)?;
-                writeln!(out, "  t            {}", exact.t)?;
-            }
-        },
+    print_exact(exact.as_ref(), out)?;
+    print_kernels(kernels, out)?;
+    path.iter().try_for_each(|path| print_path(path, out))
+}
+
+fn print_exact(exact: Option<&ExactReport>, out: &mut dyn Write) -> std::io::Result<()> {
+    let Some(exact) = exact else {
+        return writeln!(out, "exact: no hit");
+    };
+    match &exact.fractions {
+        Some(fractions) => {
+            writeln!(out, "exact: triangle {}, counted from 0", exact.primitive)?;
+            writeln!(out, "  t            {} = {}", exact.t, fractions.t_fraction)?;
+            writeln!(out, "  barycentric  {}", list(fractions.barycentric))
+        }
+        None => {
+            writeln!(out, "exact: primitive {}, counted from 0", exact.primitive)?;
+            writeln!(out, "  t            {}", exact.t)
+        }
     }
+}
+
+fn print_kernels(kernels: &[KernelRow], out: &mut dyn Write) -> std::io::Result<()> {
     let longest = kernels.iter().map(|row| row.name.len()).max();
     let width = longest.unwrap_or(0).max("kernel".len());
     writeln!(
@@ -197,7 +208,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         let name = row.name;
         writeln!(out, "{name:<width$} {t:>14} {ulps:>14} {weights:>14}")?;
     }
-    path.iter().try_for_each(|path| print_path(path, out))
+    Ok(())
 }
 
 fn print_hit(kernel: &str, hit: Option<&HitReport>, out: &mut dyn Write) -> std::io::Result<()> {

@@ -7,7 +7,7 @@ use super::stderr::ProgressLine;
 use super::{CommandError, Output, default_thread_count, file_error};
 use crate::json;
 use crate::measure::scene::{SceneRow, SceneSizes};
-use crate::measure::statistics::{rate_text, short};
+use crate::measure::statistics::{rate_text, short, speed_text};
 use crate::measure::{self, CaseInfo, Measurements, RunProgress, Sizes};
 use crate::report::{self, RunInfo};
 use clap::Args;
@@ -197,16 +197,20 @@ impl LabArgs {
         } else {
             SceneSizes::COMMAND
         };
+        let is_empty = scene.primitive_count() == 0;
         let kernels = measure::scene::measured_kernels(&scene);
         let mut rows = Vec::new();
         let progress = ProgressLine::new();
         let never_cancelled = Progress::default();
-        let measured = measure::scene::measure(&scene, &camera, sizes, &never_cancelled, |row| {
-            let (done, all) = (rows.len() + 1, kernels.len());
-            progress.update(format_args!("{done} of {all} kernels"));
-            rows.push(row);
-        });
-        measured.expect("never cancelled");
+        if !is_empty {
+            let each = |row| {
+                let (done, all) = (rows.len() + 1, kernels.len());
+                progress.update(format_args!("{done} of {all} kernels"));
+                rows.push(row);
+            };
+            let measured = measure::scene::measure(&scene, &camera, sizes, &never_cancelled, each);
+            measured.expect("never cancelled");
+        }
         progress.end();
         if self.json {
             let json = json!({
@@ -217,6 +221,8 @@ impl LabArgs {
                 "kernels": rows,
             });
             writeln!(out, "{}", json::to_pretty(&json))?;
+        } else if is_empty {
+            writeln!(out, "the scene is empty: there is nothing to measure")?;
         } else {
             print_scene(&rows, out)?;
         }
@@ -295,18 +301,14 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         }
         let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
         // There are no bounce rays where nothing is hit, and no random rays at what has no bounds.
-        let rate = |rate: f64| match rate > 0.0 {
-            true => short(rate),
-            false => "–".to_owned(),
-        };
         let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
         writeln!(
             out,
             "  {:<22} {:>9} {:>9} {:>9} {:>10.3}   {:>10} {:>10} {:>10} {:>9} {:>9}",
             row.kernel,
-            rate(rates.primary),
-            rate(rates.bounce),
-            rate(rates.random),
+            speed_text(rates.primary),
+            speed_text(rates.bounce),
+            speed_text(rates.random),
             row.speed.time_relative_to_fast,
             rate_text(row.missed, row.n),
             rate_text(row.false_hits, row.n),

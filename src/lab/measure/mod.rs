@@ -9,6 +9,7 @@
 //! | [`spawning`] | self-hits of spawned rays |
 //! | [`shapes`] | errors of kernels and self-hits of spawned rays for single primitives of all shapes |
 //! | [`packing`] | time and memory of packing primitives of all shapes and solids |
+//! | [`shape_speed`] | rays per second at random primitives of each shape |
 //! | [`speed`], [`workloads`] | rays per second |
 //! | [`scene`] | kernels in the user's scene |
 //! | [`lecture`] | the lecture's programs as printed |
@@ -23,7 +24,9 @@ pub mod lecture;
 pub mod meshes;
 pub mod order;
 pub mod packing;
+mod primitives;
 pub mod scene;
+pub mod shape_speed;
 pub mod shapes;
 mod sizes;
 pub mod spawning;
@@ -35,6 +38,7 @@ pub mod workloads;
 use boxes::{BOX_CASES, BoxCell};
 use contestants::{Contestant, contestants};
 use hitscope_core::counts::counted;
+use hitscope_core::group::all_kernels;
 use hitscope_core::kernel::{TRIANGLE_KERNELS, TriangleKernel};
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::progress::{Cancelled, Progress};
@@ -44,6 +48,7 @@ use meshes::{MeshCell, mesh_cases};
 use order::{ORDER_CASES, OrderCell};
 use packing::PackingCell;
 use rayon::prelude::*;
+use shape_speed::ShapeSpeed;
 use shapes::{ShapeCase, ShapeCell, ShapeSpawnCell, shape_cases, shape_spawn_cases};
 pub use sizes::Sizes;
 use spawning::{SpawnCell, spawn_cases};
@@ -71,8 +76,10 @@ pub struct Measurements {
     pub shape_spawning: Vec<ShapeSpawnCell>,
     /// Packing, one cell per kernel of every shape.
     pub packing: Vec<PackingCell>,
-    /// One row per kernel.
+    /// One row per kernel of triangles.
     pub speed: Vec<Speed>,
+    /// One row per kernel of every other shape.
+    pub shape_speed: Vec<ShapeSpeed>,
 }
 
 /// Name and description of a case.
@@ -197,6 +204,7 @@ pub fn run(
     }
     if sizes.speed_rays > 0 {
         all.speed = speed_on_sphere(sizes, seed, progress)?;
+        all.shape_speed = shape_speed::measure(sizes.shape_speed(), seed, progress)?;
         let (count, rounds) = (sizes.packed_primitives, sizes.speed_rounds);
         all.packing = packing::measure(count, rounds, seed, progress)?;
     }
@@ -211,8 +219,12 @@ pub fn expected(
 ) -> Duration {
     let tasks = tasks(sizes, 0, is_wanted);
     let parallel: f64 = tasks.iter().map(|task| task.seconds).sum();
-    let rays = (sizes.speed_rays * 3 * sizes.speed_rounds * TRIANGLE_KERNELS.len()) as f64;
-    Duration::from_secs_f64(parallel / threads as f64 + 2.0e-6 * rays)
+    // Three workloads, each traced by the kernel and by `fast`.
+    let traced = |rays: usize, kernels: usize| (rays * 3 * 2 * sizes.speed_rounds * kernels) as f64;
+    let triangles = traced(sizes.speed_rays, TRIANGLE_KERNELS.len());
+    let kernels = all_kernels().iter().map(|shape| shape.kernels.len()).sum();
+    let shapes = traced(sizes.shape_speed_rays(), kernels);
+    Duration::from_secs_f64(parallel / threads as f64 + 1.0e-6 * triangles + 2.0e-6 * shapes)
 }
 
 impl Measurements {

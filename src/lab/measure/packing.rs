@@ -1,23 +1,15 @@
 //! Time and memory of packing primitives of every shape, and combined solids, for each kernel.
 
-use super::shapes::{Sampled, SampledSolid};
+use super::primitives::{Counts, scenes};
 use super::speed::median;
 use cpu_time::ThreadTime;
-use glam::DVec3;
-use hitscope_core::group::{Appearance, Group};
+use hitscope_core::group::Group;
 use hitscope_core::kernel::KernelChoice;
-use hitscope_core::mesh::{Runs, TriangleMesh};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
-use hitscope_core::scene::SceneOptions;
-use hitscope_core::shape::{
-    AxisBox, AxisPlane, Cone, Cuboid, Cylinder, Disk, Plane, Quadric, Rectangle, Sphere, Torus,
-    Triangle,
-};
 use hitscope_core::simd::SimdLevel;
 use serde::Serialize;
 use std::hint::black_box;
-use std::sync::Arc;
 
 /// Time and memory of packing for one kernel.
 #[derive(Clone, Debug, PartialEq, Serialize)]
@@ -36,11 +28,6 @@ pub struct PackingCell {
     pub tree_bytes_per_primitive: f64,
 }
 
-/// The greatest depth of a solid's tree of operations.
-const SOLID_DEPTH: u32 = 2;
-/// There is one solid for this many primitives of other shapes.
-const PRIMITIVES_PER_SOLID: usize = 8;
-
 /// Packs `n` random primitives of each shape, and fewer random solids, for each of its kernels.
 ///
 /// # Errors
@@ -52,57 +39,19 @@ pub fn measure(
     progress: &Progress,
 ) -> Result<Vec<PackingCell>, Cancelled> {
     let random = &mut Random::new(seed);
-    let groups = [
-        primitives::<Triangle>(n, random),
-        primitives::<Sphere>(n, random),
-        primitives::<Plane>(n, random),
-        primitives::<AxisPlane>(n, random),
-        primitives::<Disk>(n, random),
-        primitives::<Rectangle>(n, random),
-        primitives::<Cuboid>(n, random),
-        primitives::<AxisBox>(n, random),
-        primitives::<Cylinder>(n, random),
-        primitives::<Cone>(n, random),
-        primitives::<Torus>(n, random),
-        primitives::<Quadric>(n, random),
-        solids(n.div_ceil(PRIMITIVES_PER_SOLID), random),
-    ];
+    let counts = Counts {
+        bounded: n,
+        infinite: n,
+    };
     let mut cells = Vec::new();
-    for group in groups {
+    for scene in scenes(counts, random) {
+        let group = &scene.groups()[0];
         for kernel in group.kernels() {
             progress.check()?;
-            cells.push(cell(&*group, KernelChoice { info: kernel }, rounds));
+            cells.push(cell(&**group, KernelChoice { info: kernel }, rounds));
         }
     }
     Ok(cells)
-}
-
-/// A place in a cube in which there is room for `n` primitives of size 1.
-fn place(n: usize, random: &mut Random) -> DVec3 {
-    (n as f64).cbrt() * random.in_cube()
-}
-
-fn primitives<S: Sampled>(n: usize, random: &mut Random) -> Arc<dyn Group> {
-    let sample = |_| {
-        let near = place(n, random);
-        S::sample(random, near, 1.0)
-    };
-    let sampled = (0..n).map(sample).collect();
-    let (options, progress) = (SceneOptions::default(), Progress::default());
-    S::group(sampled, Appearance::default(), options, &progress).expect("nobody cancels")
-}
-
-fn solids(n: usize, random: &mut Random) -> Arc<dyn Group> {
-    let sample = |_| {
-        let near = place(n, random);
-        let sampled = SampledSolid::random_bounded(random, near, 1.0, SOLID_DEPTH);
-        sampled.solid.solid()
-    };
-    let sampled = (0..n).map(sample).collect();
-    let mut scene = hitscope_core::scene::scene(TriangleMesh::default());
-    let added = scene.add_solids(sampled, Runs::default(), &Progress::default());
-    added.expect("nobody cancels");
-    Arc::clone(&scene.groups()[0])
 }
 
 fn cell(group: &dyn Group, kernel: KernelChoice, rounds: usize) -> PackingCell {

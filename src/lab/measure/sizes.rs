@@ -1,5 +1,6 @@
 //! Sizes of measurements.
 
+use super::shape_speed::ShapeSpeedSizes;
 use hitscope_core::kernel::TriangleKernel;
 
 /// Sizes of the measurements.
@@ -21,7 +22,7 @@ pub struct Sizes {
     pub shape_rays: u64,
     /// Spawned rays per case and kernel of all shapes.
     pub shape_spawn_rays: u64,
-    /// Primitives per shape for measuring packing.
+    /// Primitives per shape for measuring packing and speed.
     pub packed_primitives: usize,
     /// Rays per workload; 0 skips measuring speed and packing.
     pub speed_rays: usize,
@@ -64,6 +65,19 @@ impl Sizes {
         speed_rounds: 5,
         speed_cells: 300,
     };
+
+    /// Rays per workload for measuring the speed of each shape: fewer, as there are many kernels.
+    pub(super) fn shape_speed_rays(&self) -> usize {
+        self.speed_rays / 25
+    }
+
+    pub(super) fn shape_speed(&self) -> ShapeSpeedSizes {
+        ShapeSpeedSizes {
+            primitives: self.packed_primitives,
+            rays: self.shape_speed_rays(),
+            rounds: self.speed_rounds,
+        }
+    }
 
     pub(super) fn mesh_rays(&self, kernel: &TriangleKernel) -> u64 {
         if kernel.info.promises.is_watertight {

@@ -47,6 +47,15 @@ pub fn rate_text(count: u64, n: u64) -> String {
     }
 }
 
+/// Rays per second; a dash for 0, where there were no rays.
+pub fn speed_text(rate: f64) -> String {
+    if rate > 0.0 {
+        short(rate)
+    } else {
+        "–".to_owned()
+    }
+}
+
 /// A number with about three digits, such as `0`, `12.3`, `4570`, `1.2e5`.
 pub fn short(x: f64) -> String {
     let size = x.abs();

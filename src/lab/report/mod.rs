@@ -1,5 +1,6 @@
 //! Reports of measurements: JSON, an HTML page and text tables.
 
+mod accuracy;
 mod shapes;
 mod text;
 
@@ -12,6 +13,7 @@ use crate::measure::lecture::LECTURE;
 use crate::measure::statistics::{bound_per_million, per_million};
 use crate::measure::triangles::TriangleCell;
 use crate::measure::{CaseInfo, Measurements, all_cases, cells_of};
+use accuracy::{Accuracy, Figures};
 use hitscope_core::shape::Triangle;
 use hitscope_core::spawn::SPAWN_POLICIES;
 use serde_json::{Value, json};
@@ -76,7 +78,7 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
         "boxes": all.boxes,
         "policies": policies,
         "spawning": all.spawning,
-        "shape_kernels": shapes::kernels_json(),
+        "shape_kernels": shapes::kernels_json(all),
         "shapes": all.shapes,
         "shape_spawning": all.shape_spawning,
         "packing": all.packing,
@@ -106,7 +108,7 @@ fn kernel_json(contestant: Contestant, all: &Measurements) -> Value {
         .speed
         .iter()
         .find(|speed| speed.kernel == contestant.name());
-    let accuracy = Accuracy::of(cells_of(&all.triangles, contestant));
+    let accuracy = Accuracy::of(cells_of(&all.triangles, contestant).map(Figures::from));
     let (title, tier, precision, source, summary) = match contestant {
         Contestant::Kernel(kernel) => {
             let info = kernel.info;
@@ -142,44 +144,6 @@ fn triangle_json(cell: &TriangleCell) -> Value {
     json["false_per_million"] = json!(per_million(cell.false_hits, cell.n));
     json["bound_per_million"] = json!(bound_per_million(cell.n));
     json
-}
-
-/// A contestant's totals over all cases of single triangles.
-#[derive(Clone, Copy, Debug, Default, serde::Serialize)]
-struct Accuracy {
-    n: u64,
-    hits: u64,
-    missed: u64,
-    false_hits: u64,
-    wrong_per_million: f64,
-    /// The 99th percentile and the maximum of the worst case.
-    t_ulps_p99: Option<f64>,
-    t_ulps_max: Option<f64>,
-    barycentric_max: Option<f64>,
-    non_finite: u64,
-}
-
-impl Accuracy {
-    fn of<'a>(cells: impl Iterator<Item = &'a TriangleCell>) -> Option<Self> {
-        let mut sum = Self::default();
-        let larger = |sum: &mut Option<f64>, x: f64| *sum = Some(sum.unwrap_or(0.0).max(x));
-        for cell in cells {
-            sum.n += cell.n;
-            sum.hits += cell.hits;
-            sum.missed += cell.missed;
-            sum.false_hits += cell.false_hits;
-            sum.non_finite += cell.non_finite;
-            if let Some(t) = cell.t_ulps {
-                larger(&mut sum.t_ulps_p99, t.p99);
-                larger(&mut sum.t_ulps_max, t.max);
-            }
-            if let Some(weights) = cell.barycentric_error {
-                larger(&mut sum.barycentric_max, weights.max);
-            }
-        }
-        sum.wrong_per_million = per_million(sum.missed + sum.false_hits, sum.n);
-        (sum.n > 0).then_some(sum)
-    }
 }
 
 #[cfg(test)]

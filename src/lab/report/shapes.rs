@@ -1,13 +1,13 @@
 //! Tables of all shapes: single primitives, spawned rays and packing.
 
+use super::accuracy::{Accuracy, Figures};
 use super::text::{header, print_table};
 use crate::measure::Measurements;
 use crate::measure::lecture::{BOX_AS_PRINTED, LECTURE, PrintedInfo};
-use crate::measure::shapes::ShapeCell;
-use crate::measure::statistics::{Quantiles, per_million, rate_text, short};
+use crate::measure::statistics::{Quantiles, rate_text, short, speed_text};
 use hitscope_core::counts::grouped;
 use hitscope_core::group::all_kernels;
-use hitscope_core::kernel::KernelInfo;
+use hitscope_core::kernel::Tier;
 use hitscope_core::shape::{AxisBox, Shape as _};
 use serde_json::{Value, json};
 use std::fmt::Write as _;
@@ -17,7 +17,40 @@ use std::io::{self, Write};
 pub(super) fn print(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_hits(all, out)?;
     print_spawning(all, out)?;
+    print_speed(all, out)?;
     print_packing(all, out)
+}
+
+fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
+    if all.shape_speed.is_empty() {
+        return Ok(());
+    }
+    writeln!(
+        out,
+        "Speed at random primitives of every shape; Mrays/s of CPU time on one thread"
+    )?;
+    let mut rows = header(&[
+        "shape",
+        "kernel",
+        "primary",
+        "bounce",
+        "random",
+        "time/fast",
+        "bytes/primitive",
+    ]);
+    for row in &all.shape_speed {
+        let rates = row.speed.mrays_per_s;
+        rows.push(vec![
+            row.shape.to_owned(),
+            row.kernel.to_owned(),
+            speed_text(rates.primary),
+            speed_text(rates.bounce),
+            speed_text(rates.random),
+            format!("{:.3}", row.speed.time_relative_to_fast),
+            short(row.speed.bytes_per_triangle),
+        ]);
+    }
+    print_table(out, &rows)
 }
 
 fn print_packing(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
@@ -116,35 +149,62 @@ fn print_spawning(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
 }
 
 /// The kernels of all shapes, for the page.
-pub(super) fn kernels_json() -> Vec<Value> {
+pub(super) fn kernels_json(all: &Measurements) -> Vec<Value> {
     let shapes = all_kernels().into_iter();
     let kernels = shapes.flat_map(|shape| {
-        let named = move |info: &KernelInfo| {
-            json!({
-                "name": info.name,
-                "shape": shape.shape.name,
-                "title": info.title,
-                "tier": info.tier.map(|tier| tier.name()),
-                "precision": info.precision.name(),
-                "source": info.source,
-                "summary": info.summary,
-            })
-        };
-        let kernels: Vec<Value> = shape.kernels.into_iter().map(named).collect();
-        let printed = printed(shape.shape.name).map(move |info| {
-            json!({
-                "name": info.name,
-                "shape": shape.shape.name,
-                "title": info.title,
-                "tier": null,
-                "precision": "f32",
-                "source": LECTURE,
-                "summary": info.summary,
-            })
+        let name = shape.shape.name;
+        let of_table = shape.kernels.into_iter().map(move |info| KernelEntry {
+            name: info.name,
+            title: info.title,
+            tier: info.tier.map(Tier::name),
+            precision: info.precision.name(),
+            source: info.source,
+            summary: info.summary,
         });
-        kernels.into_iter().chain(printed)
+        let printed = printed(name).map(|info| KernelEntry {
+            name: info.name,
+            title: info.title,
+            tier: None,
+            precision: "f32",
+            source: LECTURE,
+            summary: info.summary,
+        });
+        of_table
+            .chain(printed)
+            .map(move |entry| entry.measured(name, all))
     });
     kernels.collect()
+}
+
+/// What tables state of a kernel or a program.
+struct KernelEntry {
+    name: &'static str,
+    title: &'static str,
+    tier: Option<&'static str>,
+    precision: &'static str,
+    source: &'static str,
+    summary: &'static str,
+}
+
+impl KernelEntry {
+    /// The entry with the figures of a shape.
+    fn measured(self, shape: &str, all: &Measurements) -> Value {
+        let mut speeds = all.shape_speed.iter();
+        let speed = speeds.find(|row| row.shape == shape && row.kernel == self.name);
+        let cells = all.shapes.iter();
+        let cells = cells.filter(|cell| cell.shape == shape && cell.kernel == self.name);
+        json!({
+            "name": self.name,
+            "shape": shape,
+            "title": self.title,
+            "tier": self.tier,
+            "precision": self.precision,
+            "source": self.source,
+            "summary": self.summary,
+            "speed": speed.map(|row| &row.speed),
+            "accuracy": Accuracy::of(cells.map(Figures::from)),
+        })
+    }
 }
 
 /// The lecture's programs for a shape other than triangles.
@@ -221,19 +281,11 @@ fn table(all: &Measurements, columns: &[(&str, &str)], is_shown: impl Fn(&str) -
                 let case = case_of(name, kind);
                 let mut cells = all.shapes.iter();
                 let cell = cells.find(|cell| cell.case == case && cell.kernel == kernel);
-                _ = write!(text, " {} |", cell.map_or("–".to_owned(), cell_text));
+                let figures = cell.map(|cell| Figures::from(cell).text());
+                _ = write!(text, " {} |", figures.unwrap_or("–".to_owned()));
             }
             text.push('\n');
         }
     }
     text
-}
-
-/// A cell such as `250 · 14`: wrong decisions per million, and the 99th percentile of the error of t in ulps.
-fn cell_text(cell: &ShapeCell) -> String {
-    let wrong = short(per_million(cell.wrong(), cell.n));
-    match cell.t_ulps {
-        Some(t) => format!("{wrong} · {}", short(t.p99)),
-        None => format!("{wrong} · –"),
-    }
 }

@@ -1,8 +1,8 @@
 //! Tables for the terminal, and the table in `docs/accuracy.md`.
 
+use super::accuracy::Figures;
 use crate::measure::contestants::{Contestant, contestants};
-use crate::measure::statistics::{per_million, rate_text, short};
-use crate::measure::triangles::TriangleCell;
+use crate::measure::statistics::{rate_text, short};
 use crate::measure::{Measurements, cells_of};
 use hitscope_core::counts::grouped;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
@@ -311,7 +311,8 @@ pub fn accuracy_table(all: &Measurements) -> String {
         _ = write!(text, "| {} |", name(contestant));
         for (case, _) in SHOWN {
             let cell = cells_of(&all.triangles, contestant).find(|cell| cell.case == case);
-            _ = write!(text, " {} |", cell.map_or("–".to_owned(), cell_text));
+            let figures = cell.map(|cell| Figures::from(cell).text());
+            _ = write!(text, " {} |", figures.unwrap_or("–".to_owned()));
         }
         text.push('\n');
     }
@@ -325,14 +326,5 @@ fn name(contestant: Contestant) -> String {
             None => format!("`{}`", kernel.info.name),
         },
         Contestant::AsPrinted(program) => program.info.name.to_owned(),
-    }
-}
-
-/// A cell such as `250 · 14`: wrong decisions per million, and the 99th percentile of the error of t in ulps.
-fn cell_text(cell: &TriangleCell) -> String {
-    let wrong = short(per_million(cell.wrong(), cell.n));
-    match cell.t_ulps {
-        Some(t) => format!("{wrong} · {}", short(t.p99)),
-        None => format!("{wrong} · –"),
     }
 }

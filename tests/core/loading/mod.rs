@@ -1,6 +1,7 @@
 //! Scene files become scenes: shapes, transforms, meshes, materials, sensors, and clear errors.
 
 mod limits;
+mod solids;
 mod textures;
 
 use glam::Vec3;

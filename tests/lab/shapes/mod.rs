@@ -12,6 +12,8 @@ mod frame;
 mod order;
 // Combined solids of random shapes and operations.
 mod solids;
+// The lab's cases of solids.
+mod measured;
 // Rays that leave a primitive.
 mod spawned;
 // Spheres of extreme size.

@@ -105,14 +105,34 @@ fn an_infinite_plane_far_from_all_else_is_hit() {
     let folder = Folder::new();
     folder.write("scene.xml", scene);
     folder.write("rays.txt", "0.25 0 123456789.125 0 0 -1\n3 0 500 0 0 -1\n");
+    assert_eq!(heights(&folder), [vec![1000, 1, -1, -1000], vec![-1000]]);
+}
+
+#[test]
+fn an_infinite_solid_beside_a_bounded_one_is_hit_far_from_all_else() {
+    // Above z = 1000 but for a cube there; and a ball.
+    let scene = r#"<scene version="3.0.0">
+        <shape type="csg"><string name="operation" value="difference"/>
+            <shape type="plane"><point name="point" x="0" y="0" z="1000"/><vector name="normal" x="0" y="0" z="-1"/></shape>
+            <shape type="cube"><transform name="to_world"><translate x="50" z="1000"/></transform></shape>
+        </shape>
+        <shape type="csg"><string name="operation" value="union"/><shape type="sphere"/><shape type="sphere"/></shape>
+    </scene>"#;
+    let folder = Folder::new();
+    folder.write("scene.xml", scene);
+    folder.write("rays.txt", "0.25 0 123456789.125 0 0 -1\n");
+    assert_eq!(heights(&folder), [[1000, 1, -1]]);
+}
+
+/// The rounded heights of all crossings of each ray.
+fn heights(folder: &Folder) -> Vec<Vec<i64>> {
     let line = "@scene.xml --rays @rays.txt --all";
     let text = folder.text(|folder, out| folder.args::<TraceArgs>(line).run(out));
-    let heights = |line: &str| -> Vec<i64> {
+    let of_ray = |line: &str| {
         let answer: Value = serde_json::from_str(line).expect("JSON");
         let hits = answer["hits"].as_array().expect("a list");
         let height = |hit: &Value| hit["position"][2].as_f64().expect("a number").round() as i64;
         hits.iter().map(height).collect()
     };
-    let found: Vec<_> = text.lines().map(heights).collect();
-    assert_eq!(found, [vec![1000, 1, -1, -1000], vec![-1000]]);
+    text.lines().map(of_ray).collect()
 }

@@ -22,7 +22,15 @@ function readLab() {
   return { about: {}, ...lists, ...Object.fromEntries(present) };
 }
 const lab = readLab();
-const workloads = () => ['primary', 'bounce', 'random'].filter(name => lab.kernels.some(kernel => kernel.speed?.mrays_per_s?.[name] != null));
+/** The workloads that were traced for some of these kernels. */
+const workloads = kernels => ['primary', 'bounce', 'random'].filter(name => kernels.some(kernel => kernel.speed?.mrays_per_s?.[name] > 0));
+/** The shapes with their kernels, triangles first. */
+function shapes() {
+  const others = lab.shape_kernels.filter(kernel => kernel.shape !== 'triangle');
+  const named = [...new Set(others.map(kernel => kernel.shape))].map(title => ({ title, kernels: others.filter(kernel => kernel.shape === title) }));
+  return [{ title: 'triangle', kernels: lab.kernels }, ...named];
+}
+const isMeasured = kernel => kernel.speed != null || kernel.accuracy != null;
 const infoOf = (infos, name) => infos.find(info => info.name === name);
 const isAsPrinted = name => / as printed$/.test(name);
 
@@ -74,17 +82,17 @@ const decidedIn = (of, options = { text: perMillion }) => [
   column('integers', row => of(row)?.in_integers_per_million, { group: 'decided in, /M', ...options }),
 ];
 
-function kernelColumns() {
+function kernelColumns({ title: shape, kernels }) {
   const accuracy = (title, field, options) => column(title, kernel => kernel.accuracy?.[field], options);
-  const overAll = 'all triangle cases', ulps = 't, worst case, ulps';
+  const overAll = `all ${shape} cases`, ulps = 't, worst case, ulps';
   return [
-    words('kernel', kernel => kernel.name, { isHead: true, tip: kernel => ({ ...infoTip(lab.kernels, kernel.name), facts: factsOf(kernelColumns(), kernel) }) }),
+    words('kernel', kernel => kernel.name, { isHead: true, tip: kernel => ({ ...infoTip(kernels, kernel.name), facts: factsOf(kernelColumns({ title: shape, kernels }), kernel) }) }),
     words('tier', kernel => kernel.tier),
     words('in', kernel => kernel.precision),
     column('time / fast', kernel => kernel.speed?.time_relative_to_fast, { group: 'speed' }),
     column('ns/test', kernel => kernel.speed?.ns_per_test, { group: 'speed' }),
-    ...workloads().map(name => column(name, kernel => kernel.speed?.mrays_per_s?.[name], { group: 'Mrays/s' })),
-    column('bytes/tri', kernel => kernel.speed?.bytes_per_triangle, { group: 'memory' }),
+    ...workloads(kernels).map(name => column(name, kernel => kernel.speed?.mrays_per_s?.[name], { group: 'Mrays/s' })),
+    column('bytes/primitive', kernel => kernel.speed?.bytes_per_triangle, { group: 'memory' }),
     ...decidedIn(kernel => kernel.speed, { isTipOnly: true }),
     accuracy('n', 'n', { text: count, group: overAll }),
     accuracy('hits', 'hits', { text: count, group: overAll, isTipOnly: true }),

@@ -8,9 +8,9 @@ const MARKS = { // by precision; others are diamonds
   other: 'M0 -6.5L6.5 0L0 6.5L-6.5 0z',
 };
 
-const horizontalAxes = () => [
+const horizontalAxes = kernels => [
   { title: 'time relative to fast', value: kernel => kernel.speed?.time_relative_to_fast },
-  ...workloads().map(name => ({ title: `Mrays/s, ${name} rays`, value: kernel => kernel.speed?.mrays_per_s?.[name], isMoreBetter: true })),
+  ...workloads(kernels).map(name => ({ title: `Mrays/s, ${name} rays`, value: kernel => kernel.speed?.mrays_per_s?.[name], isMoreBetter: true })),
 ];
 const verticalAxes = [
   { title: 'wrong decisions per million', value: kernel => kernel.accuracy?.wrong_per_million, isRate: true },
@@ -84,8 +84,8 @@ function leaderLine({ px, py }, label) {
   return Math.hypot(x - px, y - py) > 13 ? svg('path', { class: 'leader', d: `M${px} ${py}L${x} ${y}` }) : null;
 }
 
-function pointNode(point, label) {
-  const { kernel, px, py } = point, facts = factsOf(kernelColumns(), kernel), title = kernel.title ?? kernel.name;
+function pointNode(shape, point, label) {
+  const { kernel, px, py } = point, facts = factsOf(kernelColumns(shape), kernel), title = kernel.title ?? kernel.name;
   const spoken = [title, ...facts.map(fact => fact.join(' '))].join('; ');
   const node = svg('g', { class: classes('point', kernel.tier && 'tier'), tabindex: 0, role: 'img', 'aria-label': spoken },
     svg('path', { class: 'mark', d: MARKS[kernel.precision] ?? MARKS.other, transform: `translate(${px} ${py})` }),
@@ -108,8 +108,8 @@ function axisNodes(x, y, horizontal, vertical, zero) {
   return nodes;
 }
 
-function drawPlot(horizontal, vertical) {
-  const points = lab.kernels.map(kernel => ({ kernel, x: horizontal.value(kernel), y: vertical.value(kernel) }))
+function drawPlot(shape, horizontal, vertical) {
+  const points = shape.kernels.map(kernel => ({ kernel, x: horizontal.value(kernel), y: vertical.value(kernel) }))
     .filter(point => isNumber(point.x) && isNumber(point.y));
   if (points.length === 0) return [element('p', { class: 'aside' }, 'No kernel has both figures.')];
   const zeros = points.filter(point => point.y === 0), others = points.filter(point => point.y > 0);
@@ -133,17 +133,17 @@ function drawPlot(horizontal, vertical) {
   });
   const markRects = points.map(({ px, py }) => ({ x: px - 8, y: py - 8, width: 16, height: 16 }));
   const labels = placeLabels(points, [...markRects, ...frontRects]);
-  const name = `${vertical.title} against ${horizontal.title}`;
+  const name = `${shape.title}: ${vertical.title} against ${horizontal.title}`;
   const picture = svg('svg', { class: 'plot', viewBox: `0 0 ${FRAME.width} ${FRAME.height}`, role: 'group', 'aria-label': name },
     ...axisNodes(x, y, horizontal, vertical, zero), svg('path', { class: 'front', d: `${steps.join('')}H${slowEdge}` }),
-    ...points.map((point, index) => leaderLine(point, labels[index])), ...points.map((point, index) => pointNode(point, labels[index])));
-  return [picture, plotLegend(points, front)];
+    ...points.map((point, index) => leaderLine(point, labels[index])), ...points.map((point, index) => pointNode(shape, point, labels[index])));
+  return [picture, plotLegend(shape, points, front)];
 }
 
-function plotLegend(points, front) {
+function plotLegend(shape, points, front) {
   const key = (style, d, text) => element('span', {},
     svg('svg', { viewBox: '-11 -7 22 14', class: style }, svg('path', { class: style === 'front' ? 'front' : 'mark', d })), text);
-  const absent = lab.kernels.filter(kernel => !points.some(point => point.kernel === kernel)).map(kernel => kernel.name);
+  const absent = shape.kernels.filter(kernel => !points.some(point => point.kernel === kernel)).map(kernel => kernel.name);
   return element('div', {}, element('div', { class: 'legend' },
     key('', MARKS.f32, 'f32'), key('', MARKS.f64, 'f64'), key('', MARKS.other, 'adaptive'), key('tier', MARKS.f32, 'filled, bold: a tier’s kernel'),
     key('front', 'M-11 -5H0V5H11', `Pareto front: ${front.map(point => point.kernel.name).join(', ')}`)),

@@ -13,24 +13,43 @@ function showAbout() {
   section('about').append(...known.flatMap(([label, value]) => [element('dt', {}, label), element('dd', {}, String(value))]));
 }
 
+const timedShapes = () => shapes().filter(({ kernels }) => kernels.some(kernel => kernel.speed && kernel.accuracy));
+
 function showPlot() {
-  const place = element('div');
-  let [horizontal] = horizontalAxes(), [vertical] = verticalAxes;
-  const redraw = () => place.replaceChildren(...drawPlot(horizontal, vertical));
-  section('plot').append(element('div', { class: 'controls' },
-    choice('x axis', horizontalAxes(), axis => { horizontal = axis; redraw(); }),
-    choice('y axis', verticalAxes, axis => { vertical = axis; redraw(); })), place);
+  const place = element('div'), axes = element('div', { class: 'controls' });
+  let shape, horizontal, vertical;
+  const redraw = () => place.replaceChildren(...drawPlot(shape, horizontal, vertical));
+  function showShape(chosen) {
+    shape = chosen;
+    [horizontal] = horizontalAxes(shape.kernels);
+    [vertical] = verticalAxes;
+    axes.replaceChildren(
+      choice('x axis', horizontalAxes(shape.kernels), axis => { horizontal = axis; redraw(); }),
+      choice('y axis', verticalAxes, axis => { vertical = axis; redraw(); }));
+  }
+  section('plot').append(element('div', { class: 'controls' }, choice('shape', timedShapes(), showShape)), axes, place);
 }
 
+/** A table of the kernels of each shape with the same columns. */
 function showKernels() {
-  const scenes = [...new Set(lab.kernels.map(kernel => kernel.speed?.mesh).filter(Boolean))];
   const remarks = [
-    scenes.length ? `Speed was measured on: ${scenes.join('; ')}. Mrays/s are for one thread; ns/test exclude the tree, bytes/tri include it.` : '',
+    timedShapes().length ? 'Mrays/s are for one thread; ns/test exclude the tree, bytes/primitive include it.' : '',
     lab.kernels.some(kernel => isAsPrinted(kernel.name))
       ? 'Names ending in “as printed” are the lecture’s programs, including their mistakes; their speed isn’t measured.' : '',
   ];
-  section('kernels').append(element('p', { class: 'aside' }, remarks.filter(Boolean).join(' ')),
-    scrollBox('Kernels', null, sortableTable(kernelColumns(), lab.kernels, 'dense').table));
+  section('kernels').append(element('p', { class: 'aside' }, remarks.filter(Boolean).join(' ')));
+  for (const shape of shapes().filter(({ kernels }) => kernels.some(isMeasured))) {
+    const scenes = [...new Set(shape.kernels.map(kernel => kernel.speed?.mesh).filter(Boolean))];
+    section('kernels').append(element('h3', {}, shape.title),
+      scenes.length ? element('p', { class: 'aside' }, `Speed was measured on: ${scenes.join('; ')}.`) : '',
+      scrollBox(`Kernels: ${shape.title}`, null, sortableTable(kernelColumns(shape), shape.kernels, 'dense').table));
+  }
+}
+
+function showNotes() {
+  const [triangles, ...others] = shapes();
+  const folded = ({ title, kernels }) => element('details', {}, element('summary', {}, `${title}: ${kernels.length}`), noteList(kernels));
+  section('notes').append(noteList(triangles.kernels), ...others.map(folded));
 }
 
 const triangleMap = {
@@ -96,8 +115,8 @@ function showCases() {
 /** The data that a section needs, and the function that draws it. */
 const sections = {
   convergence: { needs: convergencePoints, show: showConvergence },
-  plot: { needs: () => lab.kernels.filter(kernel => kernel.speed), show: showPlot },
-  kernels: { needs: () => lab.kernels, show: showKernels },
+  plot: { needs: timedShapes, show: showPlot },
+  kernels: { needs: () => [...lab.kernels, ...lab.shape_kernels].filter(isMeasured), show: showKernels },
   'triangles-map': { needs: () => lab.triangles, show: () => section('triangles-map').append(...heatMap(triangleMap)) },
   triangles: { needs: () => lab.triangles, show: () => section('triangles').append(...cellTable(triangleMap)) },
   meshes: { needs: () => lab.meshes, show: () => section('meshes').append(...heatMap(meshMap), ...cellTable(meshMap)) },
@@ -108,7 +127,7 @@ const sections = {
   'shape-spawning': { needs: () => lab.shape_spawning, show: () => section('shape-spawning').append(...mapsByShape(shapeSpawningMap), ...cellTable(shapeSpawningMap)) },
   packing: { needs: () => lab.packing, show: () => section('packing').append(scrollBox('Packing', null, sortableTable(packingColumns, lab.packing).table)) },
   policies: { needs: () => lab.policies, show: () => section('policies').append(noteList(lab.policies)) },
-  notes: { needs: () => lab.kernels, show: () => section('notes').append(noteList(lab.kernels)) },
+  notes: { needs: () => lab.kernels, show: showNotes },
   cases: { needs: () => lab.cases, show: showCases },
 };
 
