@@ -1,7 +1,7 @@
 //! Tests of loading meshes, and of the output of `info`.
 
 use crate::folder::{CUBE, Folder};
-use hitscope_lab::commands::{InfoArgs, InspectArgs, RenderArgs};
+use hitscope_lab::commands::{BenchArgs, InfoArgs, InspectArgs, RenderArgs};
 use serde_json::json;
 
 fn info(folder: &Folder, line: &str) -> serde_json::Value {
@@ -34,6 +34,40 @@ fn a_file_that_needs_too_much_memory_is_refused() {
     let error = result.expect_err("refused").to_string();
     assert!(error.contains("--max-memory"), "{error}");
     assert_eq!(info(&folder, "@large.obj --json")["triangles"], 240_000);
+}
+
+#[test]
+fn info_and_bench_group_the_digits_of_every_count() {
+    let folder = Folder::new();
+    folder.write("many.obj", &CUBE.repeat(200));
+    let text = folder.text(|f, out| f.args::<InfoArgs>("@many.obj").run(out));
+    let (narrow, has_long_run) = ('\u{202f}', |text: &str| {
+        let digits = text.split(|c: char| !c.is_ascii_digit());
+        digits.into_iter().any(|run| run.len() > 3)
+    });
+    for line in [
+        format!("\ntriangles           2{narrow}400\n"),
+        format!("vertices            1{narrow}600\n"),
+        format!("2{narrow}400 triangles: tree of "),
+    ] {
+        assert!(text.contains(&line), "{line} in {text}");
+    }
+    let counts = text
+        .lines()
+        .filter(|line| line.starts_with("bytes ") || line.ends_with(" bytes"));
+    for line in counts {
+        assert!(!has_long_run(line), "{line}");
+    }
+    let line = "@many.obj --size 64x64 --rounds 1 --threads 1 --kernel fast";
+    let text = folder.text(|f, out| f.args::<BenchArgs>(line).run(out));
+    assert!(
+        text.starts_with(&format!("2{narrow}400 triangles; ")),
+        "{text}"
+    );
+    let row = text.lines().find(|line| line.starts_with("primary"));
+    let row = row.expect("a row");
+    assert!(row.contains(&format!(" 4{narrow}096 ")), "{row}");
+    assert!(!has_long_run(row), "{row}");
 }
 
 #[test]

@@ -282,7 +282,11 @@ fn misspelt_commands_and_several_files_get_a_hint() {
 #[test]
 fn only_the_help_of_lab_lists_all_kernels() {
     let program = Program::new();
-    let help = |line: &str| stdout(&program.run(line));
+    // Without line breaks.
+    let help = |line: &str| {
+        let text = stdout(&program.run(line));
+        text.split_whitespace().collect::<Vec<_>>().join(" ")
+    };
     for command in ["render", "inspect", "trace", "bench", "converge"] {
         for option in ["-h", "--help"] {
             let text = help(&format!("{command} {option}"));

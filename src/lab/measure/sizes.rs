@@ -68,7 +68,7 @@ impl Sizes {
 
     /// Rays per workload for measuring the speed of each shape: fewer, as there are many kernels.
     pub(super) fn shape_speed_rays(&self) -> usize {
-        self.speed_rays / 25
+        self.speed_rays / 50
     }
 
     pub(super) fn shape_speed(&self) -> ShapeSpeedSizes {

@@ -76,7 +76,7 @@ fn contents_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
         row_ui(ui, "triangles", grouped(mesh.triangles().len()));
         row_ui(ui, "polygons", grouped(mesh.face_count()));
         row_ui(ui, "named materials", grouped(mesh.named_material_count()));
-        row_ui(ui, "groups", mesh.named_group_count());
+        row_ui(ui, "groups", grouped(mesh.named_group_count()));
         if mesh.has_lines_or_points() {
             row_ui(ui, "lines", grouped(mesh.attributes().lines.len()));
             row_ui(ui, "points", grouped(mesh.attributes().points.len()));
