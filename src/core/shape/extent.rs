@@ -92,3 +92,88 @@ fn enlarged<L: Lane>(x: L, roundings: u8) -> L {
     let slack = L::of(token, roundings.into()) * L::splat(token, L::Number::U);
     x * (L::of(token, 1.0) + slack)
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::lane::LANES;
+    use crate::random::Random;
+    use crate::simd::SimdLevel;
+    use fearless_simd::{SimdBase as _, dispatch, f32x8};
+
+    /// Any finite number, one in four times 0.
+    fn any_number(random: &mut Random) -> f32 {
+        if random.index(4) == 0 {
+            return 0.0;
+        }
+        let exponent = random.index(254) as u32 + 1;
+        let bits = random.bits() as u32;
+        f32::from_bits(bits & 0x807f_ffff | exponent << 23)
+    }
+
+    #[test]
+    fn lanes_give_the_reach_of_scalars_at_every_level() {
+        let mut random = Random::new(1);
+        for _ in 0..2000 {
+            let mut rows = [(); 4].map(|()| [(); LANES].map(|()| any_number(&mut random)));
+            rows[3] = rows[3].map(f32::abs);
+            let [x, y, z, radius] = rows;
+            for level in SimdLevel::available() {
+                let found: [[f32; LANES]; 3] = dispatch!(level.level(), token => {
+                    let [x, y, z, radius] = rows.map(|row| f32x8::load_array(token, row));
+                    disk_reach([x, y, z], radius).map(|lanes| lanes.to_array())
+                });
+                for lane in 0..LANES {
+                    let alone = disk_reach([x[lane], y[lane], z[lane]], radius[lane]);
+                    let found = found.map(|lanes| lanes[lane].to_bits());
+                    assert_eq!(found, alone.map(f32::to_bits), "{rows:?} {lane}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn the_reach_is_a_number_for_any_axis() {
+        let special = [0.0, -0.0, 1.0, 1e-45, 3e38, f32::INFINITY, f32::NAN];
+        for x in special {
+            for y in special {
+                for z in special {
+                    for reach in disk_reach([x, y, z], 2.0) {
+                        assert!((0.0..=2.0).contains(&reach), "{x} {y} {z}: {reach}");
+                    }
+                }
+            }
+        }
+        assert_eq!(disk_reach([0.0; 3], 2.0), [2.0; 3]);
+        assert_eq!(disk_reach([0.0, f32::INFINITY, 1.0], 2.0), [2.0; 3]);
+        assert_eq!(disk_reach([0.0, -1e-45, 0.0], 2.0), [2.0, 0.0, 2.0]);
+    }
+
+    #[test]
+    fn the_reach_is_never_too_small_and_hardly_too_large() {
+        let mut random = Random::new(2);
+        let least = f64::from(f32::MIN_POSITIVE);
+        let u = f64::from(f32::EPSILON) / 2.0;
+        for _ in 0..200_000 {
+            let w = [(); 3].map(|()| any_number(&mut random));
+            let radius = any_number(&mut random).abs();
+            let exact = w.map(f64::from);
+            let length = exact[0].hypot(exact[1]).hypot(exact[2]);
+            if length == 0.0 {
+                continue;
+            }
+            for (axis, reach) in disk_reach(w, radius).into_iter().enumerate() {
+                let others = exact[(axis + 1) % 3].hypot(exact[(axis + 2) % 3]);
+                let expected = f64::from(radius) * (others / length);
+                let excess = f64::from(reach) - expected;
+                // Rounding of this test in f64.
+                let in_test = 1e-14 * expected;
+                let most = 36.0 * u * expected + 3.0 * least * f64::from(radius).max(1.0);
+                assert!(
+                    -in_test <= excess && excess <= most + in_test,
+                    "{w:?} {radius} {axis}: {reach:e} {expected:e}"
+                );
+            }
+        }
+    }
+}

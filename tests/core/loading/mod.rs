@@ -2,6 +2,7 @@
 
 mod limits;
 mod textures;
+mod transforms;
 
 use glam::Vec3;
 use hitscope_core::Ray;
