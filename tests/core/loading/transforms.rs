@@ -89,7 +89,7 @@ fn a_refused_transform_is_told_with_the_shape_its_identifier_and_ways_out() {
                 "<boolean name='capped' value='true'/>",
                 "<matrix value='1 0 1 0 1 0 0 0 1'/>",
             ),
-            ":2: shape “cylinder”: the transform makes it oblique: the circles aren't perpendicular to the axis any more. Only scaling along and across the axis, rotation and translation are possible. Or use a “quadric” without a transform, which has no caps outside a csg",
+            ":2: shape “cylinder”: the transform makes it oblique: the circles aren't perpendicular to the axis any more. Only scaling along and across the axis, rotation and translation are possible. Or use a “quadric” without a transform (it ends at the sides of its box, without caps outside a csg): a = 1, b = 1, c = 1, f = -1, j = -1, ",
         ),
         (
             shape("torus", "", "<scale x='2'/>").replace("type", "id='ring' type"),

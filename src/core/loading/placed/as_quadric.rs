@@ -11,7 +11,7 @@ use glam::{DMat3, DMat4, DVec3};
 const MARGIN: f64 = 1e-5;
 
 /// The parameters of the quadric with the surface of a transformed cylinder or cone, as text. Coefficients that aren't
-/// named are 0. The box ends the surface where the shape ends if the transformed axis points along x, y or z.
+/// named are 0. The box ends the surface where the shape ends if there is an [`axis_along`].
 pub(super) fn quadric_of(shape: &Axial, to_world: &DMat4) -> String {
     /// As many as f32 needs.
     const DIGITS: usize = 9;
@@ -25,6 +25,12 @@ pub(super) fn quadric_of(shape: &Axial, to_world: &DMat4) -> String {
     let [min, max] = box_of(shape, to_world);
     let corners = [corner("min", min), corner("max", max)];
     coefficients.chain(corners).collect::<Vec<_>>().join(", ")
+}
+
+/// The coordinate axis along which the transformed axis points, if it does.
+pub(super) fn axis_along(shape: &Axial, to_world: &DMat4) -> Option<usize> {
+    let [p0, p1] = shape.ends;
+    axis_of(DMat3::from_mat4(*to_world) * (p1 - p0))
 }
 
 /// The coefficients a to j.
@@ -70,7 +76,7 @@ fn box_of(shape: &Axial, to_world: &DMat4) -> [DVec3; 2] {
         Tip::Pointed => [(p0 - reach).min(p1), (p0 + reach).max(p1)],
     };
     let mut margin = MARGIN * 0.5 * (max - min);
-    if let Some(k) = axis_of(linear * axis) {
+    if let Some(k) = axis_along(shape, to_world) {
         // Here the box ends the surface.
         margin[k] = 0.0;
     }

@@ -1,6 +1,6 @@
 //! Cylinders and cones.
 
-use super::as_quadric::quadric_of;
+use super::as_quadric::{axis_along, quadric_of};
 use super::similarity::{Distortion, scale_across};
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
 use crate::group::UnitShape;
@@ -75,14 +75,16 @@ impl Axial {
             }
             Distortion::Oblique => "oblique: the circles aren't perpendicular to the axis any more. Only scaling along and across the axis, rotation and translation are possible".to_owned(),
         };
-        let caps = if self.is_capped {
-            ", which has no caps outside a csg"
-        } else {
-            ""
+        let is_cut_at_ends = axis_along(self, &shape.to_world).is_some();
+        let differences = match (self.is_capped, is_cut_at_ends) {
+            (false, true) => "",
+            (false, false) => " (it ends at the sides of its box)",
+            (true, true) => " (without caps outside a csg)",
+            (true, false) => " (it ends at the sides of its box, without caps outside a csg)",
         };
         let quadric = quadric_of(self, &shape.to_world);
         format!(
-            "the transform makes it {problem}. Or use a “quadric” without a transform{caps}: {quadric}"
+            "the transform makes it {problem}. Or use a “quadric” without a transform{differences}: {quadric}"
         )
     }
 
