@@ -21,6 +21,12 @@ impl Aabb {
         max: Vec3::NEG_INFINITY,
     };
 
+    /// The box around all points, neutral under [`intersection`](Self::intersection).
+    pub const EVERYWHERE: Self = Self {
+        min: Vec3::NEG_INFINITY,
+        max: Vec3::INFINITY,
+    };
+
     /// The smallest box around the points; [`Aabb::EMPTY`] for none. The result is unspecified if a point holds
     /// a NaN.
     pub fn around(points: impl IntoIterator<Item = Vec3>) -> Self {

@@ -307,3 +307,17 @@ fn reversed_normals_are_told() {
         assert_eq!(found["normal"][2], z, "{line}");
     }
 }
+
+#[test]
+fn info_prints_tight_bounds_of_the_scene_of_all_shapes() {
+    let assets = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../assets");
+    let line = format!("{} --json", assets.join("shapes.xml").display());
+    let info = folder().json(|f, out| f.args::<InfoArgs>(&line).run(out));
+    let at = |end: &str, axis: usize| info["bounds"][end][axis].as_f64().expect("a number");
+    // The box of the ellipsoid, which is a quadric, is larger by a part of 10⁻⁵; the cone is the highest shape.
+    let (low, high) = (at("min", 2), at("max", 2));
+    assert!((-1e-5..=0.0).contains(&low), "{low}");
+    assert!((2.1..2.1001).contains(&high), "{high}");
+    // The torus about (−5, 0.2), with both radii.
+    assert!((-6.301..=-6.3).contains(&at("min", 0)), "{}", at("min", 0));
+}

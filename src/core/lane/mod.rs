@@ -199,6 +199,18 @@ pub fn plus<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
     [a[0] + b[0], a[1] + b[1], a[2] + b[2]]
 }
 
+/// The smaller of each pair of components; see [`Lane::lesser`].
+#[inline(always)]
+pub fn least<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
+    [a[0].lesser(b[0]), a[1].lesser(b[1]), a[2].lesser(b[2])]
+}
+
+/// The larger of each pair of components; see [`Lane::greater`].
+#[inline(always)]
+pub fn greatest<L: Lane>(a: &[L; 3], b: &[L; 3]) -> [L; 3] {
+    [a[0].greater(b[0]), a[1].greater(b[1]), a[2].greater(b[2])]
+}
+
 /// The axis of the component that is largest in magnitude; the first one of several.
 #[inline(always)]
 pub fn longest_axis<N: Number>(v: [N; 3]) -> usize {

@@ -184,7 +184,7 @@ impl Contents {
         let material = self.material(file, shape);
         self.warn_about(file, shape);
         if let ShapeKind::Obj(obj) = &shape.kind {
-            require_invertible(shape.place, &shape.to_world).map_err(refused)?;
+            require_invertible(shape, &shape.to_world).map_err(refused)?;
             if self.fits {
                 let mesh = self.mesh(&obj.file, progress);
                 let mesh =

@@ -1,7 +1,8 @@
 //! Errors about objects of a scene file, with their lines.
 
 use crate::obj::LoadError;
-use crate::scene_file::{Place, SceneFile};
+use crate::scene_file::{Place, SceneFile, Shape, quoted};
+use std::fmt::Display;
 
 /// Why a scene can't hold an object of a file, and the object's place.
 #[derive(Debug)]
@@ -16,6 +17,15 @@ impl Refusal {
             place,
             message: message.into(),
         }
+    }
+
+    /// The refusal of a shape. The message begins with its type, and its identifier if it has one.
+    pub fn of_shape(shape: &Shape, message: impl Display) -> Self {
+        let mut name = format!("shape {}", quoted(shape.kind.name()));
+        if let Some(id) = &shape.id {
+            name += &format!(" with the id {}", quoted(id));
+        }
+        Self::new(shape.place, format!("{name}: {message}"))
     }
 
     pub fn in_file(self, file: &SceneFile) -> LoadError {

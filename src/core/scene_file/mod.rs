@@ -48,6 +48,20 @@
 //! | `matrix` | `value`: 9 or 16 numbers, row by row; the last row of 16 must be 0 0 0 1, and Mitsuba ignores it |
 //! | `lookat` | `origin`, `target`, optionally `up`: z points to the target, y upwards, x to the **left** |
 //!
+//! A transform must be invertible. What it may do to a shape depends on the shape:
+//!
+//! | shape | transforms |
+//! |---|---|
+//! | `obj`, `disk`, `rectangle`, `cube`, `box`, `plane` | all: a disk may become an ellipse, a box a parallelepiped |
+//! | `sphere` | all: scaled unequally, it becomes an ellipsoid, which is a quadric |
+//! | `cylinder`, `cone` | rotation, translation, and scaling by one factor along the axis and another across it |
+//! | `torus` | rotation, translation, and scaling by one factor |
+//! | `quadric` | translation, scaling along x, y and z, and quarter turns, because the edges of its box stay along the axes |
+//! | `csg` | those that all its shapes allow |
+//!
+//! Others are refused. For a cylinder and a cone, the message gives the coefficients and the box of a `quadric` with the
+//! same surface.
+//!
 //! ## Shapes
 //!
 //! Every shape has `to_world` and `flip_normals` (default `false`), and may contain a `bsdf` or a `ref` to one, and an
@@ -212,6 +226,7 @@ pub use kinds::{
 };
 pub(crate) use memory::exceeded;
 pub use plugin::{Parameter, Plugin, Value};
+pub(crate) use problem::quoted;
 pub(crate) use reader::load_counted;
 pub use reader::{load, parse};
 pub use relief::{Relief, ReliefKind};
@@ -221,3 +236,4 @@ pub use stored::ReadFile;
 pub use textures::{Bitmap, Checkerboard, Texture, TextureKind};
 pub use writer::to_xml;
 pub use xml::WriteError;
+pub(crate) use xml::{number as number_text, vector as vector_text};

@@ -66,7 +66,7 @@ impl From<Cancelled> for Problem {
 }
 
 /// A text from the file for messages: quoted, shortened, without control characters.
-pub(super) fn quoted(text: &str) -> String {
+pub(crate) fn quoted(text: &str) -> String {
     /// As many as fit on a line with the rest of a message.
     const LENGTH: usize = 60;
     let rest = text.chars().nth(LENGTH).map_or("", |_| "…");

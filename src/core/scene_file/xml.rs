@@ -112,12 +112,12 @@ impl Xml {
 }
 
 /// The shortest decimal that reads back to the same number.
-pub(super) fn number(number: f64) -> String {
+pub(crate) fn number(number: f64) -> String {
     let text = format!("{number:?}");
     text.strip_suffix(".0").map_or(text.clone(), str::to_owned)
 }
 
-pub(super) fn vector(v: DVec3) -> String {
+pub(crate) fn vector(v: DVec3) -> String {
     v.to_array().map(number).join(", ")
 }
 

@@ -83,6 +83,20 @@ impl Shape for AxisPlane {
         Aabb::EMPTY
     }
 
+    /// Half-spaces.
+    fn bounds_of_sides(&self) -> [Aabb; 2] {
+        let [mut below, mut above] = [Aabb::EVERYWHERE; 2];
+        if self.coordinate.is_finite() {
+            below.max[self.axis()] = self.coordinate;
+            above.min[self.axis()] = self.coordinate;
+        }
+        if self.is_along_axis {
+            [below, above]
+        } else {
+            [above, below]
+        }
+    }
+
     /// u and v are the two other coordinates, in cyclic order.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
         let axis = self.axis();

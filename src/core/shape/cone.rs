@@ -1,12 +1,13 @@
 //! Cones of finite height, open or capped.
 
 use super::compact::Slots;
-use super::cylinder::{Along, AxialRay, BASE, SIDE, around_spheres, error, part_of};
+use super::cylinder::{Along, AxialRay, BASE, SIDE, error, part_of};
+use super::extent::{disk_reach, rounded_outwards};
 use super::lines::{disk_lines, side_lines};
 use super::{AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, greatest, least, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 
@@ -76,9 +77,15 @@ impl Shape for Cone {
         }
     }
 
+    /// The box around the base and the apex.
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        around_spheres(numbers.three(0), numbers.three(3), numbers.value(6))
+        let (base, apex) = (numbers.three(0), numbers.three(3));
+        let reach = disk_reach(minus(&apex, &base), numbers.value(6));
+        rounded_outwards(
+            least(&minus(&base, &reach), &apex),
+            greatest(&plus(&base, &reach), &apex),
+        )
     }
 
     fn bounds(&self) -> Aabb {

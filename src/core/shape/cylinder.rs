@@ -1,6 +1,7 @@
 //! Cylinders of finite length, open or capped.
 
 use super::compact::Slots;
+use super::extent::{disk_reach, rounded_outwards};
 use super::lines::{disk_lines, side_lines};
 use super::sample::part_by_area;
 use super::{
@@ -11,7 +12,7 @@ use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, cross, difference, dot, squared_length, vector,
 };
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, greatest, least, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::{PI, TAU};
@@ -102,10 +103,13 @@ impl Shape for Cylinder {
         }
     }
 
-    /// The box around the boxes of two spheres, widened as that of a sphere.
+    /// The box around both ends.
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        around_spheres(numbers.three(0), numbers.three(3), numbers.value(6))
+        let (p0, p1) = (numbers.three(0), numbers.three(3));
+        let reach = disk_reach(minus(&p1, &p0), numbers.value(6));
+        let (lower, upper) = (least(&p0, &p1), greatest(&p0, &p1));
+        rounded_outwards(minus(&lower, &reach), plus(&upper, &reach))
     }
 
     fn bounds(&self) -> Aabb {
@@ -302,18 +306,6 @@ impl Along {
 /// The part that a hit is on.
 pub(super) fn part_of(hit: &Hit) -> u8 {
     hit.u as u8
-}
-
-/// The box around two spheres of equal radius, widened by 2⁻²² of the reach.
-#[inline(always)]
-pub(super) fn around_spheres<L: Lane>(a: [L; 3], b: [L; 3], radius: L) -> Planes<L> {
-    let side = |axis: usize| {
-        let (a, b) = (a[axis], b[axis]);
-        let slack = (a.abs().greater(b.abs()) + radius) * L::of(a.token(), 2.0 * f32::EPSILON);
-        [a.lesser(b) - radius - slack, a.greater(b) + radius + slack]
-    };
-    let [[a, b], [c, d], [e, f]] = [side(0), side(1), side(2)];
-    [a, b, c, d, e, f]
 }
 
 /// The error of a point of a cylinder or a cone: the point is rounded, and the next test sees the surface to some

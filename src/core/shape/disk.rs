@@ -1,6 +1,7 @@
 //! Disks, and their images under affine maps.
 
 use super::compact::Slots;
+use super::extent::{ellipse_reach, rounded_outwards};
 use super::lines::disk_lines;
 use super::span::{Span, SpannedRay};
 use super::{
@@ -8,7 +9,7 @@ use super::{
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, Vec3};
 use std::f64::consts::PI;
@@ -44,7 +45,10 @@ impl Shape for Disk {
 
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        Span::planes(numbers)
+        let (centre, u, v) = (numbers.three(0), numbers.three(3), numbers.three(6));
+        let along = |axis: usize| ellipse_reach(u[axis], v[axis]);
+        let reach = [along(0), along(1), along(2)];
+        rounded_outwards(minus(&centre, &reach), plus(&centre, &reach))
     }
 
     fn bounds(&self) -> Aabb {

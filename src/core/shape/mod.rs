@@ -7,6 +7,7 @@ mod cone;
 mod cuboid;
 mod cylinder;
 mod disk;
+mod extent;
 mod interior;
 mod lines;
 mod parameter;
@@ -33,6 +34,7 @@ pub use cuboid::Cuboid;
 pub use cylinder::Cylinder;
 pub(crate) use cylinder::{BASE, SIDE, TOP};
 pub use disk::Disk;
+pub(crate) use extent::{disk_reach, ellipse_reach};
 pub use interior::Interior;
 pub(crate) use interior::UNBOUNDED;
 pub use lines::{AddLine, LineDetail, LinePoint};
@@ -105,6 +107,17 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
     /// The primitive's box in the tree. It encloses the primitive, also as kernels recompute it from packed
     /// values. Empty or not finite if no ray can hit the primitive.
     fn bounds(&self) -> Aabb;
+
+    /// The boxes around the points inside and around all others, if the primitive is part of a solid. They are infinite
+    /// where there may be such points.
+    fn bounds_of_sides(&self) -> [Aabb; 2] {
+        let inside = if Self::IS_BOUNDED {
+            self.bounds()
+        } else {
+            Aabb::EVERYWHERE
+        };
+        [inside, Aabb::EVERYWHERE]
+    }
 
     /// The surface where a ray hits the primitive.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint;

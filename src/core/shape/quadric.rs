@@ -1,6 +1,7 @@
 //! General quadrics, cut by a box.
 
 use super::compact::Slots;
+use super::extent::rounded_outwards;
 use super::interior::negative_side;
 use super::quadric_lines::quadric_lines;
 use super::{
@@ -8,7 +9,7 @@ use super::{
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 
@@ -101,16 +102,10 @@ impl Shape for Quadric {
         }
     }
 
-    /// The box, widened by 2⁻²² of the reach.
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        let side = |axis: usize| {
-            let (c, half) = (numbers.value(10 + axis), numbers.value(13 + axis));
-            let slack = (c.abs() + half) * L::of(c.token(), 2.0 * f32::EPSILON);
-            [c - half - slack, c + half + slack]
-        };
-        let [[a, b], [c, d], [e, f]] = [side(0), side(1), side(2)];
-        [a, b, c, d, e, f]
+        let (centre, half) = (numbers.three(10), numbers.three(13));
+        rounded_outwards(minus(&centre, &half), plus(&centre, &half))
     }
 
     fn bounds(&self) -> Aabb {

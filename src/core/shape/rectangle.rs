@@ -1,12 +1,13 @@
 //! Rectangles, and their images under affine maps.
 
 use super::compact::Slots;
+use super::extent::{above, rounded_outwards};
 use super::lines::grid;
 use super::span::{Span, SpannedRay};
 use super::{AddLine, LineDetail, SampledPoint, Shape, ShapeInfo, SurfacePoint, numbers_of};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, Vec3};
 
@@ -39,9 +40,13 @@ impl Shape for Rectangle {
         Self(Span::read(numbers))
     }
 
+    /// |u| + |v| on either side of the centre.
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        Span::planes(numbers)
+        let (centre, u, v) = (numbers.three(0), numbers.three(3), numbers.three(6));
+        let along = |axis: usize| above(u[axis].abs() + v[axis].abs());
+        let reach = [along(0), along(1), along(2)];
+        rounded_outwards(minus(&centre, &reach), plus(&centre, &reach))
     }
 
     fn bounds(&self) -> Aabb {

@@ -1,9 +1,8 @@
 //! A centre and two half axes: what disks and rectangles have in common.
 
 use super::{Parameter, SampledPoint, SurfacePoint, U};
-use crate::aabb::Planes;
 use crate::algebra::{Polynomial, RayIn, Ring, cross, difference, dot, vector};
-use crate::lane::{Lane, Values};
+use crate::lane::Values;
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 
@@ -53,24 +52,6 @@ impl Span {
         let [centre, u, v] =
             [numbers.three(0), numbers.three(3), numbers.three(6)].map(Vec3::from_array);
         Self { centre, u, v }
-    }
-
-    /// The box around the parallelogram: |u| + |v| on either side of the centre, widened by 2⁻²² of the reach: each of three sums errs by at most 2⁻²⁴ of
-    /// it.
-    #[inline(always)]
-    pub(super) fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        let side = |axis: usize| {
-            let [c, u, v] = [
-                numbers.value(axis),
-                numbers.value(3 + axis),
-                numbers.value(6 + axis),
-            ];
-            let half = u.abs() + v.abs();
-            let slack = (c.abs() + half) * L::of(c.token(), 2.0 * f32::EPSILON);
-            [c - half - slack, c + half + slack]
-        };
-        let [[a, b], [c, d], [e, f]] = [side(0), side(1), side(2)];
-        [a, b, c, d, e, f]
     }
 
     /// The area of the parallelogram c ± u ± v.

@@ -1,6 +1,7 @@
 //! Spheres.
 
 use super::compact::Slots;
+use super::extent::rounded_outwards;
 use super::subtended::SubtendedCone;
 use super::{
     AddLine, Interior, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint,
@@ -11,7 +12,7 @@ use crate::algebra::{
     Piece, Pieces, Polynomial, QuickLine, RayIn, Ring, RootIntervals, difference, dot,
     squared_length, vector,
 };
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::PI;
@@ -79,15 +80,10 @@ impl Shape for Sphere {
         }
     }
 
-    /// Widened by 2⁻²² of the sphere's reach from 0: each of two sums errs by at most 2⁻²⁴ of it.
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        let (centre, radius) = (numbers.three(0), numbers.value(3));
-        let slack = |c: L| (c.abs() + radius) * L::of(c.token(), 2.0 * f32::EPSILON);
-        let lower = |c: L| (c - radius) - slack(c);
-        let upper = |c: L| (c + radius) + slack(c);
-        let [x, y, z] = centre;
-        [lower(x), upper(x), lower(y), upper(y), lower(z), upper(z)]
+        let (centre, reach) = (numbers.three(0), [numbers.value(3); 3]);
+        rounded_outwards(minus(&centre, &reach), plus(&centre, &reach))
     }
 
     #[inline(always)]

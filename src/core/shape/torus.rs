@@ -1,7 +1,7 @@
 //! Tori.
 
 use super::compact::Slots;
-use super::cylinder::around_spheres;
+use super::extent::{above, disk_reach, rounded_outwards};
 use super::{
     AddLine, Interior, LineDetail, Parameter, Shape, ShapeInfo, SurfacePoint, U, numbers_of,
 };
@@ -9,7 +9,7 @@ use crate::aabb::{Aabb, Planes};
 use crate::algebra::{
     Piece, Pieces, Polynomial, RayIn, Ring, difference, dot, squared_length, vector,
 };
-use crate::lane::{Lane, Values};
+use crate::lane::{Lane, Values, minus, plus};
 use crate::ray::{Hit, Ray};
 use glam::{DVec2, DVec3, Vec3};
 use std::f64::consts::TAU;
@@ -100,12 +100,13 @@ impl Shape for Torus {
         }
     }
 
-    /// The box around the sphere of both radii, widened as that of a sphere.
+    /// The box around the circle, extended by the minor radius on all sides.
     #[inline(always)]
     fn planes<L: Lane>(numbers: &impl Values<L>) -> Planes<L> {
-        let reach = numbers.value(6) + numbers.value(7);
-        let wider = reach * L::of(reach.token(), 1.0 + f32::EPSILON);
-        around_spheres(numbers.three(0), numbers.three(0), wider)
+        let (centre, minor) = (numbers.three(0), numbers.value(7));
+        let [x, y, z] = disk_reach(numbers.three(3), numbers.value(6));
+        let reach = [above(x + minor), above(y + minor), above(z + minor)];
+        rounded_outwards(minus(&centre, &reach), plus(&centre, &reach))
     }
 
     fn bounds(&self) -> Aabb {

@@ -3,6 +3,7 @@
 mod limits;
 mod solids;
 mod textures;
+mod transforms;
 
 use glam::Vec3;
 use hitscope_core::Ray;

@@ -1,6 +1,8 @@
-//! Shapes other than triangles, by loops over their tables: kernels, intersectors, scenes of several groups, spawned
-//! rays.
+//! Shapes other than triangles, by loops over their tables: boxes, kernels, intersectors, scenes of several groups,
+//! spawned rays.
 
+mod bounds;
+mod bounds_of_solids;
 mod groups;
 mod kernels;
 mod solids;

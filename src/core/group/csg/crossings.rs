@@ -2,13 +2,12 @@
 
 use super::along_line::LineIntervals;
 use super::solid::{Solid, SolidOperand};
-use crate::aabb::{Aabb, Planes};
+use crate::aabb::Planes;
 use crate::intersector::{GroupIntersector, RankedHit};
 use crate::kernel::KernelChoice;
 use crate::ray::{Hit, Ray};
 use crate::shape::Interior;
 use crate::simd::SimdLevel;
-use glam::Vec3;
 
 /// A solid whose operands are packed for a kernel.
 pub(super) struct PackedSolid {
@@ -37,13 +36,9 @@ impl PackedSolid {
         }
     }
 
-    /// The planes of its box.
+    /// The planes of its box, which may be infinite.
     pub fn planes(&self) -> Planes<f32> {
-        let everywhere = Aabb {
-            min: Vec3::NEG_INFINITY,
-            max: Vec3::INFINITY,
-        };
-        self.solid.bounds().unwrap_or(everywhere).planes()
+        self.solid.infinite_bounds().planes()
     }
 
     pub fn operand_count(&self) -> usize {

@@ -50,8 +50,8 @@ impl CsgOperation {
 pub struct Solid {
     operands: Vec<SolidOperand>,
     root: SolidNode,
-    /// The box around it; `None` if it may be infinite.
-    bounds: Option<Aabb>,
+    /// The boxes around the points inside and around all others.
+    bounds_of_sides: [Aabb; 2],
 }
 
 /// The interior of a shape, as part of a solid.
@@ -85,9 +85,9 @@ impl Solid {
     /// The interior of a shape, empty if its surface isn't closed or a number isn't finite. A plane's interior is the
     /// half-space behind its normal. For a quadric use [`of_quadric`](Self::of_quadric).
     pub fn of<S: Grouped>(shape: S) -> Self {
-        let bounds = S::IS_BOUNDED.then(|| shape.bounds());
+        let bounds_of_sides = shape.bounds_of_sides();
         let group = group_of(shape);
-        Self::one(Arc::clone(&group), group, bounds)
+        Self::one(Arc::clone(&group), group, bounds_of_sides)
     }
 
     /// The points in a quadric's box where the left side of its equation is negative.
@@ -101,11 +101,11 @@ impl Solid {
             centre: quadric.centre,
             axes: [x * Vec3::X, y * Vec3::Y, z * Vec3::Z],
         };
-        let inside = Self::one(boundary, group_of(quadric), None);
+        let inside = Self::one(boundary, group_of(quadric), [Aabb::EVERYWHERE; 2]);
         Self::combined(CsgOperation::Intersection, vec![inside, Self::of(cut)])
     }
 
-    fn one(boundary: Arc<dyn Group>, surface: Arc<dyn Group>, bounds: Option<Aabb>) -> Self {
+    fn one(boundary: Arc<dyn Group>, surface: Arc<dyn Group>, bounds_of_sides: [Aabb; 2]) -> Self {
         Self {
             operands: vec![SolidOperand {
                 boundary,
@@ -113,13 +113,13 @@ impl Solid {
                 is_subtracted: false,
             }],
             root: SolidNode::Operand(0),
-            bounds,
+            bounds_of_sides,
         }
     }
 
     /// Combines solids. Without any, the result is empty.
     pub fn combined(operation: CsgOperation, solids: Vec<Self>) -> Self {
-        let boxes: Vec<Option<Aabb>> = solids.iter().map(|solid| solid.bounds).collect();
+        let boxes: Vec<[Aabb; 2]> = solids.iter().map(|solid| solid.bounds_of_sides).collect();
         let (mut operands, mut nodes) = (Vec::new(), Vec::new());
         for (index, solid) in solids.into_iter().enumerate() {
             let is_subtracted = operation == CsgOperation::Difference && index > 0;
@@ -132,7 +132,7 @@ impl Solid {
         Self {
             operands,
             root: SolidNode::Operation(operation, nodes),
-            bounds: bounds_of(operation, &boxes),
+            bounds_of_sides: bounds_of_sides(operation, boxes),
         }
     }
 
@@ -146,7 +146,14 @@ impl Solid {
 
     /// The box around it; `None` if it may be infinite.
     pub fn bounds(&self) -> Option<Aabb> {
-        self.bounds
+        let bounds = self.infinite_bounds();
+        let is_finite = bounds.min.is_finite() && bounds.max.is_finite();
+        (bounds.is_empty() || is_finite).then_some(bounds)
+    }
+
+    /// The box around it, infinite in the directions in which it may be.
+    pub(super) fn infinite_bounds(&self) -> Aabb {
+        self.bounds_of_sides[0]
     }
 
     /// The shapes that it is made of, in the order in which its parts name them.
@@ -236,15 +243,18 @@ fn group_of<S: Grouped>(shape: S) -> Arc<dyn Group> {
     group.expect("nobody cancels")
 }
 
-/// The box around a combination of solids with these boxes.
-fn bounds_of(operation: CsgOperation, boxes: &[Option<Aabb>]) -> Option<Aabb> {
+/// The boxes around the points inside a combination of solids and around all others, from those of the solids.
+fn bounds_of_sides(operation: CsgOperation, mut solids: Vec<[Aabb; 2]>) -> [Aabb; 2] {
+    // A point is inside a difference if it is inside the first solid and outside each of the others.
+    if operation == CsgOperation::Difference {
+        solids.iter_mut().skip(1).for_each(|sides| sides.reverse());
+    }
+    let of_side = |side: usize| solids.iter().map(move |sides| sides[side]);
+    let in_any = |side: usize| of_side(side).fold(Aabb::EMPTY, Aabb::union);
+    let in_all = |side: usize| of_side(side).fold(Aabb::EVERYWHERE, Aabb::intersection);
     match operation {
-        CsgOperation::Union => {
-            let mut boxes = boxes.iter();
-            boxes.try_fold(Aabb::EMPTY, |sum, bounds| Some(sum.union((*bounds)?)))
-        }
-        CsgOperation::Intersection if boxes.is_empty() => Some(Aabb::EMPTY),
-        CsgOperation::Intersection => boxes.iter().flatten().copied().reduce(Aabb::intersection),
-        CsgOperation::Difference => boxes.first().copied().unwrap_or(Some(Aabb::EMPTY)),
+        CsgOperation::Union => [in_any(0), in_all(1)],
+        _ if solids.is_empty() => [Aabb::EMPTY, Aabb::EVERYWHERE],
+        CsgOperation::Intersection | CsgOperation::Difference => [in_all(0), in_any(1)],
     }
 }

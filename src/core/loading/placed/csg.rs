@@ -16,7 +16,7 @@ struct PlacedSolid {
 impl Placeable for scene_file::Csg {
     /// # Errors
     /// A nested shape can't be placed or isn't a solid.
-    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, shape: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let operand = |shape: &Shape| {
             let operand = placed(shape, &(*to_world * shape.to_world))?;
             let refused = |message| Refusal::new(shape.place, message);
@@ -24,7 +24,7 @@ impl Placeable for scene_file::Csg {
             Ok(operand)
         };
         Ok(Box::new(PlacedSolid {
-            place,
+            place: shape.place,
             operation: self.operation,
             operands: self
                 .children
@@ -36,10 +36,19 @@ impl Placeable for scene_file::Csg {
 }
 
 impl Placed for PlacedSolid {
-    /// The box around all operands that are bounded.
+    /// Near the surface if the operands that matter are bounded: a box around the first operand of a difference, or in
+    /// all bounded operands of an intersection. Else around all bounded operands.
     fn bounds(&self) -> Option<[DVec3; 2]> {
-        let boxes = self.operands.iter().filter_map(|operand| operand.bounds());
-        boxes.reduce(|[a, b], [c, d]| [a.min(c), b.max(d)])
+        let boxes = || self.operands.iter().filter_map(|operand| operand.bounds());
+        let around_all = || boxes().reduce(|[a, b], [c, d]| [a.min(c), b.max(d)]);
+        let nearest = match self.operation {
+            CsgOperation::Union => None,
+            CsgOperation::Intersection => boxes()
+                .reduce(|[a, b], [c, d]| [a.max(c), b.min(d)])
+                .filter(|[min, max]| min.cmple(*max).all()),
+            CsgOperation::Difference => self.operands.first().and_then(|first| first.bounds()),
+        };
+        nearest.or_else(around_all)
     }
 
     fn push_to(&self, groups: &mut Groups, origin: DVec3, look: Look) {

@@ -2,12 +2,12 @@
 
 use super::{Placeable, Placed, PlacedPrimitive, Refusal, axis_of};
 use crate::group::UnitShape;
-use crate::scene_file::{self, Place};
+use crate::scene_file::{self, Shape};
 use crate::shape::{AxisBox, Cuboid};
 use glam::{DMat3, DMat4, DVec3};
 
 impl Placeable for scene_file::Cube {
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, _: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(placed(to_world, DVec3::NEG_ONE, DVec3::ONE))
     }
 
@@ -17,7 +17,7 @@ impl Placeable for scene_file::Cube {
 }
 
 impl Placeable for scene_file::Cuboid {
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, _: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(placed(to_world, self.min, self.max))
     }
 

@@ -2,8 +2,8 @@
 
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
 use crate::group::UnitShape;
-use crate::scene_file::{self, Place};
-use crate::shape::{Disk, Rectangle, Span};
+use crate::scene_file::{self, Shape};
+use crate::shape::{Disk, Rectangle, Span, ellipse_reach};
 use glam::{DMat3, DMat4, DVec3};
 
 /// The image of the unit disk or of the square from −1 to 1.
@@ -22,8 +22,8 @@ impl PlacedSpan {
         }
     }
 
-    fn bounds(&self) -> [DVec3; 2] {
-        let half = self.axes[0].abs() + self.axes[1].abs();
+    /// The box with these half edges about the centre.
+    fn around(&self, half: DVec3) -> [DVec3; 2] {
         [self.centre - half, self.centre + half]
     }
 
@@ -47,7 +47,7 @@ impl Placeable for scene_file::Disk {
     /// The normal is u × v, which a mirroring transform turns away from the image of +z.
     const FLIPS_WHEN_MIRRORED: bool = true;
 
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, _: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(Box::new(PlacedDisk(PlacedSpan::new(to_world))))
     }
 
@@ -60,7 +60,7 @@ impl Placeable for scene_file::Rectangle {
     /// As for a disk.
     const FLIPS_WHEN_MIRRORED: bool = true;
 
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, _: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         Ok(Box::new(PlacedRectangle(PlacedSpan::new(to_world))))
     }
 
@@ -73,7 +73,9 @@ impl PlacedPrimitive for PlacedDisk {
     type Shape = Disk;
 
     fn bounds(&self) -> Option<[DVec3; 2]> {
-        Some(self.0.bounds())
+        let [u, v] = self.0.axes;
+        let half = [0, 1, 2].map(|axis| ellipse_reach(u[axis], v[axis]));
+        Some(self.0.around(half.into()))
     }
 
     fn rounded(&self, origin: DVec3) -> Disk {
@@ -89,7 +91,8 @@ impl PlacedPrimitive for PlacedRectangle {
     type Shape = Rectangle;
 
     fn bounds(&self) -> Option<[DVec3; 2]> {
-        Some(self.0.bounds())
+        let [u, v] = self.0.axes;
+        Some(self.0.around(u.abs() + v.abs()))
     }
 
     fn rounded(&self, origin: DVec3) -> Rectangle {

@@ -1,6 +1,7 @@
 //! Shapes of scene files in the coordinates of the world, in f64, and their f32 counterparts: one file per kind of
 //! shape or pair of similar kinds.
 
+mod as_quadric;
 mod axial;
 mod csg;
 mod cuboid;
@@ -28,11 +29,11 @@ trait Placeable {
     /// Whether a transform that mirrors reverses the normals of the placed shape.
     const FLIPS_WHEN_MIRRORED: bool = false;
 
-    /// The shape transformed by an invertible affine map. `place` is for the refusal.
+    /// The shape transformed by an invertible affine map: `shape.to_world` and then those of the solids around it.
     ///
     /// # Errors
     /// The transformed shape isn't supported.
-    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal>;
+    fn placed(&self, shape: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal>;
 
     /// The unit shape whose texture coordinates it has, and the map from it; `None` if it has none.
     fn unit(&self) -> Option<(UnitShape, DMat4)> {
@@ -162,12 +163,12 @@ pub(super) fn misfit(place: Place) -> Refusal {
 ///
 /// # Errors
 /// The transform isn't invertible.
-pub(super) fn require_invertible(place: Place, to_world: &DMat4) -> Result<(), Refusal> {
+pub(super) fn require_invertible(shape: &Shape, to_world: &DMat4) -> Result<(), Refusal> {
     if DMat3::from_mat4(*to_world).determinant() != 0.0 && to_world.is_finite() {
         return Ok(());
     }
-    let message = "the transform makes the shape flat: its matrix is singular";
-    Err(Refusal::new(place, message))
+    let message = "the transform makes it flat: its matrix is singular";
+    Err(Refusal::of_shape(shape, message))
 }
 
 /// Whether a transform exchanges left and right.
@@ -182,9 +183,9 @@ macro_rules! placing {
         /// # Errors
         /// The transform isn't invertible, or the transformed shape isn't supported.
         pub(super) fn placed(shape: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
-            require_invertible(shape.place, to_world)?;
+            require_invertible(shape, to_world)?;
             match &shape.kind {
-                $(ShapeKind::$kind(kind) => kind.placed(shape.place, to_world),)*
+                $(ShapeKind::$kind(kind) => kind.placed(shape, to_world),)*
             }
         }
 

@@ -2,13 +2,13 @@
 
 use super::axis_of;
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
-use crate::scene_file::{self, Place};
+use crate::scene_file::{self, Shape};
 use crate::shape::{AxisPlane, Plane};
 use glam::{DMat3, DMat4, DVec3};
 
 impl Placeable for scene_file::Plane {
     /// A plane; one that is perpendicular to an axis becomes an [`AxisPlane`].
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, _: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let point = to_world.transform_point3(self.point);
         let normal = DMat3::from_mat4(*to_world).inverse().transpose() * self.normal;
         Ok(match axis_of(normal) {

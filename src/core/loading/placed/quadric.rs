@@ -2,7 +2,7 @@
 
 use super::{Placeable, Placed, PlacedPrimitive, Refusal, axis_of};
 use crate::group::Solid;
-use crate::scene_file::{self, Place};
+use crate::scene_file::{self, Shape};
 use crate::shape::Quadric;
 use glam::{DMat3, DMat4, DVec3};
 
@@ -17,12 +17,12 @@ pub(super) struct PlacedQuadric {
 
 impl Placeable for scene_file::Quadric {
     /// The map must keep the edges of the quadric's box along the axes.
-    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, shape: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let linear = DMat3::from_mat4(*to_world);
         let columns = [linear.x_axis, linear.y_axis, linear.z_axis];
         if !columns.into_iter().all(|column| axis_of(column).is_some()) {
-            let message = "the transform turns the quadric's box; only scaling, translation and quarter turns are possible";
-            return Err(Refusal::new(place, message));
+            let message = "the transform turns its box, whose edges stay along the axes; only scaling, translation and quarter turns are possible: apply others to the coefficients";
+            return Err(Refusal::of_shape(shape, message));
         }
         let inverse = linear.inverse();
         let [a, b, c, d, e, f, g, h, i, j] = *self.coefficients;
@@ -65,7 +65,7 @@ impl PlacedQuadric {
 }
 
 /// The coefficients a to j of xᵀqx + 2·slope·x + constant.
-fn coefficients(q: DMat3, slope: DVec3, constant: f64) -> [f64; 10] {
+pub(super) fn coefficients(q: DMat3, slope: DVec3, constant: f64) -> [f64; 10] {
     let [x, y, z] = [q.x_axis, q.y_axis, q.z_axis];
     [
         x.x, y.y, z.z, x.y, y.z, x.z, slope.x, slope.y, slope.z, constant,

@@ -19,16 +19,35 @@ pub(super) fn scale_of(linear: DMat3) -> Option<f64> {
     is_similar.then(|| squared.sqrt())
 }
 
+/// Why a map doesn't keep circles about an axis round.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Distortion {
+    /// It scales by these factors across the axis, at most and at least.
+    Elliptic([f64; 2]),
+    /// The circles' planes aren't perpendicular to the axis any more.
+    Oblique,
+}
+
 /// The factor by which a map scales all directions across an axis, if it keeps them perpendicular to the axis.
-pub(super) fn scale_across(linear: DMat3, axis: DVec3) -> Option<f64> {
+///
+/// # Errors
+/// It doesn't.
+pub(super) fn scale_across(linear: DMat3, axis: DVec3) -> Result<f64, Distortion> {
     let along = axis.normalize();
     let (u, v) = along.any_orthonormal_pair();
     let [w, u, v] = [linear * along, linear * u, linear * v];
     let squared = u.length_squared();
     let is_zero = |product: f64, size: f64| product.abs() <= ROUNDING * size;
-    let is_round = is_zero(v.length_squared() - squared, squared)
-        && is_zero(u.dot(v), squared)
-        && is_zero(u.dot(w), u.length() * w.length())
-        && is_zero(v.dot(w), v.length() * w.length());
-    is_round.then(|| squared.sqrt())
+    let is_across = |u: DVec3| is_zero(u.dot(w), u.length() * w.length());
+    if !is_across(u) || !is_across(v) {
+        return Err(Distortion::Oblique);
+    }
+    if is_zero(v.length_squared() - squared, squared) && is_zero(u.dot(v), squared) {
+        return Ok(squared.sqrt());
+    }
+    // The half axes of the ellipse: roots of the eigenvalues of the products' matrix. Their product is the area.
+    let half_difference = 0.5 * (squared - v.length_squared());
+    let mean = 0.5 * (squared + v.length_squared());
+    let most = (mean + half_difference.hypot(u.dot(v))).sqrt();
+    Err(Distortion::Elliptic([most, u.cross(v).length() / most]))
 }

@@ -4,7 +4,7 @@ use super::quadric::PlacedQuadric;
 use super::similarity::scale_of;
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
 use crate::group::UnitShape;
-use crate::scene_file::{self, Place};
+use crate::scene_file::{self, Shape};
 use crate::shape::Sphere;
 use glam::{DMat3, DMat4, DVec3};
 
@@ -13,7 +13,7 @@ impl Placeable for scene_file::Sphere {
     const FLIPS_WHEN_MIRRORED: bool = true;
 
     /// A sphere, or an ellipsoid if the map scales unequally.
-    fn placed(&self, _: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, _: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let linear = DMat3::from_mat4(*to_world);
         let centre = to_world.transform_point3(self.center);
         Ok(match scale_of(linear) {

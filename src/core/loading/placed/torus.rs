@@ -2,8 +2,8 @@
 
 use super::similarity::scale_of;
 use super::{Placeable, Placed, PlacedPrimitive, Refusal};
-use crate::scene_file::{self, Place};
-use crate::shape::Torus;
+use crate::scene_file::{self, Shape};
+use crate::shape::{Torus, disk_reach};
 use glam::{DMat3, DMat4, DVec3};
 
 #[derive(Debug)]
@@ -15,10 +15,10 @@ struct PlacedTorus {
 }
 
 impl Placeable for scene_file::Torus {
-    fn placed(&self, place: Place, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
+    fn placed(&self, shape: &Shape, to_world: &DMat4) -> Result<Box<dyn Placed>, Refusal> {
         let linear = DMat3::from_mat4(*to_world);
-        let message = "the transform scales the torus unequally, which isn't supported";
-        let scale = scale_of(linear).ok_or_else(|| Refusal::new(place, message))?;
+        let message = "the transform scales it unequally or shears it; only one factor for all directions, rotation and translation are possible";
+        let scale = scale_of(linear).ok_or_else(|| Refusal::of_shape(shape, message))?;
         Ok(Box::new(PlacedTorus {
             centre: to_world.transform_point3(self.center),
             axis: linear * self.axis,
@@ -32,7 +32,8 @@ impl PlacedPrimitive for PlacedTorus {
     type Shape = Torus;
 
     fn bounds(&self) -> Option<[DVec3; 2]> {
-        let reach = DVec3::splat(self.major + self.minor);
+        let circle = disk_reach(self.axis.to_array(), self.major);
+        let reach = DVec3::from(circle) + self.minor;
         Some([self.centre - reach, self.centre + reach])
     }
 
