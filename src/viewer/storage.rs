@@ -13,8 +13,9 @@ use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::spawn::spawn_policy;
 use hitscope_core::terminator::terminator_repair;
 use hitscope_core::tone::tone_curve;
-use serde::Deserialize as _;
-use serde_json::Value;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value, json};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read as _;
@@ -34,7 +35,6 @@ const MAX_BYTES: u64 = 1 << 20;
 /// The range of Ctrl+Plus and Ctrl+Minus.
 const ZOOMS: RangeInclusive<f32> = 0.2..=5.0;
 // The ranges of controls in the Display tab.
-const NORMAL_LENGTHS: RangeInclusive<f32> = 0.002..=0.5;
 const CREASES: RangeInclusive<f32> = 0.0..=180.0;
 
 /// The settings that were stored last, or the defaults.
@@ -83,22 +83,62 @@ fn to_json(settings: &Settings) -> Option<String> {
 /// Parses the settings; a setting that is missing or invalid has its default.
 fn from_json(text: &str) -> Settings {
     let default = Settings::default();
-    let (Ok(Value::Object(stored)), Ok(Value::Object(mut kept))) =
-        (serde_json::from_str(text), serde_json::to_value(&default))
-    else {
+    let Ok(Value::Object(mut stored)) = serde_json::from_str(text) else {
         return default;
+    };
+    convert_overlays(&mut stored);
+    usable(merged(&default, stored))
+}
+
+/// Converts the settings of overlays from versions that had one field for each.
+fn convert_overlays(stored: &mut Map<String, Value>) {
+    if stored.contains_key("overlays") {
+        return;
+    }
+    let mut old = |name| stored.remove(name).unwrap_or_default();
+    // The kind of normals followed the shading.
+    let (is_on, length) = (old("shows_normals"), old("normal_length"));
+    let wireframe = json!({
+        "is_on": old("shows_wireframe"),
+        "colour": old("wire_colour"),
+        "options": { "diagonals": u8::from(old("shows_diagonals") == true) },
+    });
+    let is_smooth = stored
+        .get("is_smooth")
+        .is_some_and(|smooth| *smooth == true);
+    let normals = |is_of_shading: bool| {
+        json!({
+            "is_on": is_on == true && is_of_shading,
+            "options": { "length": length },
+        })
+    };
+    let overlays = json!({
+        "wireframe": wireframe,
+        "face-normals": normals(!is_smooth),
+        "vertex-normals": normals(is_smooth),
+    });
+    stored.insert("overlays".to_owned(), overlays);
+}
+
+/// A struct with the stored fields; a field that is missing or invalid has its default. Unknown fields, from other versions,
+/// are ignored.
+pub(crate) fn merged<T>(default: &T, stored: Map<String, Value>) -> T
+where
+    T: Serialize + DeserializeOwned + Clone,
+{
+    let Ok(Value::Object(mut kept)) = serde_json::to_value(default) else {
+        return default.clone();
     };
     for (name, value) in stored {
         let Some(old) = kept.insert(name.clone(), value) else {
-            // An unknown setting, from another version.
             kept.remove(&name);
             continue;
         };
-        if Settings::deserialize(Value::Object(kept.clone())).is_err() {
+        if T::deserialize(Value::Object(kept.clone())).is_err() {
             kept.insert(name, old);
         }
     }
-    Settings::deserialize(Value::Object(kept)).map_or(default, usable)
+    T::deserialize(Value::Object(kept)).unwrap_or_else(|_| default.clone())
 }
 
 /// Replaces values that the window can't have set by the defaults.
@@ -115,11 +155,6 @@ fn usable(settings: Settings) -> Settings {
     Settings {
         zoom: number(settings.zoom, ZOOMS, default.zoom),
         panel_width: number(settings.panel_width, PANEL_WIDTHS, default.panel_width),
-        normal_length: number(
-            settings.normal_length,
-            NORMAL_LENGTHS,
-            default.normal_length,
-        ),
         crease_degrees: number(settings.crease_degrees, CREASES, default.crease_degrees),
         samples: if settings.samples.is_power_of_two() && settings.samples <= MAX_SAMPLES {
             settings.samples
@@ -195,7 +230,7 @@ fn usable_light(settings: Settings) -> Settings {
 }
 
 /// The value if it is in the range, else the default.
-fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f32 {
+pub(crate) fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f32 {
     if range.contains(&value) {
         value
     } else {
@@ -206,6 +241,10 @@ fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::overlay::face_normals::FACE_NORMALS;
+    use crate::overlay::normals::LENGTH;
+    use crate::overlay::vertex_normals::VERTEX_NORMALS;
+    use crate::overlay::wireframe::{DIAGONALS, WIREFRAME};
     use crate::settings::Tab;
 
     /// Settings that differ from the defaults.
@@ -278,7 +317,7 @@ mod tests {
             assert!(read.is_smooth, "{name} affects no other");
         }
         for name in [
-            "normal_length",
+            "overlays",
             "crease_degrees",
             "time_limit_s",
             "noise_limit_percent",
@@ -299,6 +338,30 @@ mod tests {
                 "{name}"
             );
         }
+    }
+
+    #[test]
+    fn overlays_of_older_versions_are_read() {
+        let text = r#"{"is_smooth": true, "shows_wireframe": true, "shows_diagonals": true,
+            "wire_colour": [200, 100, 50], "shows_normals": true, "normal_length": 0.25}"#;
+        let overlays = from_json(text).overlays;
+        let wireframe = overlays.state(&WIREFRAME);
+        assert!(wireframe.is_on && wireframe.is_set(&DIAGONALS));
+        assert_eq!(wireframe.colour, [200, 100, 50]);
+        assert!(overlays.is_on(&VERTEX_NORMALS) && !overlays.is_on(&FACE_NORMALS));
+        for normals in [&VERTEX_NORMALS, &FACE_NORMALS] {
+            assert_eq!(overlays.state(normals).value(&LENGTH), 0.25);
+        }
+        let flat = from_json(r#"{"shows_normals": true, "normal_length": 7}"#).overlays;
+        assert!(flat.is_on(&FACE_NORMALS) && !flat.is_on(&VERTEX_NORMALS));
+        assert_eq!(flat.state(&FACE_NORMALS).value(&LENGTH), LENGTH.default);
+        let bad =
+            r#"{"shows_wireframe": 3, "wire_colour": "red", "normal_length": [], "zoom": 1.5}"#;
+        let expected = Settings {
+            zoom: 1.5,
+            ..Settings::default()
+        };
+        assert_eq!(from_json(bad), expected);
     }
 
     #[cfg(unix)]

@@ -32,15 +32,27 @@ impl ViewUniform {
 
     /// The uniform for a camera and a scene with these bounds.
     pub fn new(camera: &Camera, bounds: &Aabb) -> Self {
-        let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
-        let reach = from_eye.length() + bounds.radius();
+        Self::with_lines(camera, bounds, &Aabb::EMPTY)
+    }
+
+    /// The uniform for a camera, a scene with these bounds, and lines that leave them for other bounds.
+    ///
+    /// A scene without bounds, such as a plane alone, counts as the unit sphere about the origin.
+    pub fn with_lines(camera: &Camera, bounds: &Aabb, lines: &Aabb) -> Self {
+        let eye = camera.eye().as_dvec3();
+        let reach_of = |bounds: &Aabb| {
+            (!bounds.is_empty())
+                .then(|| (bounds.centre().as_dvec3() - eye).length() + bounds.radius())
+        };
+        let reach = reach_of(bounds).unwrap_or_else(|| eye.length() + 1.0);
+        let far = reach_of(lines).map_or(reach, |lines| reach.max(lines));
         // Reversed float depth stays precise for any near plane. This plane is so near that an f32 can't
         // distinguish a nearer point from the eye. Orthographic rays start at the eye's plane.
         let (near, near_w) = match camera.projection() {
             Projection::Perspective { .. } => (1e-6 * reach, 1e-6 * reach),
             Projection::Orthographic { .. } => (0.0, 0.0),
         };
-        let clip_from_eye = camera.clip_from_eye(near, reach);
+        let clip_from_eye = camera.clip_from_eye(near, far);
         Self {
             clip_from_eye: clip_from_eye.as_mat4().to_cols_array_2d(),
             eye: camera.eye().to_array(),
