@@ -6,12 +6,10 @@ use crate::document::embedded_scene;
 use crate::gpu::GpuError;
 use crate::gpu::adapter::{BackendOrder, Gpu, device_descriptor};
 use crate::offscreen;
-use crate::overlay;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::settings::Settings;
 use crate::storage::{APP_ID, stored_settings};
 use crate::window;
-use clap::builder::{PossibleValue, PossibleValuesParser};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
 use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
@@ -138,12 +136,7 @@ pub fn run() -> ExitCode {
 
 /// The command line, with the names of the overlays.
 fn command() -> clap::Command {
-    let overlays =
-        overlay::switches().map(|overlay| PossibleValue::new(overlay.name).help(overlay.about));
-    let names = PossibleValuesParser::new(overlays);
-    Cli::command().mut_subcommand("render", |render| {
-        render.mut_arg("overlay", |overlay| overlay.value_parser(names))
-    })
+    offscreen::with_overlays(Cli::command())
 }
 
 /// Prints a usage error in clap's format, with the usage of `command`.
@@ -225,9 +218,7 @@ fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
     let noise = args.noise.then(|| rendered.noise());
     let mut pixels = rendered.film.pixels().to_vec();
     if let Some(gpu) = gpu {
-        let overlays = offscreen::chosen(args, rendered.shading);
-        let input = offscreen::input(&rendered);
-        offscreen::draw_over(&gpu, &mut pixels, &input, &overlays).map_err(failed)?;
+        offscreen::draw_over(&gpu, &mut pixels, args, &rendered).map_err(failed)?;
     }
     if args.is_exr() {
         output.write_exr(&rendered.film, rendered.guides.as_ref())?;

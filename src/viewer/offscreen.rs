@@ -11,16 +11,44 @@ use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::traced::Shapes;
 use crate::overlay::vertex_normals::VERTEX_NORMALS;
 use crate::overlay::wireframe::WIREFRAME;
-use crate::overlay::{Contents, Marks, OverlayInput, Overlays, overlay};
-use glam::UVec2;
+use crate::overlay::{Contents, Marks, OverlayInput, OverlaySpec, Overlays, overlay, switches};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use glam::{DVec3, UVec2};
 use hitscope_core::scene::Shading;
 use hitscope_lab::commands::{RenderArgs, Rendered};
 use std::sync::Arc;
 
-/// The overlays that the arguments turn on, and those that are on at first. Unknown names are ignored: the command line
-/// refuses them.
-pub fn chosen(args: &RenderArgs, shading: Shading) -> Overlays {
+/// The command line with the overlays' names as the values of `render --overlay`.
+pub fn with_overlays(command: clap::Command) -> clap::Command {
+    let name = |overlay: &'static OverlaySpec| PossibleValue::new(overlay.name).help(overlay.about);
+    let names = PossibleValuesParser::new(switches().map(name));
+    command.mut_subcommand("render", |render| {
+        render.mut_arg("overlay", |arg| arg.value_parser(names))
+    })
+}
+
+/// Draws the overlays that the arguments ask for over a rendered picture.
+///
+/// # Errors
+/// See [`GpuError`].
+pub fn draw_over(
+    gpu: &Gpu,
+    pixels: &mut [[u8; 4]],
+    args: &RenderArgs,
+    rendered: &Rendered,
+) -> Result<(), GpuError> {
+    let overlays = chosen(args, rendered.shading);
+    let drawn = drawn(gpu, &input(rendered), &overlays)?;
+    for (under, over) in pixels.iter_mut().zip(drawn) {
+        *under = blend(*under, over);
+    }
+    Ok(())
+}
+
+/// The overlays that the arguments name, and those that are on at first.
+fn chosen(args: &RenderArgs, shading: Shading) -> Overlays {
     let mut overlays = Overlays::default();
+    // The command line refuses other names.
     let named = args.overlay.iter().filter_map(|name| overlay(name));
     let wireframe = args.wireframe.then_some(&WIREFRAME);
     let normals = args.normals.then_some(match shading {
@@ -33,8 +61,8 @@ pub fn chosen(args: &RenderArgs, shading: Shading) -> Overlays {
     overlays
 }
 
-/// What overlays of a rendered picture are drawn from.
-pub fn input(rendered: &Rendered) -> OverlayInput {
+/// The view of a rendered picture.
+fn input(rendered: &Rendered) -> OverlayInput {
     let scene = &rendered.loaded.scene;
     let bounds = scene.bounds_with_elements();
     OverlayInput {
@@ -42,29 +70,13 @@ pub fn input(rendered: &Rendered) -> OverlayInput {
         camera: rendered.camera,
         up_axis: rendered.up_axis,
         pivot: if bounds.is_empty() {
-            glam::DVec3::ZERO
+            DVec3::ZERO
         } else {
             bounds.centre().as_dvec3()
         },
         marks: Marks::default(),
         scale: 1.0,
     }
-}
-
-/// Draws the overlays that are on over a picture.
-///
-/// # Errors
-/// See [`GpuError`].
-pub fn draw_over(
-    gpu: &Gpu,
-    pixels: &mut [[u8; 4]],
-    input: &OverlayInput,
-    overlays: &Overlays,
-) -> Result<(), GpuError> {
-    for (under, over) in pixels.iter_mut().zip(drawn(gpu, input, overlays)?) {
-        *under = blend(*under, over);
-    }
-    Ok(())
 }
 
 /// The overlays that are on, as pixels with premultiplied alpha.

@@ -3,6 +3,7 @@
 //! eframe writes the file `app.ron`, a table of strings by name, at the end and twice per minute. The settings are one
 //! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
+use crate::overlay::older;
 use crate::panels::light::{
     AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
 };
@@ -15,7 +16,7 @@ use hitscope_core::terminator::terminator_repair;
 use hitscope_core::tone::tone_curve;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::{Map, Value, json};
+use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read as _;
@@ -81,43 +82,13 @@ fn to_json(settings: &Settings) -> Option<String> {
 }
 
 /// Parses the settings; a setting that is missing or invalid has its default.
-fn from_json(text: &str) -> Settings {
+pub(crate) fn from_json(text: &str) -> Settings {
     let default = Settings::default();
     let Ok(Value::Object(mut stored)) = serde_json::from_str(text) else {
         return default;
     };
-    convert_overlays(&mut stored);
+    older::convert(&mut stored);
     usable(merged(&default, stored))
-}
-
-/// Converts the settings of overlays from versions that had one field for each.
-fn convert_overlays(stored: &mut Map<String, Value>) {
-    if stored.contains_key("overlays") {
-        return;
-    }
-    let mut old = |name| stored.remove(name).unwrap_or_default();
-    // The kind of normals followed the shading.
-    let (is_on, length) = (old("shows_normals"), old("normal_length"));
-    let wireframe = json!({
-        "is_on": old("shows_wireframe"),
-        "colour": old("wire_colour"),
-        "options": { "diagonals": u8::from(old("shows_diagonals") == true) },
-    });
-    let is_smooth = stored
-        .get("is_smooth")
-        .is_some_and(|smooth| *smooth == true);
-    let normals = |is_of_shading: bool| {
-        json!({
-            "is_on": is_on == true && is_of_shading,
-            "options": { "length": length },
-        })
-    };
-    let overlays = json!({
-        "wireframe": wireframe,
-        "face-normals": normals(!is_smooth),
-        "vertex-normals": normals(is_smooth),
-    });
-    stored.insert("overlays".to_owned(), overlays);
 }
 
 /// A struct with the stored fields; a field that is missing or invalid has its default. Unknown fields, from other versions,
@@ -241,10 +212,6 @@ pub(crate) fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::overlay::face_normals::FACE_NORMALS;
-    use crate::overlay::normals::LENGTH;
-    use crate::overlay::vertex_normals::VERTEX_NORMALS;
-    use crate::overlay::wireframe::{DIAGONALS, WIREFRAME};
     use crate::settings::Tab;
 
     /// Settings that differ from the defaults.
@@ -338,30 +305,6 @@ mod tests {
                 "{name}"
             );
         }
-    }
-
-    #[test]
-    fn overlays_of_older_versions_are_read() {
-        let text = r#"{"is_smooth": true, "shows_wireframe": true, "shows_diagonals": true,
-            "wire_colour": [200, 100, 50], "shows_normals": true, "normal_length": 0.25}"#;
-        let overlays = from_json(text).overlays;
-        let wireframe = overlays.state(&WIREFRAME);
-        assert!(wireframe.is_on && wireframe.is_set(&DIAGONALS));
-        assert_eq!(wireframe.colour, [200, 100, 50]);
-        assert!(overlays.is_on(&VERTEX_NORMALS) && !overlays.is_on(&FACE_NORMALS));
-        for normals in [&VERTEX_NORMALS, &FACE_NORMALS] {
-            assert_eq!(overlays.state(normals).value(&LENGTH), 0.25);
-        }
-        let flat = from_json(r#"{"shows_normals": true, "normal_length": 7}"#).overlays;
-        assert!(flat.is_on(&FACE_NORMALS) && !flat.is_on(&VERTEX_NORMALS));
-        assert_eq!(flat.state(&FACE_NORMALS).value(&LENGTH), LENGTH.default);
-        let bad =
-            r#"{"shows_wireframe": 3, "wire_colour": "red", "normal_length": [], "zoom": 1.5}"#;
-        let expected = Settings {
-            zoom: 1.5,
-            ..Settings::default()
-        };
-        assert_eq!(from_json(bad), expected);
     }
 
     #[cfg(unix)]

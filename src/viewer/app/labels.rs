@@ -24,7 +24,10 @@ pub(super) fn labels_ui(ui: &egui::Ui, canvas: Canvas, camera: &Camera, labels: 
             Place::Point(point) => {
                 if let Some(pixel) = camera.pixel_of(point) {
                     let at = canvas.pos_of(pixel, camera);
-                    text.draw(at + Vec2::new(ASIDE, -ASIDE - text.size().y));
+                    let aside = Vec2::new(ASIDE, -ASIDE - text.size().y);
+                    if canvas.rect.contains(at) {
+                        text.draw(at + aside);
+                    }
                 }
             }
             Place::Corner { bar_px } => {
@@ -69,12 +72,16 @@ impl<'a> Text<'a> {
         self.galley.size() + Vec2::splat(2.0 * GAP)
     }
 
-    /// Draws the text on a plate with its upper left corner here, unless that is outside the picture.
+    /// Draws the text on a plate with its upper left corner here, or at the nearest place inside the picture. A picture that
+    /// is too small has no text.
     fn draw(&self, corner: Pos2) {
-        let plate = Rect::from_min_size(corner, self.size());
-        if !self.painter.clip_rect().contains_rect(plate) {
+        let picture = self.painter.clip_rect();
+        let room = picture.size() - self.size();
+        if room.min_elem() < 0.0 {
             return;
         }
+        let corner = corner.clamp(picture.min, picture.min + room);
+        let plate = Rect::from_min_size(corner, self.size());
         let visuals = self.ui.visuals();
         let fill = visuals.panel_fill.gamma_multiply(0.75);
         self.painter.rect_filled(plate, 3.0, fill);

@@ -17,8 +17,7 @@ use hitscope_core::{Aabb, Scene};
 pub static GRID: OverlaySpec = OverlaySpec {
     name: "grid",
     title: "Ground grid",
-    about: "A grid at the lowest point of the scene, its spacing, and a scale bar. In perspective the bar is right at the \
-            distance of the pivot",
+    about: "A grid at the lowest point of the scene, with its spacing and a scale bar",
     style: OverlayStyle {
         colour: [128; 3],
         opacity: 0.7,
@@ -61,6 +60,8 @@ enum GridLines {
 #[derive(Clone, Copy, Debug, PartialEq)]
 struct Grid {
     spacing: Step,
+    /// The same as a number.
+    cell: f64,
     /// The axes in its plane, then the up axis.
     axes: [usize; 3],
     /// The coordinates of its centre along the axes in its plane, in cells from the file's origin.
@@ -82,17 +83,19 @@ impl Grid {
         if input.scene.bounds_with_elements().is_empty() {
             return None;
         }
-        let cell = CELL_POINTS * f64::from(input.scale) * input.pixel_size();
-        let spacing = Step::at_least(cell)?;
+        let least = CELL_POINTS * f64::from(input.scale) * input.pixel_size();
+        let spacing = Step::at_least(least)?;
+        let cell = spacing.value();
         let axes = match input.up_axis {
             UpAxis::Y => [0, 2, 1],
             UpAxis::Z => [0, 1, 2],
         };
         let pivot = input.pivot + input.scene.mesh().origin();
-        let snap = f64::from(MAJOR) * spacing.value();
+        let snap = f64::from(MAJOR) * cell;
         let cells = |axis: usize| (pivot[axis] / snap).round() * f64::from(MAJOR);
         let grid = Self {
             spacing,
+            cell,
             axes,
             centre: DVec2::new(cells(axes[0]), cells(axes[1])),
         };
@@ -109,10 +112,10 @@ impl Grid {
     /// A point of the grid in the scene's coordinates, in cells from its centre.
     fn point(&self, scene: &Scene, cells: [i32; 2]) -> DVec3 {
         let [u, v, up] = self.axes;
-        let (origin, spacing) = (scene.mesh().origin(), self.spacing.value());
+        let origin = scene.mesh().origin();
         let mut point = DVec3::ZERO;
-        point[u] = (self.centre.x + f64::from(cells[0])) * spacing - origin[u];
-        point[v] = (self.centre.y + f64::from(cells[1])) * spacing - origin[v];
+        point[u] = (self.centre.x + f64::from(cells[0])) * self.cell - origin[u];
+        point[v] = (self.centre.y + f64::from(cells[1])) * self.cell - origin[v];
         point[up] = scene.bounds_with_elements().min[up].into();
         point
     }
@@ -170,9 +173,9 @@ fn labels(input: &OverlayInput) -> Vec<Label> {
 mod tests {
     use super::*;
     use crate::overlay::tests::input;
-    use glam::Vec3;
-    use hitscope_core::TriangleMesh;
+    use glam::{UVec2, Vec3};
     use hitscope_core::scene::scene;
+    use hitscope_core::{Camera, TriangleMesh};
     use std::sync::Arc;
 
     /// A scene whose lowest points along y and z are -1 and -2, at this origin.
@@ -202,7 +205,7 @@ mod tests {
         let origin = DVec3::new(1234.5, 0.0, -77.25);
         let input = input(&scene_at(origin));
         let grid = Grid::of(&input).expect("a grid");
-        let spacing = grid.spacing.value();
+        let spacing = grid.cell;
         let cells_of = |which| {
             let lines = grid.lines(&input.scene, which);
             let along_z = lines.into_iter().filter(|line| line.start.x == line.end.x);
@@ -212,10 +215,9 @@ mod tests {
             cells.dedup();
             cells
         };
-        // The positions are f32 numbers of at most a few units, a cell is more than a hundredth of a unit.
+        // The positions are f32 numbers of less than a hundred cells.
         let is_whole = |cells: f64| (cells - cells.round()).abs() < 1e-3;
         let (minor, major) = (cells_of(GridLines::Minor), cells_of(GridLines::Major));
-        assert!(spacing > 0.01, "{spacing}");
         assert!(major.iter().all(|cells| is_whole(cells / 10.0)));
         assert!(minor.iter().all(|&cells| is_whole(cells)));
         assert!(!minor.iter().any(|cells| is_whole(cells / 10.0)));
@@ -230,12 +232,12 @@ mod tests {
     }
 
     #[test]
-    fn cells_are_at_least_as_large_in_the_picture_as_asked_for_and_less_than_thrice() {
+    fn cells_have_about_the_same_size_on_any_screen() {
         let mut input = input(&scene_at(DVec3::ZERO));
         for scale in [1.0, 1.5, 2.0, 3.0] {
             input.scale = scale;
             let grid = Grid::of(&input).expect("a grid");
-            let points = grid.spacing.value() / input.pixel_size() / f64::from(scale);
+            let points = grid.cell / input.pixel_size() / f64::from(scale);
             // Steps grow by 2 or 2.5.
             assert!((40.0..100.0).contains(&points), "{points}");
         }
@@ -243,10 +245,16 @@ mod tests {
 
     #[test]
     fn lines_are_kept_while_the_camera_moves_a_little() {
-        let mut input = input(&scene_at(DVec3::ZERO));
+        let scene = scene_at(DVec3::ZERO);
+        let mut input = input(&scene);
+        // In perspective the spacing changes with the pivot's depth.
+        let projection = Projection::Orthographic { height: 5.0 };
+        let (eye, size) = (DVec3::new(4.0, 5.0, 6.0), UVec2::new(640, 480));
+        let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
+        input.camera = camera.expect("a camera");
         let gather = |input: &OverlayInput| gather(input, GridLines::Minor).expect("lines");
         let before = gather(&input);
-        let spacing = Grid::of(&input).expect("a grid").spacing.value();
+        let spacing = Grid::of(&input).expect("a grid").cell;
         input.pivot = 4.0 * spacing * DVec3::X;
         assert!(before.key() == gather(&input).key());
         input.pivot = 6.0 * spacing * DVec3::X;

@@ -7,7 +7,7 @@
 //! |---|---|
 //! | [`spec`] | the types of the rows |
 //! | [`input`], [`gather`], [`label`] | what rows are drawn from; what they return: lines, texts |
-//! | [`state`] | the states of all overlays, which settings keep |
+//! | [`state`], `older` | the states of all overlays, which settings keep; those of older versions |
 //! | [`wireframe`], [`elements`], [`bounding_box`], [`grid`], [`axes`] | overlays with a switch |
 //! | [`face_normals`], [`vertex_normals`] | two more, and [`normals`], which they share |
 //! | [`flaws`], [`picked`], [`path`] | marks of what is selected |
@@ -30,6 +30,7 @@ pub mod input;
 pub mod label;
 pub mod layer;
 pub mod normals;
+pub(crate) mod older;
 mod painter;
 pub mod path;
 pub mod picked;
