@@ -116,3 +116,44 @@ impl ViewBinding {
         &self.group
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera(projection: Projection) -> Camera {
+        let (eye, size) = (DVec3::new(0.0, 0.0, 10.0), UVec2::new(64, 48));
+        Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size).expect("a camera")
+    }
+
+    #[test]
+    fn lines_far_behind_the_scene_have_a_depth_and_do_not_move_the_near_plane() {
+        let perspective = camera(Projection::Perspective { fov_y_radians: 0.7 });
+        let orthographic = camera(Projection::Orthographic { height: 4.0 });
+        let scene = Aabb::around([Vec3::NEG_ONE, Vec3::ONE]);
+        let far = Vec3::new(0.0, 0.0, -500.0);
+        let lines = Aabb::around([far, Vec3::ZERO]);
+        let without = ViewUniform::new(&orthographic, &scene);
+        assert!(
+            without.depth_of(far.as_dvec3()) < 0.0,
+            "behind the far plane"
+        );
+        let with = ViewUniform::with_lines(&orthographic, &scene, &lines);
+        assert!(with.depth_of(0.98 * far.as_dvec3()) > 0.0);
+        assert_eq!(with.near_w, without.near_w);
+        let with = ViewUniform::with_lines(&perspective, &scene, &lines);
+        assert_eq!(with, ViewUniform::new(&perspective, &scene));
+    }
+
+    #[test]
+    fn a_scene_without_bounds_has_a_view() {
+        for projection in [
+            Projection::Perspective { fov_y_radians: 0.7 },
+            Projection::Orthographic { height: 4.0 },
+        ] {
+            let view = ViewUniform::new(&camera(projection), &Aabb::EMPTY);
+            let depth = view.depth_of(DVec3::ZERO);
+            assert!(depth > 0.0 && depth < 1.0, "{depth}");
+        }
+    }
+}
