@@ -6,7 +6,6 @@ use crate::document::embedded_scene;
 use crate::gpu::GpuError;
 use crate::gpu::adapter::{BackendOrder, Gpu, device_descriptor};
 use crate::offscreen;
-use crate::overlay::wireframe::WireframeEdges;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::settings::Settings;
 use crate::storage::{APP_ID, stored_settings};
@@ -103,13 +102,13 @@ pub fn run() -> ExitCode {
     if let Some(message) = misspelt_command(&arguments) {
         return refuse(Cli::command(), message);
     }
-    let matches = Cli::command().get_matches_from(arguments);
+    let matches = command().get_matches_from(arguments);
     let cli = match Cli::from_arg_matches(&matches) {
         Ok(cli) => cli,
-        Err(error) => error.format(&mut Cli::command()).exit(),
+        Err(error) => error.format(&mut command()).exit(),
     };
     if let Err(message) = cli.check() {
-        return refuse(Cli::command(), message);
+        return refuse(command(), message);
     }
     if let Err(error) = SimdLevel::chosen() {
         print_line(format_args!("hitscope: {error}"));
@@ -135,6 +134,11 @@ pub fn run() -> ExitCode {
     }
 }
 
+/// The command line, with the names of the overlays.
+fn command() -> clap::Command {
+    offscreen::with_overlays(Cli::command())
+}
+
 /// Prints a usage error in clap's format, with the usage of `command`.
 fn refuse(mut command: clap::Command, message: String) -> ExitCode {
     let error = command.error(ErrorKind::ValueValidation, message);
@@ -144,7 +148,7 @@ fn refuse(mut command: clap::Command, message: String) -> ExitCode {
 
 /// The subcommand with this name, or the top-level command if `name` is `None`.
 fn subcommand(name: Option<&str>) -> clap::Command {
-    let mut all = Cli::command();
+    let mut all = command();
     all.build();
     let found = name.and_then(|name| all.find_subcommand(name).cloned());
     found.unwrap_or(all)
@@ -207,16 +211,14 @@ fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
     // Do everything that can fail without the mesh before loading it.
     args.check()?;
     let output = Output::create(&args.output)?;
-    let needs_gpu = args.wireframe || args.normals;
-    let gpu = needs_gpu.then(Gpu::open).transpose().map_err(failed)?;
+    let gpu = args.has_overlay().then(Gpu::open);
+    let gpu = gpu.transpose().map_err(failed)?;
     let rendered = args.trace()?;
     let size = rendered.film.size();
     let noise = args.noise.then(|| rendered.noise());
     let mut pixels = rendered.film.pixels().to_vec();
     if let Some(gpu) = gpu {
-        let edges = args.wireframe.then_some(WireframeEdges::Polygons);
-        let normals = args.normals.then_some(rendered.shading);
-        offscreen::draw_over(&gpu, &mut pixels, &rendered, edges, normals).map_err(failed)?;
+        offscreen::draw_over(&gpu, &mut pixels, args, &rendered).map_err(failed)?;
     }
     if args.is_exr() {
         output.write_exr(&rendered.film, rendered.guides.as_ref())?;
@@ -381,7 +383,7 @@ mod tests {
 
     #[test]
     fn no_line_of_the_help_is_broken_twice() {
-        let mut all = Cli::command();
+        let mut all = command();
         all.build();
         let commands = [&all].into_iter().chain(all.get_subcommands());
         for command in commands {

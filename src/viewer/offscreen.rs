@@ -1,75 +1,119 @@
-//! Drawing of the overlay without a window, for `render --wireframe` and `--normals`.
+//! Drawing of overlays without a window, for `render --overlay`.
 
 use crate::gpu::GpuError;
 use crate::gpu::adapter::Gpu;
 use crate::gpu::depth::DepthMesh;
 use crate::gpu::drawing::{Canvas, Drawing, DrawingState, DrawnLines, Overlay, Paces, Targets};
-use crate::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
+use crate::gpu::lines::LineSet;
 use crate::gpu::traced::TracedLayer;
-use crate::gpu::view::ViewUniform;
+use crate::overlay::contents::WantedLines;
+use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::traced::Shapes;
-use crate::overlay::wireframe::{self, WireframeEdges};
-use crate::overlay::{Options, marks, normals, shapes};
-use glam::UVec2;
+use crate::overlay::vertex_normals::VERTEX_NORMALS;
+use crate::overlay::wireframe::WIREFRAME;
+use crate::overlay::{Contents, Marks, OverlayInput, OverlaySpec, Overlays, overlay, switches};
+use clap::builder::{PossibleValue, PossibleValuesParser};
+use glam::{DVec3, UVec2};
 use hitscope_core::scene::Shading;
-use hitscope_lab::commands::Rendered;
+use hitscope_lab::commands::{RenderArgs, Rendered};
 use std::sync::Arc;
 
-/// Draws edges and normals over a rendered picture.
+/// The command line with the overlays' names as the values of `render --overlay`.
+pub fn with_overlays(command: clap::Command) -> clap::Command {
+    let name = |overlay: &'static OverlaySpec| PossibleValue::new(overlay.name).help(overlay.about);
+    let names = PossibleValuesParser::new(switches().map(name));
+    command.mut_subcommand("render", |render| {
+        render.mut_arg("overlay", |arg| arg.value_parser(names))
+    })
+}
+
+/// Draws the overlays that the arguments ask for over a rendered picture.
 ///
 /// # Errors
 /// See [`GpuError`].
 pub fn draw_over(
-    Gpu { device, queue, .. }: &Gpu,
+    gpu: &Gpu,
     pixels: &mut [[u8; 4]],
+    args: &RenderArgs,
     rendered: &Rendered,
-    wireframe: Option<WireframeEdges>,
-    normals: Option<Shading>,
 ) -> Result<(), GpuError> {
-    require_size(device, rendered.film.size())?;
+    let overlays = chosen(args, rendered.shading);
+    let drawn = drawn(gpu, &input(rendered), &overlays)?;
+    for (under, over) in pixels.iter_mut().zip(drawn) {
+        *under = blend(*under, over);
+    }
+    Ok(())
+}
+
+/// The overlays that the arguments name, and those that are on at first.
+fn chosen(args: &RenderArgs, shading: Shading) -> Overlays {
+    let mut overlays = Overlays::default();
+    // The command line refuses other names.
+    let named = args.overlay.iter().filter_map(|name| overlay(name));
+    let wireframe = args.wireframe.then_some(&WIREFRAME);
+    let normals = args.normals.then_some(match shading {
+        Shading::Flat => &FACE_NORMALS,
+        Shading::Smooth | Shading::Spherical => &VERTEX_NORMALS,
+    });
+    for overlay in named.chain(wireframe).chain(normals) {
+        overlays.set_on(overlay, true);
+    }
+    overlays
+}
+
+/// The view of a rendered picture.
+fn input(rendered: &Rendered) -> OverlayInput {
     let scene = &rendered.loaded.scene;
-    let options = Options {
-        wireframe,
-        wire_colour: crate::settings::Settings::default().wire_colour,
-        normals,
-        normal_length: crate::settings::Settings::default().normal_length,
-        elements: scene.mesh().has_lines_or_points(),
-        line_width_px: 1.0,
-        ..Options::NOTHING
-    };
-    let mut wanted: Vec<(Vec<Line>, StyleUniform)> = Vec::new();
-    if let Some(edges) = options.wireframe {
-        let lines = wireframe::lines(scene.mesh(), edges);
-        wanted.push((lines, options.wire_style()));
-        wanted.push((shapes::lines(scene), options.shape_style()));
+    let bounds = scene.bounds_with_elements();
+    OverlayInput {
+        scene: Arc::clone(scene),
+        camera: rendered.camera,
+        up_axis: rendered.up_axis,
+        pivot: if bounds.is_empty() {
+            DVec3::ZERO
+        } else {
+            bounds.centre().as_dvec3()
+        },
+        marks: Marks::default(),
+        scale: 1.0,
     }
-    if let Some(shading) = options.normals {
-        wanted.push((normals::lines(scene, shading), options.normal_style()));
-    }
-    if options.elements {
-        wanted.push((marks::elements(scene), options.element_style()));
-    }
-    let upload = |(lines, style): (Vec<Line>, StyleUniform)| {
-        Ok(DrawnLines {
-            lines: Arc::new(LineSet::new(device, queue, &lines)?),
-            style,
-            occlusion: LineOcclusion::Hidden,
-        })
-    };
-    let view = ViewUniform::new(&rendered.camera, &scene.bounds_with_elements());
+}
+
+/// The overlays that are on, as pixels with premultiplied alpha.
+///
+/// # Errors
+/// See [`GpuError`].
+pub fn drawn(
+    Gpu { device, queue, .. }: &Gpu,
+    input: &OverlayInput,
+    overlays: &Overlays,
+) -> Result<Vec<[u8; 4]>, GpuError> {
+    let (scene, camera) = (&input.scene, &input.camera);
+    require_size(device, camera.resolution())?;
+    let Contents {
+        lines,
+        outline,
+        view,
+    } = Contents::of(input, overlays);
     let traced = scene.has_other_shapes().then(|| {
-        let pixels = Shapes::default().trace(scene, &rendered.camera, &view);
+        let pixels = Shapes::default().trace(scene, camera, &view);
         Arc::new(TracedLayer::new(device, queue, view.size(), &pixels))
     });
+    let mut sets = Vec::new();
+    for WantedLines { gather, looks, .. } in lines {
+        let lines = Arc::new(LineSet::new(device, queue, &gather.lines(scene))?);
+        sets.extend(looks.into_iter().map(|(occlusion, style)| DrawnLines {
+            lines: Arc::clone(&lines),
+            style,
+            occlusion,
+        }));
+    }
     let drawing = Drawing {
         view,
         traced,
-        outline: options.wireframe.map(|_| options.wire_style()),
+        outline,
         mesh: Arc::new(DepthMesh::new(device, queue, scene.mesh())?),
-        sets: wanted
-            .into_iter()
-            .map(upload)
-            .collect::<Result<_, GpuError>>()?,
+        sets,
     };
     let canvas = Canvas {
         targets: Arc::new(Targets::new(device, drawing.view.size())),
@@ -79,11 +123,7 @@ pub fn draw_over(
     let (mut paces, state) = (Paces::UNLIMITED, DrawingState::default());
     Overlay::new(device, queue).draw(&drawing, &canvas, &mut paces, &state, || ());
     let texture = canvas.targets.colour(canvas.colour);
-    let drawn = read_back(device, queue, texture)?;
-    for (under, over) in pixels.iter_mut().zip(drawn) {
-        *under = blend(*under, over);
-    }
-    Ok(())
+    read_back(device, queue, texture)
 }
 
 /// Checks that the device can hold a picture of this size and a buffer to read it back.

@@ -1,5 +1,8 @@
 //! The settings of the window, kept between runs.
 
+use crate::overlay::Overlays;
+use crate::overlay::face_normals::FACE_NORMALS;
+use crate::overlay::vertex_normals::VERTEX_NORMALS;
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
@@ -62,16 +65,8 @@ pub struct Settings {
     pub is_smooth: bool,
     /// Whether smooth shading interpolates normals on the unit sphere instead of linearly.
     pub is_spherical: bool,
-    /// Whether the wireframe is drawn.
-    pub shows_wireframe: bool,
-    /// Whether the wireframe includes the diagonals of triangulated polygons.
-    pub shows_diagonals: bool,
-    /// sRGB of the wireframe.
-    pub wire_colour: [u8; 3],
-    /// Whether normals are drawn.
-    pub shows_normals: bool,
-    /// Length of the normals, as a fraction of the mesh's radius.
-    pub normal_length: f32,
+    /// Which overlays are drawn, and how.
+    pub overlays: Overlays,
     /// Samples per pixel of the finished picture; a power of two.
     pub samples: u32,
     /// Whether refinement of views that need lights ends after a time.
@@ -149,11 +144,7 @@ impl Default for Settings {
             against: exact_triangle_kernel().info.name.to_owned(),
             is_smooth: false,
             is_spherical: false,
-            shows_wireframe: false,
-            shows_diagonals: false,
-            wire_colour: [12, 14, 18],
-            shows_normals: false,
-            normal_length: 0.03,
+            overlays: Overlays::default(),
             samples: 64,
             has_time_limit: false,
             time_limit_s: 60.0,
@@ -249,6 +240,19 @@ impl Settings {
             (true, false) => Shading::Smooth,
             (true, true) => Shading::Spherical,
         }
+    }
+
+    /// Whether normals of faces or of vertices are drawn.
+    pub fn shows_normals(&self) -> bool {
+        self.overlays.is_on(&FACE_NORMALS) || self.overlays.is_on(&VERTEX_NORMALS)
+    }
+
+    /// Turns all normals off; if none are drawn, turns on those that the shading uses.
+    pub fn toggle_normals(&mut self) {
+        let is_on = !self.shows_normals();
+        let smooth = self.is_smooth;
+        self.overlays.set_on(&FACE_NORMALS, is_on && !smooth);
+        self.overlays.set_on(&VERTEX_NORMALS, is_on && smooth);
     }
 
     /// The creases of smooth shading.
@@ -363,6 +367,21 @@ mod tests {
         assert_eq!(later.view().name, "normal");
         settings.keep_view("depth");
         assert_eq!(settings.view().name, "depth");
+    }
+
+    #[test]
+    fn normals_are_turned_on_by_the_shading_and_all_are_turned_off() {
+        let mut settings = Settings::default();
+        for is_smooth in [false, true] {
+            settings.is_smooth = is_smooth;
+            settings.toggle_normals();
+            let overlays = &settings.overlays;
+            let on = [&FACE_NORMALS, &VERTEX_NORMALS].map(|normals| overlays.is_on(normals));
+            assert_eq!(on, [!is_smooth, is_smooth]);
+            settings.is_smooth = !is_smooth;
+            settings.toggle_normals();
+            assert!(!settings.shows_normals());
+        }
     }
 
     #[test]

@@ -3,6 +3,7 @@
 //! eframe writes the file `app.ron`, a table of strings by name, at the end and twice per minute. The settings are one
 //! of the strings, as JSON. Each setting is read separately, so that a bad value affects no other.
 
+use crate::overlay::older;
 use crate::panels::light::{
     AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
 };
@@ -13,8 +14,9 @@ use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::spawn::spawn_policy;
 use hitscope_core::terminator::terminator_repair;
 use hitscope_core::tone::tone_curve;
-use serde::Deserialize as _;
-use serde_json::Value;
+use serde::Serialize;
+use serde::de::DeserializeOwned;
+use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::fs::File;
 use std::io::Read as _;
@@ -34,7 +36,6 @@ const MAX_BYTES: u64 = 1 << 20;
 /// The range of Ctrl+Plus and Ctrl+Minus.
 const ZOOMS: RangeInclusive<f32> = 0.2..=5.0;
 // The ranges of controls in the Display tab.
-const NORMAL_LENGTHS: RangeInclusive<f32> = 0.002..=0.5;
 const CREASES: RangeInclusive<f32> = 0.0..=180.0;
 
 /// The settings that were stored last, or the defaults.
@@ -81,24 +82,34 @@ fn to_json(settings: &Settings) -> Option<String> {
 }
 
 /// Parses the settings; a setting that is missing or invalid has its default.
-fn from_json(text: &str) -> Settings {
+pub(crate) fn from_json(text: &str) -> Settings {
     let default = Settings::default();
-    let (Ok(Value::Object(stored)), Ok(Value::Object(mut kept))) =
-        (serde_json::from_str(text), serde_json::to_value(&default))
-    else {
+    let Ok(Value::Object(mut stored)) = serde_json::from_str(text) else {
         return default;
+    };
+    older::convert(&mut stored);
+    usable(merged(&default, stored))
+}
+
+/// A struct with the stored fields; a field that is missing or invalid has its default. Unknown fields, from other versions,
+/// are ignored.
+pub(crate) fn merged<T>(default: &T, stored: Map<String, Value>) -> T
+where
+    T: Serialize + DeserializeOwned + Clone,
+{
+    let Ok(Value::Object(mut kept)) = serde_json::to_value(default) else {
+        return default.clone();
     };
     for (name, value) in stored {
         let Some(old) = kept.insert(name.clone(), value) else {
-            // An unknown setting, from another version.
             kept.remove(&name);
             continue;
         };
-        if Settings::deserialize(Value::Object(kept.clone())).is_err() {
+        if T::deserialize(Value::Object(kept.clone())).is_err() {
             kept.insert(name, old);
         }
     }
-    Settings::deserialize(Value::Object(kept)).map_or(default, usable)
+    T::deserialize(Value::Object(kept)).unwrap_or_else(|_| default.clone())
 }
 
 /// Replaces values that the window can't have set by the defaults.
@@ -115,11 +126,6 @@ fn usable(settings: Settings) -> Settings {
     Settings {
         zoom: number(settings.zoom, ZOOMS, default.zoom),
         panel_width: number(settings.panel_width, PANEL_WIDTHS, default.panel_width),
-        normal_length: number(
-            settings.normal_length,
-            NORMAL_LENGTHS,
-            default.normal_length,
-        ),
         crease_degrees: number(settings.crease_degrees, CREASES, default.crease_degrees),
         samples: if settings.samples.is_power_of_two() && settings.samples <= MAX_SAMPLES {
             settings.samples
@@ -195,7 +201,7 @@ fn usable_light(settings: Settings) -> Settings {
 }
 
 /// The value if it is in the range, else the default.
-fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f32 {
+pub(crate) fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f32 {
     if range.contains(&value) {
         value
     } else {
@@ -278,7 +284,7 @@ mod tests {
             assert!(read.is_smooth, "{name} affects no other");
         }
         for name in [
-            "normal_length",
+            "overlays",
             "crease_degrees",
             "time_limit_s",
             "noise_limit_percent",

@@ -7,6 +7,7 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec3;
 use hitscope::app::App;
+use hitscope::overlay::wireframe::WIREFRAME;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::INTEGRATORS;
 use std::path::PathBuf;
@@ -127,8 +128,10 @@ fn every_toggle_of_the_tool_bar_works_by_button_and_by_key() {
     type State = fn(&App) -> bool;
     let switches: [(&str, Key, State); 6] = [
         ("Smooth", Key::S, |app| app.settings().is_smooth),
-        ("Wireframe", Key::W, |app| app.settings().shows_wireframe),
-        ("Normals", Key::N, |app| app.settings().shows_normals),
+        ("Wireframe", Key::W, |app| {
+            app.settings().overlays.is_on(&WIREFRAME)
+        }),
+        ("Normals", Key::N, |app| app.settings().shows_normals()),
         ("Orthographic", Key::Num5, |app| {
             app.turntable().is_orthographic
         }),

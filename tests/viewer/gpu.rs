@@ -11,7 +11,7 @@ use hitscope::gpu::lines::{Line, LineOcclusion, LineSet, StyleUniform};
 use hitscope::gpu::slices::Pace;
 use hitscope::gpu::view::ViewUniform;
 use hitscope::offscreen::read_back;
-use hitscope::overlay::wireframe::{self, WireframeEdges};
+use hitscope::overlay::wireframe::{self, WIREFRAME, WireframeEdges};
 use hitscope_core::camera::{Camera, Projection};
 use hitscope_core::mesh::shapes::{Placement, flat_grid, sphere};
 use hitscope_core::scene::Scene;
@@ -227,7 +227,7 @@ fn a_mesh_too_large_for_the_gpu_is_traced_with_a_message_that_there_is_no_overla
     wait(&mut window, "the refusal", |app| {
         app.notice() == Some(refusal)
     });
-    assert!(!window.state().settings().shows_wireframe);
+    assert!(!window.state().settings().overlays.is_on(&WIREFRAME));
     press(&mut window, Key::Escape);
     wait(&mut window, "the picture", |app| app.film().samples() > 0);
     assert_eq!(window.state().notice(), None, "shown once");

@@ -28,11 +28,13 @@ mod opening;
 mod outputs;
 // The overlay's lines, places and colours.
 mod overlay;
+// Every row of the overlay table, in the window and without one.
+mod overlay_table;
 // The pointer on the picture.
 mod pointer;
 // The program, run in a folder.
 mod program;
-// The pixels of `render --wireframe` and `--normals`.
+// The pixels of `render --overlay`.
 mod render_lines;
 // Scene files: views, crossings, saving, kernels by shape.
 mod scene_files;

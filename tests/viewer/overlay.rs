@@ -6,14 +6,18 @@ use egui_kittest::wgpu::create_render_state;
 use glam::{DVec3, UVec2, Vec3};
 use hitscope::gpu::adapter::Gpu;
 use hitscope::offscreen::read_back;
-use hitscope::overlay::wireframe::WireframeEdges;
-use hitscope::overlay::{Options, OverlayLayer};
+use hitscope::overlay::elements::ELEMENTS;
+use hitscope::overlay::face_normals::FACE_NORMALS;
+use hitscope::overlay::normals::LENGTH;
+use hitscope::overlay::wireframe::{DIAGONALS, WIREFRAME};
+use hitscope::overlay::{
+    Marks, OverlayInput, OverlayLayer, OverlaySpec, OverlayState, Overlays, switches,
+};
 use hitscope_core::TriangleMesh;
-use hitscope_core::camera::{Camera, Projection};
+use hitscope_core::camera::{Camera, Projection, UpAxis};
 use hitscope_core::mesh::{Attributes, Faces};
 use hitscope_core::mesh::{Flaw, Health};
-use hitscope_core::scene::scene;
-use hitscope_core::scene::{Scene, Shading};
+use hitscope_core::scene::{Scene, scene};
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -23,15 +27,42 @@ const WIRE: [u8; 3] = [200, 100, 50];
 
 /// A camera with 50 pixels per unit, (0, 0) in the middle of the picture, and y upwards.
 fn camera() -> Camera {
+    camera_at(0.0)
+}
+
+/// The same camera, moved to the right.
+fn camera_at(x: f64) -> Camera {
+    let (eye, target) = (DVec3::new(x, 0.0, 5.0), DVec3::new(x, 0.0, 0.0));
     let projection = Projection::Orthographic { height: 4.0 };
-    Camera::look_at(
-        DVec3::new(0.0, 0.0, 5.0),
-        DVec3::ZERO,
-        DVec3::Y,
-        projection,
-        SIZE,
-    )
-    .expect("a camera")
+    Camera::look_at(eye, target, DVec3::Y, projection, SIZE).expect("a camera")
+}
+
+/// A scene seen by a camera, with nothing selected.
+pub fn input(scene: &Arc<Scene>, camera: Camera) -> OverlayInput {
+    OverlayInput {
+        scene: Arc::clone(scene),
+        camera,
+        up_axis: UpAxis::Y,
+        pivot: DVec3::ZERO,
+        marks: Marks::default(),
+        scale: 1.0,
+    }
+}
+
+/// No overlay except marks of what is selected.
+pub fn none() -> Overlays {
+    let mut overlays = Overlays::default();
+    switches().for_each(|overlay| overlays.set_on(overlay, false));
+    overlays
+}
+
+/// A single overlay in a state.
+pub fn only(overlay: &OverlaySpec, change: impl FnOnce(&mut OverlayState)) -> Overlays {
+    let mut overlays = none();
+    let state = overlays.state_mut(overlay);
+    state.is_on = true;
+    change(state);
+    overlays
 }
 
 /// A square, a triangle behind it, an edge-on triangle to its right, and a line in front of it. Vertical and horizontal
@@ -44,7 +75,7 @@ fn camera() -> Camera {
 ///   │   4──5    │   7      The edge-on one is at x = 170.5, and its normal points to the right.
 ///   0───────────1          The line is at y = 60.5, from x = 70.5 to 130.5.
 /// ```
-fn marked_scene() -> Arc<Scene> {
+pub fn marked_scene() -> Arc<Scene> {
     let at = |x: f32, y: f32, z: f32| Vec3::new((x - 100.0) / 50.0, (100.0 - y) / 50.0, z);
     let corners = vec![
         at(50.5, 150.5, 0.0),
@@ -79,19 +110,16 @@ fn marked_scene() -> Arc<Scene> {
 const BEHIND: u32 = 2;
 
 /// Draws until the overlay is complete.
-fn drawn(
+pub fn drawn(
     layer: &mut OverlayLayer,
     gpu: &Gpu,
-    scene: &Arc<Scene>,
-    options: &Options,
+    input: &OverlayInput,
+    overlays: &Overlays,
 ) -> Vec<[u8; 4]> {
-    let health = Arc::new(Health::of(scene.mesh()));
     let start = Instant::now();
     loop {
         let ctx = egui::Context::default();
-        let texture = layer
-            .draw(scene, Some(&health), &camera(), options, &ctx)
-            .expect("drawn");
+        let texture = layer.draw(input, overlays, &ctx).expect("drawn");
         if layer.is_complete() {
             let texture = texture.expect("something is drawn");
             return read_back(&gpu.device, &gpu.queue, &texture).expect("read back");
@@ -101,7 +129,7 @@ fn drawn(
     }
 }
 
-fn layer() -> Option<(OverlayLayer, &'static Gpu)> {
+pub fn layer() -> Option<(OverlayLayer, &'static Gpu)> {
     let gpu = gpu()?;
     let state: RenderState = create_render_state(shared_setup(gpu), RendererOptions::PREDICTABLE);
     Some((OverlayLayer::new(&state), gpu))
@@ -140,18 +168,14 @@ fn the_wireframe_shows_visible_edges_of_polygons_or_of_triangles() {
     let Some((mut layer, gpu)) = layer() else {
         return;
     };
-    let scene = marked_scene();
+    let input = input(&marked_scene(), camera());
     let wire = premultiplied(WIRE.map(|c| f32::from(c) / 255.0), 0.85);
-    for (edges, diagonal) in [
-        (WireframeEdges::Polygons, BACKGROUND),
-        (WireframeEdges::Triangles, wire),
-    ] {
-        let options = Options {
-            wireframe: Some(edges),
-            wire_colour: WIRE,
-            ..Options::NOTHING
-        };
-        let pixels = drawn(&mut layer, gpu, &scene, &options);
+    for (has_diagonals, diagonal) in [(0.0, BACKGROUND), (1.0, wire)] {
+        let overlays = only(&WIREFRAME, |state| {
+            state.colour = WIRE;
+            state.set(&DIAGONALS, has_diagonals);
+        });
+        let pixels = drawn(&mut layer, gpu, &input, &overlays);
         assert_is(&pixels, ON_THE_SQUARES_EDGE, wire, "the square's edge");
         assert_is(&pixels, ON_ITS_DIAGONAL, diagonal, "its diagonal");
         assert_is(&pixels, ON_THE_EDGE_BEHIND, BACKGROUND, "the edge behind");
@@ -164,21 +188,13 @@ fn lines_of_the_file_and_normals_are_drawn_in_their_colours() {
     let Some((mut layer, gpu)) = layer() else {
         return;
     };
-    let scene = marked_scene();
-    let options = Options {
-        elements: true,
-        ..Options::NOTHING
-    };
-    let pixels = drawn(&mut layer, gpu, &scene, &options);
+    let input = input(&marked_scene(), camera());
+    let pixels = drawn(&mut layer, gpu, &input, &only(&ELEMENTS, |_| ()));
     let element = premultiplied([0.10, 0.75, 0.62], 0.95);
     assert_is(&pixels, ON_THE_LINE, element, "the file's line");
     assert_is(&pixels, ON_THE_SQUARES_EDGE, BACKGROUND, "no wireframe");
-    let options = Options {
-        normals: Some(Shading::Flat),
-        normal_length: 0.3,
-        ..Options::NOTHING
-    };
-    let pixels = drawn(&mut layer, gpu, &scene, &options);
+    let overlays = only(&FACE_NORMALS, |state| state.set(&LENGTH, 0.3));
+    let pixels = drawn(&mut layer, gpu, &input, &overlays);
     let normal = premultiplied([0.16, 0.55, 0.95], 0.8);
     assert_is(
         &pixels,
@@ -190,16 +206,35 @@ fn lines_of_the_file_and_normals_are_drawn_in_their_colours() {
 }
 
 #[test]
+fn width_colour_and_opacity_are_those_of_the_state() {
+    let Some((mut layer, gpu)) = layer() else {
+        return;
+    };
+    let mut input = input(&marked_scene(), camera());
+    let overlays = only(&WIREFRAME, |state| {
+        (state.colour, state.opacity, state.width_px) = (WIRE, 0.5, 5.0);
+    });
+    let wire = premultiplied(WIRE.map(|c| f32::from(c) / 255.0), 0.5);
+    // The edge's centre is at 50.5 pixels: a line of 5 pixels ends at 53, one of 10 pixels at 55.5.
+    for (scale, reach) in [(1.0, 2), (2.0, 4)] {
+        input.scale = scale;
+        let pixels = drawn(&mut layer, gpu, &input, &overlays);
+        let [x, y] = ON_THE_SQUARES_EDGE;
+        assert_is(&pixels, [x - reach, y], wire, "inside the line");
+        assert_is(&pixels, [x - reach - 2, y], BACKGROUND, "beside the line");
+    }
+}
+
+#[test]
 fn marks_are_strong_on_the_mesh_and_faint_behind_it() {
     let Some((mut layer, gpu)) = layer() else {
         return;
     };
     let scene = marked_scene();
-    let options = Options {
-        flaw: Some(Flaw::OpenEdge),
-        ..Options::NOTHING
-    };
-    let pixels = drawn(&mut layer, gpu, &scene, &options);
+    let health = Arc::new(Health::of(scene.mesh()));
+    let mut input = input(&scene, camera());
+    input.marks.flaw = Some((Flaw::OpenEdge, health));
+    let pixels = drawn(&mut layer, gpu, &input, &none());
     let flaw = |alpha| premultiplied([0.95, 0.15, 0.20], alpha);
     assert_is(&pixels, ON_THE_SQUARES_EDGE, flaw(1.0), "an open edge");
     assert_is(
@@ -210,16 +245,14 @@ fn marks_are_strong_on_the_mesh_and_faint_behind_it() {
     );
     assert_is(&pixels, ON_ITS_DIAGONAL, BACKGROUND, "a closed edge");
 
+    input.marks.flaw = None;
     let picked = |alpha| premultiplied([1.0, 0.55, 0.0], alpha);
     for (triangle, edge, behind) in [
         (1, picked(1.0), BACKGROUND),
         (BEHIND, BACKGROUND, picked(0.3)),
     ] {
-        let options = Options {
-            picked: Some(triangle),
-            ..Options::NOTHING
-        };
-        let pixels = drawn(&mut layer, gpu, &scene, &options);
+        input.marks.picked = Some(triangle);
+        let pixels = drawn(&mut layer, gpu, &input, &none());
         assert_is(&pixels, ON_THE_SQUARES_EDGE, edge, "the square's edge");
         assert_is(&pixels, ON_THE_EDGE_BEHIND, behind, "the edge behind");
     }
@@ -231,24 +264,20 @@ fn the_last_overlay_stays_until_the_next_is_drawn_unless_the_camera_changes() {
         return;
     };
     let scene = marked_scene();
-    let options = |width| Options {
-        wireframe: Some(WireframeEdges::Polygons),
-        wire_colour: WIRE,
-        line_width_px: width,
-        ..Options::NOTHING
+    let overlays = |width_px| {
+        only(&WIREFRAME, |state| {
+            (state.colour, state.width_px) = (WIRE, width_px);
+        })
     };
-    drawn(&mut layer, gpu, &scene, &options(1.0));
+    drawn(&mut layer, gpu, &input(&scene, camera()), &overlays(1.0));
     let ctx = egui::Context::default();
-    let mut draw = |camera: &Camera, width| {
-        let drawn = layer.draw(&scene, None, camera, &options(width), &ctx);
+    let mut draw = |camera: Camera, width| {
+        let drawn = layer.draw(&input(&scene, camera), &overlays(width), &ctx);
         drawn.expect("drawn")
     };
-    assert!(draw(&camera(), 3.0).is_some(), "a frame without lines");
+    assert!(draw(camera(), 3.0).is_some(), "a frame without lines");
     // Ten pixels to the left.
-    let (eye, target) = (DVec3::new(0.2, 0.0, 5.0), DVec3::new(0.2, 0.0, 0.0));
-    let projection = Projection::Orthographic { height: 4.0 };
-    let moved = Camera::look_at(eye, target, DVec3::Y, projection, SIZE).expect("a camera");
-    if let Some(texture) = draw(&moved, 3.0) {
+    if let Some(texture) = draw(camera_at(0.2), 3.0) {
         let pixels = read_back(&gpu.device, &gpu.queue, &texture).expect("read back");
         assert_is(
             &pixels,

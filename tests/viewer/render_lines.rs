@@ -1,8 +1,9 @@
-//! Tests of the pixels that `render --wireframe` and `--normals` change.
+//! Tests of the pixels that `render --overlay`, `--wireframe` and `--normals` change.
 
 use crate::harness::gpu;
 use glam::DVec2;
-use hitscope::settings::Settings;
+use hitscope::overlay::normals::LENGTH;
+use hitscope::overlay::wireframe::WIREFRAME;
 use image::RgbaImage;
 use std::fmt::Write as _;
 use std::process::Command;
@@ -115,19 +116,39 @@ fn edges_and_normals_are_drawn_over_the_picture_and_nothing_else_changes() {
     let edge_on = [at(170.5, 70.5), at(170.5, 130.5)];
     // The three edges of the edge-on triangle coincide; two of them are drawn over the third.
     let edges: Vec<Segment> = square.chain([edge_on, edge_on]).collect();
-    let settings = Settings::default();
-    let wire = settings.wire_colour.map(|c| f32::from(c) / 255.0);
+    let wire = WIREFRAME.style.colour.map(|c| f32::from(c) / 255.0);
     let drawn = render(&folder, "mesh.obj", ON_Z, &["--wireframe"]);
-    assert_lines(&plain, &drawn, &edges, Some((wire, 0.85)));
+    let look = (wire, WIREFRAME.style.opacity);
+    assert_lines(&plain, &drawn, &edges, Some(look));
 
     // The normals' length is a fraction of the radius of the bounds.
     let radius = 0.5 * DVec2::new(2.4, 2.0).extend(1.0).length();
-    let length_px = 50.0 * radius * f64::from(settings.normal_length);
+    let length_px = 50.0 * radius * f64::from(LENGTH.default);
     let normal = [at(170.5, 100.5), at(170.5 + length_px, 100.5)];
     let drawn = render(&folder, "mesh.obj", ON_Z, &["--normals"]);
     assert!((2.0..20.0).contains(&length_px), "{length_px} of 29 pixels");
     // Such a short line fades.
     assert_lines(&plain, &drawn, &[normal], None);
+}
+
+#[test]
+fn the_older_options_name_overlays_and_several_can_be_drawn() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("mesh.obj"), mesh()).expect("written");
+    let drawn = |options: &[&str]| render(&folder, "mesh.obj", ON_Z, options);
+    let wireframe = drawn(&["--wireframe"]);
+    assert!(wireframe == drawn(&["--overlay", "wireframe"]));
+    let faces = drawn(&["--normals"]);
+    assert!(faces == drawn(&["--overlay", "face-normals"]));
+    let smooth = ["--shading", "smooth"];
+    let vertices = drawn(&[&smooth[..], &["--normals"]].concat());
+    assert!(vertices == drawn(&[&smooth[..], &["--overlay", "vertex-normals"]].concat()));
+    let both = drawn(&["--overlay", "wireframe", "--overlay", "face-normals"]);
+    assert!(both == drawn(&["--wireframe", "--normals"]));
+    assert!(both != wireframe && both != faces);
 }
 
 /// The pixels that an overlay changes.

@@ -80,6 +80,22 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             &format!("{render} --spawn none"),
             "[possible values: fixed-epsilon",
         ),
+        (
+            &format!("{render} --overlay wirefram"),
+            "a similar value exists: 'wireframe'",
+        ),
+        (
+            &format!("{render} --overlay none"),
+            "[possible values: wireframe, face-normals",
+        ),
+        (
+            &format!("{render} --overlay picked"),
+            "invalid value 'picked'",
+        ),
+        (
+            "render none.obj -o out.exr --overlay grid",
+            "overlays are drawn over PNG pictures only",
+        ),
         (&format!("{render} --depth -1"), "--depth <N>"),
         (
             &format!("{render} --ao-distance 0"),

@@ -15,6 +15,17 @@ pub enum UpAxis {
     Z,
 }
 
+impl UpAxis {
+    /// The axis nearest to a direction that points up; Y if both are equally near.
+    pub fn nearest(up: DVec3) -> Self {
+        if up.z.abs() > up.y.abs() {
+            Self::Z
+        } else {
+            Self::Y
+        }
+    }
+}
+
 /// A view along an axis.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum StandardView {

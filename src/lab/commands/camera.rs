@@ -3,7 +3,7 @@
 use super::CommandError;
 use clap::Args;
 use glam::{DVec3, UVec2};
-use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable};
+use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable, UpAxis};
 use hitscope_core::loading::{StartView, is_scene_file};
 use hitscope_core::{Camera, Scene};
 use std::path::Path;
@@ -83,6 +83,12 @@ impl CameraArgs {
         };
         let target = self.target.map_or(centre, |target| target - origin);
         self.look_at(eye - origin, target, size).map_err(usage)
+    }
+
+    /// The axis that points up in the picture.
+    pub fn up_axis(&self, view: Option<&StartView>) -> UpAxis {
+        let of_file = view.filter(|_| self.eye.is_none()).map(|view| view.up);
+        UpAxis::nearest(self.up.or(of_file).unwrap_or(DVec3::Y))
     }
 
     /// The camera of the file's sensor, with this size and, if given, angle or height.

@@ -7,6 +7,7 @@ use super::scene::SceneArgs;
 use super::{CommandError, DisplayArgs, LightArgs, ThreadsArg};
 use clap::Args;
 use glam::{UVec2, Vec3};
+use hitscope_core::camera::UpAxis;
 use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::integrator::{Comparison, Context, Integrator, Lighting};
 use hitscope_core::kernel::{KernelChoice, exact_triangle_kernel};
@@ -58,6 +59,8 @@ pub struct Rendered {
     pub camera: Camera,
     /// The scene.
     pub loaded: LoadedScene,
+    /// The axis that points up.
+    pub up_axis: UpAxis,
     /// How normals vary over a triangle.
     pub shading: Shading,
     /// What each pixel shows first, if asked for.
@@ -204,6 +207,7 @@ impl PictureArgs {
         Ok(Rendered {
             film,
             camera,
+            up_axis: self.camera.up_axis(loaded.view.as_ref()),
             loaded,
             shading,
             guides,

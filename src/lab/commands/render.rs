@@ -12,6 +12,7 @@ Examples:
   hitscope render bunny.obj -o bunny.png
   hitscope render bunny.obj -o bunny.png --size 1920x1080 --samples 64
   hitscope render bunny.obj -o bunny.png --shading smooth --wireframe
+  hitscope render bunny.obj -o bunny.png --overlay grid --overlay axes
   hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0
   hitscope render bunny.obj -o bunny.png --view path --samples 256 --noise
   hitscope render bunny.obj -o bunny.exr --view path --environment built-in
@@ -28,10 +29,13 @@ pub struct RenderArgs {
     /// Picture.
     #[command(flatten)]
     pub picture: PictureArgs,
-    /// Draw the edges of the polygons over the picture (needs a GPU or a software renderer for Vulkan)
+    /// Draw an overlay over the picture; may be given more than once (needs a GPU or a software renderer for Vulkan)
+    #[arg(long, value_name = "NAME")]
+    pub overlay: Vec<String>,
+    /// Draw the edges of the polygons, as --overlay wireframe
     #[arg(long)]
     pub wireframe: bool,
-    /// Draw the normals over the picture (same requirement)
+    /// Draw normals: as --overlay face-normals with flat shading, else as --overlay vertex-normals
     #[arg(long)]
     pub normals: bool,
     /// Print the standard error of the pixels' luminance, on average and at most
@@ -46,8 +50,8 @@ impl RenderArgs {
     /// [`CommandError::Usage`].
     pub fn check(&self) -> Result<(), CommandError> {
         let refuse = |message: &str| Err(CommandError::Usage(message.to_owned()));
-        if self.is_exr() && (self.wireframe || self.normals) {
-            return refuse("lines are drawn over PNG pictures only");
+        if self.is_exr() && self.has_overlay() {
+            return refuse("overlays are drawn over PNG pictures only");
         }
         if self.noise && self.picture.samples < 2 {
             return refuse("--noise needs at least 2 samples per pixel");
@@ -66,6 +70,11 @@ impl RenderArgs {
         self.check()?;
         let loaded = self.picture.scene.load()?;
         self.picture.trace(loaded, self.is_exr())
+    }
+
+    /// Whether an overlay is drawn over the picture.
+    pub fn has_overlay(&self) -> bool {
+        self.wireframe || self.normals || !self.overlay.is_empty()
     }
 
     /// Whether the output is an OpenEXR file.

@@ -3,6 +3,7 @@
 use super::App;
 use crate::bindings::Action;
 use crate::flaw_place::FlawPlace;
+use crate::overlay::wireframe::WIREFRAME;
 use crate::saving::{NotSaved, suggested_path};
 use hitscope_core::mesh::Flaw;
 
@@ -45,9 +46,9 @@ impl App {
             }
             Action::ToggleRotation => self.is_rotating = !self.is_rotating,
             Action::ToggleWireframe => {
-                self.settings.shows_wireframe = !self.settings.shows_wireframe;
+                self.settings.overlays.toggle(&WIREFRAME);
             }
-            Action::ToggleNormals => self.settings.shows_normals = !self.settings.shows_normals,
+            Action::ToggleNormals => self.settings.toggle_normals(),
             Action::ToggleSmooth => self.settings.is_smooth = !self.settings.is_smooth,
             Action::ToggleNoise => self.settings.shows_noise = !self.settings.shows_noise,
             Action::TogglePause => self.tracer.toggle_pause(),

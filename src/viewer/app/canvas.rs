@@ -1,22 +1,22 @@
 //! The picture with its overlay and marks.
 
 use super::App;
+use super::labels::labels_ui;
 use super::pick::Pick;
-use crate::overlay::Options;
-use crate::overlay::wireframe::WireframeEdges;
+use crate::overlay::{self, Marks, OverlayInput};
 use crate::theme;
 use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::Camera;
 use hitscope_core::integrator::Context;
+use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 
 /// Place of the picture in the window. It covers whole physical pixels, so that each pixel of the picture is one
 /// pixel of the screen.
 #[derive(Clone, Copy)]
 pub(super) struct Canvas {
-    rect: Rect,
+    pub rect: Rect,
     pub resolution: UVec2,
     pub pixels_per_point: f32,
 }
@@ -136,33 +136,28 @@ impl App {
         let Some((scene, camera)) = self.tracer.shown().cloned() else {
             return;
         };
-        let mut options = self.overlay_options(canvas.pixels_per_point);
-        if !Arc::ptr_eq(&scene, &self.document.loaded.scene) {
-            (options.picked, options.flaw, options.path) = (None, None, false);
-        }
-        let findings = self.document.known_findings();
-        let health = findings.as_ref().map(|findings| &findings.health);
+        let input = self.overlay_input(&scene, camera, canvas.pixels_per_point);
         let is_moving = is_dragging || self.tracer.is_moving();
-        if is_moving && self.overlay.omits_lines_while_moving(&scene) {
-            options = Options::NOTHING;
-        }
-        let path = self.path.followed().map(|path| &path.record);
-        self.overlay.set_path(path);
-        let (overlay, error) = match self
-            .overlay
-            .draw(&scene, health, &camera, &options, ui.ctx())
-        {
+        let overlays = &self.settings.overlays;
+        let labels = overlay::labels(&input, overlays);
+        let drawn = if is_moving && self.overlay.omits_lines_while_moving(&scene) {
+            self.overlay.pause();
+            Ok(None)
+        } else {
+            self.overlay.draw(&input, overlays, ui.ctx())
+        };
+        let (texture, error) = match drawn {
             Ok(texture) => (texture, None),
             Err(error) => (None, Some(error)),
         };
         self.on_screen = Some((scene, camera));
         let painter = ui.painter_at(canvas.rect);
-        painter.extend(self.picture.shape(canvas.rect, overlay.as_ref()));
+        painter.extend(self.picture.shape(canvas.rect, texture.as_ref()));
         if let Some(error) = error {
-            self.settings.shows_wireframe = false;
-            self.settings.shows_normals = false;
+            self.settings.overlays.turn_off_added();
             self.error(error);
         }
+        labels_ui(ui, canvas, &camera, &labels);
         let marks = [
             (self.marked_point(), theme::PICK),
             (self.flaw.as_ref().map(|place| place.point), theme::FLAW),
@@ -174,23 +169,27 @@ impl App {
         }
     }
 
-    fn overlay_options(&self, pixels_per_point: f32) -> Options {
-        let settings = &self.settings;
-        let edges = if settings.shows_diagonals {
-            WireframeEdges::Triangles
-        } else {
-            WireframeEdges::Polygons
-        };
-        Options {
-            wireframe: settings.shows_wireframe.then_some(edges),
-            wire_colour: settings.wire_colour,
-            normals: settings.shows_normals.then_some(settings.shading()),
-            normal_length: settings.normal_length,
-            elements: self.document.loaded.scene.mesh().has_lines_or_points(),
-            flaw: self.flaw.as_ref().map(|place| place.flaw),
+    fn overlay_input(
+        &self,
+        scene: &Arc<Scene>,
+        camera: Camera,
+        pixels_per_point: f32,
+    ) -> OverlayInput {
+        let is_current = Arc::ptr_eq(scene, &self.document.loaded.scene);
+        let flaw = self.flaw.as_ref().map(|place| place.flaw);
+        let findings = self.document.known_findings();
+        let marks = Marks {
+            flaw: flaw.zip(findings.map(|findings| Arc::clone(&findings.health))),
             picked: self.pick.as_ref().and_then(Pick::marked_primitive),
-            path: self.path.followed().is_some(),
-            line_width_px: pixels_per_point.max(1.0),
+            path: self.path.followed().map(|path| Arc::clone(&path.record)),
+        };
+        OverlayInput {
+            scene: Arc::clone(scene),
+            camera,
+            up_axis: self.settings.up_axis(),
+            pivot: self.turntable.pivot,
+            marks: if is_current { marks } else { Marks::default() },
+            scale: pixels_per_point.max(1.0),
         }
     }
 }

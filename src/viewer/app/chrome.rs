@@ -3,6 +3,7 @@
 use super::App;
 use crate::bindings::Action;
 use crate::numbers::significant;
+use crate::overlay::wireframe::WIREFRAME;
 use crate::panels::view::shown_kernel;
 use crate::tracer::{Status, StopReason};
 use crate::watch::Watch;
@@ -101,14 +102,14 @@ impl App {
             ),
             (
                 "Wireframe",
-                settings.shows_wireframe,
+                settings.overlays.is_on(&WIREFRAME),
                 Action::ToggleWireframe,
                 "Wireframe (W)",
                 true,
             ),
             (
                 "Normals",
-                settings.shows_normals,
+                settings.shows_normals(),
                 Action::ToggleNormals,
                 "Normals (N)",
                 true,

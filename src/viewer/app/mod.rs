@@ -5,7 +5,7 @@
 //! | this file | state and the order of work in a frame |
 //! | `state` | what others may read of the state |
 //! | `actions` | effects of keys and buttons |
-//! | `canvas` | the picture with its overlay and marks |
+//! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
 //! | `path` | the path of a sample of the picked pixel |
 //! | `light` | lights, environment, exposure |
@@ -21,6 +21,7 @@ mod chrome;
 mod files;
 mod first_view;
 mod hints;
+mod labels;
 mod light;
 mod messages;
 mod path;

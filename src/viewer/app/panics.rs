@@ -2,6 +2,7 @@
 
 use super::App;
 use crate::harness::{Window, app, click, in_picture, press, wait};
+use crate::overlay::wireframe::WIREFRAME;
 use crate::settings::Settings;
 use crate::task::sabotage;
 use crate::trade::{Axis, Trade, TradeState};
@@ -41,11 +42,14 @@ fn a_panic_in_the_overlay_is_reported_and_lines_are_turned_off_and_can_be_turned
             continue;
         }
         wait_for_message(&mut window);
-        assert!(!window.state().settings().shows_wireframe, "{task}");
+        assert!(
+            !window.state().settings().overlays.is_on(&WIREFRAME),
+            "{task}"
+        );
     }
     press(&mut window, Key::N);
     wait(&mut window, "the normals", App::is_settled);
-    assert!(window.state().settings().shows_normals);
+    assert!(window.state().settings().shows_normals());
 }
 
 #[test]

@@ -22,6 +22,22 @@ pub struct Line {
     pub gap: Vec3,
 }
 
+impl Line {
+    /// A line without a gap, which doesn't fade.
+    pub fn between(start: Vec3, end: Vec3) -> Self {
+        Self {
+            start,
+            end,
+            gap: Vec3::ZERO,
+        }
+    }
+
+    /// Whether all its coordinates are finite.
+    pub fn is_finite(&self) -> bool {
+        self.start.is_finite() && self.end.is_finite() && self.gap.is_finite()
+    }
+}
+
 /// The style of a set of lines. Twin of `Style` in shaders/lines.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]

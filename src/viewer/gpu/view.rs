@@ -32,15 +32,27 @@ impl ViewUniform {
 
     /// The uniform for a camera and a scene with these bounds.
     pub fn new(camera: &Camera, bounds: &Aabb) -> Self {
-        let from_eye = bounds.centre().as_dvec3() - camera.eye().as_dvec3();
-        let reach = from_eye.length() + bounds.radius();
+        Self::with_lines(camera, bounds, &Aabb::EMPTY)
+    }
+
+    /// The uniform for a camera, a scene with these bounds, and lines that leave them for other bounds.
+    ///
+    /// A scene without bounds, such as a plane alone, counts as the unit sphere about the origin.
+    pub fn with_lines(camera: &Camera, bounds: &Aabb, lines: &Aabb) -> Self {
+        let eye = camera.eye().as_dvec3();
+        let reach_of = |bounds: &Aabb| {
+            (!bounds.is_empty())
+                .then(|| (bounds.centre().as_dvec3() - eye).length() + bounds.radius())
+        };
+        let reach = reach_of(bounds).unwrap_or_else(|| eye.length() + 1.0);
+        let far = reach_of(lines).map_or(reach, |lines| reach.max(lines));
         // Reversed float depth stays precise for any near plane. This plane is so near that an f32 can't
         // distinguish a nearer point from the eye. Orthographic rays start at the eye's plane.
         let (near, near_w) = match camera.projection() {
             Projection::Perspective { .. } => (1e-6 * reach, 1e-6 * reach),
             Projection::Orthographic { .. } => (0.0, 0.0),
         };
-        let clip_from_eye = camera.clip_from_eye(near, reach);
+        let clip_from_eye = camera.clip_from_eye(near, far);
         Self {
             clip_from_eye: clip_from_eye.as_mat4().to_cols_array_2d(),
             eye: camera.eye().to_array(),
@@ -102,5 +114,46 @@ impl ViewBinding {
     /// The bind group.
     pub fn group(&self) -> &wgpu::BindGroup {
         &self.group
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera(projection: Projection) -> Camera {
+        let (eye, size) = (DVec3::new(0.0, 0.0, 10.0), UVec2::new(64, 48));
+        Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size).expect("a camera")
+    }
+
+    #[test]
+    fn lines_far_behind_the_scene_have_a_depth_and_do_not_move_the_near_plane() {
+        let perspective = camera(Projection::Perspective { fov_y_radians: 0.7 });
+        let orthographic = camera(Projection::Orthographic { height: 4.0 });
+        let scene = Aabb::around([Vec3::NEG_ONE, Vec3::ONE]);
+        let far = Vec3::new(0.0, 0.0, -500.0);
+        let lines = Aabb::around([far, Vec3::ZERO]);
+        let without = ViewUniform::new(&orthographic, &scene);
+        assert!(
+            without.depth_of(far.as_dvec3()) < 0.0,
+            "behind the far plane"
+        );
+        let with = ViewUniform::with_lines(&orthographic, &scene, &lines);
+        assert!(with.depth_of(0.98 * far.as_dvec3()) > 0.0);
+        assert_eq!(with.near_w, without.near_w);
+        let with = ViewUniform::with_lines(&perspective, &scene, &lines);
+        assert_eq!(with, ViewUniform::new(&perspective, &scene));
+    }
+
+    #[test]
+    fn a_scene_without_bounds_has_a_view() {
+        for projection in [
+            Projection::Perspective { fov_y_radians: 0.7 },
+            Projection::Orthographic { height: 4.0 },
+        ] {
+            let view = ViewUniform::new(&camera(projection), &Aabb::EMPTY);
+            let depth = view.depth_of(DVec3::ZERO);
+            assert!(depth > 0.0 && depth < 1.0, "{depth}");
+        }
     }
 }

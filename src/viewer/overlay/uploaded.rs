@@ -26,13 +26,13 @@ impl<K, T> Default for Uploaded<K, T> {
 pub enum Readiness<T> {
     /// Ready.
     Ready(Arc<T>),
-    /// Being created; a repaint is requested when it is ready.
-    Pending,
+    /// Being created; a repaint is requested when it is ready. Until then, the last one of another kind, if there is any.
+    Pending(Option<Arc<T>>),
     /// Creating it failed; the error was returned.
     Failed,
 }
 
-impl<K: Copy + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
+impl<K: Clone + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
     /// The resource of this kind. Starts to create it unless that is in progress.
     ///
     /// # Errors
@@ -56,8 +56,11 @@ impl<K: Copy + PartialEq + Send + 'static, T: Send + 'static> Uploaded<K, T> {
                 make(device, queue)
             })
         };
-        let made: Result<T, OverlayError> = match self.making.get(kind, start) {
-            Ok(None) => return Ok(Readiness::Pending),
+        let made: Result<T, OverlayError> = match self.making.get(kind.clone(), start) {
+            Ok(None) => {
+                let last = self.made.as_ref().and_then(|(_, last)| last.clone());
+                return Ok(Readiness::Pending(last));
+            }
             Ok(Some(made)) => made.map_err(OverlayError::from),
             Err(panicked) => Err(panicked.into()),
         };

@@ -1,9 +1,55 @@
-//! The edges of meshes and the lines of other shapes.
+//! The wireframe: edges of meshes and lines of other shapes.
 
+use super::gather::Gather;
 use super::shapes;
+use super::spec::{Fade, LineSpec, OptionKind, OverlayOption, OverlaySpec, OverlayStyle};
 use crate::gpu::lines::Line;
 use glam::Vec3;
 use hitscope_core::{Scene, TriangleMesh};
+
+/// The overlay.
+pub static WIREFRAME: OverlaySpec = OverlaySpec {
+    name: "wireframe",
+    title: "Wireframe",
+    about: "Edges of the file's polygons, and lines of other shapes",
+    style: OverlayStyle {
+        colour: [12, 14, 18],
+        opacity: 0.85,
+        width_px: 1.0,
+    },
+    options: &[&DIAGONALS],
+    lines: &[
+        LineSpec {
+            fade: Fade::ShortOrDense,
+            ..LineSpec::new(|_, state| {
+                let edges = if state.is_set(&DIAGONALS) {
+                    WireframeEdges::Triangles
+                } else {
+                    WireframeEdges::Polygons
+                };
+                let gather = Gather::new(edges, |scene, edges| lines(scene.mesh(), *edges));
+                Some(gather)
+            })
+        },
+        LineSpec {
+            fade: Fade::Dense,
+            has_outlines: true,
+            ..LineSpec::new(|input, _| {
+                let gather = Gather::new((), |scene, ()| shapes::lines(scene));
+                input.scene.has_other_shapes().then_some(gather)
+            })
+        },
+    ],
+    ..OverlaySpec::SWITCH
+};
+
+/// Whether the diagonals of triangulated polygons are drawn.
+pub static DIAGONALS: OverlayOption = OverlayOption {
+    name: "diagonals",
+    title: "Diagonals",
+    kind: OptionKind::Switch,
+    default: 0.0,
+};
 
 /// The edges that are drawn.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]

@@ -5,6 +5,7 @@ pub mod inspect;
 mod labels;
 pub mod light;
 pub mod mesh;
+mod overlay;
 pub mod path;
 pub mod progress;
 mod table;

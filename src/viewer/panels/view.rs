@@ -1,6 +1,7 @@
 //! The Display tab: view with its options, shading, kernel, overlay, camera, theme.
 
 use super::light::light_ui;
+use super::overlay::overlay_ui;
 use crate::bindings::Action;
 use crate::settings::Settings;
 use egui::RichText;
@@ -23,7 +24,7 @@ pub fn view_ui(
     ui.separator();
     kernel_ui(ui, settings, shapes);
     ui.separator();
-    overlay_ui(ui, settings);
+    overlay_ui(ui, &mut settings.overlays);
     ui.separator();
     camera_ui(ui, settings, turntable, actions);
     ui.separator();
@@ -188,27 +189,6 @@ pub(super) fn heading(shape: &ShapeKernels) -> String {
     letters.next().map_or_else(String::new, |first| {
         first.to_uppercase().chain(letters).collect()
     })
-}
-
-fn overlay_ui(ui: &mut egui::Ui, settings: &mut Settings) {
-    ui.label(RichText::new("Overlay").strong());
-    ui.horizontal(|ui| {
-        ui.checkbox(&mut settings.shows_wireframe, "Wireframe");
-        ui.color_edit_button_srgb(&mut settings.wire_colour);
-        ui.checkbox(&mut settings.shows_diagonals, "Diagonals");
-    });
-    ui.checkbox(&mut settings.shows_normals, "Normals");
-    ui.horizontal(|ui| {
-        let label = ui.label("Normal length");
-        let slider = egui::Slider::new(&mut settings.normal_length, 0.002..=0.5)
-            .logarithmic(true)
-            .custom_formatter(|part, _| format!("{:.1} %", 100.0 * part))
-            .custom_parser(|text| {
-                let percent = text.trim_end_matches(['%', ' ']).parse::<f64>().ok()?;
-                Some(percent / 100.0)
-            });
-        ui.add(slider).labelled_by(label.id);
-    });
 }
 
 fn camera_ui(

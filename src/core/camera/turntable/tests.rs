@@ -249,3 +249,16 @@ fn a_turntable_shows_any_given_view_and_turns_with_the_drag() {
         }
     }
 }
+
+#[test]
+fn the_nearest_axis_points_up() {
+    for (up, axis) in [
+        (DVec3::Y, UpAxis::Y),
+        (DVec3::Z, UpAxis::Z),
+        (DVec3::new(0.9, 0.1, -0.3), UpAxis::Z),
+        (DVec3::new(0.0, 1.0, 0.9), UpAxis::Y),
+        (DVec3::X, UpAxis::Y),
+    ] {
+        assert_eq!(UpAxis::nearest(up), axis, "{up}");
+    }
+}

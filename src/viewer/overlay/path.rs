@@ -1,9 +1,49 @@
-//! The lines of a path: its segments, and its rays to lights.
+//! The path of the picked pixel: its segments, and its rays to lights.
 
+use super::gather::{Gather, Same};
+use super::input::OverlayInput;
+use super::spec::{Behind, LineSpec, OverlaySpec};
 use crate::gpu::lines::Line;
 use glam::Vec3;
 use hitscope_core::Scene;
 use hitscope_core::integrator::PathRecord;
+use std::sync::Arc;
+
+/// The overlay.
+pub static PATH: OverlaySpec = OverlaySpec {
+    name: "path",
+    title: "Path",
+    about: "The path of a sample of the picked pixel",
+    lines: &[
+        LineSpec {
+            colour: Some([115, 230, 128]),
+            width: 1.4,
+            behind: Behind::Faint,
+            ..LineSpec::new(|input, _| gather(input, PathLines::Visible))
+        },
+        LineSpec {
+            colour: Some([242, 77, 77]),
+            width: 1.4,
+            behind: Behind::Faint,
+            ..LineSpec::new(|input, _| gather(input, PathLines::Blocked))
+        },
+        LineSpec {
+            colour: Some([255, 217, 51]),
+            width: 2.4,
+            behind: Behind::Faint,
+            ..LineSpec::new(|input, _| gather(input, PathLines::Segments))
+        },
+    ],
+    ..OverlaySpec::MARK
+};
+
+fn gather(input: &OverlayInput, kind: PathLines) -> Option<Gather> {
+    let path = Same(Arc::clone(input.marks.path.as_ref()?));
+    let gather = Gather::new((path, kind), |scene, (path, kind)| {
+        lines(scene, &path.0, *kind)
+    });
+    Some(gather)
+}
 
 /// The lines of a path by kind.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -14,11 +54,6 @@ pub enum PathLines {
     Visible,
     /// To lights that surfaces hide; dashed.
     Blocked,
-}
-
-impl PathLines {
-    /// All kinds, in the order in which they are drawn.
-    pub const ALL: [Self; 3] = [Self::Visible, Self::Blocked, Self::Segments];
 }
 
 /// Dashes of a blocked ray.
@@ -50,7 +85,7 @@ fn segments(path: &PathRecord, reach: f32) -> Vec<Line> {
     }
     points
         .windows(2)
-        .map(|ends| between(ends[0], ends[1]))
+        .map(|ends| Line::between(ends[0], ends[1]))
         .collect()
 }
 
@@ -58,7 +93,7 @@ fn shadow_rays(path: &PathRecord, reach: f32, is_shown: impl Fn(f32) -> bool) ->
     let rays = path.vertices.iter().filter_map(|vertex| {
         let ray = vertex.shadow_ray.filter(|ray| is_shown(ray.arriving))?;
         let afar = vertex.position + reach * ray.dir;
-        Some(between(vertex.position, ray.target.unwrap_or(afar)))
+        Some(Line::between(vertex.position, ray.target.unwrap_or(afar)))
     });
     rays.collect()
 }
@@ -68,16 +103,8 @@ fn dashes(line: Line) -> impl Iterator<Item = Line> {
     let parts = (2 * DASHES - 1) as f32;
     (0..DASHES).map(move |k| {
         let at = |part: usize| line.start.lerp(line.end, part as f32 / parts);
-        between(at(2 * k), at(2 * k + 1))
+        Line::between(at(2 * k), at(2 * k + 1))
     })
-}
-
-fn between(start: Vec3, end: Vec3) -> Line {
-    Line {
-        start,
-        end,
-        gap: Vec3::ZERO,
-    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,225 @@
+//! The overlay of the window's picture. Lines are gathered, uploaded and, on a software GPU, drawn in the background.
+
+use super::contents::{Contents, WantedLines};
+use super::gather::Key;
+use super::input::OverlayInput;
+use super::painter::Painter;
+use super::state::Overlays;
+use super::traced::Shapes;
+use super::uploaded::{Readiness, Uploaded};
+use crate::gpu::GpuError;
+use crate::gpu::depth::DepthMesh;
+use crate::gpu::drawing::{Drawing, DrawnLines, Overlay};
+use crate::gpu::lines::LineSet;
+use crate::gpu::traced::TracedLayer;
+use crate::gpu::view::ViewUniform;
+use crate::task::TaskPanicked;
+use eframe::egui_wgpu::RenderState;
+use hitscope_core::{Camera, Scene};
+use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
+
+/// An error that keeps the overlay from being drawn.
+#[derive(Debug, thiserror::Error)]
+pub enum OverlayError {
+    /// A GPU error.
+    #[error(transparent)]
+    Gpu(#[from] GpuError),
+    /// A thread that gathers or draws lines panicked.
+    #[error(transparent)]
+    TaskPanicked(#[from] TaskPanicked),
+}
+
+/// The overlay of the window's picture.
+pub struct OverlayLayer {
+    overlay: Arc<Overlay>,
+    /// Whether the adapter is software: drawing lines then takes longer than tracing.
+    is_software: bool,
+    scene: Option<Arc<Scene>>,
+    mesh: Uploaded<(), DepthMesh>,
+    /// Other shapes, and what each pixel of a view shows of them.
+    shapes: Shapes,
+    traced: Uploaded<ViewUniform, TracedLayer>,
+    /// Lines by their slots.
+    lines: BTreeMap<usize, Uploaded<Key, LineSet>>,
+    painter: Painter,
+    /// The slots of the last drawing's lines.
+    wanted: BTreeSet<usize>,
+    is_complete: bool,
+}
+
+impl OverlayLayer {
+    /// Compiles the shaders.
+    pub fn new(render_state: &RenderState) -> Self {
+        let overlay = Arc::new(Overlay::new(&render_state.device, &render_state.queue));
+        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        Self {
+            painter: Painter::new(Arc::clone(&overlay), is_software),
+            overlay,
+            is_software,
+            scene: None,
+            mesh: Uploaded::default(),
+            shapes: Shapes::default(),
+            traced: Uploaded::default(),
+            lines: BTreeMap::new(),
+            wanted: BTreeSet::new(),
+            is_complete: true,
+        }
+    }
+
+    /// Draws nothing: cancels the drawing in progress.
+    pub fn pause(&mut self) {
+        self.is_complete = true;
+        self.painter.cancel();
+    }
+
+    /// The overlays that are on, as a texture of the picture's size; `None` if nothing is drawn. While lines are gathered,
+    /// the last ones of the same kind are drawn, if there are any; a repaint is requested when the new ones are ready.
+    ///
+    /// # Errors
+    /// See [`OverlayError`].
+    pub fn draw(
+        &mut self,
+        input: &OverlayInput,
+        overlays: &Overlays,
+        ctx: &egui::Context,
+    ) -> Result<Option<wgpu::Texture>, OverlayError> {
+        let contents = Contents::of(input, overlays);
+        self.use_scene(&input.scene);
+        self.retry_if_turned_on(&contents.lines);
+        self.is_complete = true;
+        if contents.lines.is_empty() {
+            self.pause();
+            return Ok(None);
+        }
+        let shared = Arc::clone(&input.scene);
+        let upload = move |device: &_, queue: &_| DepthMesh::new(device, queue, shared.mesh());
+        let mesh = match self.mesh.get((), &self.overlay, ctx, upload)? {
+            Readiness::Ready(mesh) => mesh,
+            Readiness::Failed => return Ok(None),
+            Readiness::Pending(_) => {
+                self.is_complete = false;
+                return Ok(None);
+            }
+        };
+        let traced = match self.trace(&input.scene, &input.camera, contents.view, ctx)? {
+            Some(Readiness::Ready(traced)) => Some(traced),
+            // That of another view would be wrong.
+            Some(Readiness::Pending(_)) => {
+                self.is_complete = false;
+                return Ok(None);
+            }
+            Some(Readiness::Failed) | None => None,
+        };
+        let mut sets = Vec::new();
+        for lines in &contents.lines {
+            sets.extend(self.upload(lines, &input.scene, ctx)?);
+        }
+        let drawing = Drawing {
+            view: contents.view,
+            mesh,
+            traced,
+            outline: contents.outline,
+            sets,
+        };
+        let texture = self.painter.draw(&drawing, ctx)?.cloned();
+        self.is_complete &= self.painter.is_shown(&drawing);
+        Ok(texture)
+    }
+
+    /// The lines as far as they are ready, once for each of their styles.
+    fn upload(
+        &mut self,
+        wanted: &WantedLines,
+        scene: &Arc<Scene>,
+        ctx: &egui::Context,
+    ) -> Result<Vec<DrawnLines>, OverlayError> {
+        let (gather, shared) = (wanted.gather.clone(), Arc::clone(scene));
+        let upload = move |device: &wgpu::Device, queue: &wgpu::Queue| {
+            LineSet::new(device, queue, &gather.lines(&shared))
+        };
+        let uploaded = self.lines.entry(wanted.slot).or_default();
+        let key = wanted.gather.key().clone();
+        let lines = match uploaded.get(key, &self.overlay, ctx, upload)? {
+            Readiness::Ready(lines) => Some(lines),
+            Readiness::Pending(last) => {
+                self.is_complete = false;
+                last
+            }
+            Readiness::Failed => None,
+        };
+        let drawn = |lines: Arc<LineSet>| {
+            let looks = wanted.looks.iter();
+            let set = |&(occlusion, style): &_| DrawnLines {
+                lines: Arc::clone(&lines),
+                style,
+                occlusion,
+            };
+            looks.map(set).collect()
+        };
+        Ok(lines.map(drawn).unwrap_or_default())
+    }
+
+    /// What each pixel shows of shapes that aren't triangles; `None` if the scene has none.
+    fn trace(
+        &mut self,
+        scene: &Arc<Scene>,
+        camera: &Camera,
+        view: ViewUniform,
+        ctx: &egui::Context,
+    ) -> Result<Option<Readiness<TracedLayer>>, OverlayError> {
+        if !scene.has_other_shapes() {
+            return Ok(None);
+        }
+        let (shapes, shared, camera) = (self.shapes.clone(), Arc::clone(scene), *camera);
+        let trace = move |device: &wgpu::Device, queue: &wgpu::Queue| {
+            let pixels = shapes.trace(&shared, &camera, &view);
+            Ok(TracedLayer::new(device, queue, view.size(), &pixels))
+        };
+        self.traced.get(view, &self.overlay, ctx, trace).map(Some)
+    }
+
+    /// Whether the last texture shows everything that was requested.
+    pub fn is_complete(&self) -> bool {
+        self.is_complete
+    }
+
+    /// Whether lines are omitted while the camera moves, so that the picture can keep up.
+    pub fn omits_lines_while_moving(&self, scene: &Scene) -> bool {
+        // Each view of shapes takes one traced ray per pixel.
+        self.is_software || scene.has_other_shapes()
+    }
+
+    /// Whether lines are drawn by software, in the background.
+    #[cfg(test)]
+    pub(crate) fn is_software(&self) -> bool {
+        self.is_software
+    }
+
+    /// Discards the old scene's lines if the scene has other shapes.
+    fn use_scene(&mut self, scene: &Arc<Scene>) {
+        let old = self.scene.replace(Arc::clone(scene));
+        // If the mesh is the same, only the creases of smooth shading or the tree have changed.
+        if old.is_none_or(|old| !std::ptr::eq(old.mesh(), scene.mesh())) {
+            self.mesh = Uploaded::default();
+            self.shapes = Shapes::default();
+            self.traced = Uploaded::default();
+            self.lines.clear();
+        }
+    }
+
+    /// Allows a retry of failed uploads when the user turns an overlay on.
+    fn retry_if_turned_on(&mut self, lines: &[WantedLines]) {
+        let slots = lines.iter().map(|lines| lines.slot).collect();
+        let before = std::mem::replace(&mut self.wanted, slots);
+        let is_new =
+            |lines: &WantedLines| lines.overlay.is_switch() && !before.contains(&lines.slot);
+        if lines.iter().any(is_new) {
+            self.mesh.forget_failure();
+            self.traced.forget_failure();
+            self.lines
+                .values_mut()
+                .for_each(|lines| lines.forget_failure());
+        }
+    }
+}
