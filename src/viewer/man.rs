@@ -79,6 +79,8 @@ impl Page {
     fn render(&self, out: &mut dyn Write) -> io::Result<()> {
         let man = Man::new(self.command.clone())
             .title(self.name.to_uppercase())
+            // The empty argument in quotes: pages of the same version are the same on every day.
+            .date("\"\"")
             .source(format!("{} {}", about::NAME, about::VERSION))
             .manual("User Commands");
         man.render_title(out)?;
@@ -99,12 +101,9 @@ impl Page {
 
     fn description(&self) -> Roff {
         let text = self.command.get_long_about().or(self.command.get_about());
-        let mut roff = Roff::new();
-        roff.control("SH", ["DESCRIPTION"]);
         let text = text.map(ToString::to_string).unwrap_or_default();
-        for block in blocks(&text) {
-            block.write(&mut roff);
-        }
+        let mut roff = Roff::new();
+        write_section("DESCRIPTION", &blocks(&text), &mut roff);
         roff
     }
 
@@ -112,17 +111,13 @@ impl Page {
     fn sections(&self) -> Roff {
         let text = self.command.get_after_help();
         let text = text.map(ToString::to_string).unwrap_or_default();
-        let (lists, notes): (Vec<_>, Vec<_>) =
-            blocks(&text).partition(|block| block.heading().is_some());
+        let blocks = blocks(&text).into_iter();
+        let (lists, notes): (Vec<_>, Vec<_>) = blocks.partition(|block| block.heading().is_some());
         let mut roff = Roff::new();
-        if !notes.is_empty() {
-            roff.control("SH", ["NOTES"]);
-        }
-        for block in notes.iter().chain(&lists) {
-            if let Some(heading) = block.heading() {
-                roff.control("SH", [heading.to_uppercase().as_str()]);
-            }
-            block.write(&mut roff);
+        write_section("NOTES", &notes, &mut roff);
+        for list in lists {
+            let heading = list.heading().unwrap_or_default().to_uppercase();
+            write_section(&heading, &[list], &mut roff);
         }
         roff
     }
@@ -137,13 +132,25 @@ impl Page {
     }
 }
 
+/// Writes a section of these blocks; nothing if there are none.
+fn write_section(heading: &str, blocks: &[Block<'_>], roff: &mut Roff) {
+    for (index, block) in blocks.iter().enumerate() {
+        match index {
+            0 => roff.control("SH", [heading]),
+            _ => roff.control("PP", []),
+        };
+        block.write(roff);
+    }
+}
+
 /// Lines of a help text without an empty line between them.
 struct Block<'a>(Vec<&'a str>);
 
-fn blocks(text: &str) -> impl Iterator<Item = Block<'_>> {
+fn blocks(text: &str) -> Vec<Block<'_>> {
     text.split("\n\n")
         .map(|block| Block(block.lines().collect()))
         .filter(|block| !block.0.is_empty())
+        .collect()
 }
 
 impl<'a> Block<'a> {
@@ -160,18 +167,17 @@ impl<'a> Block<'a> {
     fn write(&self, roff: &mut Roff) {
         let lines = &self.0[usize::from(self.heading().is_some())..];
         for run in lines.chunk_by(|a, b| is_indented(a) == is_indented(b)) {
-            let is_list = run.first().is_some_and(|line| is_indented(line));
-            let (before, after): (&[_], &[_]) = if is_list {
-                (&["RS", "nf"], &["fi", "RE"])
-            } else {
-                (&["PP"], &[])
-            };
-            before.iter().for_each(|name| _ = roff.control(*name, []));
+            let is_list = run.iter().all(|line| is_indented(line));
+            if is_list {
+                roff.control("RS", ["4"]).control("nf", []);
+            }
             for line in run {
                 let line = line.strip_prefix(INDENT).unwrap_or(line);
                 roff.text([roman(line)]);
             }
-            after.iter().for_each(|name| _ = roff.control(*name, []));
+            if is_list {
+                roff.control("fi", []).control("RE", []);
+            }
         }
     }
 }
@@ -198,8 +204,8 @@ mod tests {
     fn lists_keep_their_lines_and_paragraphs_are_notes() {
         let text = "First line\nof two.\n\nExit status:\n  0  success\n  1  failure\n\nLast.";
         let page = page(clap::Command::new("try").after_help(text));
-        let expected = ".SH NOTES\n.PP\nFirst line\nof two.\n.PP\nLast.\n\
-            .SH \"EXIT STATUS\"\n.RS\n.nf\n0  success\n1  failure\n.fi\n.RE\n";
+        let expected = ".SH NOTES\nFirst line\nof two.\n.PP\nLast.\n\
+            .SH \"EXIT STATUS\"\n.RS 4\n.nf\n0  success\n1  failure\n.fi\n.RE\n";
         assert!(page.contains(expected), "{page}");
     }
 
@@ -207,7 +213,7 @@ mod tests {
     fn an_indented_block_of_a_description_has_no_heading() {
         let text = "Trace rays\n\nInput:\n\n  ox oy oz\n\nA ray.";
         let page = page(clap::Command::new("try").long_about(text));
-        let expected = ".SH DESCRIPTION\n.PP\nTrace rays\n.PP\nInput:\n.RS\n.nf\nox oy oz\n.fi\n.RE\n.PP\nA ray.\n";
+        let expected = ".SH DESCRIPTION\nTrace rays\n.PP\nInput:\n.PP\n.RS 4\n.nf\nox oy oz\n.fi\n.RE\n.PP\nA ray.\n";
         assert!(page.contains(expected), "{page}");
     }
 }
