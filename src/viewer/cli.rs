@@ -1,10 +1,13 @@
 //! The command line: parsing, the exit status, and the commands that need the viewer's crates.
 
+use crate::about::version_and_target;
 use crate::app::{App, StartOptions};
+use crate::completions::CompletionsArgs;
 use crate::display::{self, DisplayServer};
 use crate::document::embedded_scene;
 use crate::gpu::GpuError;
 use crate::gpu::adapter::{BackendOrder, Gpu, device_descriptor};
+use crate::man::ManArgs;
 use crate::offscreen;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::settings::Settings;
@@ -36,7 +39,7 @@ const HELP_WIDTH: usize = 80;
 /// Without a command, hitscope opens a window, or renders the file to hitscope.png if there is no display.
 #[derive(Parser, Debug)]
 #[command(
-    version,
+    version = version_and_target(),
     propagate_version = true,
     term_width = HELP_WIDTH,
     args_conflicts_with_subcommands = true,
@@ -93,6 +96,10 @@ enum Command {
     Bench(BenchArgs),
     #[command(display_name = "hitscope converge")]
     Converge(ConvergeArgs),
+    #[command(display_name = "hitscope man", hide = true)]
+    Man(ManArgs),
+    #[command(display_name = "hitscope completions", hide = true)]
+    Completions(CompletionsArgs),
 }
 
 /// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
@@ -201,6 +208,8 @@ impl Command {
             Self::Lab(args) => args.run(&mut out)?,
             Self::Bench(args) => args.run(&mut out)?,
             Self::Converge(args) => args.run(&mut out)?,
+            Self::Man(args) => args.run(Cli::command(), &mut out)?,
+            Self::Completions(args) => args.run(Cli::command(), &mut out)?,
         }
         Ok(out.flush()?)
     }

@@ -3,7 +3,8 @@
 //!
 //! | module | contents |
 //! |---|---|
-//! | [`cli`] | the command line |
+//! | [`cli`], [`about`] | the command line; the program's name and version |
+//! | [`man`], [`completions`] | man pages and shell completions of the command line |
 //! | [`app`] | the app: its state and the order of work in a frame |
 //! | [`bindings`] | key and pointer bindings |
 //! | [`display`] | the choice of the display server |
@@ -19,9 +20,11 @@
 //! | [`storage`], [`window`] | storage of the settings; the window's size and end |
 //! | [`offscreen`], [`screenshot`] | the overlay without a window; `--screenshot` |
 
+pub mod about;
 pub mod app;
 pub mod bindings;
 pub mod cli;
+pub mod completions;
 pub mod dialog;
 pub mod display;
 pub mod document;
@@ -29,6 +32,7 @@ pub mod face_lookup;
 pub mod flaw_place;
 pub mod gpu;
 pub mod look;
+pub mod man;
 pub mod numbers;
 pub mod offscreen;
 pub mod opening;

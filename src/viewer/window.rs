@@ -1,7 +1,9 @@
 //! The window: fitting it to the screen, and ending if another program destroys it.
 
+use crate::about::NAME;
 use crate::storage::APP_ID;
-use egui::{Vec2, ViewportBuilder, ViewportCommand, vec2};
+use eframe::icon_data::from_png_bytes;
+use egui::{IconData, Vec2, ViewportBuilder, ViewportCommand, vec2};
 use std::panic::{
     AssertUnwindSafe, PanicHookInfo, catch_unwind, resume_unwind, set_hook, take_hook,
 };
@@ -14,14 +16,21 @@ const SIZE: Vec2 = vec2(1200.0, 700.0);
 const MIN_SIZE: Vec2 = vec2(380.0, 240.0);
 /// Space that frames, title bars (up to 37 points) and panels (up to 48) of common desktops take.
 const DESKTOP: Vec2 = vec2(4.0, 60.0);
+/// The icon, for desktops that don't take it from a package.
+const ICON: &[u8] = include_bytes!("../../assets/icon/hitscope-256.png");
 
 /// The window at the first start.
 pub fn viewport() -> ViewportBuilder {
     ViewportBuilder::default()
         .with_app_id(APP_ID)
-        .with_title("hitscope")
+        .with_title(NAME)
+        .with_icon(icon())
         .with_inner_size(SIZE)
         .with_min_inner_size(MIN_SIZE)
+}
+
+fn icon() -> IconData {
+    from_png_bytes(ICON).expect("a test decodes the icon")
 }
 
 /// Removes values from a restored window that could put it off the screen.
@@ -102,6 +111,15 @@ fn is_of_destroyed_window(panic: &PanicHookInfo<'_>) -> bool {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_window_has_the_icon() {
+        let icon = viewport().icon.expect("an icon");
+        assert_eq!([icon.width, icon.height], [256; 2]);
+        // The corners are transparent, the centre isn't.
+        let alpha = |pixel: usize| icon.rgba[4 * pixel + 3];
+        assert_eq!([alpha(0), alpha(256 * 128 + 128)], [0, 255]);
+    }
 
     #[test]
     fn the_first_window_fits_a_small_laptop_but_no_smaller_screen() {

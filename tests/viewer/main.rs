@@ -17,6 +17,8 @@ mod harness;
 mod machine;
 // Views that need lights: their options, noise and limits.
 mod light;
+// Man pages, shell completions and desktop files.
+mod packaging;
 // The path of a picked pixel's sample.
 mod paths;
 // Flaws, reloading and creases of the open mesh.

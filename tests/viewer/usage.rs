@@ -322,12 +322,12 @@ fn only_the_help_of_lab_lists_all_kernels() {
 #[test]
 fn every_command_has_a_version_and_help_with_examples() {
     let program = Program::new();
-    let version = concat!(env!("CARGO_PKG_VERSION"), "\n");
+    let version = format!("{}\n", hitscope::about::version_and_target());
     for command in [
         "", "render", "inspect", "trace", "info", "lab", "bench", "converge",
     ] {
         let ran = program.run(&format!("{command} --version"));
-        assert!(stdout(&ran).ends_with(version), "{command}");
+        assert!(stdout(&ran).ends_with(&version), "{command}");
         let help = stdout(&program.run(&format!("{command} --help")));
         assert!(help.contains("Examples:"), "{command}: {help}");
     }
