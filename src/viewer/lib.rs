@@ -6,9 +6,10 @@
 //! | [`cli`], [`about`] | the command line; the program's name and version |
 //! | [`man`], [`completions`] | man pages and shell completions of the command line |
 //! | [`app`] | the app: its state and the order of work in a frame |
-//! | [`bindings`] | key and pointer bindings |
+//! | [`command`] | the commands of keys, buttons and menus, as one table |
 //! | [`display`] | the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
+//! | [`recent`], [`folder`] | the files that were opened last; the files beside the open one |
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
@@ -18,18 +19,21 @@
 //! | [`numbers`], [`theme`] | number formatting; colours |
 //! | [`panels`], [`settings`] | the tabs of the side panel; the settings |
 //! | [`storage`], [`window`] | storage of the settings; the window's size and end |
+//! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
 //! | [`offscreen`], [`screenshot`] | the overlay without a window; `--screenshot` |
 
 pub mod about;
+pub mod about_sheet;
 pub mod app;
-pub mod bindings;
 pub mod cli;
+pub mod command;
 pub mod completions;
 pub mod dialog;
 pub mod display;
 pub mod document;
 pub mod face_lookup;
 pub mod flaw_place;
+pub mod folder;
 pub mod gpu;
 pub mod look;
 pub mod man;
@@ -38,6 +42,7 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
+pub mod recent;
 pub mod saving;
 pub mod screenshot;
 pub mod settings;

@@ -3,6 +3,7 @@
 use crate::overlay::Overlays;
 use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::vertex_normals::VERTEX_NORMALS;
+use crate::recent::RecentFiles;
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
@@ -30,6 +31,31 @@ pub enum Tab {
     Mesh,
     /// Speed and accuracy of the kernels in this scene.
     Trade,
+}
+
+impl Tab {
+    /// All tabs, from left to right.
+    pub const ALL: [Self; 4] = [Self::Inspect, Self::Display, Self::Mesh, Self::Trade];
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Inspect => "Inspect",
+            Self::Display => "Display",
+            Self::Mesh => "Mesh",
+            Self::Trade => "Trade",
+        }
+    }
+
+    /// The contents, in a phrase without a full stop.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Inspect => "The ray of the picked pixel, its hit, and the answers of all kernels",
+            Self::Display => "View, shading, kernel, overlay, camera, theme",
+            Self::Mesh => "Contents, flaws and memory of the open file",
+            Self::Trade => "Speed and accuracy of each kernel in this scene",
+        }
+    }
 }
 
 /// Where light from far away comes from.
@@ -133,6 +159,8 @@ pub struct Settings {
     pub zoom: f32,
     /// Dark, light, or the system's theme.
     pub theme: ThemePreference,
+    /// The files that were opened last.
+    pub recent: RecentFiles,
 }
 
 impl Default for Settings {
@@ -177,6 +205,7 @@ impl Default for Settings {
             panel_width: 385.0,
             zoom: 1.0,
             theme: ThemePreference::Dark,
+            recent: RecentFiles::default(),
         }
     }
 }

@@ -75,6 +75,7 @@ pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
 /// The settings as JSON. A path that isn't UTF-8, which JSON can't hold, is left out.
 fn to_json(settings: &Settings) -> Option<String> {
     let mut settings = settings.clone();
+    settings.recent = settings.recent.in_utf_8();
     settings.environment_file = settings
         .environment_file
         .filter(|path| path.to_str().is_some());
@@ -276,6 +277,7 @@ mod tests {
             "terminator",
             "tone_curve",
             "environment",
+            "recent",
         ] {
             let read = with(name, "\"of another version\"");
             let kept =
@@ -317,6 +319,7 @@ mod tests {
         let text = to_json(&settings).expect("JSON");
         assert_eq!(from_json(&text), settings);
         let path = std::ffi::OsString::from_vec(b"sky\xff.hdr".to_vec());
+        settings.recent.add(Path::new(&path));
         settings.environment_file = Some(path.into());
         let text = to_json(&settings).expect("JSON");
         assert_eq!(from_json(&text), chosen());

@@ -7,7 +7,6 @@ use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec3;
 use hitscope::app::App;
-use hitscope::overlay::wireframe::WIREFRAME;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::INTEGRATORS;
 use std::path::PathBuf;
@@ -123,32 +122,6 @@ fn without_a_file_dialog_a_path_can_be_typed() {
 }
 
 #[test]
-fn every_toggle_of_the_tool_bar_works_by_button_and_by_key() {
-    let Some(mut window) = bare() else { return };
-    type State = fn(&App) -> bool;
-    let switches: [(&str, Key, State); 6] = [
-        ("Smooth", Key::S, |app| app.settings().is_smooth),
-        ("Wireframe", Key::W, |app| {
-            app.settings().overlays.is_on(&WIREFRAME)
-        }),
-        ("Normals", Key::N, |app| app.settings().shows_normals()),
-        ("Orthographic", Key::Num5, |app| {
-            app.turntable().is_orthographic
-        }),
-        ("Auto-rotation", Key::T, App::is_rotating),
-        ("Pause", Key::P, App::is_paused),
-    ];
-    for (label, key, is_on) in switches {
-        assert!(!is_on(window.state()), "{label}");
-        window.get_by_label(label).click();
-        window.run_steps(2);
-        assert!(is_on(window.state()), "{label} by its button");
-        press(&mut window, key);
-        assert!(!is_on(window.state()), "{label} by its key");
-    }
-}
-
-#[test]
 fn every_view_changes_the_picture() {
     let Some(mut window) = bare() else { return };
     let mut seen: Vec<Vec<[u8; 4]>> = Vec::new();
@@ -187,23 +160,6 @@ fn number_keys_look_along_the_axes() {
             "{key:?} {modifiers:?}"
         );
     }
-}
-
-#[test]
-fn help_lists_every_key() {
-    let Some(mut window) = bare() else { return };
-    press(&mut window, Key::H);
-    for binding in hitscope::bindings::KEYS {
-        window.get_by_label(binding.about);
-    }
-    press(&mut window, Key::Escape);
-    assert!(
-        window
-            .query_by_label(hitscope::bindings::KEYS[0].about)
-            .is_none()
-    );
-    press(&mut window, Key::Questionmark);
-    window.get_by_label(hitscope::bindings::KEYS[0].about);
 }
 
 #[test]
@@ -329,16 +285,6 @@ fn escape_closes_an_open_menu_before_it_clears_the_pick() {
     assert!(window.state().inspection().is_some());
     press(&mut window, Key::Escape);
     assert!(window.state().inspection().is_none());
-}
-
-#[test]
-fn keys_set_the_up_axis() {
-    let Some(mut window) = bare() else { return };
-    for (key, axis) in [(Key::Z, UpAxis::Z), (Key::Y, UpAxis::Y)] {
-        window.key_press_modifiers(Modifiers::COMMAND, key);
-        window.run_steps(3);
-        assert_eq!(window.state().turntable().up_axis, axis);
-    }
 }
 
 #[test]

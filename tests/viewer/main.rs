@@ -2,14 +2,20 @@
 
 // The real app, driven by labels and keys.
 mod app;
+// Names of all controls for assistive technology.
+mod accessibility;
 // The program's exit statuses and its behaviour without a display.
 mod cli;
+// Commands by key, tool bar, menu and palette; the help sheet.
+mod commands;
 // The program on a display: clipboard, closing, stored settings and fonts.
 mod desktop;
 // The overlay in slices and on a GPU with small buffers.
 mod gpu;
 // Unusable graphics backends and display servers in the environment.
 mod environment;
+// Recent files, and the files beside the open one.
+mod files;
 // The app in a test harness, and the gate for tests that need a GPU.
 mod harness;
 // Standard input, warnings, and machines that lack memory or threads.
@@ -52,3 +58,5 @@ mod usage;
 mod window;
 // Views that compare kernels, and the Trade tab.
 mod trade;
+// The view as text, copied and pasted.
+mod view_text;

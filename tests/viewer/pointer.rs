@@ -77,7 +77,7 @@ pub fn on_the_mesh(window: &Window) -> (f32, f32) {
 }
 
 /// A place in the picture where smooth shading changes the normal.
-fn on_the_knot(window: &Window) -> (f32, f32) {
+pub fn on_the_knot(window: &Window) -> (f32, f32) {
     on(window, |material| material == "knot")
 }
 

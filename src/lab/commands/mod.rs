@@ -3,6 +3,7 @@
 mod args;
 mod bench;
 mod camera;
+mod camera_text;
 mod converge;
 mod display;
 mod draft;

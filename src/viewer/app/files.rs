@@ -1,16 +1,81 @@
-//! Loading files, showing the result, reloading changed files, and saving scene files.
+//! Loading files, showing the result, reloading changed files, finding the files beside them, and saving scene files.
 
 use super::{App, Notice, NoticeKind};
 use crate::document::Document;
+use crate::folder::{self, Direction};
 use crate::opening::Loading;
-use crate::saving::Saving;
+use crate::saving::{Saving, suggested_path};
+use crate::task::{Task, TaskPanicked};
 use crate::watch::Watch;
 use hitscope_core::obj::{LoadError, shown};
 use hitscope_lab::commands::print_warnings;
+use std::io;
 use std::path::{Path, PathBuf};
 
+/// The search for the next or the previous file of the folder.
+#[derive(Default)]
+pub(super) struct Neighbours {
+    search: Option<Task<io::Result<Option<PathBuf>>>>,
+    /// The file that was found last, unless a file was opened since.
+    last: Option<PathBuf>,
+}
+
 impl App {
-    pub(super) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
+    /// Shows the dialog that opens a file.
+    pub(crate) fn show_open_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        let near = self.document.path.as_deref();
+        self.open_dialog.open(ctx, frame, near);
+    }
+
+    /// Shows the dialog that opens a picture of an environment.
+    pub(crate) fn show_environment_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        let near = self.document.path.as_deref();
+        self.environment_dialog.open(ctx, frame, near);
+    }
+
+    /// Shows the dialog that saves a scene file.
+    pub(crate) fn show_save_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        let suggested = suggested_path(&self.document);
+        self.save_dialog.open(ctx, frame, suggested.as_deref());
+    }
+
+    /// Loads the open file again.
+    pub(crate) fn reload(&mut self, ctx: &egui::Context) {
+        if let Some(path) = self.document.path.clone() {
+            self.load(path, ctx);
+        }
+    }
+
+    /// Opens the next or the previous file of the folder, once it is found. The search begins at the file that was found
+    /// last, so that one that can't be loaded is left behind.
+    pub(crate) fn open_neighbour(&mut self, direction: Direction, ctx: &egui::Context) {
+        let last = self.neighbours.last.as_ref();
+        let Some(file) = last.or(self.document.path.as_ref()).cloned() else {
+            return;
+        };
+        let search = move || folder::neighbour(&file, direction);
+        self.neighbours.search = Some(Task::spawn("neighbour", ctx, search));
+    }
+
+    pub(super) fn poll_neighbours(&mut self, ctx: &egui::Context) {
+        let result = match self.neighbours.search.as_ref().map(Task::poll) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(result))) => result.map_err(|error| format!("the folder: {error}")),
+            Some(Err(broken @ TaskPanicked)) => Err(broken.to_string()),
+        };
+        self.neighbours.search = None;
+        match result {
+            Ok(Some(path)) => {
+                self.neighbours.last = Some(path.clone());
+                self.load(path, ctx);
+            }
+            Ok(None) => self.refuse("The folder has no other mesh or scene file"),
+            Err(error) => self.error(error),
+        }
+    }
+
+    /// Loads a file. The open one stays until it is loaded.
+    pub(crate) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
         self.cancel_loading();
         self.notice = None;
         self.loading = Some(Loading::start(path, self.load_options, &self.settings, ctx));
@@ -42,10 +107,14 @@ impl App {
             Ok(Some(result)) => result.map_err(|error| error.to_string()),
             Err(broken) => Err(format!("{}: {broken}", loading.path.display())),
         };
+        let path = loading.path.clone();
         self.loading = None;
         match result {
             Ok(document) => self.show(document, ctx),
-            Err(message) => {
+            Err(mut message) => {
+                if !path.exists() && self.settings.recent.remove(&path) {
+                    message += " (it is no longer listed under Open recent)";
+                }
                 if let Some(screenshot) = &self.screenshot {
                     screenshot.fail(ctx, message.clone());
                 }
@@ -59,6 +128,10 @@ impl App {
         let origin = |document: &Document| document.loaded.scene.mesh().origin();
         let shift = origin(&self.document) - origin(&document);
         self.document = document;
+        if let Some(path) = &self.document.path {
+            self.settings.recent.add(path);
+        }
+        self.neighbours.last = None;
         self.watch = None;
         self.document.use_crease(self.settings.crease());
         let pick = self.pick.take();

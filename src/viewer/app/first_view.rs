@@ -8,8 +8,13 @@ impl App {
     /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
     /// there is one. Before the first layout the picture has no size; the first layout then calls this again.
     pub(super) fn use_first_view(&mut self) {
-        self.settings.file_up_axis = None;
         self.settings.file_view = self.document.loaded.integrator().map(|view| view.name);
+        self.use_first_camera();
+    }
+
+    /// The same without changing what the picture shows.
+    pub(crate) fn use_first_camera(&mut self) {
+        self.settings.file_up_axis = None;
         let turntable = &mut self.turntable;
         if let Some(own) = self.own_projection.take() {
             (turntable.fov_y_radians, turntable.is_orthographic) = own;
@@ -27,7 +32,7 @@ impl App {
 
     /// Shows the view of the file's sensor. If it is already shown or the file has none, frames the scene; from the
     /// default direction if the picture shows nothing.
-    pub(super) fn frame(&mut self) {
+    pub(crate) fn frame(&mut self) {
         match self.view_of_file() {
             Some(view) if view != self.turntable => self.use_view(view),
             _ if self.shows_nothing() => self.use_default_view(),

@@ -2,7 +2,7 @@
 //! mesh.
 
 use super::App;
-use crate::bindings::Action;
+use crate::command::{Commands, keys::keys_of};
 use std::sync::Arc;
 
 impl App {
@@ -26,7 +26,7 @@ impl App {
         }
     }
 
-    pub(super) fn hints_ui(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
+    pub(super) fn hints_ui(&mut self, ctx: &egui::Context, commands: &Commands) {
         let is_loading = self.document.is_blank && self.loading.is_some();
         if !self.document.is_blank && !self.shows_nothing() {
             return;
@@ -43,13 +43,12 @@ impl App {
                         is_cancelled = loading.progress_ui(ui);
                     }
                     _ if self.document.is_blank => {
-                        ui.label("No file is open. Drop a file here or press Ctrl+O.");
+                        let key = keys_of("open", ctx);
+                        ui.label(format!("No file is open. Drop a file here or press {key}."));
                     }
                     _ => {
                         ui.label("The mesh isn't visible.");
-                        if ui.button("Frame the mesh (Home)").clicked() {
-                            actions.push(Action::Frame);
-                        }
+                        commands.button_ui(ui, "frame");
                     }
                 });
             });

@@ -1,13 +1,47 @@
-//! The windows over the picture: path fields, messages and help.
+//! What is shown over the picture: path fields, messages, sheets and the command palette.
 
 use super::light::is_environment;
 use super::{App, NoticeKind};
-use crate::bindings::{Action, KEYS, POINTER, SYSTEM};
+use crate::command::{Commands, help_sheet};
 use egui::{Align, Layout, RichText};
 
+/// A sheet over the window.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum Sheet {
+    /// All keys, and the uses of the mouse.
+    Help,
+    /// The version, and facts about the machine.
+    About,
+}
+
 impl App {
-    /// Shows the windows over the picture.
-    pub(super) fn windows_ui(&mut self, ctx: &egui::Context, actions: &mut Vec<Action>) {
+    /// Shows a sheet, or closes it if it is shown.
+    pub(crate) fn toggle_sheet(&mut self, sheet: Sheet) {
+        self.sheet = (self.sheet != Some(sheet)).then_some(sheet);
+    }
+
+    /// Closes the topmost window or message, cancels loading, clears the marked flaw, or clears the pick: the first
+    /// of these that applies.
+    pub(crate) fn dismiss(&mut self) {
+        if self.palette.dismiss() || self.sheet.take().is_some() {
+            return;
+        }
+        if let Some(loading) = &self.loading {
+            loading.cancel();
+            return;
+        }
+        let is_closed = self.open_dialog.dismiss()
+            || self.save_dialog.dismiss()
+            || self.environment_dialog.dismiss()
+            || self.notice.take().is_some();
+        if !is_closed && self.flaw.take().is_none() {
+            (self.pick, self.picking, self.face_lookup) = (None, None, None);
+            self.clicks.pending = None;
+        }
+    }
+
+    /// Shows what is over the picture.
+    pub(super) fn windows_ui(&mut self, ctx: &egui::Context, commands: &Commands) {
         if let Some(path) = self.open_dialog.field_ui(ctx) {
             self.load(path, ctx);
         }
@@ -28,7 +62,8 @@ impl App {
         }
         self.drop_hint_ui(ctx);
         self.notices_ui(ctx);
-        self.help_ui(ctx, actions);
+        self.sheet_ui(ctx);
+        self.palette.palette_ui(ctx, commands);
     }
 
     fn drop_hint_ui(&self, ctx: &egui::Context) {
@@ -87,45 +122,14 @@ impl App {
         }
     }
 
-    fn help_ui(&self, ctx: &egui::Context, actions: &mut Vec<Action>) {
-        if !self.shows_help {
-            return;
-        }
-        let response = egui::Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
-            ui.heading("Keyboard and mouse");
-            ui.add_space(4.0);
-            let size = ui.ctx().content_rect().size() - egui::vec2(60.0, 120.0);
-            let height = size.y;
-            egui::ScrollArea::both()
-                .max_width(size.x)
-                .max_height(height)
-                .min_scrolled_height(height)
-                .show(ui, |ui| {
-                    let row = |ui: &mut egui::Ui, keys: &str, about: &str| {
-                        ui.label(RichText::new(keys).strong());
-                        ui.label(about);
-                        ui.end_row();
-                    };
-                    egui::Grid::new("keys")
-                        .num_columns(2)
-                        .spacing([16.0, 3.0])
-                        .show(ui, |ui| {
-                            for (pointer, about) in POINTER {
-                                row(ui, pointer, about);
-                            }
-                            for binding in KEYS {
-                                row(ui, &binding.key_text(ctx), binding.about);
-                            }
-                            for (keys, about) in SYSTEM {
-                                row(ui, keys, about);
-                            }
-                        });
-                });
-            ui.add_space(6.0);
-            ui.button("Close").clicked()
-        });
-        if response.inner || response.backdrop_response.clicked() {
-            actions.push(Action::ToggleHelp);
+    fn sheet_ui(&mut self, ctx: &egui::Context) {
+        let is_closed = match self.sheet {
+            None => return,
+            Some(Sheet::Help) => help_sheet::help_ui(ctx),
+            Some(Sheet::About) => self.about.about_ui(ctx),
+        };
+        if is_closed {
+            self.sheet = None;
         }
     }
 }

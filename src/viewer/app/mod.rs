@@ -4,22 +4,22 @@
 //! |---|---|
 //! | this file | state and the order of work in a frame |
 //! | `state` | what others may read of the state |
-//! | `actions` | effects of keys and buttons |
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
-//! | `path` | the path of a sample of the picked pixel |
+//! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
-//! | `first_view` | the view in which a document opens |
+//! | `first_view`, `view_text` | the view in which a document opens; the view as text |
 //! | `hints` | the message in the middle of an empty picture |
-//! | `chrome` | tool bar and status line |
-//! | `side_panel`, `messages` | the side panel; path fields, messages, help |
+//! | `side_panel`, `status_line` | the side panel and the status line |
+//! | `messages` | path fields, messages, sheets over the window |
+//!
+//! What keys, buttons and menus do is in [`command`](crate::command).
 
-mod actions;
 mod canvas;
-mod chrome;
 mod files;
 mod first_view;
+pub(crate) mod flaws;
 mod hints;
 mod labels;
 mod light;
@@ -29,7 +29,14 @@ mod pick;
 mod pointer;
 mod side_panel;
 mod state;
+mod status_line;
+mod view_text;
 
+pub(crate) use messages::Sheet;
+
+use crate::about_sheet::AboutSheet;
+use crate::command::palette::Palette;
+use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
 use crate::dialog::{FileDialog, Purpose};
 use crate::document::Document;
 use crate::face_lookup::FaceLookup;
@@ -50,6 +57,7 @@ use crate::watch::Watch;
 use crate::window::FitToScreen;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
+use files::Neighbours;
 use glam::UVec2;
 use hitscope_core::camera::Turntable;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
@@ -113,7 +121,7 @@ enum NoticeKind {
 
 /// The viewer.
 pub struct App {
-    settings: Settings,
+    pub(crate) settings: Settings,
     document: Document,
     loading: Option<Loading>,
     load_options: LoadOptions,
@@ -121,11 +129,13 @@ pub struct App {
     open_dialog: FileDialog,
     save_dialog: FileDialog,
     environment_dialog: FileDialog,
+    /// The search for the next or the previous file of the folder.
+    neighbours: Neighbours,
     saving: Option<Saving>,
-    turntable: Turntable,
+    pub(crate) turntable: Turntable,
     /// Field of view and projection before a file's view replaced them; the next file gets them back.
     own_projection: Option<(f64, bool)>,
-    tracer: Tracer,
+    pub(crate) tracer: Tracer,
     development: Development,
     picture: Picture,
     /// The lights of the last request that needs lights.
@@ -148,9 +158,12 @@ pub struct App {
     /// Whether any scene has been measured since the start.
     has_measured: bool,
     notice: Option<Notice>,
-    shows_help: bool,
+    pub(crate) palette: Palette,
+    /// The sheet over the window.
+    sheet: Option<Sheet>,
+    about: AboutSheet,
     /// Whether the camera rotates around the mesh.
-    is_rotating: bool,
+    pub(crate) is_rotating: bool,
     /// The picture's place in points, at the last layout. `resolution` is its size in physical pixels.
     canvas_rect: egui::Rect,
     resolution: UVec2,
@@ -195,6 +208,7 @@ impl App {
             open_dialog: FileDialog::new(Purpose::Open),
             save_dialog: FileDialog::new(Purpose::Save),
             environment_dialog: FileDialog::new(Purpose::Environment),
+            neighbours: Neighbours::default(),
             saving: None,
             tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
             gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
@@ -213,7 +227,9 @@ impl App {
             trade: None,
             has_measured: false,
             notice: None,
-            shows_help: false,
+            palette: Palette::default(),
+            sheet: None,
+            about: AboutSheet::new(&render_state),
             is_rotating: false,
             canvas_rect: egui::Rect::ZERO,
             resolution: UVec2::ZERO,
@@ -231,6 +247,14 @@ impl App {
         self.notice = Some(Notice {
             text: text.to_string(),
             kind: NoticeKind::Error,
+        });
+    }
+
+    /// Shows why a command can't be run.
+    pub(crate) fn refuse(&mut self, obstacle: &str) {
+        self.notice = Some(Notice {
+            text: obstacle.to_owned(),
+            kind: NoticeKind::Warning,
         });
     }
 
@@ -267,6 +291,7 @@ impl eframe::App for App {
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
         }
+        self.poll_neighbours(ctx);
         self.poll_loading(ctx);
         self.poll_saving(ctx);
         self.poll_environment(ctx);
@@ -309,15 +334,22 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
-        let mut actions = crate::bindings::pressed(&ctx);
-        self.toolbar_ui(ui, &mut actions);
+        for command in keys::pressed(&ctx) {
+            Entry::of(command, self).run(self, &ctx, frame);
+        }
+        if let Some(text) = keys::pasted(&ctx) {
+            self.paste_view(&text);
+        }
+        let commands = Commands::of(self);
+        menu_bar::menu_bar_ui(ui, &commands);
+        tool_bar::tool_bar_ui(ui, &commands);
         self.status_ui(ui);
-        self.panel_ui(ui, &mut actions);
+        self.panel_ui(ui, &commands);
         self.canvas_ui(ui);
-        self.windows_ui(&ctx, &mut actions);
-        self.hints_ui(&ctx, &mut actions);
-        for action in actions {
-            self.perform(action, &ctx, frame);
+        self.windows_ui(&ctx, &commands);
+        self.hints_ui(&ctx, &commands);
+        for entry in commands.into_chosen() {
+            entry.run(self, &ctx, frame);
         }
     }
 

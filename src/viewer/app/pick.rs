@@ -124,6 +124,62 @@ fn colour_at(mesh: &TriangleMesh, hit: &TriangleReport) -> Option<[f32; 3]> {
 }
 
 impl App {
+    /// Why nothing can be done with the pick; `None` if there is one.
+    pub(crate) fn lacks_pick(&self) -> Option<&'static str> {
+        self.pick
+            .is_none()
+            .then_some("No pixel is picked: click one")
+    }
+
+    /// Why nothing can be done with the picked ray's crossings; `None` if there are some.
+    pub(crate) fn lacks_crossing(&self) -> Option<&'static str> {
+        let crosses = |pick: &Pick| !pick.inspection.crossings.is_empty();
+        self.obstacle_unless(crosses)
+    }
+
+    /// Why nothing can be done with what the picked ray hits; `None` if it hits something.
+    pub(crate) fn lacks_hit(&self) -> Option<&'static str> {
+        self.obstacle_unless(|pick| pick.marked_primitive().is_some())
+    }
+
+    fn obstacle_unless(&self, is_met: impl Fn(&Pick) -> bool) -> Option<&'static str> {
+        let misses = |pick: &Pick| (!is_met(pick)).then_some("The picked ray hits nothing");
+        self.lacks_pick().or_else(|| misses(self.pick.as_ref()?))
+    }
+
+    /// Marks the crossing so many further along the picked ray.
+    pub(crate) fn step_crossing(&mut self, step: i8) {
+        if let Some(pick) = &mut self.pick {
+            pick.step(step);
+        }
+    }
+
+    /// Copies the inspection as JSON.
+    pub(crate) fn copy_pick(&self, ctx: &egui::Context) {
+        if let Some(pick) = &self.pick {
+            ctx.copy_text(pick.inspection.to_json());
+        }
+    }
+
+    /// Frames the primitive that is marked. One without bounds, such as a plane, is only centred.
+    pub(crate) fn frame_pick(&mut self) {
+        /// Distance of the camera, relative to the distance that frames the primitive: shows some of the surface
+        /// around it.
+        const DISTANCE: f64 = 3.0;
+        let scene = &self.document.loaded.scene;
+        let Some(primitive) = self.pick.as_ref().and_then(Pick::marked_primitive) else {
+            return;
+        };
+        let bounds = scene.subset(&[primitive]).bounds();
+        if !bounds.is_empty() {
+            self.turntable.frame(bounds, self.resolution);
+            self.turntable.distance *= DISTANCE;
+            self.turntable.set_scene(scene.bounds_with_elements());
+        } else if let Some(point) = self.marked_point() {
+            self.turntable.centre_on(point);
+        }
+    }
+
     /// Inspects a pixel and opens the Inspect tab.
     pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
         if let Some(pick) = &mut self.pick {

@@ -1,7 +1,7 @@
 //! The side panel with its tabs.
 
 use super::App;
-use crate::bindings::Action;
+use crate::command::{Commands, TABS};
 use crate::panels;
 use crate::settings::{PANEL_WIDTHS, Tab};
 use crate::trade::Trade;
@@ -13,7 +13,7 @@ const NARROWEST_PICTURE: f32 = 120.0;
 const MIN_PANEL_WIDTH: f32 = 160.0;
 
 impl App {
-    pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+    pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         let mut is_expanded = self.settings.shows_panel;
         let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
         // In a narrow window, the panel leaves some room for the picture.
@@ -22,10 +22,10 @@ impl App {
             .default_size(self.settings.panel_width)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {
-                self.tabs_ui(ui);
+                tabs_ui(ui, commands);
                 // In a narrow window the contents are wider than the panel.
                 egui::ScrollArea::both().auto_shrink(false).show(ui, |ui| {
-                    self.tab_ui(ui, actions);
+                    self.tab_ui(ui, commands);
                 });
             });
         self.settings.shows_panel = is_expanded;
@@ -39,24 +39,8 @@ impl App {
         }
     }
 
-    /// The names of the tabs.
-    fn tabs_ui(&mut self, ui: &mut egui::Ui) {
-        ui.add_space(4.0);
-        ui.horizontal(|ui| {
-            for (tab, label) in [
-                (Tab::Inspect, "Inspect"),
-                (Tab::Display, "Display"),
-                (Tab::Mesh, "Mesh"),
-                (Tab::Trade, "Trade"),
-            ] {
-                ui.selectable_value(&mut self.settings.tab, tab, label);
-            }
-        });
-        ui.separator();
-    }
-
     /// The contents of the selected tab.
-    fn tab_ui(&mut self, ui: &mut egui::Ui, actions: &mut Vec<Action>) {
+    fn tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         match self.settings.tab {
             Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
                 ui.label("No file is open.");
@@ -66,7 +50,7 @@ impl App {
                 let pick = self.pick.as_ref();
                 let is_reading = self.face_lookup.is_some();
                 let view = pick.map(|pick| pick.view(&self.document, is_reading));
-                let selected = panels::inspect::inspect_ui(ui, view, is_busy);
+                let selected = panels::inspect::inspect_ui(ui, view, is_busy, commands);
                 if let Some((pick, crossing)) = self.pick.as_mut().zip(selected) {
                     pick.select(crossing);
                 }
@@ -82,12 +66,15 @@ impl App {
                     &mut self.settings,
                     &mut self.turntable,
                     &self.document.loaded.scene.kernels(),
-                    actions,
+                    commands,
                 );
             }
             Tab::Mesh => {
-                let (document, settings) = (&mut self.document, &mut self.settings);
-                panels::mesh::mesh_ui(ui, document, settings, self.flaw.as_ref(), actions);
+                let flaw = self.flaw.as_ref();
+                let shown = panels::mesh::mesh_ui(ui, &mut self.document, flaw, commands);
+                if let Some(shown) = shown {
+                    self.show_flaw(shown);
+                }
             }
             Tab::Trade => self.trade_ui(ui),
         }
@@ -114,4 +101,15 @@ impl App {
             self.has_measured = true;
         }
     }
+}
+
+/// Shows the names of the tabs.
+fn tabs_ui(ui: &mut egui::Ui, commands: &Commands) {
+    ui.add_space(4.0);
+    ui.horizontal(|ui| {
+        for tab in commands.at(TABS) {
+            commands.choice_ui(ui, tab);
+        }
+    });
+    ui.separator();
 }

@@ -1,28 +1,28 @@
 //! The flaws of the mesh: a button for each kind, and a list of the flaws of the marked kind.
 
 use super::mesh::on_one_line;
-use crate::bindings::Action;
+use crate::app::flaws::ShownFlaw;
 use crate::flaw_place::{self, FlawPlace};
 use egui::RichText;
 use hitscope_core::counts::grouped;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::{FLAWS, Health};
 
-/// Shows the flaws. A click marks all flaws of a kind or shows one of them.
+/// Shows the flaws. Returns the flaw that the user chooses to show, or that none is to be shown.
 pub fn flaws_ui(
     ui: &mut egui::Ui,
     loaded: &LoadedScene,
     health: &Health,
     marked: Option<&FlawPlace>,
-) -> Option<Action> {
+) -> Option<ShownFlaw> {
     let chosen = kinds_ui(ui, health, marked);
     let shown = marked.and_then(|place| list_ui(ui, loaded, health, place));
     chosen.or(shown)
 }
 
 /// Shows a button for each kind with the number of flaws.
-fn kinds_ui(ui: &mut egui::Ui, health: &Health, marked: Option<&FlawPlace>) -> Option<Action> {
-    let mut action = None;
+fn kinds_ui(ui: &mut egui::Ui, health: &Health, marked: Option<&FlawPlace>) -> Option<ShownFlaw> {
+    let mut shown = None;
     ui.horizontal_wrapped(|ui| {
         for info in &FLAWS {
             let is_marked = marked.is_some_and(|place| place.flaw == info.flaw);
@@ -42,11 +42,11 @@ fn kinds_ui(ui: &mut egui::Ui, health: &Health, marked: Option<&FlawPlace>) -> O
                 .on_disabled_hover_text(hint)
                 .clicked()
             {
-                action = Some(Action::ShowFlaw((!is_marked).then_some((info.flaw, 0))));
+                shown = Some((!is_marked).then_some((info.flaw, 0)));
             }
         }
     });
-    action
+    shown
 }
 
 /// Shows the flaws of the marked kind with their coordinates, and buttons for the next and the previous one.
@@ -55,7 +55,7 @@ fn list_ui(
     loaded: &LoadedScene,
     health: &Health,
     place: &FlawPlace,
-) -> Option<Action> {
+) -> Option<ShownFlaw> {
     /// Number of visible rows of the list.
     const ROWS: f32 = 6.0;
     let count = health.places(place.flaw).count().unwrap_or(0);
@@ -106,5 +106,5 @@ fn list_ui(
                 }
             });
     });
-    chosen.map(|index| Action::ShowFlaw(Some((place.flaw, index))))
+    chosen.map(|index| Some((place.flaw, index)))
 }

@@ -2,6 +2,7 @@
 
 use super::table::{dash, table_ui};
 use super::{kernel_name, lines, row_ui, rows_ui, section_ui};
+use crate::command::{Commands, keys::keys_of};
 use crate::face_lookup::FaceInFile;
 use crate::numbers::{number, significant};
 use egui::{CollapsingHeader, RichText};
@@ -31,7 +32,12 @@ pub struct PickView<'p> {
 
 /// Shows a pick, or how to pick a pixel; `is_busy` while a pixel is being inspected. Returns the crossing that the user
 /// selects.
-pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) -> Option<usize> {
+pub fn inspect_ui(
+    ui: &mut egui::Ui,
+    pick: Option<PickView<'_>>,
+    is_busy: bool,
+    commands: &Commands,
+) -> Option<usize> {
     let Some(pick) = pick else {
         if is_busy {
             ui.spinner();
@@ -41,7 +47,7 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
         return None;
     };
     let inspection = pick.inspection;
-    title_ui(ui, inspection, is_busy);
+    title_ui(ui, inspection, is_busy, commands);
     match &inspection.hit {
         Some(hit) => {
             hit_ui(ui, &pick, hit);
@@ -72,17 +78,11 @@ pub fn inspect_ui(ui: &mut egui::Ui, pick: Option<PickView<'_>>, is_busy: bool) 
     selected
 }
 
-fn title_ui(ui: &mut egui::Ui, inspection: &Inspection, is_busy: bool) {
+fn title_ui(ui: &mut egui::Ui, inspection: &Inspection, is_busy: bool, commands: &Commands) {
     ui.horizontal(|ui| {
         let [x, y] = inspection.pixel;
         ui.label(RichText::new(format!("Pixel {x}, {y}")).strong());
-        let copy = ui.button("Copy as JSON");
-        if copy
-            .on_hover_text("The output of `hitscope inspect --json`; indices start at 0")
-            .clicked()
-        {
-            ui.ctx().copy_text(inspection.to_json());
-        }
+        commands.button_ui(ui, "copy-pick");
         if is_busy {
             ui.spinner();
         }
@@ -192,9 +192,11 @@ fn crossings_ui(
         let name = ui.label(RichText::new("Crossings").strong());
         if count > 1 {
             let slider = egui::Slider::new(&mut selected, 0..=count - 1).show_value(false);
-            ui.add(slider)
-                .labelled_by(name.id)
-                .on_hover_text("Moves the mark along the ray ([ and ])");
+            ui.add(slider).labelled_by(name.id).on_hover_text(format!(
+                "Moves the mark along the ray ({} and {})",
+                keys_of("previous-crossing", ui.ctx()),
+                keys_of("next-crossing", ui.ctx())
+            ));
         }
     });
     rows_ui(ui, |ui| {

@@ -1,7 +1,7 @@
 //! The options of views that need lights, in the Display tab.
 
 use super::view::legend_ui;
-use crate::bindings::Action;
+use crate::command::Commands;
 use crate::look::noise_legend;
 use crate::settings::{EnvironmentSource, Settings};
 use crate::tracer::LEAST_SAMPLES;
@@ -28,7 +28,7 @@ pub const TIME_LIMITS_S: RangeInclusive<f32> = 1.0..=86_400.0;
 pub const NOISE_LIMITS: RangeInclusive<f32> = 0.001..=100.0;
 
 /// Shows the options that the chosen view uses; nothing if it needs no lights.
-pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut Vec<Action>) {
+pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     let needs = settings.view().needs;
     if !needs.lights {
         return;
@@ -46,7 +46,7 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
         });
     }
     if settings.shows_light() {
-        environment_ui(ui, settings, actions);
+        environment_ui(ui, settings, commands);
     }
     if settings.is_exposed() {
         exposure_ui(ui, settings);
@@ -58,7 +58,8 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
             let limit = DragValue::new(&mut settings.depth_limit)
                 .range(DEPTH_LIMITS)
                 .suffix(" surfaces");
-            ui.add_enabled(settings.has_depth_limit, limit);
+            ui.add_enabled(settings.has_depth_limit, limit)
+                .accessible_name("Most surfaces on a path");
         });
     }
     if needs.uses(Setting::Spawn) {
@@ -72,10 +73,10 @@ pub(super) fn light_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut
     if needs.uses(Setting::Terminator) {
         terminator_ui(ui, settings);
     }
-    noise_ui(ui, settings);
+    noise_ui(ui, settings, commands);
 }
 
-fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut Vec<Action>) {
+fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     let file = settings.environment_file.as_ref().map(|path| {
         let name = path.file_name().unwrap_or_default();
         name.to_string_lossy().into_owned()
@@ -104,16 +105,11 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, actions: &mut Vec<
                 "Light from far away. That of the scene is white if nothing in the scene emits light.",
             );
         if settings.environment == Colour {
-            ui.color_edit_button_srgb(&mut settings.environment_colour);
+            ui.color_edit_button_srgb(&mut settings.environment_colour)
+                .accessible_name("Colour of the environment");
         }
     });
-    let open = ui.button("Open environment…");
-    if open
-        .on_hover_text("Light the scene by an HDR or EXR picture; or drop one on the window")
-        .clicked()
-    {
-        actions.push(Action::OpenEnvironment);
-    }
+    commands.button_ui(ui, "open-environment");
     if settings.environment != EnvironmentSource::Scene {
         ui.horizontal(|ui| {
             let label = ui.label("Brightness");
@@ -206,14 +202,15 @@ fn terminator_ui(ui: &mut egui::Ui, settings: &mut Settings) {
 }
 
 /// Shows the limits that end refinement, and the switch of the noise's picture with its legend.
-fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Commands) {
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_time_limit, "Stop after")
             .on_hover_text("Ends refinement after so many seconds of tracing");
         let secs = DragValue::new(&mut settings.time_limit_s)
             .range(TIME_LIMITS_S)
             .suffix(" s");
-        ui.add_enabled(settings.has_time_limit, secs);
+        ui.add_enabled(settings.has_time_limit, secs)
+            .accessible_name("Time limit");
     });
     ui.horizontal(|ui| {
         ui.checkbox(&mut settings.has_noise_limit, "Stop at noise")
@@ -226,10 +223,10 @@ fn noise_ui(ui: &mut egui::Ui, settings: &mut Settings) {
             .speed(0.05)
             .max_decimals(3)
             .suffix(" %");
-        ui.add_enabled(settings.has_noise_limit, percent);
+        ui.add_enabled(settings.has_noise_limit, percent)
+            .accessible_name("Noise limit");
     });
-    ui.checkbox(&mut settings.shows_noise, "Noise")
-        .on_hover_text("Shows the standard error of each pixel, in percent of white");
+    commands.check_box_ui(ui, "noise");
     if settings.shows_noise {
         legend_ui(ui, &noise_legend());
     }

@@ -2,23 +2,24 @@
 
 use super::flaws::flaws_ui;
 use super::{lines, row_ui, section_ui};
-use crate::bindings::Action;
+use crate::app::flaws::ShownFlaw;
+use crate::command::Commands;
 use crate::document::{Document, MeshReport};
 use crate::flaw_place::FlawPlace;
 use crate::numbers::{duration, number, significant};
-use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::counts::{counted, grouped};
 use hitscope_core::loading::LoadedScene;
 
-/// Shows the tab; `flaw` is the selected flaw.
+/// Shows the tab; `flaw` is the selected flaw. Returns the flaw that the user chooses to show, or that none is to be
+/// shown.
 pub fn mesh_ui(
     ui: &mut egui::Ui,
     document: &mut Document,
-    settings: &mut Settings,
     flaw: Option<&FlawPlace>,
-    actions: &mut Vec<Action>,
-) {
+    commands: &Commands,
+) -> Option<ShownFlaw> {
+    let mut shown = None;
     let findings = document.findings(ui.ctx());
     let loaded = &document.loaded;
     let path = document.path.as_ref();
@@ -45,7 +46,7 @@ pub fn mesh_ui(
     ui.label(RichText::new("Flaws").strong());
     match &findings {
         Some(findings) => {
-            actions.extend(flaws_ui(ui, loaded, &findings.health, flaw));
+            shown = flaws_ui(ui, loaded, &findings.health, flaw);
             ui.add_space(4.0);
             section_ui(ui, "Required kernel", |ui| {
                 row_ui(ui, "tier", findings.requirement.tier);
@@ -64,9 +65,10 @@ pub fn mesh_ui(
             });
         }
     }
-    options_ui(ui, document, settings, actions);
+    options_ui(ui, commands);
     place_ui(ui, &document.loaded);
     cost_ui(ui, document, findings.as_deref());
+    shown
 }
 
 fn contents_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
@@ -109,30 +111,11 @@ fn shapes_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
 }
 
 /// Shows the options for loading the file.
-fn options_ui(
-    ui: &mut egui::Ui,
-    document: &Document,
-    settings: &mut Settings,
-    actions: &mut Vec<Action>,
-) {
-    // The built-in scene can't be reloaded.
-    let is_file = document.path.is_some();
+fn options_ui(ui: &mut egui::Ui, commands: &Commands) {
     ui.add_space(6.0);
     ui.label(RichText::new("Loading").strong());
-    let watch = egui::Checkbox::new(&mut settings.watches, "Auto-reload");
-    ui.add_enabled(is_file, watch).on_hover_text(
-        "Reload the file when it, its materials or its textures change. Keeps the camera and the picked pixel. (Ctrl+R)",
-    );
-    let compact = egui::Checkbox::new(&mut settings.is_compact, "Compact triangles");
-    let is_changed = ui
-        .add_enabled(is_file, compact)
-        .on_hover_text(
-            "Tree and triangles take a third less memory, but tracing is slower. Reloads the file.",
-        )
-        .changed();
-    if is_changed {
-        actions.push(Action::Reload);
-    }
+    commands.check_box_ui(ui, "auto-reload");
+    commands.check_box_ui(ui, "compact");
     ui.add_space(4.0);
 }
 

@@ -1,25 +1,27 @@
 //! The section *Overlay* of the Display tab: a row of controls per overlay that has a switch.
 
+use crate::command::Commands;
 use crate::overlay::spec::{OptionKind, OverlayOption};
 use crate::overlay::state::{OPACITIES, WIDTHS_PX};
 use crate::overlay::{OverlaySpec, OverlayState, Overlays, switches};
 use egui::{DragValue, Response, RichText};
 
 /// Shows the section.
-pub fn overlay_ui(ui: &mut egui::Ui, overlays: &mut Overlays) {
+pub fn overlay_ui(ui: &mut egui::Ui, overlays: &mut Overlays, commands: &Commands) {
     ui.label(RichText::new("Overlay").strong());
     let grid = egui::Grid::new("overlays").num_columns(4);
     grid.show(ui, |ui| {
         for overlay in switches() {
-            row_ui(ui, overlay, overlays.state_mut(overlay));
+            row_ui(ui, overlay, overlays.state_mut(overlay), commands);
             ui.end_row();
         }
     });
 }
 
-fn row_ui(ui: &mut egui::Ui, overlay: &OverlaySpec, state: &mut OverlayState) {
-    let switch = ui.checkbox(&mut state.is_on, overlay.title);
-    switch.on_hover_text(overlay.about);
+fn row_ui(ui: &mut egui::Ui, overlay: &OverlaySpec, state: &mut OverlayState, commands: &Commands) {
+    if let Some(switch) = commands.overlay(overlay) {
+        commands.switch_ui(ui, switch);
+    }
     let named = |response: Response, what: &str| named(response, overlay, what);
     if overlay.has_colour() {
         named(colour_ui(ui, state), "colour and opacity");

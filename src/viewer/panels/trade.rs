@@ -6,7 +6,7 @@ use super::view::heading;
 use crate::settings::Settings;
 use crate::theme::kernel_colour;
 use crate::trade::{Axis, Trade, TradeState};
-use egui::{Color32, FontId, Pos2, RichText, Theme};
+use egui::{Color32, FontId, Pos2, RichText, Role, Sense, Theme, WidgetInfo};
 use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 use hitscope_core::counts::grouped;
 use hitscope_core::group::kernel_named;
@@ -141,6 +141,8 @@ fn empty_plot(axis: Axis, rows: &[SceneRow]) -> Plot<'static> {
         .allow_zoom(false)
         .allow_scroll(false)
         .allow_boxed_zoom(false)
+        // Not by the keyboard: the table below has the same choice.
+        .sense(Sense::CLICK)
         .show_x(false)
         .show_y(false)
 }
@@ -176,6 +178,8 @@ fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut S
         // About the width of a fingertip, in points.
         (distance(nearest) < 20.0).then_some(nearest)
     });
+    let about = || WidgetInfo::labeled(Role::Image, true, "Plot of speed and error");
+    response.response.widget_info(about);
     let painter = ui.painter_at(response.response.rect);
     draw_labels(&painter, &labelled, &points, theme);
     if let Some(row) = response.inner {
@@ -252,7 +256,7 @@ fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut 
             let header = egui::Button::new(text(&cells[0]).strong())
                 .frame(false)
                 .wrap_mode(egui::TextWrapMode::Extend);
-            ui.add(header.sense(egui::Sense::hover()))
+            ui.add(header.sense(Sense::hover()))
                 .on_hover_text(COLUMNS_ABOUT);
             let mut headings = trade.shapes().iter().filter(|_| trade.shapes().len() > 1);
             let mut shape = "";

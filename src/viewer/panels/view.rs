@@ -2,12 +2,12 @@
 
 use super::light::light_ui;
 use super::overlay::overlay_ui;
-use crate::bindings::Action;
+use crate::command::{Commands, THEMES, VIEWS};
 use crate::settings::Settings;
 use egui::RichText;
-use hitscope_core::camera::{StandardView, Turntable, UpAxis};
+use hitscope_core::camera::Turntable;
 use hitscope_core::group::ShapeKernels;
-use hitscope_core::integrator::{Comparison, INTEGRATORS, Legend};
+use hitscope_core::integrator::{Comparison, Legend};
 use hitscope_core::kernel::{KernelChoice, KernelInfo};
 use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::srgb::to_display;
@@ -18,45 +18,34 @@ pub fn view_ui(
     settings: &mut Settings,
     turntable: &mut Turntable,
     shapes: &[ShapeKernels],
-    actions: &mut Vec<Action>,
+    commands: &Commands,
 ) {
-    chosen_view_ui(ui, settings, shapes, actions);
+    chosen_view_ui(ui, settings, shapes, commands);
     ui.separator();
     kernel_ui(ui, settings, shapes);
     ui.separator();
-    overlay_ui(ui, &mut settings.overlays);
+    overlay_ui(ui, &mut settings.overlays, commands);
     ui.separator();
-    camera_ui(ui, settings, turntable, actions);
+    camera_ui(ui, turntable, commands);
     ui.separator();
     ui.label(RichText::new("Theme").strong());
-    let before = settings.theme;
     ui.horizontal(|ui| {
-        for (theme, label) in [
-            (egui::ThemePreference::Dark, "Dark"),
-            (egui::ThemePreference::Light, "Light"),
-            (egui::ThemePreference::System, "System"),
-        ] {
-            ui.selectable_value(&mut settings.theme, theme, label);
+        for theme in commands.at(THEMES) {
+            commands.choice_ui(ui, theme);
         }
     });
-    if settings.theme != before {
-        ui.ctx().set_theme(settings.theme);
-    }
 }
 
 fn chosen_view_ui(
     ui: &mut egui::Ui,
     settings: &mut Settings,
     shapes: &[ShapeKernels],
-    actions: &mut Vec<Action>,
+    commands: &Commands,
 ) {
     ui.label(RichText::new("View").strong());
     ui.horizontal_wrapped(|ui| {
-        for choice in INTEGRATORS {
-            let is_chosen = choice.name == settings.view().name;
-            if ui.selectable_label(is_chosen, choice.title).clicked() {
-                settings.keep_view(choice.name);
-            }
+        for view in commands.at(VIEWS) {
+            commands.choice_ui(ui, view);
         }
     });
     ui.label(RichText::new(settings.view().about).weak());
@@ -72,9 +61,7 @@ fn chosen_view_ui(
         });
     }
     ui.horizontal(|ui| {
-        ui.selectable_value(&mut settings.is_smooth, false, "Flat");
-        ui.selectable_value(&mut settings.is_smooth, true, "Smooth");
-        ui.label("shading");
+        commands.check_box_ui(ui, "smooth");
         let sphere = egui::Checkbox::new(&mut settings.is_spherical, "on the sphere");
         ui.add_enabled(settings.is_smooth, sphere).on_hover_text(
             "Interpolates vertex normals on the unit sphere, not linearly. The view Interpolation shows the angle \
@@ -90,7 +77,8 @@ fn chosen_view_ui(
         let degrees = egui::DragValue::new(&mut settings.crease_degrees)
             .range(0.0..=180.0)
             .suffix("°");
-        ui.add_enabled(settings.has_crease, degrees);
+        ui.add_enabled(settings.has_crease, degrees)
+            .accessible_name("Crease angle");
     });
     ui.horizontal(|ui| {
         let label = ui.label("Samples per pixel");
@@ -101,7 +89,7 @@ fn chosen_view_ui(
         ui.add(slider).labelled_by(label.id);
         settings.samples = 1 << power;
     });
-    light_ui(ui, settings, actions);
+    light_ui(ui, settings, commands);
 }
 
 /// Shows the legend of the view.
@@ -191,17 +179,9 @@ pub(super) fn heading(shape: &ShapeKernels) -> String {
     })
 }
 
-fn camera_ui(
-    ui: &mut egui::Ui,
-    settings: &Settings,
-    turntable: &mut Turntable,
-    actions: &mut Vec<Action>,
-) {
+fn camera_ui(ui: &mut egui::Ui, turntable: &mut Turntable, commands: &Commands) {
     ui.label(RichText::new("Camera").strong());
-    ui.horizontal(|ui| {
-        ui.selectable_value(&mut turntable.is_orthographic, false, "Perspective");
-        ui.selectable_value(&mut turntable.is_orthographic, true, "Orthographic");
-    });
+    commands.check_box_ui(ui, "orthographic");
     ui.horizontal(|ui| {
         let label = ui.label("Field of view");
         let mut degrees = turntable.fov_y_radians.to_degrees();
@@ -215,26 +195,12 @@ fn camera_ui(
         }
     });
     ui.horizontal(|ui| {
-        for (view, label) in [
-            (StandardView::Front, "Front"),
-            (StandardView::Back, "Back"),
-            (StandardView::Right, "Right"),
-            (StandardView::Left, "Left"),
-            (StandardView::Top, "Top"),
-            (StandardView::Bottom, "Bottom"),
-        ] {
-            if ui.small_button(label).clicked() {
-                actions.push(Action::LookFrom(view));
-            }
+        for name in ["front", "back", "right", "left", "top", "bottom"] {
+            commands.small_button_ui(ui, name);
         }
     });
     ui.horizontal(|ui| {
-        ui.label("Up axis");
-        for (axis, label) in [(UpAxis::Y, "Y"), (UpAxis::Z, "Z")] {
-            let is_current = settings.up_axis() == axis;
-            if ui.selectable_label(is_current, label).clicked() {
-                actions.push(Action::SetUpAxis(axis));
-            }
-        }
+        commands.button_ui(ui, "y-up");
+        commands.button_ui(ui, "z-up");
     });
 }

@@ -1,0 +1,127 @@
+//! The status line.
+
+use super::App;
+use crate::numbers::significant;
+use crate::panels::view::shown_kernel;
+use crate::tracer::{Status, StopReason};
+use crate::watch::Watch;
+use egui::RichText;
+use hitscope_core::Scene;
+use hitscope_core::counts::{counted, counted_as};
+
+impl App {
+    pub(super) fn status_ui(&mut self, ui: &mut egui::Ui) {
+        let parts = self.status_parts();
+        let frame =
+            egui::Frame::side_top_panel(ui.style()).inner_margin(egui::Margin::symmetric(6, 2));
+        egui::Panel::bottom("status").frame(frame).show(ui, |ui| {
+            let text = RichText::new(parts.join("  ·  ")).monospace().size(11.0);
+            ui.add(egui::Label::new(text).truncate());
+        });
+    }
+
+    /// The parts of the status line, most important first: a narrow window truncates it.
+    fn status_parts(&self) -> Vec<String> {
+        let status = self.tracer.status();
+        let scene = &self.document.loaded.scene;
+        let ms = |time: std::time::Duration| time.as_secs_f64() * 1e3;
+        let tree = if scene.has_best_tree() {
+            "tree"
+        } else {
+            "quick tree"
+        };
+        // A path has many rays.
+        let unit = if self.settings.view().needs.lights {
+            "Msamples/s"
+        } else {
+            "Mrays/s"
+        };
+        let kernel = shown_kernel(self.document.kernel(), &scene.kernels()).short_name();
+        let mut parts = vec![
+            format!("{kernel} kernel"),
+            primitives(scene),
+            self.samples_part(&status),
+            format!("pass {} of {}", status.passes, status.pass_count),
+            format!("{:.1} {unit}", status.rays_per_s / 1e6),
+            format!("{:.1} s", status.lasted.as_secs_f64()),
+            format!("{tree} {:.0} ms", ms(scene.build_time())),
+        ];
+        // Medians and 99th percentiles.
+        for (name, times) in [
+            ("frame", status.frame_interval),
+            ("UI", self.ui_times.median_and_99th()),
+        ] {
+            if let Some([median, p99]) = times.map(|times| times.map(ms)) {
+                parts.push(format!("{name} {median:.0} ms, p99 {p99:.0} ms"));
+            }
+        }
+        if self.tracer.non_finite() > 0 {
+            let count = self.tracer.non_finite() as usize;
+            parts.insert(2, format!("{} not finite", counted(count, "sample")));
+        }
+        if self.watch.as_ref().is_some_and(Watch::is_missing) {
+            parts.insert(0, "the file is missing".to_owned());
+        }
+        if self.document.is_blank {
+            parts = vec!["no file open".to_owned()];
+        }
+        parts
+    }
+
+    /// Samples and noise, such as `64 of 128 samples, noise 0.8 % (worst 12 %)`.
+    fn samples_part(&self, status: &Status) -> String {
+        if status.is_preview {
+            return "preview".to_owned();
+        }
+        let all = counted(self.settings.samples as usize, "sample");
+        let mut text = format!("{} of {all}", status.samples);
+        if let Some(noise) = status.noise {
+            let exposure = f64::from(self.settings.exposure());
+            let [mean, worst] = [noise.mean, noise.worst].map(|error| percent(exposure * error));
+            text += &format!(", noise {mean} (worst {worst})");
+        }
+        text += match status.stopped {
+            Some(StopReason::Time) => ", stopped by time",
+            Some(StopReason::Noise) => ", stopped by noise",
+            None if self.tracer.is_paused() => ", paused",
+            None => "",
+        };
+        text
+    }
+}
+
+/// An error relative to white in percent, such as `0.8 %`.
+fn percent(error: f64) -> String {
+    match 100.0 * error {
+        x if x >= 10.0 => format!("{x:.0} %"),
+        x if x >= 0.1 => format!("{x:.1} %"),
+        x => format!("{} %", significant(x, 1)),
+    }
+}
+
+/// The primitives of a scene: triangles, or all of them if it has other shapes.
+fn primitives(scene: &Scene) -> String {
+    match scene.groups() {
+        [group] => counted_as(group.count(), group.shape().name, group.shape().plural),
+        _ => counted(scene.primitive_count(), "primitive"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn noise_is_shown_in_percent_with_few_digits() {
+        for (error, text) in [
+            (0.0, "0 %"),
+            (0.000_05, "0.005 %"),
+            (0.008, "0.8 %"),
+            (0.015, "1.5 %"),
+            (0.123, "12 %"),
+            (4.0, "400 %"),
+        ] {
+            assert_eq!(percent(error), text);
+        }
+    }
+}

@@ -1,0 +1,45 @@
+//! The menu *Edit*: the clipboard, and cancelling.
+
+use super::keys::{ctrl, ctrl_shift, key};
+use super::{Command, Menu, Place, lacks_scene, none};
+use egui::Key;
+
+const VIEW_TEXT: Place = Place::new(Menu::Edit, 0);
+const CANCEL: Place = Place::new(Menu::Edit, 1);
+
+/// The name of the command that an open drop-down takes the key of.
+pub(super) const DISMISS: &str = "dismiss";
+
+pub(super) const ROWS: &[Command] = &[
+    Command {
+        name: "copy-view",
+        keys: &[ctrl_shift(Key::C)],
+        title: "Copy view",
+        tooltip: "Copies the camera as command-line arguments, which hitscope render and Paste view read",
+        place: VIEW_TEXT,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, ctx, _| ctx.copy_text(app.view_text()),
+    },
+    Command {
+        name: "paste-view",
+        keys: &[ctrl_shift(Key::V), ctrl(Key::V)],
+        title: "Paste view",
+        tooltip: "Moves the camera to the place that the clipboard holds as command-line arguments",
+        place: VIEW_TEXT,
+        is_on: None,
+        obstacle: lacks_scene,
+        // The text arrives as an event; see `keys::pasted`.
+        run: |_, ctx, _| ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+    },
+    Command {
+        name: DISMISS,
+        keys: &[key(Key::Escape)],
+        title: "Cancel or clear",
+        tooltip: "Cancels loading, closes a window or a message, or clears the picked pixel",
+        place: CANCEL,
+        is_on: None,
+        obstacle: none,
+        run: |app, _, _| app.dismiss(),
+    },
+];

@@ -1,0 +1,80 @@
+//! The tool bar: the commands that are used most.
+
+use super::{Commands, Place, VIEWS};
+use egui::accesskit::Role;
+use egui::{ComboBox, Frame, Margin, Panel, WidgetInfo};
+
+/// An item of the tool bar.
+enum Tool {
+    /// A button of the command with this name.
+    Button(&'static str),
+    /// A drop-down with a title for assistive technology, and the choices at a place of the menus.
+    DropDown(&'static str, Place),
+}
+
+/// The items, from left to right.
+static TOOLS: &[Tool] = &[
+    Tool::Button("open"),
+    Tool::Button("frame"),
+    Tool::DropDown("View", VIEWS),
+    Tool::Button("smooth"),
+    Tool::Button("wireframe"),
+    Tool::Button("normals"),
+    Tool::Button("noise"),
+    Tool::Button("orthographic"),
+    Tool::Button("auto-rotation"),
+    Tool::Button("pause"),
+    Tool::Button("panel"),
+];
+
+/// Shows the tool bar, which wraps to several rows in a narrow window.
+pub fn tool_bar_ui(ui: &mut egui::Ui, commands: &Commands) {
+    let frame = Frame::side_top_panel(ui.style()).inner_margin(Margin::symmetric(6, 4));
+    Panel::top("toolbar").frame(frame).show(ui, |ui| {
+        ui.horizontal_wrapped(|ui| {
+            ui.spacing_mut().item_spacing.x = 4.0;
+            for tool in TOOLS {
+                match *tool {
+                    Tool::Button(name) => commands.button_ui(ui, name),
+                    Tool::DropDown(title, place) => drop_down_ui(ui, title, place, commands),
+                }
+            }
+        });
+    });
+}
+
+fn drop_down_ui(ui: &mut egui::Ui, title: &'static str, place: Place, commands: &Commands) {
+    let chosen = commands.at(place).find(|entry| entry.is_on == Some(true));
+    ComboBox::from_id_salt(title)
+        .selected_text(chosen.map_or("", |entry| &entry.title))
+        .width(92.0)
+        .height(400.0)
+        .show_ui(ui, |ui| {
+            for entry in commands.at(place) {
+                commands.choice_ui(ui, entry);
+            }
+        })
+        .response
+        .widget_info(|| WidgetInfo::labeled(Role::ComboBox, true, title));
+}
+
+/// The names of the commands that have a button.
+pub fn names() -> impl Iterator<Item = &'static str> {
+    TOOLS.iter().filter_map(|tool| match tool {
+        Tool::Button(name) => Some(*name),
+        Tool::DropDown(..) => None,
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_button_is_that_of_a_command() {
+        for name in names() {
+            let found = crate::command::all().any(|command| command.name == name);
+            assert!(found, "{name}");
+        }
+    }
+}

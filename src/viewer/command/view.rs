@@ -1,0 +1,123 @@
+//! The menu *View*: the picture and the lines over it.
+
+use super::keys::key;
+use super::{Command, Commands, Entry, Menu, Place, all, none};
+use crate::app::App;
+use crate::overlay::wireframe::WIREFRAME;
+use crate::overlay::{OverlaySpec, switches};
+use egui::Key;
+use hitscope_core::integrator::{INTEGRATORS, Integrator};
+use hitscope_core::kernel::{KernelInfo, TRIANGLE_KERNELS};
+
+/// The views.
+pub const VIEWS: Place = Place::new(Menu::View, 0);
+const SHADING: Place = Place::new(Menu::View, 1);
+const LINES: Place = Place::new(Menu::View, 2);
+const OVERLAYS: Place = Place::submenu(Menu::View, 2, "Overlay");
+const REFINEMENT: Place = Place::new(Menu::View, 3);
+const KERNELS: Place = Place::submenu(Menu::View, 4, "Kernel");
+
+pub(super) const ROWS: &[Command] = &[
+    Command {
+        name: "smooth",
+        keys: &[key(Key::S)],
+        title: "Smooth shading",
+        tooltip: "Interpolates normals over each face; flat shading uses the normals of faces",
+        place: SHADING,
+        is_on: Some(|app| app.settings.is_smooth),
+        obstacle: none,
+        run: |app, _, _| app.settings.is_smooth ^= true,
+    },
+    Command {
+        name: "wireframe",
+        keys: &[key(Key::W)],
+        title: "Wireframe",
+        tooltip: "Draws the edges of faces over the picture",
+        place: LINES,
+        is_on: Some(|app| app.settings.overlays.is_on(&WIREFRAME)),
+        obstacle: none,
+        run: |app, _, _| app.settings.overlays.toggle(&WIREFRAME),
+    },
+    Command {
+        name: "normals",
+        keys: &[key(Key::N)],
+        title: "Normals",
+        tooltip: "Draws the normals of faces, or those of vertices with smooth shading",
+        place: LINES,
+        is_on: Some(|app| app.settings.shows_normals()),
+        obstacle: none,
+        run: |app, _, _| app.settings.toggle_normals(),
+    },
+    Command {
+        name: "noise",
+        keys: &[],
+        title: "Noise",
+        tooltip: "Shows the standard error of each pixel, in percent of white",
+        place: REFINEMENT,
+        is_on: Some(|app| app.settings.shows_noise),
+        obstacle: |app| {
+            let lacks_light = !app.settings.view().needs.lights;
+            lacks_light.then_some("Only views that trace light have noise")
+        },
+        run: |app, _, _| app.settings.shows_noise ^= true,
+    },
+    Command {
+        name: "pause",
+        keys: &[key(Key::P)],
+        title: "Pause",
+        tooltip: "Pauses the refinement of the picture",
+        place: REFINEMENT,
+        is_on: Some(App::is_paused),
+        obstacle: none,
+        run: |app, _, _| app.tracer.toggle_pause(),
+    },
+];
+
+/// All views.
+pub(super) fn views(app: &App) -> Vec<Entry> {
+    let current = app.settings.view();
+    let entry = |view: &&'static Integrator| {
+        let name = view.name;
+        let is_chosen = name == current.name;
+        let choose = move |app: &mut App, _: &egui::Context| app.settings.keep_view(name);
+        Entry::choice(VIEWS, view.title, view.about, is_chosen, choose)
+    };
+    INTEGRATORS.iter().map(entry).collect()
+}
+
+/// The overlays that have no row of their own.
+pub(super) fn overlays(app: &App) -> Vec<Entry> {
+    let has_row = |overlay: &OverlaySpec| all().any(|row| row.name == overlay.name);
+    let others = switches().filter(|overlay| !has_row(overlay));
+    let entry = |overlay: &'static OverlaySpec| {
+        let is_on = app.settings.overlays.is_on(overlay);
+        let toggle = move |app: &mut App, _: &egui::Context| app.settings.overlays.toggle(overlay);
+        Entry::choice(OVERLAYS, overlay.title, overlay.about, is_on, toggle)
+    };
+    others.map(entry).collect()
+}
+
+impl Commands {
+    /// The command that turns an overlay on and off; `None` if the overlay has no switch.
+    pub fn overlay(&self, overlay: &OverlaySpec) -> Option<&Entry> {
+        let is_of_overlay = |entry: &&Entry| match entry.row {
+            Some(row) => row.name == overlay.name,
+            None => entry.place == OVERLAYS && entry.title == overlay.title,
+        };
+        self.entries().iter().find(is_of_overlay)
+    }
+}
+
+/// The kernels that serve a tier, by the name of the tier.
+pub(super) fn kernels(app: &App) -> Vec<Entry> {
+    let current = app.settings.kernel();
+    let tiers = TRIANGLE_KERNELS.iter().map(|row| row.info);
+    let tiers = tiers.filter(|info| info.tier.is_some());
+    let entry = |info: &'static KernelInfo| {
+        let (title, name) = (info.short_name(), info.name);
+        let is_chosen = current.info.short_name() == title;
+        let choose = move |app: &mut App, _: &egui::Context| app.settings.keep_kernel(name);
+        Entry::choice(KERNELS, title, info.summary, is_chosen, choose)
+    };
+    tiers.map(entry).collect()
+}
