@@ -17,7 +17,7 @@
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
-//! | [`panels`], [`settings`] | the tabs of the side panel; the settings |
+//! | [`panels`], [`tab`], [`settings`] | the contents and names of the side panel's tabs; the settings |
 //! | [`storage`], [`window`] | storage of the settings; the window's size and end |
 //! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
 //! | [`offscreen`], [`screenshot`] | the overlay without a window; `--screenshot` |
@@ -47,6 +47,7 @@ pub mod saving;
 pub mod screenshot;
 pub mod settings;
 pub mod storage;
+pub mod tab;
 pub mod task;
 pub mod theme;
 mod times;

@@ -4,6 +4,7 @@ use crate::overlay::Overlays;
 use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::vertex_normals::VERTEX_NORMALS;
 use crate::recent::RecentFiles;
+use crate::tab::Tab;
 use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
@@ -18,45 +19,6 @@ use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
 use std::ops::RangeInclusive;
 use std::path::PathBuf;
-
-/// A tab of the side panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Tab {
-    /// The picked pixel.
-    Inspect,
-    /// View, shading, kernel, overlay, camera.
-    #[serde(alias = "View")]
-    Display,
-    /// Contents and flaws of the mesh.
-    Mesh,
-    /// Speed and accuracy of the kernels in this scene.
-    Trade,
-}
-
-impl Tab {
-    /// All tabs, from left to right.
-    pub const ALL: [Self; 4] = [Self::Inspect, Self::Display, Self::Mesh, Self::Trade];
-
-    /// The title.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Inspect => "Inspect",
-            Self::Display => "Display",
-            Self::Mesh => "Mesh",
-            Self::Trade => "Trade",
-        }
-    }
-
-    /// The contents, in a phrase without a full stop.
-    pub fn about(self) -> &'static str {
-        match self {
-            Self::Inspect => "The ray of the picked pixel, its hit, and the answers of all kernels",
-            Self::Display => "View, shading, kernel, overlay, camera, theme",
-            Self::Mesh => "Contents, flaws and memory of the open file",
-            Self::Trade => "Speed and accuracy of each kernel in this scene",
-        }
-    }
-}
 
 /// Where light from far away comes from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

@@ -213,7 +213,7 @@ pub(crate) fn number(value: f32, range: RangeInclusive<f32>, default: f32) -> f3
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::settings::Tab;
+    use crate::tab::Tab;
 
     /// Settings that differ from the defaults.
     fn chosen() -> Settings {

@@ -6,7 +6,8 @@ use crate::pointer::on_the_mesh;
 use egui::accesskit::{Action, Role};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
-use hitscope::settings::{EnvironmentSource, Settings, Tab};
+use hitscope::settings::{EnvironmentSource, Settings};
+use hitscope::tab::Tab;
 use hitscope::trade::{Trade, TradeState};
 
 /// Requires a name and a role of everything that the keyboard can reach, and of every other control.

@@ -4,7 +4,7 @@ use super::App;
 use crate::document::Document;
 use crate::face_lookup::{FaceInFile, FaceLookup};
 use crate::panels::{self, inspect::PickView};
-use crate::settings::Tab;
+use crate::tab::Tab;
 use crate::task::Task;
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::loading::is_scene_file;

@@ -3,7 +3,8 @@
 use super::App;
 use crate::command::{Commands, TABS};
 use crate::panels;
-use crate::settings::{PANEL_WIDTHS, Tab};
+use crate::settings::PANEL_WIDTHS;
+use crate::tab::Tab;
 use crate::trade::Trade;
 use glam::UVec2;
 

@@ -3,7 +3,7 @@
 use super::keys::{ctrl, key};
 use super::{Command, Entry, Menu, Place, none};
 use crate::app::App;
-use crate::settings::Tab;
+use crate::tab::Tab;
 use egui::{Key, ThemePreference, gui_zoom};
 
 const PANEL: Place = Place::new(Menu::Window, 0);

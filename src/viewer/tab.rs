@@ -1,0 +1,42 @@
+//! The tabs of the side panel.
+
+use serde::{Deserialize, Serialize};
+
+/// A tab of the side panel.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Tab {
+    /// The picked pixel.
+    Inspect,
+    /// View, shading, kernel, overlay, camera.
+    #[serde(alias = "View")]
+    Display,
+    /// Contents and flaws of the mesh.
+    Mesh,
+    /// Speed and accuracy of the kernels in this scene.
+    Trade,
+}
+
+impl Tab {
+    /// All tabs, from left to right.
+    pub const ALL: [Self; 4] = [Self::Inspect, Self::Display, Self::Mesh, Self::Trade];
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Inspect => "Inspect",
+            Self::Display => "Display",
+            Self::Mesh => "Mesh",
+            Self::Trade => "Trade",
+        }
+    }
+
+    /// The contents, in a phrase without a full stop.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Inspect => "The ray of the picked pixel, its hit, and the answers of all kernels",
+            Self::Display => "View, shading, kernel, overlay, camera, theme",
+            Self::Mesh => "Contents, flaws and memory of the open file",
+            Self::Trade => "Speed and accuracy of each kernel in this scene",
+        }
+    }
+}
