@@ -11,7 +11,7 @@
 
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, integrator};
+use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::light::{DirectionalLight, Environment, Light, Lights};
 use hitscope_core::mesh::shapes::{Placement, torus};
@@ -77,6 +77,7 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
             shading,
             background: Vec3::new(0.05, 0.1, 0.2),
             lighting,
+            options: ViewOptions::default(),
         },
         integrator: view,
         plan,

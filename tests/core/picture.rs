@@ -3,7 +3,7 @@
 use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::{Camera, Projection};
-use hitscope_core::integrator::{Context, Lighting, integrator};
+use hitscope_core::integrator::{Context, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::shapes::soup;
 use hitscope_core::mesh::{Assigned, Attributes, Material, Runs};
@@ -47,6 +47,7 @@ fn square() -> Context {
         shading: Shading::Flat,
         background: Vec3::new(0.1, 0.2, 0.3),
         lighting: Lighting::default(),
+        options: ViewOptions::default(),
     }
 }
 

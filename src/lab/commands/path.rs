@@ -5,7 +5,7 @@ use crate::inspection::{PathReport, VertexReport, light_text};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use glam::UVec2;
-use hitscope_core::integrator::{Context, INTEGRATORS, Integrator, integrator};
+use hitscope_core::integrator::{Context, INTEGRATORS, Integrator, ViewOptions, integrator};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::scene::Shading;
 use hitscope_core::srgb::from_display;
@@ -75,6 +75,7 @@ impl PathArgs {
             shading,
             background: from_display(DARK_BACKGROUND),
             lighting: self.light.lighting(loaded, camera, max_memory)?,
+            options: ViewOptions::default(),
         };
         let sample = self.sample.unwrap_or(0);
         let path = view.record(&context, pixel, sample);

@@ -26,7 +26,7 @@ mod whitted;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{Context, Lighting, integrator};
+use hitscope_core::integrator::{Context, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::Tier;
 use hitscope_core::light::{Light, Lights};
 use hitscope_core::sampler::Sampler;
@@ -60,6 +60,7 @@ fn lit(scene: Scene, others: Vec<Light>) -> Context {
             lights: Arc::new(Lights::new(&scene, others)),
             ..Lighting::default()
         },
+        options: ViewOptions::default(),
         scene,
     }
 }
