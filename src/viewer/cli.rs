@@ -21,7 +21,8 @@ use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
     BenchArgs, CommandError, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output,
-    PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
+    PictureArgs, RenderArgs, Rendered, TraceArgs, is_stdin, parse_png, print_line,
+    start_thread_pool,
 };
 use std::ffi::{OsStr, OsString};
 use std::io::{self, BufWriter, Write, stdout};
@@ -219,23 +220,54 @@ fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
     let failed = |error: GpuError| CommandError::Other(error.to_string());
     // Do everything that can fail without the mesh before loading it.
     args.check()?;
-    let output = Output::create(&args.output)?;
+    let outputs = args.outputs()?;
     let gpu = args.has_overlay().then(Gpu::open);
     let gpu = gpu.transpose().map_err(failed)?;
-    let rendered = args.trace()?;
-    let size = rendered.film.size();
-    let noise = args.noise.then(|| rendered.noise());
-    let mut pixels = rendered.film.pixels().to_vec();
-    if let Some(gpu) = gpu {
-        offscreen::draw_over(&gpu, &mut pixels, args, &rendered).map_err(failed)?;
+    let prepared = args.prepare()?;
+    for (view, output) in prepared.views().iter().zip(&outputs.pictures) {
+        let rendered = prepared.trace(view)?;
+        let mut pixels = rendered.film.pixels().to_vec();
+        if let Some(gpu) = &gpu {
+            offscreen::draw_over(gpu, &mut pixels, args, &rendered).map_err(failed)?;
+        }
+        write_picture(args, &rendered, pixels, output)?;
+        print_figures(args, &rendered, out)?;
     }
+    outputs.write_surfaces(&prepared)
+}
+
+fn write_picture(
+    args: &RenderArgs,
+    rendered: &Rendered,
+    pixels: Vec<[u8; 4]>,
+    output: &Output,
+) -> Result<(), CommandError> {
     if args.is_exr() {
-        output.write_exr(&rendered.film, rendered.guides.as_ref())?;
-    } else {
-        output.write_png(size, &pixels)?;
+        return output.write_exr(&rendered.film, rendered.guides.as_deref());
     }
-    if let Some(noise) = noise {
-        writeln!(out, "{noise}")?;
+    let legend = args.legend.then(|| rendered.with_legend(&pixels)).flatten();
+    let (size, pixels) = legend.unwrap_or((rendered.film.size(), pixels));
+    output.write_png(size, &pixels)
+}
+
+/// Prints the noise and the scale of a picture if they are asked for.
+fn print_figures(
+    args: &RenderArgs,
+    rendered: &Rendered,
+    out: &mut dyn Write,
+) -> Result<(), CommandError> {
+    let view = if args.picture.view.view.len() > 1 {
+        format!("{}: ", rendered.view.name)
+    } else {
+        String::new()
+    };
+    if args.noise {
+        writeln!(out, "{view}{}", rendered.noise())?;
+    }
+    if args.legend
+        && let Some(scale) = &rendered.scale
+    {
+        writeln!(out, "{view}{scale}")?;
     }
     Ok(())
 }

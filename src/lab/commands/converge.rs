@@ -80,7 +80,7 @@ impl ConvergeArgs {
         self.camera.check()?;
         self.scene.check()?;
         let reference = self.setting("path")?;
-        self.light.check(reference.view)?;
+        self.light.check(&[reference.view])?;
         let named = self.settings.iter().map(String::as_str);
         let default = DEFAULT_SETTINGS
             .iter()

@@ -43,7 +43,7 @@ impl PathArgs {
             return self.light.refuse_all("--view or --sample");
         }
         match &self.view {
-            Some(name) => self.light.check(named(name)),
+            Some(name) => self.light.check(&[named(name)]),
             None => Ok(()),
         }
     }
@@ -66,7 +66,7 @@ impl PathArgs {
         let of_file = loaded.integrator().filter(|view| view.follows_paths());
         let chosen = self.view.as_deref().map(named).or(of_file);
         let view = chosen.unwrap_or_else(|| named("path"));
-        self.light.check(view)?;
+        self.light.check(&[view])?;
         let context = Context {
             scene: Arc::clone(&loaded.scene),
             second: Arc::clone(&intersector),
