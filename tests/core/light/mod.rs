@@ -2,6 +2,8 @@
 //!
 //! `HITSCOPE_LIGHT_PATHS=1000000` follows that many paths for each figure. By default it is 2^16.
 
+// Scenes of which a clip removes a part.
+mod clipped;
 // Measured environments: the side that they light, and how they are sampled.
 mod environment;
 // Files of measured environments.
