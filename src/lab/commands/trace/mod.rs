@@ -83,8 +83,10 @@ comments produce no output.
 
 Numbers parse as doubles without loss.
 
---clip-plane and --clip-box end rays at the clip, as tmin and tmax do. A hit
-within an ulp of t from a plane may count as on either side of it.
+--clip-plane and --clip-box end rays at the clip, as tmin and tmax do. A point
+of a plane belongs to the side whose normal has a positive first component, of
+those that aren't 0. A hit is kept by exactly one side of a plane; within an
+ulp of t from the plane, it may be the wrong one.
 
 Rounding: rays and scenes are traced as f32 numbers relative to an origin near
 the scene (--recentre). A ray with more digits, or from far away, is rounded.
