@@ -126,7 +126,7 @@ fn each_pixel_shows_the_primitive_that_its_inspection_hits() {
         let rendered = args.trace().expect("rendered");
         let scene = &rendered.loaded.scene;
         assert!(scene.clip().is_some());
-        let intersector = scene.intersector(args.picture.kernel.kernel());
+        let intersector = args.picture.scene.intersector(scene);
         let size = rendered.film.size();
         let mut shown = Vec::new();
         for (y, x) in (0..size.y).flat_map(|y| (0..size.x).map(move |x| (y, x))) {

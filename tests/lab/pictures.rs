@@ -108,7 +108,7 @@ fn options_without_effect_and_outputs_that_replace_each_other_are_refused() {
         ),
         (
             "-o a.png --wireframe --clip-plane 1,0,0,0",
-            "lines aren't clipped",
+            "overlays aren't clipped",
         ),
     ] {
         let found = usage_error(&format!("@cube.obj {options}"));

@@ -45,7 +45,7 @@ use std::sync::Arc;
 pub struct Context {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// The intersector of the chosen kernel.
+    /// The intersector of the chosen kernel; with the scene's clip, as the second one. See [`Scene::clipped`].
     pub intersector: Arc<dyn Intersector>,
     /// The intersector that comparing views compare with; any one for the others.
     pub second: Arc<dyn Intersector>,
