@@ -5,10 +5,10 @@ use crate::app::{App, StartOptions};
 use crate::completions::CompletionsArgs;
 use crate::display::{self, DisplayServer};
 use crate::document::embedded_scene;
-use crate::gpu::GpuError;
-use crate::gpu::adapter::{BackendOrder, Gpu, device_descriptor};
+use crate::gpu::adapter::{BackendOrder, device_descriptor};
 use crate::man::ManArgs;
 use crate::offscreen;
+use crate::render;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::settings::Settings;
 use crate::storage::{APP_ID, stored_settings};
@@ -21,8 +21,7 @@ use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
     BenchArgs, CommandError, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output,
-    PictureArgs, RenderArgs, Rendered, TraceArgs, is_stdin, parse_png, print_line,
-    start_thread_pool,
+    PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
 };
 use std::ffi::{OsStr, OsString};
 use std::io::{self, BufWriter, Write, stdout};
@@ -202,7 +201,7 @@ impl Command {
     fn run(&self) -> Result<(), CommandError> {
         let mut out = BufWriter::new(stdout().lock());
         match self {
-            Self::Render(args) => render(args, &mut out)?,
+            Self::Render(args) => render::run(args, &mut out)?,
             Self::Inspect(args) => args.run(&mut out)?,
             Self::Trace(args) => args.run(&mut out)?,
             Self::Info(args) => args.run(&mut out)?,
@@ -214,62 +213,6 @@ impl Command {
         }
         Ok(out.flush()?)
     }
-}
-
-fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
-    let failed = |error: GpuError| CommandError::Other(error.to_string());
-    // Do everything that can fail without the mesh before loading it.
-    args.check()?;
-    let outputs = args.outputs()?;
-    let gpu = args.has_overlay().then(Gpu::open);
-    let gpu = gpu.transpose().map_err(failed)?;
-    let prepared = args.prepare()?;
-    for (view, output) in prepared.views().iter().zip(&outputs.pictures) {
-        let rendered = prepared.trace(view)?;
-        let mut pixels = rendered.film.pixels().to_vec();
-        if let Some(gpu) = &gpu {
-            offscreen::draw_over(gpu, &mut pixels, args, &rendered).map_err(failed)?;
-        }
-        write_picture(args, &rendered, pixels, output)?;
-        print_figures(args, &rendered, out)?;
-    }
-    outputs.write_surfaces(&prepared)
-}
-
-fn write_picture(
-    args: &RenderArgs,
-    rendered: &Rendered,
-    pixels: Vec<[u8; 4]>,
-    output: &Output,
-) -> Result<(), CommandError> {
-    if args.is_exr() {
-        return output.write_exr(&rendered.film, rendered.guides.as_deref());
-    }
-    let legend = args.legend.then(|| rendered.with_legend(&pixels)).flatten();
-    let (size, pixels) = legend.unwrap_or((rendered.film.size(), pixels));
-    output.write_png(size, &pixels)
-}
-
-/// Prints the noise and the scale of a picture if they are asked for.
-fn print_figures(
-    args: &RenderArgs,
-    rendered: &Rendered,
-    out: &mut dyn Write,
-) -> Result<(), CommandError> {
-    let view = if args.picture.view.view.len() > 1 {
-        format!("{}: ", rendered.view.name)
-    } else {
-        String::new()
-    };
-    if args.noise {
-        writeln!(out, "{view}{}", rendered.noise())?;
-    }
-    if args.legend
-        && let Some(scale) = &rendered.scale
-    {
-        writeln!(out, "{view}{scale}")?;
-    }
-    Ok(())
 }
 
 /// The view of the built-in scene.

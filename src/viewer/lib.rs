@@ -18,7 +18,7 @@
 //! | [`numbers`], [`theme`] | number formatting; colours |
 //! | [`panels`], [`settings`] | the tabs of the side panel; the settings |
 //! | [`storage`], [`window`] | storage of the settings; the window's size and end |
-//! | [`offscreen`], [`screenshot`] | the overlay without a window; `--screenshot` |
+//! | [`render`], [`offscreen`], [`screenshot`] | the command `render`; the overlay without a window; `--screenshot` |
 
 pub mod about;
 pub mod app;
@@ -38,6 +38,7 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
+pub mod render;
 pub mod saving;
 pub mod screenshot;
 pub mod settings;
