@@ -12,6 +12,7 @@
 //! | [`group`] | primitives of one shape with their tree |
 //! | [`scene`] | the scene: groups and their bounds |
 //! | [`loading`] | loading of scenes from files |
+//! | [`clip`] | the part of the scene that is shown |
 //! | [`camera`] | camera rays and navigation |
 //! | `algebra` | exact roots of polynomials, for shapes other than triangles |
 //! | [`bvh`] | bounding volume hierarchy: building and traversal |
@@ -23,6 +24,7 @@
 //! | `statements` | the BSDF that the statements of a material library describe |
 //! | [`bsdf`] | how surfaces scatter light, one file a model |
 //! | [`light`] | lights, one file a kind |
+//! | [`colour`] | colour maps and scales of numbers |
 //! | [`integrator`] | the views: from a hit to a colour |
 //! | [`spawn`] | origins of rays that leave a surface |
 //! | [`plan`] | the order in which pixels and samples are traced |
@@ -43,6 +45,8 @@ pub mod brightness;
 pub mod bsdf;
 pub mod bvh;
 pub mod camera;
+pub mod clip;
+pub mod colour;
 pub mod counts;
 pub mod film;
 pub mod group;
@@ -76,6 +80,7 @@ pub mod tone;
 
 pub use aabb::Aabb;
 pub use camera::Camera;
+pub use clip::Clip;
 pub use film::Film;
 pub use intersector::Intersector;
 pub use mesh::TriangleMesh;

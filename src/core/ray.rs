@@ -145,6 +145,16 @@ fn exponent_of(dir: Vec3) -> i32 {
     (f64::from(dir.abs().max_element()).to_bits() >> 52) as i32 - 1023
 }
 
+/// The largest f32 that isn't above a number; NaN for NaN.
+pub fn f32_below(x: f64) -> f32 {
+    let nearest = x as f32;
+    if f64::from(nearest) > x {
+        nearest.next_down()
+    } else {
+        nearest
+    }
+}
+
 /// Distance from an f32 of magnitude `t` to the next larger one; the unit in which errors of t are measured.
 pub fn ulp_at(t: f64) -> f64 {
     let size = (t.abs() as f32).min(f32::MAX.next_down());

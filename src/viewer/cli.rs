@@ -5,10 +5,10 @@ use crate::app::{App, StartOptions};
 use crate::completions::CompletionsArgs;
 use crate::display::{self, DisplayServer};
 use crate::document::embedded_scene;
-use crate::gpu::GpuError;
-use crate::gpu::adapter::{BackendOrder, Gpu, device_descriptor};
+use crate::gpu::adapter::{BackendOrder, device_descriptor};
 use crate::man::ManArgs;
 use crate::offscreen;
+use crate::render;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::settings::Settings;
 use crate::storage::{APP_ID, stored_settings};
@@ -201,7 +201,7 @@ impl Command {
     fn run(&self) -> Result<(), CommandError> {
         let mut out = BufWriter::new(stdout().lock());
         match self {
-            Self::Render(args) => render(args, &mut out)?,
+            Self::Render(args) => render::run(args, &mut out)?,
             Self::Inspect(args) => args.run(&mut out)?,
             Self::Trace(args) => args.run(&mut out)?,
             Self::Info(args) => args.run(&mut out)?,
@@ -213,31 +213,6 @@ impl Command {
         }
         Ok(out.flush()?)
     }
-}
-
-fn render(args: &RenderArgs, out: &mut dyn Write) -> Result<(), CommandError> {
-    let failed = |error: GpuError| CommandError::Other(error.to_string());
-    // Do everything that can fail without the mesh before loading it.
-    args.check()?;
-    let output = Output::create(&args.output)?;
-    let gpu = args.has_overlay().then(Gpu::open);
-    let gpu = gpu.transpose().map_err(failed)?;
-    let rendered = args.trace()?;
-    let size = rendered.film.size();
-    let noise = args.noise.then(|| rendered.noise());
-    let mut pixels = rendered.film.pixels().to_vec();
-    if let Some(gpu) = gpu {
-        offscreen::draw_over(&gpu, &mut pixels, args, &rendered).map_err(failed)?;
-    }
-    if args.is_exr() {
-        output.write_exr(&rendered.film, rendered.guides.as_ref())?;
-    } else {
-        output.write_png(size, &pixels)?;
-    }
-    if let Some(noise) = noise {
-        writeln!(out, "{noise}")?;
-    }
-    Ok(())
 }
 
 /// The view of the built-in scene.

@@ -20,7 +20,7 @@
 //! | [`panels`], [`tab`], [`settings`] | the contents and names of the side panel's tabs; the settings |
 //! | [`storage`], [`window`] | storage of the settings; the window's size and end |
 //! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
-//! | [`offscreen`], [`screenshot`] | the overlay without a window; `--screenshot` |
+//! | [`render`], [`offscreen`], [`screenshot`] | the command `render`; the overlay without a window; `--screenshot` |
 
 pub mod about;
 pub mod about_sheet;
@@ -43,6 +43,7 @@ pub mod opening;
 pub mod overlay;
 pub mod panels;
 pub mod recent;
+pub mod render;
 pub mod saving;
 pub mod screenshot;
 pub mod settings;

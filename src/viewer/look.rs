@@ -2,8 +2,8 @@
 
 use glam::UVec2;
 use hitscope_core::Film;
+use hitscope_core::colour::{ColourMap, ColourScale, colour_map};
 use hitscope_core::integrator::Legend;
-use hitscope_core::integrator::palette::{error_ramp, log_colour};
 use hitscope_core::plan::PixelRect;
 use hitscope_core::srgb::from_texel;
 use hitscope_core::tone::Display;
@@ -30,17 +30,21 @@ impl Look {
     }
 }
 
-/// The range of the colours for noise, where white is 1.
-const NOISE_RANGE: [f64; 2] = [1e-4, 1.0];
+/// The range of the colours for noise in percent, where white is 100.
+const NOISE_RANGE: [f64; 2] = [0.01, 100.0];
+
+fn noise_map() -> &'static ColourMap {
+    colour_map("dusk").expect("in the table")
+}
+
+/// The scale of [`Look::Noise`].
+pub fn noise_scale() -> ColourScale {
+    ColourScale::new("Noise", "%", NOISE_RANGE, noise_map(), true).expect("a positive range")
+}
 
 /// The legend of [`Look::Noise`].
 pub fn noise_legend() -> Legend {
-    let percents = [0.01, 0.1, 1.0, 10.0, 100.0];
-    let entry = |percent: f64| {
-        let colour = log_colour(percent / 100.0, NOISE_RANGE);
-        (colour, format!("{percent} %"))
-    };
-    vec![percents.map(entry).into()]
+    vec![noise_scale().entries(5)]
 }
 
 /// A film's pixels as they are shown.
@@ -121,14 +125,16 @@ fn shown(film: &Film, pixel: UVec2, look: Look) -> [u8; 4] {
     }
 }
 
-/// The colour of [`log_colour`] on a scale of 256 steps, which is fast enough for each pixel.
+/// The colour of noise on a scale of 256 steps, which is fast enough for each pixel.
 fn noise_colour(error: f64) -> [u8; 4] {
     static RAMP: LazyLock<Vec<[u8; 4]>> = LazyLock::new(|| {
-        let colour = |step: u8| Display::default().encode(error_ramp(f32::from(step) / 255.0));
-        (0..=255).map(colour).collect()
+        let colour = |step: u8| noise_map().colour(f32::from(step) / 255.0);
+        (0..=255)
+            .map(|step| Display::default().encode(colour(step)))
+            .collect()
     });
     let [least, most] = NOISE_RANGE;
-    let part = (error.max(least) / least).ln() / (most / least).ln();
+    let part = ((100.0 * error).max(least) / least).ln() / (most / least).ln();
     RAMP[(255.0 * part.min(1.0)).round() as usize]
 }
 

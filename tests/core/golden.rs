@@ -11,7 +11,7 @@
 
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, integrator};
+use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::light::{DirectionalLight, Environment, Light, Lights};
 use hitscope_core::mesh::shapes::{Placement, torus};
@@ -21,7 +21,7 @@ use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::scene::scene;
 use hitscope_core::spawn::SPAWN_POLICIES;
-use hitscope_core::{Camera, Film, Intersector, TriangleMesh};
+use hitscope_core::{Camera, Clip, Film, Intersector, TriangleMesh};
 use std::fs;
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -77,9 +77,26 @@ pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> 
             shading,
             background: Vec3::new(0.05, 0.1, 0.2),
             lighting,
+            options: ViewOptions::default(),
         },
         integrator: view,
         plan,
+    }
+}
+
+/// The same picture of the half in front of a slanted plane through the torus.
+pub fn clipped(job: Job) -> Job {
+    let context = job.context;
+    let clip = Clip::plane(DVec3::new(0.3, -1.0, 0.2), 0.1).expect("a plane");
+    let scene = Arc::new(context.scene.with_clip(Some(clip)));
+    Job {
+        context: Context {
+            intersector: scene.clipped(context.intersector),
+            second: scene.clipped(context.second),
+            scene,
+            ..context
+        },
+        ..job
     }
 }
 
@@ -111,8 +128,17 @@ fn every_view_matches_its_golden_picture() {
         ORTHOGRAPHIC,
         4,
     );
+    for view in CLIPPED {
+        let plan = Plan::new(SIZE, 4, 1);
+        let job = clipped(job(view, Shading::Flat, PERSPECTIVE, plan));
+        let film = render(job, 2).expect("no panic");
+        different.extend(compare(&format!("{view}-clipped"), &film));
+    }
     assert!(different.is_empty(), "\n{}", different.join("\n"));
 }
+
+/// The views with a picture of the clipped torus: back faces are visible.
+const CLIPPED: [&str; 2] = ["shaded", "orientation"];
 
 #[test]
 fn golden_pictures_differ_from_each_other() {
@@ -121,7 +147,9 @@ fn golden_pictures_differ_from_each_other() {
     }
     let names = INTEGRATORS.iter().map(|view| view.name);
     let names = names.chain(["shaded-smooth", "normal-smooth", "shaded-orthographic"]);
-    let pictures: Vec<Vec<u8>> = names.map(|name| read_ppm(&golden_path(name))).collect();
+    let names = names.map(str::to_owned);
+    let names = names.chain(CLIPPED.map(|view| format!("{view}-clipped")));
+    let pictures: Vec<Vec<u8>> = names.map(|name| read_ppm(&golden_path(&name))).collect();
     for (k, picture) in pictures.iter().enumerate() {
         let same = pictures[..k].iter().position(|earlier| earlier == picture);
         assert_eq!(same, None, "picture {k} equals an earlier one");

@@ -21,6 +21,9 @@ mod packets;
 // Every tree: bit-identical results.
 mod trees;
 
+// Clipped scenes against crossings filtered one by one.
+mod clip;
+
 // Watertight kernels: no ray leaves a closed mesh.
 mod watertight;
 
@@ -58,6 +61,9 @@ mod light;
 
 // Files for other programs, with what denoisers need.
 mod picture;
+
+// Scales of views of numbers.
+mod scales;
 
 // 64×64 pictures, compared exactly.
 mod golden;

@@ -1,13 +1,16 @@
 //! Pictures for other programs: what is written is read back.
 
-use exr::prelude::{FlatSamples, ReadChannels, ReadLayers, read};
-use glam::{DVec3, UVec2, Vec3};
+use exr::prelude::{FlatSamples, MetaData, ReadChannels, ReadLayers, Text, read};
+use glam::{DVec3, UVec2, Vec2, Vec3};
 use hitscope_core::camera::{Camera, Projection};
-use hitscope_core::integrator::{Context, Lighting, integrator};
+use hitscope_core::integrator::{Context, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::shapes::soup;
 use hitscope_core::mesh::{Assigned, Attributes, Material, Runs};
-use hitscope_core::picture::{GuideError, NO_PRIMITIVE, PictureError, guides, write_exr};
+use hitscope_core::picture::{
+    NO_PRIMITIVE, PictureError, TraceError, VisibleSurfaces, guides, write_depth, write_exr,
+    write_ids,
+};
 use hitscope_core::plan::Plan;
 use hitscope_core::progress::Progress;
 use hitscope_core::render::{Job, render};
@@ -25,6 +28,7 @@ fn square() -> Context {
     let [a, b, c, d] =
         [(-1.0, -1.0), (1.0, -1.0), (1.0, 1.0), (-1.0, 1.0)].map(|(x, y)| Vec3::new(x, y, 0.0));
     let material = Material {
+        name: "clay".to_owned(),
         diffuse: Some(ALBEDO),
         ..Material::default()
     };
@@ -47,6 +51,7 @@ fn square() -> Context {
         shading: Shading::Flat,
         background: Vec3::new(0.1, 0.2, 0.3),
         lighting: Lighting::default(),
+        options: ViewOptions::default(),
     }
 }
 
@@ -183,5 +188,60 @@ fn guides_of_another_size_and_cancelled_ones_are_errors() {
     assert!(matches!(error, Err(PictureError::Size { .. })));
     progress.cancel();
     let cancelled = guides(&context, &Plan::new(SIZE, 1, 1), 1, &progress);
-    assert!(matches!(cancelled, Err(GuideError::Cancelled)));
+    assert!(matches!(cancelled, Err(TraceError::Cancelled)));
+}
+
+#[test]
+fn distances_and_numbers_of_surfaces_are_written_with_names() {
+    let mut context = square();
+    // From aside, so that t and z differ.
+    let projection = Projection::Perspective { fov_y_radians: 1.0 };
+    let eye = DVec3::new(0.5, 0.25, 4.0);
+    let camera = Camera::look_at(eye, DVec3::new(0.5, 0.25, 0.0), DVec3::Y, projection, SIZE);
+    context.camera = camera.expect("a camera");
+    let progress = Progress::default();
+    let surfaces = VisibleSurfaces::trace(&context, 2, &progress).expect("traced");
+    let alone = VisibleSurfaces::trace(&context, 1, &progress).expect("traced");
+    assert_eq!(surfaces, alone);
+    let mut bytes = Cursor::new(Vec::new());
+    write_depth(&surfaces, &mut bytes).expect("written");
+    let distances = channels(bytes.into_inner());
+    assert_eq!(distances.len(), 2);
+    let (t, z) = (floats(&distances, "t"), floats(&distances, "Z"));
+    let mut bytes = Cursor::new(Vec::new());
+    let names = context.scene.mesh().attributes();
+    write_ids(&surfaces, names, &mut bytes).expect("written");
+    let bytes = bytes.into_inner();
+    let ids = channels(bytes.clone());
+    assert_eq!(ids.len(), 3);
+    let [primitives, groups, materials] =
+        ["primitive", "group", "material"].map(|name| integers(&ids, name));
+    let mut hit_count = 0;
+    for (x, y) in (0..SIZE.y).flat_map(|y| (0..SIZE.x).map(move |x| (x, y))) {
+        let k = index(x, y);
+        let ray = context.camera.ray(UVec2::new(x, y), Vec2::splat(0.5));
+        let Some(hit) = context.intersector.closest_hit(&ray) else {
+            assert_eq!([t[k], z[k]], [f32::INFINITY; 2]);
+            assert_eq!([primitives[k], groups[k], materials[k]], [NO_PRIMITIVE; 3]);
+            continue;
+        };
+        hit_count += 1;
+        assert_eq!(t[k], hit.t);
+        // Rounding of t.
+        assert!((z[k] - 4.0).abs() < 1e-5, "{}", z[k]);
+        assert_eq!(
+            [primitives[k], groups[k], materials[k]],
+            [hit.primitive, 0, 0]
+        );
+    }
+    assert!((100..SIZE.element_product()).contains(&hit_count));
+    assert_eq!(text_attribute(bytes, "materials"), "clay");
+}
+
+/// A text in the header of a file's first part.
+fn text_attribute(bytes: Vec<u8>, name: &str) -> String {
+    let meta = MetaData::read_from_buffered(Cursor::new(bytes), false).expect("a header");
+    let attributes = &meta.headers[0].own_attributes.other;
+    let value = attributes.get(&Text::from(name)).expect("the attribute");
+    value.clone().into_text().expect("a text").to_string()
 }

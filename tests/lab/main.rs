@@ -25,6 +25,10 @@ mod scene_files;
 // The commands on scenes that hold only a plane, only a solid, or nothing.
 mod bare_scenes;
 
+// Clipped rays, inspections and pictures.
+mod clip;
+// Pictures of several views, scales and legends.
+mod pictures;
 // Options of light, and the list of lights.
 mod light;
 // The error of pictures against time.

@@ -32,6 +32,30 @@ fn an_unwritable_path_is_refused_before_the_mesh_is_loaded() {
 }
 
 #[test]
+fn several_views_with_legends_distances_and_numbers_are_written_at_once() {
+    let program = Program::new();
+    let ran = program.run(
+        "render good.obj -o out-{view}.png --size 60x40 --samples 1 --view depth --view orientation --legend \
+         --depth-map depth.exr --ids ids.exr --clip-plane 1,0,0,0.5",
+    );
+    assert!(ran.status.success(), "{}", stderr(&ran));
+    let printed = stdout(&ran);
+    assert!(
+        printed.starts_with("depth: Distance from the eye: "),
+        "{printed}"
+    );
+    assert_eq!(printed.lines().count(), 1, "{printed}");
+    let size = |name: &str| image::image_dimensions(program.path(name)).expect("a picture");
+    let (width, height) = size("out-depth.png");
+    assert!(width > 60 && height == 40);
+    assert_eq!(size("out-orientation.png"), (60, 40));
+    for name in ["depth.exr", "ids.exr"] {
+        let bytes = fs::read(program.path(name)).expect("written");
+        assert_eq!(bytes[..4], [0x76, 0x2f, 0x31, 0x01], "{name}: OpenEXR");
+    }
+}
+
+#[test]
 fn a_full_device_is_an_error() {
     let program = Program::new();
     let ran = program.run(&format!("render good.obj -o /dev/full {SMALL}"));

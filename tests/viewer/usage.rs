@@ -112,7 +112,7 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
         ),
         (
             &format!("{render} --view path --integrator direct"),
-            "cannot be used multiple times",
+            "several views need {view} in the name of the output",
         ),
         (
             &format!("{render} --noise --samples 1"),

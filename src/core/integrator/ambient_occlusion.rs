@@ -3,7 +3,7 @@
 //! Source: Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", Rendering Techniques 1998.
 
 use super::transport::{ShadingPoint, transmittance};
-use super::{Context, Integrator, Needs, Setting};
+use super::{Context, Integrator, Needs, Setting, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -18,7 +18,7 @@ pub(super) static AMBIENT_OCCLUSION: Integrator = Integrator {
         ..Needs::LIGHTS
     },
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {

@@ -1,7 +1,7 @@
 //! The view *Barycentric*.
 
 use super::palette::named;
-use super::{Context, Integrator, Legend, Needs};
+use super::{Context, Integrator, Legend, Needs, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::srgb::from_display;
@@ -14,7 +14,7 @@ pub(super) static BARYCENTRIC: Integrator = Integrator {
     about: "The barycentric coordinates of a triangle's corners as red, green, blue. On other shapes, the surface coordinates u and v, modulo 1, as red and green.",
     needs: Needs::NOTHING,
     legend,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 /// Barycentric coordinates on triangles, u and v modulo 1 on other shapes.

@@ -1,10 +1,10 @@
 //! The view *Cost*.
 
-use super::palette::{COST_SCALE, cost_colour};
-use super::{Context, Integrator, Legend, Needs};
+use super::number::{DefaultRange, NumberView, Shown};
+use super::{Context, Integrator, Needs, Setting, Source};
+use crate::colour::VIRIDIS;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
-use glam::Vec3;
 
 /// The row of the view.
 pub(super) static COST: Integrator = Integrator {
@@ -13,19 +13,23 @@ pub(super) static COST: Integrator = Integrator {
     about: "Boxes and primitives tested for the ray, on a logarithmic scale.",
     needs: Needs {
         final_tree: true,
+        settings: &[Setting::Scale],
         ..Needs::NOTHING
     },
-    legend,
-    radiance,
+    legend: Vec::new,
+    source: Source::Number(NumberView {
+        title: "Boxes and primitives tested",
+        unit: "",
+        map: &VIRIDIS,
+        // To an expensive ray in a good tree.
+        range: DefaultRange::Fixed([1.0, 1024.0]),
+        is_logarithmic: true,
+        shown,
+    }),
 };
 
 /// Rays that hit nothing have a cost, too; this view has no background.
-fn radiance(context: &Context, ray: &Ray, _: Option<Hit>, _: &mut Sampler) -> Vec3 {
+fn shown(context: &Context, ray: &Ray, _: Option<Hit>, _: &mut Sampler) -> Shown {
     let (_, cost) = context.intersector.closest_hit_with_cost(ray);
-    cost_colour(cost.boxes + cost.primitives)
-}
-
-fn legend() -> Legend {
-    let tests = [0, 4, 16, 64, 256, COST_SCALE];
-    vec![tests.map(|n| (cost_colour(n), n.to_string())).into()]
+    Shown::Number(f64::from(cost.boxes) + f64::from(cost.primitives))
 }

@@ -1,7 +1,7 @@
 //! The view *Direct light*: light that reaches surfaces straight from the lights.
 
 use super::path::follow;
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -13,7 +13,7 @@ pub(super) static DIRECT: Integrator = Integrator {
     about: "Light from the lights, without light by way of other surfaces.",
     needs: Needs::LIGHTS,
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {

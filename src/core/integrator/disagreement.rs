@@ -1,7 +1,7 @@
 //! The view *Disagreement*: two kernels of the user's choice.
 
 use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, decisions};
-use super::{Comparison, Context, Integrator, Needs};
+use super::{Comparison, Context, Integrator, Needs, Source};
 use crate::interaction::SurfaceInteraction;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -17,7 +17,7 @@ pub(super) static DISAGREEMENT: Integrator = Integrator {
         ..Needs::NOTHING
     },
     legend: || vec![decisions()],
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 /// Marks where the two kernels disagree; elsewhere shows a faint picture for orientation.

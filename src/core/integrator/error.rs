@@ -1,10 +1,11 @@
 //! The views *Error of t* and *Barycentric error*: hits compared with the exact answer.
 
-use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, UNDEFINED, decisions, log_colour};
-use super::{Comparison, Context, Integrator, Legend, Needs};
+use super::number::{DefaultRange, NumberView, Shown};
+use super::palette::{FALSE_HIT, MISSED, OTHER_TRIANGLE, UNDEFINED, decisions, named};
+use super::{Comparison, Context, Integrator, Needs, Setting, Source};
+use crate::colour::DUSK;
 use crate::ray::{Hit, Ray, ulp_at};
 use crate::sampler::Sampler;
-use glam::Vec3;
 
 /// The row of the view.
 pub(super) static ERROR_T: Integrator = Integrator {
@@ -13,10 +14,18 @@ pub(super) static ERROR_T: Integrator = Integrator {
     about: "Error of t of the chosen kernel, in f32 ulps, on a logarithmic scale.",
     needs: Needs {
         second: Comparison::Exact,
+        settings: &[Setting::Scale],
         ..Needs::NOTHING
     },
-    legend: legend_of_t,
-    radiance: of_t,
+    legend: || vec![decisions()],
+    source: Source::Number(NumberView {
+        title: "Error of t",
+        unit: "f32 ulps",
+        map: &DUSK,
+        range: DefaultRange::Fixed(T_RANGE),
+        is_logarithmic: true,
+        shown: of_t,
+    }),
 };
 
 /// The row of the view.
@@ -26,10 +35,23 @@ pub(super) static ERROR_BARYCENTRIC: Integrator = Integrator {
     about: "Largest error of a barycentric coordinate of the chosen kernel, on a logarithmic scale. Shapes other than triangles have no barycentric coordinates and are grey.",
     needs: Needs {
         second: Comparison::Exact,
+        settings: &[Setting::Scale],
         ..Needs::NOTHING
     },
-    legend: legend_of_weights,
-    radiance: of_weights,
+    legend: || {
+        vec![
+            decisions(),
+            vec![named(UNDEFINED, "not a triangle: undefined")],
+        ]
+    },
+    source: Source::Number(NumberView {
+        title: "Barycentric error",
+        unit: "",
+        map: &DUSK,
+        range: DefaultRange::Fixed(WEIGHT_RANGE),
+        is_logarithmic: true,
+        shown: of_weights,
+    }),
 };
 
 /// Range of the scale for t in ulps: from a tenth of the error of correct rounding to four wrong digits of f32's
@@ -39,53 +61,40 @@ const T_RANGE: [f64; 2] = [0.05, 5e4];
 const WEIGHT_RANGE: [f64; 2] = [1e-8, 0.1];
 
 /// The error of t in f32 ulps.
-fn of_t(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {
+fn of_t(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Shown {
     error(context, ray, hit, |hit, [t, _, _]| {
-        log_colour((f64::from(hit.t) - t).abs() / ulp_at(t), T_RANGE)
+        Shown::Number((f64::from(hit.t) - t).abs() / ulp_at(t))
     })
 }
 
-fn legend_of_t() -> Legend {
-    let ulps = [0.05, 0.5, 5.0, 50.0, 500.0, 5e3, 5e4];
-    let entry = |x: f64| (log_colour(x, T_RANGE), x.to_string());
-    vec![ulps.map(entry).into(), decisions()]
-}
-
 /// The largest error of a barycentric coordinate; [`UNDEFINED`] on shapes other than triangles.
-fn of_weights(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {
+fn of_weights(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Shown {
     error(context, ray, hit, |hit, [_, u, v]| {
         if context.scene.is_triangle(hit.primitive) {
-            log_colour(hit.weight_error([1.0 - u - v, u, v]), WEIGHT_RANGE)
+            Shown::Number(hit.weight_error([1.0 - u - v, u, v]))
         } else {
-            UNDEFINED
+            Shown::Colour(UNDEFINED)
         }
     })
 }
 
-fn legend_of_weights() -> Legend {
-    let errors = [1e-8, 1e-6, 1e-4, 1e-2, 0.1];
-    let entry = |x: f64| (log_colour(x, WEIGHT_RANGE), format!("{x:e}"));
-    let undefined = (UNDEFINED, "not a triangle: undefined".to_owned());
-    vec![errors.map(entry).into(), decisions(), vec![undefined]]
-}
-
-/// The colour of a hit's error against the exact t, u and v of its triangle; other colours mark wrong decisions.
+/// A hit's error against the exact t, u and v of its triangle; colours mark wrong decisions.
 fn error(
     context: &Context,
     ray: &Ray,
     hit: Option<Hit>,
-    colour: impl Fn(Hit, [f64; 3]) -> Vec3,
-) -> Vec3 {
+    error: impl Fn(Hit, [f64; 3]) -> Shown,
+) -> Shown {
     let Some(hit) = hit else {
-        return if context.second.any_hit(ray) {
+        return Shown::Colour(if context.second.any_hit(ray) {
             MISSED
         } else {
             context.background
-        };
+        });
     };
     match context.scene.exact_answer(ray, hit.primitive) {
-        Some(exact) => colour(hit, exact),
-        None if context.second.any_hit(ray) => OTHER_TRIANGLE,
-        None => FALSE_HIT,
+        Some(exact) => error(hit, exact),
+        None if context.second.any_hit(ray) => Shown::Colour(OTHER_TRIANGLE),
+        None => Shown::Colour(FALSE_HIT),
     }
 }

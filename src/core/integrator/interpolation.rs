@@ -1,7 +1,8 @@
 //! The view *Interpolation*: the angle between the two ways to interpolate vertex normals.
 
-use super::palette::log_colour;
-use super::{Context, Integrator, Legend, Needs};
+use super::number::{DefaultRange, NumberView, Shown};
+use super::{Context, Integrator, Needs, Setting, Source};
+use crate::colour::DUSK;
 use crate::interaction::SurfaceInteraction;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -13,18 +14,26 @@ pub(super) static INTERPOLATION: Integrator = Integrator {
     name: "interpolation",
     title: "Interpolation",
     about: "Angle between the linearly and the spherically interpolated vertex normal, on a logarithmic scale; grey below 0.001°.",
-    needs: Needs::VERTEX_NORMALS,
-    legend,
-    radiance,
+    needs: Needs {
+        settings: &[Setting::Scale],
+        ..Needs::VERTEX_NORMALS
+    },
+    legend: Vec::new,
+    source: Source::Number(NumberView {
+        title: "Angle",
+        unit: "°",
+        map: &DUSK,
+        // From invisible, yet above rounding to f32, to a visible shift of highlights.
+        range: DefaultRange::Fixed([0.001, 10.0]),
+        is_logarithmic: true,
+        shown,
+    }),
 };
 
-/// Range of the scale in degrees: from invisible, yet above rounding to f32, to a visible shift of highlights.
-const RANGE: [f64; 2] = [0.001, 10.0];
-
 /// The angle between the linearly and the spherically interpolated normal; grey below the scale.
-fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {
+fn shown(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Shown {
     let Some(hit) = hit else {
-        return context.background;
+        return Shown::Colour(context.background);
     };
     let normal = |shading| {
         let surface = SurfaceInteraction::new(&context.scene, ray, hit, shading);
@@ -33,18 +42,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
     let (linear, spherical) = (normal(Shading::Smooth), normal(Shading::Spherical));
     // Accurate for small angles, unlike the inverse cosine.
     let angle = 2.0 * (0.5 * (linear - spherical).length()).min(1.0).asin();
-    if angle.to_degrees() < RANGE[0] {
-        let facing = linear.dot(ray.dir.as_dvec3().normalize_or_zero());
-        return Vec3::splat(0.02 + 0.10 * facing.abs() as f32);
-    }
-    log_colour(angle.to_degrees(), RANGE)
-}
-
-fn legend() -> Legend {
-    let degrees = [0.001, 0.01, 0.1, 1.0, 10.0];
-    vec![
-        degrees
-            .map(|x| (log_colour(x, RANGE), format!("{x}°")))
-            .into(),
-    ]
+    let facing = linear.dot(ray.dir.as_dvec3().normalize_or_zero());
+    let grey = Vec3::splat(0.02 + 0.10 * facing.abs() as f32);
+    Shown::NumberOr(angle.to_degrees(), grey)
 }

@@ -11,6 +11,9 @@ mod disagreement;
 mod error;
 mod interpolation;
 mod normal;
+mod number;
+mod options;
+mod orientation;
 pub mod palette;
 mod path;
 mod record;
@@ -21,6 +24,7 @@ mod transport;
 mod triangle;
 mod whitted;
 
+pub use options::{ScaleOptions, ViewOptions, back_face_colour};
 pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
@@ -33,6 +37,7 @@ use crate::scene::{Scene, Shading};
 use crate::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
 use crate::terminator::{TerminatorRepair, default_terminator_repair};
 use glam::Vec3;
+use number::NumberView;
 use std::sync::Arc;
 
 /// Everything that a colour depends on besides the ray.
@@ -40,7 +45,7 @@ use std::sync::Arc;
 pub struct Context {
     /// The scene.
     pub scene: Arc<Scene>,
-    /// The intersector of the chosen kernel.
+    /// The intersector of the chosen kernel; with the scene's clip, as the second one. See [`Scene::clipped`].
     pub intersector: Arc<dyn Intersector>,
     /// The intersector that comparing views compare with; any one for the others.
     pub second: Arc<dyn Intersector>,
@@ -52,6 +57,8 @@ pub struct Context {
     pub background: Vec3,
     /// Lights, for views that need them.
     pub lighting: Lighting,
+    /// The user's choices about colours.
+    pub options: ViewOptions,
 }
 
 /// What light transport depends on besides the scene.
@@ -95,9 +102,17 @@ pub struct Integrator {
     pub about: &'static str,
     /// What the view needs besides the scene and the chosen kernel.
     pub needs: Needs,
-    /// The legend; empty if there is none.
+    /// The legend of the colours that no scale has; empty if there are none.
     pub legend: fn() -> Legend,
-    radiance: fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3,
+    source: Source,
+}
+
+/// Where the colours of a view come from.
+enum Source {
+    /// A function from a ray and its first hit to a colour.
+    Colour(fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3),
+    /// Numbers, which a scale colours.
+    Number(NumberView),
 }
 
 /// What a view needs besides the scene and the chosen kernel.
@@ -132,6 +147,10 @@ pub enum Setting {
     OcclusionDistance,
     /// The factor between light and colour: the view's colours are light.
     Exposure,
+    /// The tint of back faces.
+    BackFaces,
+    /// The scale of the view's numbers.
+    Scale,
 }
 
 impl Needs {
@@ -225,7 +244,13 @@ impl Integrator {
         hit: Option<Hit>,
         sampler: &mut Sampler,
     ) -> Vec3 {
-        (self.radiance)(context, ray, hit, sampler)
+        match &self.source {
+            Source::Colour(radiance) => radiance(context, ray, hit, sampler),
+            Source::Number(view) => {
+                let shown = (view.shown)(context, ray, hit, sampler);
+                view.colour(context, shown)
+            }
+        }
     }
 }
 
@@ -239,6 +264,7 @@ pub static INTEGRATORS: &[&Integrator] = &[
     &normal::NORMAL,
     &barycentric::BARYCENTRIC,
     &depth::DEPTH,
+    &orientation::ORIENTATION,
     &triangle::TRIANGLE,
     &cost::COST,
     &error::ERROR_T,

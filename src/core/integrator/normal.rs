@@ -1,6 +1,6 @@
 //! The view *Normal*.
 
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Source};
 use crate::interaction::SurfaceInteraction;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -14,7 +14,7 @@ pub(super) static NORMAL: Integrator = Integrator {
     about: "The shading normal: x, y, z from −1 to 1 as red, green, blue.",
     needs: Needs::VERTEX_NORMALS,
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {

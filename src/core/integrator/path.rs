@@ -5,7 +5,7 @@
 
 use super::record::{PathEnd, Recorder};
 use super::transport::{ShadingPoint, emitted, from_afar, shows_background};
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -17,7 +17,7 @@ pub(super) static PATH: Integrator = Integrator {
     about: "Light from the lights and by way of other surfaces.",
     needs: Needs::PATHS,
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 /// Surfaces on a path before Russian roulette may end it.

@@ -1,7 +1,8 @@
 //! The view *Shaded*: the file's materials, or clay, under studio lamps fixed to the camera.
 
+use super::options::back_face_colour;
 use super::transport::INVISIBLE;
-use super::{Context, Integrator, Needs, Setting};
+use super::{Context, Integrator, Needs, Setting, Source};
 use crate::appearance::Appearance;
 use crate::interaction::SurfaceInteraction;
 use crate::light::studio::{self, AMBIENT, Lamp};
@@ -17,11 +18,11 @@ pub(super) static SHADED: Integrator = Integrator {
     title: "Shaded",
     about: "Lit by a studio light that moves with the camera.",
     needs: Needs {
-        settings: &[Setting::Exposure],
+        settings: &[Setting::Exposure, Setting::BackFaces],
         ..Needs::VERTEX_NORMALS
     },
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 /// Maximum number of transparent surfaces along a ray; behind the last one it sees the background.
@@ -67,8 +68,14 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     let surface = SurfaceInteraction::of_surface(&context.scene, &point, hit, context.shading);
     let material = mesh.attributes().materials.get(surface.material);
     let appearance = Appearance::new(&context.scene, material, point.position, &hit);
-    let diffuse = appearance.diffuse();
     let is_front = surface.geometric_normal.dot(ray.dir) <= 0.0;
+    let tint = if is_front {
+        None
+    } else {
+        back_face_tint(context, ray)
+    };
+    let diffuse = appearance.diffuse();
+    let diffuse = tint.map_or(diffuse, |tint| diffuse.lerp(tint, TINT_PART));
     let emission = appearance.emission_of_side(is_front);
     let opacity = appearance.opacity();
     let illumination = material.map_or(Illumination::Diffuse, |m| m.illumination);
@@ -99,11 +106,20 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     (sum, opacity)
 }
 
+/// The part of a tint in the colour of a tinted surface.
+const TINT_PART: f32 = 0.7;
+
+/// The tint of back faces along a ray: the user's, or that of surfaces that the clip opens.
+fn back_face_tint(context: &Context, ray: &Ray) -> Option<Vec3> {
+    let is_opened = || context.scene.cuts_start(ray).then(back_face_colour);
+    context.options.back_face_tint.or_else(is_opened)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
     use crate::camera::{Camera, Projection};
-    use crate::integrator::Lighting;
+    use crate::integrator::{Lighting, ViewOptions};
     use crate::kernel::default_triangle_kernel;
     use crate::mesh::{
         Assigned, Attributes, CornerValues, Material, Runs, Texture, TextureMap, shapes,
@@ -117,6 +133,17 @@ mod tests {
     /// The colour of a ray straight down through layers of triangles, each with its own material, the first one
     /// on top.
     fn seen(materials: &[Material], others: Attributes) -> Vec3 {
+        let (context, ray) = layers(materials, others);
+        colour(&context, &ray)
+    }
+
+    fn colour(context: &Context, ray: &Ray) -> Vec3 {
+        let hit = context.intersector.closest_hit(ray);
+        radiance(context, ray, hit, &mut Sampler::new(UVec2::ZERO, 0))
+    }
+
+    /// The layers, 1 apart, and a ray from 1 above the first one.
+    fn layers(materials: &[Material], others: Attributes) -> (Context, Ray) {
         let layer = |k: usize| [Vec3::ZERO, Vec3::X, Vec3::Y].map(|p| p - Vec3::Z * k as f32);
         let corners: Vec<_> = (0..materials.len()).map(layer).collect();
         let mut indices = Runs::default();
@@ -141,11 +168,10 @@ mod tests {
             shading: Shading::Flat,
             background: BACKGROUND,
             lighting: Lighting::default(),
+            options: ViewOptions::default(),
         };
         let ray = Ray::new(eye.as_vec3(), Vec3::NEG_Z).expect("a ray");
-        let mut sampler = Sampler::new(UVec2::ZERO, 0);
-        let hit = context.intersector.closest_hit(&ray);
-        radiance(&context, &ray, hit, &mut sampler)
+        (context, ray)
     }
 
     fn constant(diffuse: Vec3, opacity: f32) -> Material {
@@ -167,6 +193,41 @@ mod tests {
             seen(&[constant(Vec3::X, 1.0)], Attributes::default()),
             Vec3::X
         );
+    }
+
+    #[test]
+    fn back_faces_are_tinted_where_asked_and_where_a_clip_opens_a_surface() {
+        let white = constant(Vec3::ONE, 1.0);
+        let (plain, down) = layers(&[white.clone(), white], Attributes::default());
+        // The triangles' fronts are above.
+        let up = Ray::new(Vec3::new(0.25, 0.25, -3.0), Vec3::Z).expect("a ray");
+        let tinted = Context {
+            options: ViewOptions {
+                back_face_tint: Some(Vec3::Y),
+                ..ViewOptions::default()
+            },
+            ..plain.clone()
+        };
+        let of = |tint: Vec3| Vec3::ONE.lerp(tint, TINT_PART);
+        for (ray, expected) in [(&down, [Vec3::ONE; 2]), (&up, [Vec3::ONE, of(Vec3::Y)])] {
+            assert_eq!(
+                [&plain, &tinted].map(|context| colour(context, ray)),
+                expected
+            );
+        }
+        // A clip between the layers removes the lower one: the ray from below now enters through the cut.
+        let clip = crate::Clip::plane(DVec3::NEG_Z, 0.5).expect("a plane");
+        let clipped = |context: &Context| {
+            let scene = Arc::new(context.scene.with_clip(Some(clip.clone())));
+            Context {
+                intersector: scene.clipped(Arc::clone(&context.intersector)),
+                scene,
+                ..context.clone()
+            }
+        };
+        assert_eq!(colour(&clipped(&plain), &up), of(back_face_colour()));
+        assert_eq!(colour(&clipped(&tinted), &up), of(Vec3::Y));
+        assert_eq!(colour(&clipped(&plain), &down), Vec3::ONE);
     }
 
     #[test]

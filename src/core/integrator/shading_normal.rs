@@ -4,7 +4,7 @@
 
 use super::palette::{FALSE_HIT, MISSED, decision, named};
 use super::transport::ShadingPoint;
-use super::{Context, Integrator, Legend, Needs, Setting};
+use super::{Context, Integrator, Legend, Needs, Setting, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -19,7 +19,7 @@ pub(super) static SHADING_NORMAL: Integrator = Integrator {
         ..Needs::LIGHTS
     },
     legend,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {

@@ -2,7 +2,7 @@
 
 use super::palette::{FALSE_HIT, MISSED, decision, named};
 use super::transport::ShadingPoint;
-use super::{Context, Integrator, Legend, Needs, Setting};
+use super::{Context, Integrator, Legend, Needs, Setting, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::spawn::SpawnPolicy;
@@ -18,7 +18,7 @@ pub(super) static SPAWNING: Integrator = Integrator {
         ..Needs::LIGHTS
     },
     legend,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {

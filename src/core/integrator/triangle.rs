@@ -1,7 +1,7 @@
 //! The view *Triangle*.
 
 use super::palette::id_colour;
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -13,7 +13,7 @@ pub(super) static TRIANGLE: Integrator = Integrator {
     about: "A colour for each triangle or other primitive.",
     needs: Needs::NOTHING,
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 fn radiance(context: &Context, _: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {

@@ -6,7 +6,7 @@
 
 use super::path::follow_scattered;
 use super::transport::{INVISIBLE, ShadingPoint, emitted, from_afar, shows_background};
-use super::{Context, Integrator, Needs};
+use super::{Context, Integrator, Needs, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::Vec3;
@@ -18,7 +18,7 @@ pub(super) static WHITTED: Integrator = Integrator {
     about: "Direct light, and mirrors and glass, both of whose rays are followed. Light by way of matt and rough surfaces is missing.",
     needs: Needs::PATHS,
     legend: Vec::new,
-    radiance,
+    source: Source::Colour(radiance),
 };
 
 /// The most surfaces on a branch, which ends branches between mirrors and in total reflection. As surfaces scatter no more

@@ -5,10 +5,11 @@
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
 //! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once.
 //! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` orders the hits of
-//! a scene's groups.
+//! a scene's groups. `clipped` cuts rays with a clip.
 
 mod algebraic;
 mod blocks;
+mod clipped;
 mod exact;
 mod groups;
 pub(crate) mod improving;
@@ -22,6 +23,7 @@ mod visitors;
 
 pub use blocks::Packing;
 pub(crate) use blocks::candidates;
+pub(crate) use clipped::Clipped;
 use groups::ExactT;
 pub use groups::{GroupIntersector, RankedHit};
 pub(crate) use groups::{crossings_of, scene_intersector};

@@ -2,17 +2,16 @@
 //!
 //! Source: Open Image Denoise, "Open Image Denoise API", RT filter, <https://www.openimagedenoise.org/documentation.html>.
 
+use super::rows::{TraceError, rows};
 use crate::appearance::Appearance;
 use crate::bsdf::Scatter as _;
 use crate::integrator::Context;
 use crate::interaction::SurfaceInteraction;
 use crate::lane::PACKET;
-use crate::obj::fenced;
 use crate::plan::Plan;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::Progress;
 use crate::ray::{Hit, Ray};
 use glam::{DVec3, UVec2, Vec3};
-use rayon::prelude::*;
 
 /// What a pixel shows first. Means are over the pixel's samples.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -36,29 +35,6 @@ pub struct Guides {
     pixels: Vec<Guide>,
 }
 
-/// Why there are no guides.
-#[derive(Debug, thiserror::Error)]
-pub enum GuideError {
-    /// There isn't enough memory.
-    #[error("there isn't enough memory for the guides of a picture")]
-    NoMemory,
-    /// No thread could be started.
-    #[error("the system grants no thread to trace with: {0}")]
-    NoThread(#[from] rayon::ThreadPoolBuildError),
-    /// Tracing panicked.
-    #[error("{0}")]
-    Panic(String),
-    /// The work was cancelled.
-    #[error("cancelled")]
-    Cancelled,
-}
-
-impl From<Cancelled> for GuideError {
-    fn from(_: Cancelled) -> Self {
-        Self::Cancelled
-    }
-}
-
 impl Guides {
     /// Width and height in pixels.
     pub fn size(&self) -> UVec2 {
@@ -75,31 +51,19 @@ impl Guides {
 /// guides don't depend on the number of threads. Light isn't followed through mirrors and glass, and coverage is ignored.
 ///
 /// # Errors
-/// See [`GuideError`].
+/// See [`TraceError`].
 pub fn guides(
     context: &Context,
     plan: &Plan,
     threads: usize,
     progress: &Progress,
-) -> Result<Guides, GuideError> {
+) -> Result<Guides, TraceError> {
     let size = plan.size();
     let samples = plan.samples_after(plan.pass_count());
-    let count = size.element_product() as usize;
-    let mut pixels = Vec::new();
-    let reserved = pixels.try_reserve_exact(count);
-    reserved.map_err(|_| GuideError::NoMemory)?;
-    pixels.resize(count, Sum::default().mean(samples));
-    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
-    let pool = pool.build()?;
-    let trace = || {
-        let rows = pixels.par_chunks_mut(size.x as usize).zip(0..size.y);
-        rows.try_for_each(|(row, y)| {
-            progress.check()?;
-            trace_row(context, samples, y, row);
-            Ok::<(), Cancelled>(())
-        })
-    };
-    fenced("tracing", || pool.install(trace)).map_err(GuideError::Panic)??;
+    let nothing = Sum::default().mean(samples);
+    let pixels = rows(size, threads, progress, nothing, |y, row| {
+        trace_row(context, samples, y, row);
+    })?;
     Ok(Guides { size, pixels })
 }
 

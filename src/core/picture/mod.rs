@@ -1,12 +1,18 @@
-//! Pictures for other programs: linear, with what denoisers need.
+//! Pictures for other programs: linear, with what denoisers need; distances, and numbers of surfaces.
 //!
 //! | part | file |
 //! |---|---|
 //! | what each pixel shows first: albedo, normal, depth, primitive | `guides` |
-//! | the film and its guides as an OpenEXR file | `open_exr` |
+//! | the surface in the centre of each pixel | `surfaces` |
+//! | OpenEXR files | `open_exr` |
+//! | parallel tracing | `rows` |
 
 mod guides;
 mod open_exr;
+mod rows;
+mod surfaces;
 
-pub use guides::{Guide, GuideError, Guides, guides};
-pub use open_exr::{NO_PRIMITIVE, PictureError, write_exr};
+pub use guides::{Guide, Guides, guides};
+pub use open_exr::{NO_PRIMITIVE, PictureError, write_depth, write_exr, write_ids};
+pub use rows::TraceError;
+pub use surfaces::{SurfaceIds, VisibleSurface, VisibleSurfaces};

@@ -1,6 +1,6 @@
-//! The film and its guides as an OpenEXR file.
+//! The film and its guides, distances, and numbers of surfaces as OpenEXR files.
 //!
-//! The file has one part. Its layers are prefixes of channel names, which every program reads:
+//! A file has one part. Its layers are prefixes of channel names, which every program reads. A film's file:
 //!
 //! | channels | contents |
 //! |---|---|
@@ -12,6 +12,21 @@
 //! | `sampleCount` | number of samples; 32-bit integer |
 //! | `variance` | squared standard error of the pixel's luminance; 0 for fewer than two samples |
 //!
+//! A file of distances has the centre samples alone, infinite where they hit nothing:
+//!
+//! | channels | contents |
+//! |---|---|
+//! | `t` | distance along the pixel's ray in the scene's units |
+//! | `Z` | distance along the direction of the view |
+//!
+//! A file of numbers has 32-bit integers of the centre samples, [`NO_PRIMITIVE`] where there is none:
+//!
+//! | channels | contents |
+//! |---|---|
+//! | `primitive` | index of the primitive; for meshes, of the triangle |
+//! | `group` | line of the attribute `groups`, counted from 0: the names of the file's groups and objects |
+//! | `material` | line of the attribute `materials`, likewise |
+//!
 //! For Open Image Denoise, which reads single pictures: `oiiotool in.exr --ch R,G,B -o color.pfm`, and the same with the
 //! channels of `albedo` and `normal`; or Houdini's `idenoise -a albedo -n normal in.exr out.exr`.
 //!
@@ -19,16 +34,18 @@
 //! layers, and `Z`); Open Image Denoise's documentation, <https://www.openimagedenoise.org/documentation.html>.
 
 use super::guides::{Guide, Guides};
+use super::surfaces::{SurfaceIds, VisibleSurface, VisibleSurfaces};
 use crate::film::Film;
+use crate::mesh::Attributes;
 use exr::error::Error;
 use exr::prelude::{
-    AnyChannel, AnyChannels, Encoding, FlatSamples, Image, Layer, LayerAttributes, SmallVec, Text,
-    WritableImage,
+    AnyChannel, AnyChannels, AttributeValue, Encoding, FlatSamples, Image, Layer, LayerAttributes,
+    SmallVec, Text, WritableImage,
 };
 use glam::{UVec2, Vec3};
 use std::io::{self, Seek, Write};
 
-/// The value of `id` where the centre sample hits nothing.
+/// The number of a primitive, a group or a material where the centre sample hits none.
 pub const NO_PRIMITIVE: u32 = u32::MAX;
 
 /// Why a picture can't be written.
@@ -66,9 +83,66 @@ pub fn write_exr(
         }
         channels.extend(of_guides(guides));
     }
+    Ok(write(size, channels, LayerAttributes::default(), to)?)
+}
+
+/// Writes the distances of surfaces in OpenEXR format, with the channels that the module's documentation lists.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_depth(surfaces: &VisibleSurfaces, to: impl Write + Seek) -> io::Result<()> {
+    let values = |value: fn(&VisibleSurface) -> f32| {
+        FlatSamples::F32(surfaces.pixels().iter().map(value).collect())
+    };
+    let channels = Channels::from_iter([
+        AnyChannel::new("t", values(|surface| surface.t)),
+        AnyChannel::new("Z", values(|surface| surface.z)),
+    ]);
+    write(surfaces.size(), channels, LayerAttributes::default(), to)
+}
+
+/// Writes the numbers of surfaces in OpenEXR format, with the channels that the module's documentation lists, and the names
+/// of the mesh's groups and materials.
+///
+/// # Errors
+/// Those of the writer.
+pub fn write_ids(
+    surfaces: &VisibleSurfaces,
+    names: &Attributes,
+    to: impl Write + Seek,
+) -> io::Result<()> {
+    let values = |value: fn(SurfaceIds) -> Option<u32>| {
+        let of = |surface: &VisibleSurface| surface.ids.and_then(value).unwrap_or(NO_PRIMITIVE);
+        FlatSamples::U32(surfaces.pixels().iter().map(of).collect())
+    };
+    let channels = Channels::from_iter([
+        AnyChannel::new("primitive", values(|ids| Some(ids.primitive))),
+        AnyChannel::new("group", values(|ids| ids.group)),
+        AnyChannel::new("material", values(|ids| Some(ids.material))),
+    ]);
+    let groups: Vec<&str> = names.groups.entries().iter().map(String::as_str).collect();
+    let materials = names.materials.entries().iter();
+    let materials: Vec<&str> = materials.map(|material| &*material.name).collect();
+    let mut attributes = LayerAttributes::default();
+    for (name, lines) in [("groups", groups), ("materials", materials)] {
+        // Bytes of UTF-8, as other programs write.
+        let text = Text::from_slice_unchecked(lines.join("\n").as_bytes());
+        let value = AttributeValue::Text(text);
+        attributes.other.insert(Text::from(name), value);
+    }
+    write(surfaces.size(), channels, attributes, to)
+}
+
+/// Writes channels, compressed without loss.
+fn write(
+    size: UVec2,
+    channels: Channels,
+    attributes: LayerAttributes,
+    to: impl Write + Seek,
+) -> io::Result<()> {
     let attributes = LayerAttributes {
         software_name: Text::new_or_none("hitscope"),
-        ..LayerAttributes::default()
+        ..attributes
     };
     let layer = Layer::new(
         (size.x as usize, size.y as usize),
@@ -79,8 +153,8 @@ pub fn write_exr(
     let image = Image::from_layer(layer);
     let written = image.write().non_parallel().to_buffered(to);
     written.map_err(|error| match error {
-        Error::Io(error) => error.into(),
-        error => io::Error::other(error.to_string()).into(),
+        Error::Io(error) => error,
+        error => io::Error::other(error.to_string()),
     })
 }
 

@@ -1,10 +1,13 @@
 //! The scene: groups of primitives, and their bounds.
 
+mod derived;
+
 pub use crate::group::{FirstTree, SceneOptions};
 
 use crate::aabb::Aabb;
+use crate::clip::{Clip, CutRay};
 use crate::group::{Appearance, CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
-use crate::intersector::{Intersector, Packing, scene_intersector};
+use crate::intersector::{Clipped, Intersector, Packing, scene_intersector};
 use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
@@ -27,8 +30,8 @@ pub enum Shading {
     Spherical,
 }
 
-/// Groups of primitives, each of one shape with its tree. No answer to a ray ever changes; a changed file makes
-/// another scene.
+/// Groups of primitives, each of one shape with its tree. No answer to a ray ever changes; a changed file or another clip
+/// makes another scene.
 ///
 /// Primitives are numbered through all groups; triangles come first.
 #[derive(Debug)]
@@ -42,8 +45,10 @@ pub struct Scene {
     bounds_with_elements: Aabb,
     packing: Packing,
     crease: Crease,
-    /// Computed on first use.
-    vertex_normals: OnceLock<VertexNormals>,
+    /// Computed on first use; shared with the same scene under another clip.
+    vertex_normals: Arc<OnceLock<VertexNormals>>,
+    /// The part that rays see.
+    clip: Option<Clip>,
 }
 
 impl Scene {
@@ -75,25 +80,9 @@ impl Scene {
             groups: vec![Arc::new(group)],
             packing: options.packing,
             crease: Crease::default(),
-            vertex_normals: OnceLock::new(),
+            vertex_normals: Arc::default(),
+            clip: None,
         })
-    }
-
-    /// The same groups with another crease angle for smooth shading.
-    #[must_use]
-    pub fn with_crease(&self, crease: Crease) -> Self {
-        Self {
-            mesh: Arc::clone(&self.mesh),
-            groups: self.groups.clone(),
-            crease,
-            vertex_normals: OnceLock::new(),
-            ..*self
-        }
-    }
-
-    /// Which edges smooth shading keeps sharp.
-    pub fn crease(&self) -> Crease {
-        self.crease
     }
 
     /// Adds a group of primitives of one shape, with their materials as indices into the mesh's, or with their materials
@@ -138,47 +127,6 @@ impl Scene {
         self.groups.push(group);
     }
 
-    /// A scene of the given primitives, in this order, without normals, materials and faces. The numbers must ascend.
-    pub fn subset(&self, primitives: &[u32]) -> Self {
-        let triangles = self.mesh.triangles().len() as u32;
-        let (of_mesh, mut rest) =
-            primitives.split_at(primitives.partition_point(|&p| p < triangles));
-        let corners = of_mesh
-            .iter()
-            .flat_map(|&triangle| self.mesh.corners(triangle));
-        let indices = (0..of_mesh.len() as u32).map(|k| [3 * k, 3 * k + 1, 3 * k + 2]);
-        let mesh = TriangleMesh::new_unchecked(corners.collect(), indices.collect());
-        let mut scene = Self::new(mesh, &Progress::default()).expect("nobody cancels");
-        let mut first = 0;
-        for group in &self.groups {
-            let end = first + group.count() as u32;
-            let (own, others) = rest.split_at(rest.partition_point(|&p| p < end));
-            if !own.is_empty() {
-                let local: Vec<u32> = own.iter().map(|p| p - first).collect();
-                scene.push(group.subset(&local));
-            }
-            (rest, first) = (others, end);
-        }
-        scene
-    }
-
-    /// The same triangles with the origin at (0, 0, 0), without normals, materials and faces; `None` if that would
-    /// round a position.
-    pub fn in_file_frame(&self) -> Option<Self> {
-        let is_mesh = self.groups.len() == 1 && !self.mesh.triangles().is_empty();
-        if !is_mesh || !self.mesh.are_f32_in_file() {
-            return None;
-        }
-        let in_file = |p: &Vec3| self.mesh.in_file(p.as_dvec3()).as_vec3();
-        let positions = self.mesh.positions().iter().map(in_file).collect();
-        let mesh = TriangleMesh::new_unchecked(positions, self.mesh.triangles().to_vec());
-        let options = SceneOptions {
-            packing: self.packing,
-            ..SceneOptions::default()
-        };
-        Some(Self::with_options(mesh, options, &Progress::default()).expect("nobody cancels"))
-    }
-
     /// All triangles.
     pub fn mesh(&self) -> &TriangleMesh {
         &self.mesh
@@ -210,15 +158,6 @@ impl Scene {
     /// Whether there are primitives that aren't triangles.
     pub fn has_other_shapes(&self) -> bool {
         self.primitive_count() > self.mesh.triangles().len()
-    }
-
-    /// The groups of shapes other than triangles, as a scene of their own.
-    pub fn without_triangles(&self) -> Self {
-        let mut rest = scene(TriangleMesh::default());
-        for group in self.other_groups() {
-            rest.push(Arc::clone(group));
-        }
-        rest
     }
 
     /// The groups of shapes other than triangles.
@@ -261,14 +200,15 @@ impl Scene {
 
     /// A point of a primitive, for uniform points `at` of the unit square: the ray from a point to it, and its hit there at
     /// t = 1. Points are uniform by area, or their directions are uniform; see [`density_from`](Self::density_from). `None`
-    /// if the area is 0, or the point is `from` itself.
+    /// if the area is 0, the point is `from` itself, or the clip removes it.
     pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<(Ray, Hit)> {
         let (group, index) = self.group_of(primitive);
         let SampledPoint { position, u, v } = group.sampled_from(index, from, at)?;
         let ray = Ray::new(from, (position - from.as_dvec3()).as_vec3()).ok()?;
         // The length of the direction may have been scaled.
         let t = 2f32.powi(-ray.scale);
-        Some((ray, Hit { t, u, v, primitive }))
+        let is_shown = self.shows(&ray, t);
+        is_shown.then_some((ray, Hit { t, u, v, primitive }))
     }
 
     /// The density per solid angle of the points of [`sampled`](Self::sampled) as seen from `from`, if their directions are
@@ -288,7 +228,12 @@ impl Scene {
     /// [`exact_answer`](crate::kernel::exact_answer).
     pub fn exact_answer(&self, ray: &Ray, primitive: u32) -> Option<[f64; 3]> {
         let (group, index) = self.group_of(primitive);
-        group.exact_answer(ray, index)
+        let Some(clip) = &self.clip else {
+            return group.exact_answer(ray, index);
+        };
+        let CutRay { ray, kept } = clip.cut(ray)?;
+        let answer = group.exact_answer(&ray, index)?;
+        kept.contains(answer[0] as f32).then_some(answer)
     }
 
     /// The material of a primitive, as an index into the mesh's materials.
@@ -360,7 +305,11 @@ impl Scene {
     ) -> Box<dyn Intersector> {
         let kernel = kernel.into();
         let packed = |group: &Arc<dyn Group>| (group.count(), group.intersector(kernel, level));
-        scene_intersector(kernel.info, self.groups.iter().map(packed).collect())
+        let whole = scene_intersector(kernel.info, self.groups.iter().map(packed).collect());
+        match &self.clip {
+            None => whole,
+            Some(clip) => Box::new(Clipped::new(whole.into(), clip.clone())),
+        }
     }
 }
 

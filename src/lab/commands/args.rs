@@ -95,30 +95,32 @@ impl MemoryArg {
     }
 }
 
-/// The view of a picture.
+/// The views of a picture.
 #[derive(Args, Clone, Debug)]
 pub struct ViewArg {
-    /// View: the meaning of the colours [default: the scene file's integrator, or shaded]
+    /// View: the meaning of the colours; may be given more than once, for a picture each
+    /// [default: the scene file's integrator, or shaded]
     #[arg(long, visible_alias = "integrator", value_name = "NAME", value_parser = view_names())]
-    pub view: Option<String>,
+    pub view: Vec<String>,
 }
 
 impl ViewArg {
-    /// The view for a loaded scene.
-    pub fn view(&self, loaded: &LoadedScene) -> &'static Integrator {
+    /// The views for a loaded scene, at least one.
+    pub fn views(&self, loaded: &LoadedScene) -> Vec<&'static Integrator> {
         let of_file = || loaded.integrator().unwrap_or(INTEGRATORS[0]);
-        self.given().unwrap_or_else(of_file)
+        self.given().unwrap_or_else(|| vec![of_file()])
     }
 
-    /// The view, if it doesn't depend on the contents of the file.
-    pub fn known(&self, file: &Path) -> Option<&'static Integrator> {
-        let of_mesh = || (!is_scene_file(file)).then_some(INTEGRATORS[0]);
+    /// The views, if they don't depend on the contents of the file.
+    pub fn known(&self, file: &Path) -> Option<Vec<&'static Integrator>> {
+        let of_mesh = || (!is_scene_file(file)).then(|| vec![INTEGRATORS[0]]);
         self.given().or_else(of_mesh)
     }
 
-    fn given(&self) -> Option<&'static Integrator> {
-        let name = self.view.as_deref()?;
-        Some(integrator(name).expect("clap accepts only names in the table"))
+    fn given(&self) -> Option<Vec<&'static Integrator>> {
+        let named = |name: &String| integrator(name).expect("clap accepts only names in the table");
+        let views: Vec<_> = self.view.iter().map(named).collect();
+        (!views.is_empty()).then_some(views)
     }
 }
 

@@ -1,6 +1,7 @@
 //! The camera's arguments, which several commands share.
 
 use super::CommandError;
+use super::numbers::numbers;
 use clap::Args;
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable, UpAxis};
@@ -171,17 +172,8 @@ fn parse_height(text: &str) -> Result<f64, String> {
 
 /// `1,-2.5,3e4`.
 fn parse_vector(text: &str) -> Result<DVec3, String> {
-    let expected = || "expected three numbers separated by commas, as in 1,-2.5,3".to_owned();
-    let numbers: Vec<f64> = text
-        .split(',')
-        .map(|word| word.trim().parse())
-        .collect::<Result<_, _>>()
-        .map_err(|_| expected())?;
-    match numbers[..] {
-        [x, y, z] if numbers.iter().all(|x| x.is_finite()) => Ok(DVec3::new(x, y, z)),
-        [_, _, _] => Err("the numbers must be finite".to_owned()),
-        _ => Err(expected()),
-    }
+    let expected = "expected three numbers separated by commas, as in 1,-2.5,3";
+    numbers(text, expected).map(DVec3::from_array)
 }
 
 #[cfg(test)]

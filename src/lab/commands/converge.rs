@@ -13,7 +13,7 @@ use crate::measure::convergence::{
 };
 use crate::report;
 use clap::Args;
-use hitscope_core::integrator::{Context, Setting, integrator};
+use hitscope_core::integrator::{Context, Setting, ViewOptions, integrator};
 use hitscope_core::spawn::spawn_policy;
 use hitscope_core::srgb::from_display;
 use serde_json::{Value, json};
@@ -80,7 +80,7 @@ impl ConvergeArgs {
         self.camera.check()?;
         self.scene.check()?;
         let reference = self.setting("path")?;
-        self.light.check(reference.view)?;
+        self.light.check(&[reference.view])?;
         let named = self.settings.iter().map(String::as_str);
         let default = DEFAULT_SETTINGS
             .iter()
@@ -153,6 +153,7 @@ impl ConvergeArgs {
             shading: self.scene.shading.into(),
             background: from_display(DARK_BACKGROUND),
             lighting: self.light.lighting(&loaded, &camera, memory.bytes())?,
+            options: ViewOptions::default(),
         })
     }
 

@@ -19,16 +19,16 @@ pub struct DisplayArgs {
 }
 
 impl DisplayArgs {
-    /// Refuses options that don't change the picture of a view.
+    /// Refuses options that don't change the picture of any of the views.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
-    pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
+    pub fn check(&self, views: &[&Integrator]) -> Result<(), CommandError> {
         let given = [
             ("--exposure", self.exposure.is_some(), Setting::Exposure),
             ("--tone", self.tone.is_some(), Setting::Exposure),
         ];
-        refuse_without_effect(view, &given)
+        refuse_without_effect(views, &given)
     }
 
     /// Exposure and tone curve.

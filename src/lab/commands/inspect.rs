@@ -2,6 +2,7 @@
 
 use super::CommandError;
 use super::camera::CameraArgs;
+use super::clip::ClipArgs;
 use super::path::{PathArgs, print_path};
 use super::scene::SceneArgs;
 use crate::inspection::{
@@ -58,6 +59,9 @@ Values, in the text and in JSON:
                      on. The random numbers are those of `render`: sample 0
                      goes through the pixel's centre.
 
+--clip-plane and --clip-box end the ray at the clip: hit, crossings, the exact
+answer and all kernels are of the part that is shown.
+
 Numbers in JSON parse as doubles without loss.";
 
 const EXAMPLES: &str = "\
@@ -85,6 +89,9 @@ pub struct InspectArgs {
     /// Camera
     #[command(flatten)]
     pub camera: CameraArgs,
+    /// Clip
+    #[command(flatten)]
+    pub clip: ClipArgs,
     /// The path of a sample.
     #[command(flatten)]
     pub path: PathArgs,
@@ -105,7 +112,8 @@ impl InspectArgs {
         self.camera.check()?;
         self.scene.check()?;
         self.path.check()?;
-        let loaded = self.scene.load()?;
+        let mut loaded = self.scene.load()?;
+        loaded.scene = self.clip.apply(loaded.scene)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         self.check_pixel(camera.resolution())?;

@@ -96,12 +96,12 @@ impl LightArgs {
         }
     }
 
-    /// Refuses options that don't change the picture of a view.
+    /// Refuses options that don't change the picture of any of the views.
     ///
     /// # Errors
     /// [`CommandError::Usage`].
-    pub fn check(&self, view: &Integrator) -> Result<(), CommandError> {
-        refuse_without_effect(view, &self.given())?;
+    pub fn check(&self, views: &[&Integrator]) -> Result<(), CommandError> {
+        refuse_without_effect(views, &self.given())?;
         let is_even = matches!(
             self.environment,
             Some(EnvironmentSource::Studio | EnvironmentSource::Constant(_))
@@ -206,25 +206,34 @@ fn turn(lights: &mut [Light], degrees: f32) -> bool {
     true
 }
 
-/// Refuses options that are given and don't change the picture of a view.
+/// Refuses options that are given and don't change the picture of any of the views.
 ///
 /// # Errors
 /// [`CommandError::Usage`].
 pub(super) fn refuse_without_effect(
-    view: &Integrator,
+    views: &[&Integrator],
     options: &[(&str, bool, Setting)],
 ) -> Result<(), CommandError> {
     for &(option, is_given, setting) in options {
-        if is_given && !view.needs.uses(setting) {
-            let message = format!(
-                "{option} has no effect on the view “{}”: it needs --view {}",
-                view.name,
-                views_with(setting)
-            );
-            return Err(CommandError::Usage(message));
+        let has_effect = views.iter().any(|view| view.needs.uses(setting));
+        if is_given && !has_effect {
+            return Err(no_effect(option, views, &views_with(setting)));
         }
     }
     Ok(())
+}
+
+/// The error for an option without an effect on the views; `needed` names those on which it has one.
+pub(super) fn no_effect(option: &str, views: &[&Integrator], needed: &str) -> CommandError {
+    let names: Vec<String> = views
+        .iter()
+        .map(|view| format!("“{}”", view.name))
+        .collect();
+    let plural = if names.len() == 1 { "" } else { "s" };
+    CommandError::Usage(format!(
+        "{option} has no effect on the view{plural} {}: it needs --view {needed}",
+        names.join(", ")
+    ))
 }
 
 /// The names of the views that depend on a setting, as alternatives.

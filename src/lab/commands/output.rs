@@ -5,6 +5,7 @@ use super::{CommandError, file_error};
 use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::picture::{Guides, write_exr};
+use std::fmt::Display;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
@@ -67,9 +68,19 @@ impl Output {
     /// # Errors
     /// See [`write`](Self::write).
     pub fn write_exr(&self, film: &Film, guides: Option<&Guides>) -> Result<(), CommandError> {
+        self.write_seekable(|to| write_exr(film, guides, to))
+    }
+
+    /// Writes a file whose format needs a place to seek in.
+    ///
+    /// # Errors
+    /// See [`write`](Self::write); also those of `content`.
+    pub(super) fn write_seekable<E: Display>(
+        &self,
+        content: impl FnOnce(&mut io::Cursor<Vec<u8>>) -> Result<(), E>,
+    ) -> Result<(), CommandError> {
         let mut bytes = io::Cursor::new(Vec::new());
-        write_exr(film, guides, &mut bytes)
-            .map_err(|error| CommandError::Other(error.to_string()))?;
+        content(&mut bytes).map_err(|error| CommandError::Other(error.to_string()))?;
         self.write(|out| out.write_all(bytes.get_ref()))
     }
 

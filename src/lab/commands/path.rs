@@ -5,7 +5,7 @@ use crate::inspection::{PathReport, VertexReport, light_text};
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use glam::UVec2;
-use hitscope_core::integrator::{Context, INTEGRATORS, Integrator, integrator};
+use hitscope_core::integrator::{Context, INTEGRATORS, Integrator, ViewOptions, integrator};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::scene::Shading;
 use hitscope_core::srgb::from_display;
@@ -43,7 +43,7 @@ impl PathArgs {
             return self.light.refuse_all("--view or --sample");
         }
         match &self.view {
-            Some(name) => self.light.check(named(name)),
+            Some(name) => self.light.check(&[named(name)]),
             None => Ok(()),
         }
     }
@@ -66,7 +66,7 @@ impl PathArgs {
         let of_file = loaded.integrator().filter(|view| view.follows_paths());
         let chosen = self.view.as_deref().map(named).or(of_file);
         let view = chosen.unwrap_or_else(|| named("path"));
-        self.light.check(view)?;
+        self.light.check(&[view])?;
         let context = Context {
             scene: Arc::clone(&loaded.scene),
             second: Arc::clone(&intersector),
@@ -75,6 +75,7 @@ impl PathArgs {
             shading,
             background: from_display(DARK_BACKGROUND),
             lighting: self.light.lighting(loaded, camera, max_memory)?,
+            options: ViewOptions::default(),
         };
         let sample = self.sample.unwrap_or(0);
         let path = view.record(&context, pixel, sample);

@@ -3,22 +3,23 @@
 use super::args::ViewArg;
 use super::camera::CameraArgs;
 use super::kernel::parse_kernel;
+use super::legend;
+use super::light::no_effect;
+use super::prepared::PreparedPicture;
 use super::scene::SceneArgs;
-use super::{CommandError, DisplayArgs, LightArgs, ThreadsArg};
+use super::{ClipArgs, ColourArgs, CommandError, DisplayArgs, LightArgs, ThreadsArg};
 use clap::Args;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::UpAxis;
+use hitscope_core::colour::ColourScale;
 use hitscope_core::film::BYTES_PER_PIXEL;
-use hitscope_core::integrator::{Comparison, Context, Integrator, Lighting};
-use hitscope_core::kernel::{KernelChoice, exact_triangle_kernel};
+use hitscope_core::integrator::{Comparison, Integrator};
+use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::picture::{Guides, guides};
-use hitscope_core::plan::Plan;
-use hitscope_core::progress::Progress;
-use hitscope_core::render::{Job, render};
+use hitscope_core::picture::Guides;
 use hitscope_core::scene::Shading;
-use hitscope_core::srgb::from_display;
-use hitscope_core::{Camera, Film, Intersector};
+use hitscope_core::{Camera, Film};
+use std::cell::OnceCell;
 use std::fmt;
 use std::sync::Arc;
 
@@ -37,6 +38,12 @@ pub struct PictureArgs {
     /// View.
     #[command(flatten)]
     pub view: ViewArg,
+    /// Colours of numbers and back faces.
+    #[command(flatten)]
+    pub colours: ColourArgs,
+    /// Clip.
+    #[command(flatten)]
+    pub clip: ClipArgs,
     /// Light.
     #[command(flatten)]
     pub light: LightArgs,
@@ -53,18 +60,22 @@ pub struct PictureArgs {
 
 /// A traced picture, and the camera and scene for drawing over it.
 pub struct Rendered {
+    /// The view.
+    pub view: &'static Integrator,
     /// The picture.
     pub film: Film,
+    /// The scale of its colours, if it shows numbers.
+    pub scale: Option<ColourScale>,
     /// The camera.
     pub camera: Camera,
     /// The scene.
-    pub loaded: LoadedScene,
+    pub loaded: Arc<LoadedScene>,
     /// The axis that points up.
     pub up_axis: UpAxis,
     /// How normals vary over a triangle.
     pub shading: Shading,
     /// What each pixel shows first, if asked for.
-    pub guides: Option<Guides>,
+    pub guides: Option<Arc<Guides>>,
 }
 
 /// How far the colours of a picture may be off by chance.
@@ -100,6 +111,13 @@ impl Rendered {
         }
     }
 
+    /// The pixels with the legend of the numbers to their right, and the size of both together; `None` if the view shows no
+    /// numbers.
+    pub fn with_legend(&self, pixels: &[[u8; 4]]) -> Option<(UVec2, Vec<[u8; 4]>)> {
+        let scale = self.scale.as_ref()?;
+        Some(legend::beside(pixels, self.film.size(), scale))
+    }
+
     fn positions(&self) -> impl Iterator<Item = UVec2> {
         let UVec2 { x, y } = self.film.size();
         (0..y).flat_map(move |row| (0..x).map(move |column| UVec2::new(column, row)))
@@ -133,8 +151,8 @@ impl PictureArgs {
         let refuse = |message: String| Err(CommandError::Usage(message));
         self.camera.check()?;
         let file = &self.scene.file;
-        if let Some(view) = self.view.known(file) {
-            self.check_view(view)?;
+        if let Some(views) = self.view.known(file) {
+            self.check_views(&views)?;
         }
         self.scene.check()?;
         // The size of a scene file's picture may be known only later.
@@ -152,97 +170,49 @@ impl PictureArgs {
         Ok(())
     }
 
-    /// Refuses options that don't change the picture of a view.
-    fn check_view(&self, view: &Integrator) -> Result<(), CommandError> {
-        if self.against.is_some() && view.needs.second != Comparison::Second {
-            let message = format!(
-                "--against has no effect on the view “{}”: it needs --view disagreement",
-                view.name
-            );
-            return Err(CommandError::Usage(message));
+    /// Refuses options that don't change the picture of any of the views.
+    fn check_views(&self, views: &[&Integrator]) -> Result<(), CommandError> {
+        let compares = |view: &&Integrator| view.needs.second == Comparison::Second;
+        if self.against.is_some() && !views.iter().any(compares) {
+            return Err(no_effect("--against", views, "disagreement"));
         }
-        self.light.check(view)?;
-        self.display.check(view)
+        self.light.check(views)?;
+        self.colours.check(views)?;
+        self.display.check(views)
     }
 
-    /// Traces the picture of a scene, and the guides for denoisers if they are asked for.
+    /// Traces the picture of the first view of a scene, and the guides for denoisers if they are asked for.
     ///
     /// # Errors
     /// See [`CommandError`].
     pub fn trace(&self, loaded: LoadedScene, has_guides: bool) -> Result<Rendered, CommandError> {
+        let prepared = self.prepare(loaded, has_guides)?;
+        prepared.trace(prepared.views()[0])
+    }
+
+    /// Prepares a scene for the pictures of its views.
+    ///
+    /// # Errors
+    /// See [`CommandError`].
+    pub fn prepare(
+        &self,
+        mut loaded: LoadedScene,
+        has_guides: bool,
+    ) -> Result<PreparedPicture<'_>, CommandError> {
+        loaded.scene = self.clip.apply(loaded.scene)?;
         let camera = self.camera.camera(&loaded.scene, loaded.view.as_ref())?;
-        let shading = self.scene.shading.into();
-        let intersector = self.scene.intersector(&loaded.scene);
-        let default = || exact_triangle_kernel().into();
-        let chosen = self.against.unwrap_or_else(default);
-        let view = self.view.view(&loaded);
-        self.check_view(view)?;
-        let second = view.second(&loaded.scene, &intersector, chosen);
-        self.require_memory(&loaded, camera.resolution(), &[&intersector, &second])?;
-        let context = Context {
-            second,
-            intersector,
-            scene: Arc::clone(&loaded.scene),
+        let views = self.view.views(&loaded);
+        self.check_views(&views)?;
+        Ok(PreparedPicture {
+            args: self,
+            intersector: self.scene.intersector(&loaded.scene),
+            loaded: Arc::new(loaded),
             camera,
-            shading,
-            // No light comes from a background.
-            background: if has_guides {
-                Vec3::ZERO
-            } else {
-                from_display(DARK_BACKGROUND)
-            },
-            lighting: self.lighting(view, &loaded, &camera)?,
-        };
-        let job = Job {
-            context,
-            integrator: view,
-            plan: Plan::new(camera.resolution(), 1, self.samples),
-        };
-        let (threads, progress) = (self.threads.count(), Progress::default());
-        let guides = has_guides.then(|| guides(&job.context, &job.plan, threads, &progress));
-        let guides = guides.transpose();
-        let guides = guides.map_err(|error| CommandError::Other(error.to_string()))?;
-        let mut film = render(job, threads)?;
-        film.set_display(self.display.display());
-        Ok(Rendered {
-            film,
-            camera,
-            up_axis: self.camera.up_axis(loaded.view.as_ref()),
-            loaded,
-            shading,
-            guides,
+            views,
+            has_guides,
+            lighting: OnceCell::new(),
+            guides: OnceCell::new(),
         })
-    }
-
-    /// The lights, if the view needs any.
-    fn lighting(
-        &self,
-        view: &Integrator,
-        loaded: &LoadedScene,
-        camera: &Camera,
-    ) -> Result<Lighting, CommandError> {
-        if !view.needs.lights {
-            return Ok(Lighting::default());
-        }
-        let max_memory = self.scene.mesh.memory.bytes();
-        self.light.lighting(loaded, camera, max_memory)
-    }
-
-    /// Refuses a picture that exceeds the memory limit together with the mesh.
-    fn require_memory(
-        &self,
-        loaded: &LoadedScene,
-        size: UVec2,
-        [first, second]: &[&Arc<dyn Intersector>; 2],
-    ) -> Result<(), CommandError> {
-        let mut packed_bytes = first.bytes();
-        if !Arc::ptr_eq(first, second) {
-            packed_bytes += second.bytes();
-        }
-        let UVec2 { x, y } = size;
-        let what = format_args!("a picture of {x}x{y} pixels");
-        let memory = self.scene.mesh.memory;
-        memory.require(picture_bytes(size), &loaded.scene, packed_bytes, what)
     }
 }
 

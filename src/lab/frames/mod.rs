@@ -18,7 +18,7 @@ mod precise;
 
 use glam::{DVec3, Vec3};
 use hitscope_core::kernel::KernelChoice;
-use hitscope_core::ray::RayError;
+use hitscope_core::ray::{RayError, f32_below};
 use hitscope_core::{Intersector, Ray, Scene};
 use precise::Precise;
 use std::sync::OnceLock;
@@ -349,16 +349,6 @@ impl Ball {
         let slack = to_centre.length() * 2f64.powi(-48);
         let half = (self.radius * (1.0 + 2f64.powi(-20)) + slack) / length;
         [middle - half, middle + half]
-    }
-}
-
-/// The largest f32 that isn't above a number.
-fn f32_below(x: f64) -> f32 {
-    let nearest = x as f32;
-    if f64::from(nearest) > x {
-        nearest.next_down()
-    } else {
-        nearest
     }
 }
 

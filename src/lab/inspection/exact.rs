@@ -47,9 +47,9 @@ impl ExactReport {
             .iter()
             .all(|&primitive| scene.is_triangle(primitive))
         {
-            let (hit, triangles) = oracle::crossings(mesh, ray, candidates)
-                .into_iter()
-                .next()?;
+            let mut crossings = oracle::crossings(mesh, &scene.cut(ray)?, candidates).into_iter();
+            let shown = crossings.find(|(hit, _)| scene.shows(ray, hit.t.to_f32()));
+            let (hit, triangles) = shown?;
             return Some(Self::of_triangle(&hit, triangles));
         }
         let crossings = subset.intersector(exact_triangle_kernel()).all_hits(ray);

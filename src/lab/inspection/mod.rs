@@ -88,7 +88,8 @@ impl From<Cost> for CostReport {
 }
 
 impl Inspection {
-    /// Traces the ray through a pixel's centre.
+    /// Traces the ray through a pixel's centre. Of a clipped scene, with its clipped intersector, everything is of the part
+    /// that is shown.
     pub fn of_pixel(
         scene: &Scene,
         intersector: &dyn Intersector,

@@ -88,7 +88,8 @@ pub fn measured_kernels(scene: &Scene) -> Vec<(&'static str, KernelChoice)> {
     scene.kernels().into_iter().flat_map(of_shape).collect()
 }
 
-/// Measures every kernel of the scene's shapes, seen by a camera. Passes each row to `each` as soon as it is measured.
+/// Measures every kernel of the scene's shapes, seen by a camera. Passes each row to `each` as soon as it is measured. The
+/// scene is measured without its clip.
 ///
 /// Each row is of the whole scene: the other shapes are tested by their kernels of the same tier, or of the tier of the
 /// same precision. So a tier has the same figures for every shape, and is measured once.
@@ -102,6 +103,7 @@ pub fn measure(
     progress: &Progress,
     mut each: impl FnMut(SceneRow),
 ) -> Result<(), Cancelled> {
+    let scene = &scene.with_clip(None);
     let workloads = workloads(scene, camera, sizes.timed, 1);
     let checked = checked_rays(&workloads, sizes.checked);
     let answers = answers(scene, &checked, progress)?;

@@ -8,7 +8,7 @@ use crate::theme;
 use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::integrator::Context;
+use hitscope_core::integrator::{Context, ViewOptions};
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 
@@ -118,6 +118,7 @@ impl App {
                 shading: self.settings.shading(),
                 background,
                 lighting: self.lighting(),
+                options: ViewOptions::default(),
             },
             integrator: self.settings.view(),
             samples: self.settings.samples,

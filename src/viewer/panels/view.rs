@@ -49,7 +49,11 @@ fn chosen_view_ui(
         }
     });
     ui.label(RichText::new(settings.view().about).weak());
-    legend_ui(ui, &(settings.view().legend)());
+    let mut legend = (settings.view().legend)();
+    if let Some(scale) = settings.view().default_scale() {
+        legend.insert(0, scale.entries(7));
+    }
+    legend_ui(ui, &legend);
     if settings.view().needs.second == Comparison::Second {
         ui.horizontal(|ui| {
             let label = ui.label("compared with");

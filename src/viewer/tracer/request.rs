@@ -24,6 +24,7 @@ impl PartialEq for Request {
             && Arc::ptr_eq(&a.intersector, &b.intersector)
             && Arc::ptr_eq(&a.second, &b.second)
             && (a.camera, a.shading, a.background) == (b.camera, b.shading, b.background)
+            && a.options == b.options
             && (self.integrator.name, self.samples) == (other.integrator.name, other.samples)
             && self.shows_last_tree == other.shows_last_tree
             && (!self.is_lit() || is_same_light(&a.lighting, &b.lighting))

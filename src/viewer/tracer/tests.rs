@@ -6,7 +6,7 @@ use super::pacing::{FIRST_PASS, FRAME};
 use super::*;
 use glam::DVec3;
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::{INTEGRATORS, Lighting};
+use hitscope_core::integrator::{INTEGRATORS, Lighting, ViewOptions};
 use hitscope_core::kernel::triangle_kernel;
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::scene::Shading;
@@ -41,6 +41,7 @@ fn request(scene: &Arc<Scene>, x: f64, samples: u32) -> Request {
             shading: Shading::Flat,
             background: Vec3::ZERO,
             lighting: Lighting::default(),
+            options: ViewOptions::default(),
         },
         integrator: INTEGRATORS[0],
         samples,

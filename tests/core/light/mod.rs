@@ -2,6 +2,8 @@
 //!
 //! `HITSCOPE_LIGHT_PATHS=1000000` follows that many paths for each figure. By default it is 2^16.
 
+// Scenes of which a clip removes a part.
+mod clipped;
 // Measured environments: the side that they light, and how they are sampled.
 mod environment;
 // Files of measured environments.
@@ -26,7 +28,7 @@ mod whitted;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::Projection;
 use hitscope_core::group::kernel_named;
-use hitscope_core::integrator::{Context, Lighting, integrator};
+use hitscope_core::integrator::{Context, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::Tier;
 use hitscope_core::light::{Light, Lights};
 use hitscope_core::sampler::Sampler;
@@ -60,6 +62,7 @@ fn lit(scene: Scene, others: Vec<Light>) -> Context {
             lights: Arc::new(Lights::new(&scene, others)),
             ..Lighting::default()
         },
+        options: ViewOptions::default(),
         scene,
     }
 }

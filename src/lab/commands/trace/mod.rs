@@ -5,7 +5,7 @@ mod lines;
 
 use super::args::MeshArgs;
 use super::kernel::KernelArg;
-use super::{CommandError, ThreadsArg, file_error, is_stdin};
+use super::{ClipArgs, CommandError, ThreadsArg, file_error, is_stdin};
 use crate::frames::Frames;
 use crate::json;
 use answers::{RayAnswerer, RayQuery, Request};
@@ -83,6 +83,11 @@ comments produce no output.
 
 Numbers parse as doubles without loss.
 
+--clip-plane and --clip-box end rays at the clip, as tmin and tmax do. A point
+of a plane belongs to the side whose normal has a positive first component, of
+those that aren't 0. A hit is kept by exactly one side of a plane; within an
+ulp of t from the plane, it may be the wrong one.
+
 Rounding: rays and scenes are traced as f32 numbers relative to an origin near
 the scene (--recentre). A ray with more digits, or from far away, is rounded.
 To lose as little as possible, the traced ray starts where the given ray comes
@@ -100,6 +105,7 @@ Examples:
   echo 0 0.1 1 0 0 -1 | hitscope trace bunny.obj --rays -
   hitscope trace bunny.obj --rays rays.txt --all --kernel exact
   hitscope trace bunny.obj --rays rays.txt --summary
+  hitscope trace bunny.obj --rays rays.txt --all --clip-plane 0,1,0,0.1
   echo 0 0 9 0 0 -1 | hitscope trace scene.xml --rays - --explain
 
 Exit status:
@@ -123,6 +129,9 @@ pub struct TraceArgs {
     /// How the mesh is loaded.
     #[command(flatten)]
     pub mesh: MeshArgs,
+    /// Clip.
+    #[command(flatten)]
+    pub clip: ClipArgs,
     /// Store positions relative to an origin near the scene, so that rounding to f32 loses fewer digits
     #[arg(long, default_value = "on")]
     pub recentre: RecentreArg,
@@ -188,6 +197,7 @@ impl TraceArgs {
         // Opened before the mesh is loaded, so that a missing file of rays is reported at once.
         let input = open(&self.rays)?;
         let scene = self.mesh.load(&self.file, recentre)?.scene;
+        let scene = self.clip.apply(scene)?;
         let frames = Frames::new(&scene, self.kernel.choice, self.mesh.memory.bytes());
         let tracer = Tracing {
             answerer: RayAnswerer {

@@ -1,0 +1,133 @@
+//! Pictures of several views, with scales, legends, distances and numbers.
+
+use crate::folder::Folder;
+use hitscope_lab::commands::{CommandError, RenderArgs};
+
+/// The cube from a corner.
+const CUBE: &str = "@cube.obj --size 32x24 --samples 1 --eye 3,2,4 --target 0.5,0.5,0.5";
+
+fn usage_error(line: &str) -> String {
+    let folder = Folder::new();
+    let args: RenderArgs = folder.args(line);
+    match args.check() {
+        Err(CommandError::Usage(message)) => message,
+        other => panic!("{line}: {other:?}"),
+    }
+}
+
+#[test]
+fn several_views_are_rendered_of_one_scene() {
+    let folder = Folder::new();
+    let views = "--view depth --view orientation --view path";
+    let args: RenderArgs = folder.args(&format!("{CUBE} -o @out-{{view}}.png {views}"));
+    let outputs = args.outputs().expect("writable");
+    assert_eq!(outputs.pictures.len(), 3);
+    let prepared = args.prepare().expect("loaded");
+    let names: Vec<&str> = prepared.views().iter().map(|view| view.name).collect();
+    assert_eq!(names, ["depth", "orientation", "path"]);
+    for view in prepared.views() {
+        let rendered = prepared.trace(view).expect("rendered");
+        let line = format!("{CUBE} -o @one.png --view {}", view.name);
+        let alone = folder.args::<RenderArgs>(&line).trace().expect("rendered");
+        assert_eq!(rendered.film.pixels(), alone.film.pixels(), "{}", view.name);
+    }
+}
+
+#[test]
+fn a_legend_is_drawn_beside_a_picture_of_numbers() {
+    let folder = Folder::new();
+    let line = format!("{CUBE} -o @out.png --view depth --range 2,6 --colour-map viridis --legend");
+    let rendered = folder.args::<RenderArgs>(&line).trace().expect("rendered");
+    let scale = rendered.scale.expect("numbers");
+    assert_eq!(
+        scale.to_string(),
+        "Distance from the eye: 2 to 6, linear, viridis"
+    );
+    let (size, pixels) = rendered
+        .with_legend(rendered.film.pixels())
+        .expect("a legend");
+    assert!(size.x > 32 && size.y == 24);
+    for (row, own) in pixels
+        .chunks(size.x as usize)
+        .zip(rendered.film.pixels().chunks(32))
+    {
+        assert_eq!(&row[..32], own);
+    }
+    let line = format!("{CUBE} -o @out.png --view depth --range auto");
+    let rendered = folder.args::<RenderArgs>(&line).trace().expect("rendered");
+    let [far, near] = rendered.scale.expect("numbers").range();
+    // The cube's corners are about 4 and 5.5 away.
+    assert!(
+        (3.5..4.5).contains(&near) && (4.5..6.0).contains(&far),
+        "{near} {far}"
+    );
+    let line = format!("{CUBE} -o @out.png --view triangle");
+    let rendered = folder.args::<RenderArgs>(&line).trace().expect("rendered");
+    assert!(rendered.with_legend(rendered.film.pixels()).is_none());
+}
+
+#[test]
+fn options_without_effect_and_outputs_that_replace_each_other_are_refused() {
+    for (options, message) in [
+        (
+            "-o a.png --view depth --view cost",
+            "several views need {view}",
+        ),
+        (
+            "-o {view}.png",
+            "{view} in the name of the output needs --view",
+        ),
+        (
+            "-o {view}.png --view cost --view cost",
+            "two outputs have the name cost.png",
+        ),
+        (
+            "-o a.png --depth-map x.exr --ids x.exr",
+            "two outputs have the name x.exr",
+        ),
+        ("-o x.exr --ids x.exr", "two outputs have the name x.exr"),
+        (
+            "-o a.png --colour-map viridis",
+            "--colour-map has no effect on the view “shaded”",
+        ),
+        (
+            "-o a.png --view path --legend",
+            "--legend has no effect on the view “path”",
+        ),
+        (
+            "-o a.png --view depth --back-face-tint",
+            "--back-face-tint has no effect",
+        ),
+        (
+            "-o {view}.png --view path --view normal --scale log",
+            "--scale has no effect on the views “path”, “normal”: it needs --view depth",
+        ),
+        (
+            "-o a.exr --view depth --legend",
+            "legends are drawn beside PNG pictures only",
+        ),
+        (
+            "-o a.png --wireframe --clip-plane 1,0,0,0",
+            "overlays aren't clipped",
+        ),
+    ] {
+        let found = usage_error(&format!("@cube.obj {options}"));
+        assert!(found.starts_with(message), "{options}: {found}");
+    }
+    // An option that one of the views needs.
+    let folder = Folder::new();
+    let line =
+        "@cube.obj -o {view}.png --view shaded --view depth --range 0,1 --back-face-tint=#ff0000";
+    assert!(folder.args::<RenderArgs>(line).check().is_ok());
+    // The range is wrong for one view of numbers only once its spacing is known.
+    let line = format!("{CUBE} -o @out.png --view error-t --range 0,1");
+    let error = folder
+        .args::<RenderArgs>(&line)
+        .trace()
+        .err()
+        .expect("refused");
+    assert!(
+        error.is_usage() && error.to_string().contains("must be positive"),
+        "{error}"
+    );
+}
