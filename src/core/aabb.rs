@@ -79,6 +79,21 @@ impl Aabb {
         0.5 * self.min + 0.5 * self.max
     }
 
+    /// The square of the distance of a point from the box; 0 inside, infinite if the box is empty. NaN if the point holds
+    /// one.
+    pub fn distance_squared(&self, point: DVec3) -> f64 {
+        let below = self.min.as_dvec3() - point;
+        let above = point - self.max.as_dvec3();
+        // Unlike `max`, `select` keeps a NaN.
+        let outside = DVec3::select(below.cmpgt(above), below, above);
+        DVec3::select(outside.cmplt(DVec3::ZERO), DVec3::ZERO, outside).length_squared()
+    }
+
+    /// The length of the diagonal; zero if the box is empty.
+    pub fn diagonal(&self) -> f64 {
+        self.extent().length()
+    }
+
     /// Lengths of the edges; zero if the box is empty. In f64, so that those of the largest box are finite.
     pub fn extent(&self) -> DVec3 {
         (self.max.as_dvec3() - self.min.as_dvec3()).max(DVec3::ZERO)
@@ -92,7 +107,7 @@ impl Aabb {
 
     /// The radius of the sphere about [`centre`](Self::centre) through the corners; zero if the box is empty.
     pub fn radius(&self) -> f64 {
-        0.5 * self.extent().length()
+        0.5 * self.diagonal()
     }
 }
 
@@ -115,6 +130,20 @@ mod tests {
         assert!(!b.is_empty());
         assert_eq!(b.centre(), Vec3::splat(3.0));
         assert_eq!(b.half_area(), 0.0);
+    }
+
+    #[test]
+    fn the_distance_from_a_box_is_that_from_its_nearest_point() {
+        let b = Aabb::around([Vec3::ZERO, Vec3::new(1.0, 2.0, 3.0)]);
+        for (point, squared) in [
+            (DVec3::new(0.5, 1.0, 3.0), 0.0),
+            (DVec3::new(-2.0, 1.0, 1.0), 4.0),
+            (DVec3::new(2.0, 4.0, 5.0), 9.0),
+        ] {
+            assert_eq!(b.distance_squared(point), squared, "{point}");
+        }
+        assert_eq!(Aabb::EMPTY.distance_squared(DVec3::ONE), f64::INFINITY);
+        assert!(b.distance_squared(DVec3::new(0.5, f64::NAN, 0.5)).is_nan());
     }
 
     #[test]

@@ -5,7 +5,7 @@ use crate::mesh::TextureFrame;
 use crate::ray::{Hit, Ray};
 use crate::scene::{Scene, Shading};
 use crate::shape::SurfacePoint;
-use glam::{Vec2, Vec3};
+use glam::{DVec3, Vec2, Vec3};
 
 /// Normals and material at a hit.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,6 +65,17 @@ fn interpolated_normal(scene: &Scene, hit: Hit, shading: Shading) -> Option<Vec3
         Shading::Flat => None,
         Shading::Smooth => weighted(hit.barycentric(), corners()).try_normalize(),
         Shading::Spherical => spherical_mean(hit.barycentric(), corners()),
+    }
+}
+
+/// The point of a hit in f64, in the scene's coordinates: of a triangle from the barycentric coordinates.
+pub fn position_at(scene: &Scene, ray: &Ray, hit: &Hit) -> DVec3 {
+    match scene.corners(hit.primitive) {
+        Some(corners) => {
+            let [a, b, c] = corners.map(Vec3::as_dvec3);
+            a + f64::from(hit.u) * (b - a) + f64::from(hit.v) * (c - a)
+        }
+        None => scene.surface(ray, hit).position.as_dvec3(),
     }
 }
 

@@ -17,6 +17,8 @@
 //! | `algebra` | exact roots of polynomials, for shapes other than triangles |
 //! | [`bvh`] | bounding volume hierarchy: building and traversal |
 //! | [`kernel`] | **ray–primitive intersection**, one folder per shape, one file per algorithm |
+//! | [`closest_point`] | the point of a mesh nearest to a point |
+//! | [`measure`] | distances, angles and circles between picked points |
 //! | [`intersector`] | ray–scene intersection: the tree and one kernel combined |
 //! | [`barycentric`] | barycentric coordinates and interpolation |
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
@@ -46,6 +48,7 @@ pub mod bsdf;
 pub mod bvh;
 pub mod camera;
 pub mod clip;
+pub mod closest_point;
 pub mod colour;
 pub mod counts;
 pub mod film;
@@ -57,6 +60,7 @@ pub mod kernel;
 mod lane;
 pub mod light;
 pub mod loading;
+pub mod measure;
 pub mod mesh;
 pub mod names;
 pub mod obj;

@@ -5,24 +5,32 @@
 //! |---|---|
 //! | [`oracle`] | the exact answer for a ray and a triangle |
 //! | [`inspection`] | one ray: every kernel and the exact answer |
+//! | [`element`] | elements by which users name a place |
 //! | [`formula`] | the derivation of a hit, in the notation of the lecture |
+//! | [`surface_comparison`] | distances between surfaces |
 //! | [`surface`] | the surface at a hit |
 //! | [`frames`] | rays of f64 in the file's coordinates, as the f32 rays that kernels trace |
 //! | [`json`] | JSON whose numbers read back as doubles |
 //! | [`measure`] | measurements of speed and accuracy |
+//! | [`picture_comparison`] | error figures of pictures |
+//! | [`progress`] | progress of long work, and its bar on the terminal |
 //! | [`requirement`] | the kernel tier that a scene requires |
 //! | [`second_opinion`] | what another reader finds in an OBJ file |
 //! | [`report`] | measurements as JSON, HTML and text |
-//! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `lab` and `bench` |
+//! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `compare`, `lab`, `bench` and `converge` |
 
 pub mod commands;
+pub mod element;
 pub mod formula;
 pub mod frames;
 pub mod inspection;
 pub mod json;
 pub mod measure;
 pub mod oracle;
+pub mod picture_comparison;
+pub mod progress;
 pub mod report;
 pub mod requirement;
 pub mod second_opinion;
 pub mod surface;
+pub mod surface_comparison;

@@ -1,6 +1,6 @@
 //! The surface at a hit, in the file's coordinates.
 
-use glam::Vec3;
+use hitscope_core::interaction::position_at;
 use hitscope_core::mesh::unit_normal;
 use hitscope_core::{Hit, Ray, Scene};
 
@@ -19,11 +19,11 @@ impl SurfacePoint {
     pub fn in_file(scene: &Scene, ray: &Ray, hit: &Hit) -> Self {
         let mesh = scene.mesh();
         let (position, normal) = if scene.is_triangle(hit.primitive) {
-            let corners = mesh.corners(hit.primitive);
-            let [a, b, c] = corners.map(Vec3::as_dvec3);
-            let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-            let position = a + u * (b - a) + v * (c - a);
-            (mesh.in_file(position), unit_normal(corners))
+            let position = position_at(scene, ray, hit);
+            (
+                mesh.in_file(position),
+                unit_normal(mesh.corners(hit.primitive)),
+            )
         } else {
             let surface = scene.surface(ray, hit);
             // An f32 point, with no more digits than it has.

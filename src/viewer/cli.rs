@@ -20,8 +20,8 @@ use hitscope_core::names::nearest;
 use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
-    BenchArgs, CommandError, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg, Output,
-    PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
+    BenchArgs, CommandError, CompareArgs, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg,
+    Output, PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
 };
 use std::ffi::{OsStr, OsString};
 use std::io::{self, BufWriter, Write, stdout};
@@ -83,13 +83,15 @@ struct Cli {
 #[derive(Subcommand, Debug)]
 enum Command {
     #[command(display_name = "hitscope render")]
-    Render(RenderArgs),
+    Render(Box<RenderArgs>),
     #[command(display_name = "hitscope inspect")]
-    Inspect(InspectArgs),
+    Inspect(Box<InspectArgs>),
     #[command(display_name = "hitscope trace")]
     Trace(TraceArgs),
     #[command(display_name = "hitscope info")]
     Info(InfoArgs),
+    #[command(display_name = "hitscope compare")]
+    Compare(CompareArgs),
     #[command(display_name = "hitscope lab")]
     Lab(LabArgs),
     #[command(display_name = "hitscope bench")]
@@ -205,6 +207,7 @@ impl Command {
             Self::Inspect(args) => args.run(&mut out)?,
             Self::Trace(args) => args.run(&mut out)?,
             Self::Info(args) => args.run(&mut out)?,
+            Self::Compare(args) => args.run(&mut out)?,
             Self::Lab(args) => args.run(&mut out)?,
             Self::Bench(args) => args.run(&mut out)?,
             Self::Converge(args) => args.run(&mut out)?,

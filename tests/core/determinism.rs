@@ -9,7 +9,7 @@ use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::mesh::shapes::{Placement, sphere};
 use hitscope_core::plan::{Plan, STEPS};
 use hitscope_core::progress::Progress;
-use hitscope_core::render::{Job, Message, Renderer, render};
+use hitscope_core::render::{Job, Message, Renderer, render, render_with_progress};
 use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
 use hitscope_core::{Intersector, Scene};
 use std::sync::Arc;
@@ -118,4 +118,16 @@ fn replacing_the_tree_during_rendering_does_not_change_the_picture() {
     });
     assert!(scene.has_best_tree());
     assert!(found == expected);
+}
+
+#[test]
+fn the_progress_of_a_picture_grows_from_tile_to_tile_to_all_of_it() {
+    let job = picture("normal", 4);
+    let units = job.plan.unit_count();
+    let mut parts = Vec::new();
+    let film = render_with_progress(job, 2, |part| parts.push(part)).expect("no panic");
+    assert!(film.is_complete());
+    assert_eq!(parts.len(), units);
+    assert!(parts.is_sorted() && parts[0] > 0.0, "{parts:?}");
+    assert_eq!(parts.last(), Some(&1.0));
 }

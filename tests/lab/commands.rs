@@ -157,6 +157,35 @@ fn inspect_counts_triangles_and_faces_from_0_and_states_it() {
 }
 
 #[test]
+fn inspect_measures_the_thickness_of_the_wall_and_looks_at_elements() {
+    let folder = Folder::new();
+    let line =
+        "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0 --thickness";
+    let found = folder.json(|f, out| f.args::<InspectArgs>(&format!("{line} --json")).run(out));
+    let thickness = &found["thickness"];
+    assert_eq!(thickness["normal"], serde_json::json!([0.0, 0.0, 1.0]));
+    let wall = &thickness["inwards"];
+    // The first face, on line 9.
+    assert_eq!((&wall["distance"], &wall["face"]), (&1.0.into(), &0.into()));
+    assert_eq!(
+        (&wall["line"], &thickness["outwards"]),
+        (&9.into(), &Value::Null)
+    );
+    let text = folder.text(|f, out| f.args::<InspectArgs>(line).run(out));
+    assert!(text.contains("thickness: 1 to triangle "), "{text}");
+    assert!(text.contains("clearance: no other surface"), "{text}");
+    let line = "@cube.obj --size 100x60 --look-at face:3 --json";
+    let found = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
+    assert_eq!(found["pixel"], serde_json::json!([50, 30]));
+    assert_eq!(found["hit"]["face"], 3);
+    assert_eq!(found["thickness"], Value::Null);
+    assert!(found.get("thickness").is_none());
+    let line = "@cube.obj --pixel 0,0 --size 101x61 --thickness --json";
+    let missed = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
+    assert_eq!(missed.get("thickness"), Some(&Value::Null));
+}
+
+#[test]
 fn inspect_refuses_a_pixel_outside_and_an_impossible_camera() {
     let folder = Folder::new();
     let error = |line: &str| {

@@ -4,6 +4,10 @@
 mod commands;
 // A temporary folder with a mesh, for tests of commands.
 mod folder;
+// `render`: several pictures, formats, and cameras that look at elements.
+mod render;
+// `compare`: distances between surfaces, differences of pictures.
+mod compare;
 // `trace`: lines, numbers and rounding.
 mod trace;
 // Loading meshes, and the output of `info`.

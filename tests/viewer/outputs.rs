@@ -148,6 +148,11 @@ fn pictures_can_be_written_to_pipes_and_devices() {
     };
     let ran = program.run(&format!("render good.obj -o /dev/stdout {SMALL}"));
     assert_eq!(picture(&ran), (300, 200));
+    let ran = program.run(&format!("render good.obj -o - {SMALL}"));
+    assert_eq!(picture(&ran), (300, 200));
+    let ran = program.run(&format!("render good.obj -o - --format exr {SMALL}"));
+    assert!(ran.stdout.starts_with(&[0x76, 0x2f, 0x31, 0x01]));
+    assert_eq!(program.names(), ["bad.obj", "good.obj"]);
     // The file that stdout is redirected to is appended to, not replaced.
     let ran = program.shell(&format!(
         "(printf before; \"$hitscope\" render good.obj -o /dev/stdout {SMALL}) >> out.bin"
@@ -175,10 +180,20 @@ fn a_mesh_is_not_overwritten_by_a_picture_of_it() {
         "render good.obj -o good.obj",
     ] {
         let ran = program.run(line);
-        assert_fails(&ran, 2, "error: invalid value 'good.obj' for '");
+        assert_fails(&ran, 2, "error: ");
         assert!(stderr(&ran).contains("must end in .png"), "{line}");
     }
     assert_eq!(fs::read(program.path("good.obj")).expect("there"), before);
+}
+
+#[test]
+fn progress_is_shown_on_terminals_only() {
+    let program = Program::new();
+    // Long enough for a bar on most machines.
+    let long = "--size 300x300 --samples 64 --view path --threads 1";
+    let ran = program.run(&format!("render good.obj -o out.png {long}"));
+    assert!(ran.status.success());
+    assert_eq!(stderr(&ran), "");
 }
 
 #[test]

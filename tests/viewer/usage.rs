@@ -149,6 +149,36 @@ fn invalid_arguments_are_refused_before_the_mesh_is_loaded() {
             "lab --scene none.obj --eye 1,1,1 --target 1,1,1",
             "eye and target are the same",
         ),
+        (
+            "render none.obj -o out.jpg",
+            "must end in .png or .exr, or --format must be given",
+        ),
+        (
+            "render none.obj -o out.png --turntable 3",
+            "several cameras need {index} in the names of outputs",
+        ),
+        (
+            "render none.obj -o {index}.png --turntable 0",
+            "0 is not in 1..=100000",
+        ),
+        (
+            "render none.obj -o out.png --cameras c.json --eye 1,2,3",
+            "cannot be used with",
+        ),
+        (
+            &format!("{render} --look-at edge:3"),
+            "expected triangle:N, face:N, vertex:N, line:N or X,Y,Z",
+        ),
+        (
+            &format!("{render} --look-at face:3 --eye 1,1,1 --target 0,0,0"),
+            "cannot be used with",
+        ),
+        ("inspect none.obj", "--pixel <X,Y>"),
+        ("compare none.obj -", "not standard input"),
+        ("compare none.obj none.png", "a picture can't be compared"),
+        ("compare none.obj none.obj --points 0", "0 is not in 1..="),
+        ("compare none.obj none.obj --limit 1", "--output <OUT.png>"),
+        ("compare a.obj b.obj -o out.exr", "only PNG files"),
         ("trace - --rays -", "can't both come from standard input"),
         ("-", "the window can't show standard input"),
     ];
@@ -324,7 +354,7 @@ fn every_command_has_a_version_and_help_with_examples() {
     let program = Program::new();
     let version = format!("{}\n", hitscope::about::version_and_target());
     for command in [
-        "", "render", "inspect", "trace", "info", "lab", "bench", "converge",
+        "", "render", "inspect", "trace", "info", "compare", "lab", "bench", "converge",
     ] {
         let ran = program.run(&format!("{command} --version"));
         assert!(stdout(&ran).ends_with(&version), "{command}");

@@ -2,9 +2,10 @@
 //! primitives in the boxes.
 //!
 //! [`Bvh::build`] builds it. `walk` passes the blocks of primitives that a ray meets to a visitor, nearest
-//! first; `packet` passes the blocks that any of sixteen rays meets.
+//! first; `packet` passes the blocks that any of sixteen rays meets. `nearest` passes the blocks near a point.
 
 mod build;
+mod nearest;
 mod packet;
 mod slab;
 mod walk;

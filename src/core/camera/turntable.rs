@@ -139,6 +139,34 @@ impl Turntable {
         Ok(turntable)
     }
 
+    /// [`looking`](Self::looking) about the y or the z axis: the one for which the horizon is less tilted; of two, the one for
+    /// which the view is more level; of those, `preferred`.
+    ///
+    /// # Errors
+    /// See [`CameraError`].
+    pub fn looking_level(
+        view: [DVec3; 3],
+        projection: Projection,
+        preferred: UpAxis,
+        bounds: Aabb,
+    ) -> Result<Self, CameraError> {
+        /// More than the rounding of angles.
+        const SAME_TILT: f64 = 1e-9;
+        let other = match preferred {
+            UpAxis::Y => UpAxis::Z,
+            UpAxis::Z => UpAxis::Y,
+        };
+        let about = |axis| Self::looking(view, projection, axis, bounds);
+        let (kept, other) = (about(preferred)?, about(other)?);
+        let more_tilt = other.roll_radians.abs() - kept.roll_radians.abs();
+        let is_better = if more_tilt.abs() < SAME_TILT {
+            other.pitch_radians.abs() < kept.pitch_radians.abs()
+        } else {
+            more_tilt < 0.0
+        };
+        Ok(if is_better { other } else { kept })
+    }
+
     /// Moves along the viewing direction until the scene's box fits the picture.
     ///
     /// An empty scene, or a point at the origin, counts as a sphere of radius 1; another point as one whose radius

@@ -165,7 +165,7 @@ fn read_coordinates(
 }
 
 /// The first numbers of a statement, padded with zeros.
-fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Problem> {
+pub(super) fn numbers<const N: usize>(statement: &Statement<'_>) -> Result<[f64; N], Problem> {
     let plain = statement.without_comment();
     let (_, after) = statement.keyword().unwrap_or_default();
     let mut numbers = [0.0; N];

@@ -10,7 +10,7 @@
 //! | material names are resolved to materials and textures | `materials` |
 //! | vertices are recentred, faces triangulated, and triangles that no ray can hit dropped | `assemble`, `used`, `origin`, `rounding`, `triangulate`, `oddities` |
 //! | warnings, errors, and the load report | `error`, `fence`, `report` |
-//! | a face's statement is read again for the inspector | `face_source` |
+//! | a face's statement is read again for the inspector, a vertex's to go to it | `face_source`, `vertex_source` |
 //!
 //! What happens to `f 1 2 3`:
 //!
@@ -52,6 +52,7 @@ mod statement;
 mod tally;
 mod triangulate;
 mod used;
+mod vertex_source;
 mod words;
 
 pub(crate) use error::printable;
@@ -63,6 +64,7 @@ pub(crate) use materials::{Picture, read_past, read_picture};
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
 pub use tally::LineRuns;
+pub use vertex_source::{VertexKey, VertexSource, vertex_source};
 
 use crate::mesh::TriangleMesh;
 use crate::progress::{Phase, Progress};

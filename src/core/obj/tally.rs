@@ -99,6 +99,14 @@ impl LineRuns {
         }
     }
 
+    /// The statement (from 0) that starts on a line (from 1), if there is one.
+    pub fn statement_on(&self, line: usize) -> Option<usize> {
+        let run = self.runs.partition_point(|(_, first)| *first <= line);
+        let (statement, first) = self.runs[run.checked_sub(1)?];
+        let statement = statement + line - first;
+        (statement < self.count && self.line(statement) == line).then_some(statement)
+    }
+
     pub(super) fn bytes(&self) -> usize {
         size_of::<(usize, usize)>() * self.runs.capacity()
     }
@@ -139,6 +147,10 @@ mod tests {
                 .collect();
             assert_eq!(found, lines);
             assert_eq!(first.runs.len(), 3, "{cut}");
+            for line in 0..30 {
+                let statement = lines.iter().position(|&at| at == line);
+                assert_eq!(first.statement_on(line), statement, "{line}");
+            }
         }
     }
 }

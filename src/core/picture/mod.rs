@@ -1,4 +1,4 @@
-//! Pictures for other programs: linear, with what denoisers need; distances, and numbers of surfaces.
+//! Pictures for and from other programs: linear, with what denoisers need; distances, and numbers of surfaces.
 //!
 //! | part | file |
 //! |---|---|
@@ -6,12 +6,18 @@
 //! | the surface in the centre of each pixel | `surfaces` |
 //! | OpenEXR files | `open_exr` |
 //! | parallel tracing | `rows` |
+//! | pictures from files | `file` |
+//! | decoders of linear formats | `decoding` |
 
+mod decoding;
+mod file;
 mod guides;
 mod open_exr;
 mod rows;
 mod surfaces;
 
+pub(crate) use decoding::{Memory, Picture, Problem, linear_decoder};
+pub use file::{PictureEncoding, PictureFile};
 pub use guides::{Guide, Guides, guides};
 pub use open_exr::{NO_PRIMITIVE, PictureError, write_depth, write_exr, write_ids};
 pub use rows::TraceError;

@@ -199,7 +199,22 @@ pub enum RenderError {
 /// # Errors
 /// See [`RenderError`]; of panics the first.
 pub fn render(job: Job, threads: usize) -> Result<Film, RenderError> {
+    render_with_progress(job, threads, |_| ())
+}
+
+/// The same as [`render`]; after each tile, `advanced` receives the part of all samples that is traced, from 0 to 1.
+///
+/// # Errors
+/// See [`RenderError`]; of panics the first.
+pub fn render_with_progress(
+    job: Job,
+    threads: usize,
+    mut advanced: impl FnMut(f64),
+) -> Result<Film, RenderError> {
     let size = job.plan.size();
+    let samples = job.plan.samples_after(job.plan.pass_count());
+    let all = f64::from(size.x) * f64::from(size.y) * f64::from(samples);
+    let mut traced = 0.0;
     let film = Film::try_new(job.plan.clone(), job.context.background);
     let mut film = film.map_err(|_| RenderError::NoMemory { size })?;
     let mut renderer = Renderer::try_new(threads, || ()).map_err(RenderError::NoThread)?;
@@ -208,6 +223,8 @@ pub fn render(job: Job, threads: usize) -> Result<Film, RenderError> {
         match renderer.wait_next() {
             Message::Tile(tile) => {
                 film.add(&tile.samples);
+                traced += f64::from(tile.rays);
+                advanced(traced / all);
             }
             Message::Panicked(_, panic) => return Err(panic.into()),
         }

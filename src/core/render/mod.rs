@@ -7,5 +7,5 @@
 mod job;
 mod worker;
 
-pub use job::{Job, RenderError, RenderPanic, TileResult, render};
+pub use job::{Job, RenderError, RenderPanic, TileResult, render, render_with_progress};
 pub use worker::{Message, Renderer};

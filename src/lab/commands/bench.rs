@@ -8,6 +8,7 @@ use crate::json;
 use crate::measure::scene::counted_primitives;
 use crate::measure::speed::{RAYS_AT_ONCE, median};
 use crate::measure::workloads::{WORKLOADS, workloads};
+use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use cpu_time::ThreadTime;
 use hitscope_core::bvh::Bvh;
@@ -151,6 +152,9 @@ impl BenchArgs {
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         let primitives = scene.primitive_count();
+        let meter = Meter::default();
+        let bar = ProgressBar::of(&meter);
+        meter.begin("Packing");
         let mut packed = Vec::new();
         let mut intersectors = Vec::new();
         for kernel in self.kernels() {
@@ -175,8 +179,13 @@ impl BenchArgs {
             // Measured before the rays are generated: the viewer stores none.
             peak_rss_bytes: peak_rss_bytes(),
             kernels: packed,
-            workloads: self.rows(&intersectors, &workloads(scene, &camera, MOST_RAYS, 1)),
+            workloads: {
+                meter.begin("Making rays");
+                let workloads = workloads(scene, &camera, MOST_RAYS, 1);
+                self.rows(&intersectors, &workloads, &meter)
+            },
         };
+        drop(bar);
         if self.json {
             let text = json::to_line(&report);
             writeln!(out, "{text}")?;
@@ -194,7 +203,12 @@ impl BenchArgs {
         Tier::ALL.map(of_tier).to_vec()
     }
 
-    fn rows(&self, intersectors: &[Box<dyn Intersector>], workloads: &[Vec<Ray>; 3]) -> Vec<Row> {
+    fn rows(
+        &self,
+        intersectors: &[Box<dyn Intersector>],
+        workloads: &[Vec<Ray>; 3],
+        meter: &Meter,
+    ) -> Vec<Row> {
         let [primary, bounce, _] = workloads;
         let single = WORKLOADS.into_iter().zip(workloads);
         let single = single.map(|(name, rays)| (name, WorkloadQuery::Closest, rays));
@@ -204,6 +218,7 @@ impl BenchArgs {
         ];
         let mut rows = Vec::new();
         for (name, query, rays) in single.chain(more) {
+            meter.begin(format!("Tracing {name} rays"));
             let mut times = vec![Vec::new(); intersectors.len()];
             let mut hits = vec![0; intersectors.len()];
             // The first round is a warm-up.
@@ -215,6 +230,7 @@ impl BenchArgs {
                         times[k].push(traced);
                     }
                 }
+                meter.set(f64::from(round + 1) / f64::from(self.rounds + 1));
             }
             for ((intersector, times), hits) in intersectors.iter().zip(times).zip(hits) {
                 let rate = |seconds: fn(&Traced) -> f64| {

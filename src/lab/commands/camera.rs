@@ -6,11 +6,12 @@ use clap::Args;
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable, UpAxis};
 use hitscope_core::loading::{StartView, is_scene_file};
+use hitscope_core::mesh::ElementPlace;
 use hitscope_core::{Camera, Scene};
 use std::path::Path;
 
 /// The camera. Positions are in the file's coordinates.
-#[derive(Args, Clone, Debug)]
+#[derive(Args, Clone, Debug, Default)]
 pub struct CameraArgs {
     /// Width and height of the picture in pixels, each at most 16384 [default: the film of a scene file's first sensor, else 1280x720]
     #[arg(long, value_name = "WIDTHxHEIGHT", value_parser = parse_size)]
@@ -92,6 +93,26 @@ impl CameraArgs {
         UpAxis::nearest(self.up.or(of_file).unwrap_or(DVec3::Y))
     }
 
+    /// The camera that looks at a place of the scene: from the given eye, or else along the usual direction and so that the
+    /// place fills the picture. If the place faces away from there, it is seen along its normal.
+    ///
+    /// # Errors
+    /// See [`camera`](Self::camera).
+    pub fn camera_at(
+        &self,
+        scene: &Scene,
+        view: Option<&StartView>,
+        place: &ElementPlace,
+    ) -> Result<Camera, CommandError> {
+        let start = self.camera(scene, view)?;
+        let size = start.resolution();
+        if let Some(eye) = self.eye {
+            let eye = eye - scene.mesh().origin();
+            return self.look_at(eye, place.centre, size).map_err(usage);
+        }
+        Ok(framed(&start, scene, place, self.ortho.is_some())?)
+    }
+
     /// The camera of the file's sensor, with this size and, if given, angle or height.
     fn given(&self, scene: &Scene, view: &StartView, size: UVec2) -> Result<Camera, CameraError> {
         let eye = view.eye - scene.mesh().origin();
@@ -129,8 +150,78 @@ impl CameraArgs {
     }
 }
 
+/// The camera that frames a place as seen by another camera, whose height it keeps if that is given.
+fn framed(
+    start: &Camera,
+    scene: &Scene,
+    place: &ElementPlace,
+    has_height: bool,
+) -> Result<Camera, CameraError> {
+    /// Between the place and the edge of the picture.
+    const MARGIN: f64 = 1.3;
+    /// The sine of the angle, about 6°, below which a surface is seen too much from its side, and up isn't well defined.
+    const SLANT: f64 = 0.1;
+    /// As near as the window's camera comes, in radii of the scene: f32 still resolves a hundredth of it.
+    const NEAREST: f64 = 1e-5;
+    let size = start.resolution();
+    let is_seen = place.normal == DVec3::ZERO || place.normal.dot(start.back()) > SLANT;
+    let back = if is_seen { start.back() } else { place.normal };
+    let up = if back.cross(start.up()).length() > SLANT {
+        start.up()
+    } else {
+        start.back()
+    };
+    let scene_radius = scene.bounds().radius();
+    let below = place.centre - place.bounds.min.as_dvec3();
+    let above = place.bounds.max.as_dvec3() - place.centre;
+    let radius = match MARGIN * below.max(above).length() {
+        0.0 if scene_radius > 0.0 => scene_radius,
+        0.0 => 1.0,
+        radius => radius,
+    };
+    let aspect = f64::from(size.x) / f64::from(size.y);
+    let narrow = aspect.min(1.0);
+    let (projection, distance) = match start.projection() {
+        Projection::Perspective { fov_y_radians } => {
+            let half_angle = ((0.5 * fov_y_radians).tan() * narrow).atan();
+            (start.projection(), radius / half_angle.sin())
+        }
+        // Outside of the scene, so that nothing is cut off.
+        Projection::Orthographic { height } => {
+            let own = if has_height {
+                height
+            } else {
+                2.0 * radius / narrow
+            };
+            let bounds = scene.bounds().union(place.bounds);
+            let projection = Projection::Orthographic { height: own };
+            (projection, 2.0 * bounds.radius() + radius)
+        }
+    };
+    let eye = place.centre + distance.max(NEAREST * scene_radius) * back;
+    Camera::look_at(eye, place.centre, up, projection, size)
+}
+
 fn usage(error: CameraError) -> CommandError {
     CommandError::Usage(error.to_string())
+}
+
+/// Whether a picture can have this size.
+pub(super) fn is_size(size: UVec2) -> bool {
+    size.min_element() >= 1 && size.max_element() <= MAX_SIDE
+}
+
+/// A camera that shows the whole mesh at this angle is about 1e8 times the mesh's size away.
+const LEAST_FOV: f64 = 1e-6;
+
+/// Whether a camera can have this vertical field of view in degrees.
+pub(super) fn is_fov(degrees: f64) -> bool {
+    (LEAST_FOV..180.0).contains(&degrees)
+}
+
+/// Whether an orthographic picture can have this height.
+pub(super) fn is_height(height: f64) -> bool {
+    height > 0.0 && height <= f64::from(f32::MAX)
 }
 
 /// `1280x720`.
@@ -140,7 +231,9 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
         .map(|(w, h)| [w.trim().parse::<u32>(), h.trim().parse::<u32>()])
         .ok_or("expected WIDTHxHEIGHT, as in 1280x720")?;
     match (width, height) {
-        (Ok(width @ 1..=MAX_SIDE), Ok(height @ 1..=MAX_SIDE)) => Ok(UVec2::new(width, height)),
+        (Ok(width), Ok(height)) if is_size(UVec2::new(width, height)) => {
+            Ok(UVec2::new(width, height))
+        }
         _ => Err(format!(
             "width and height must be integers from 1 to {MAX_SIDE}"
         )),
@@ -149,10 +242,8 @@ fn parse_size(text: &str) -> Result<UVec2, String> {
 
 /// `40`.
 fn parse_fov(text: &str) -> Result<f64, String> {
-    /// A camera that shows the whole mesh at this angle is about 1e8 times the mesh's size away.
-    const LEAST_FOV: f64 = 1e-6;
     match text.parse() {
-        Ok(degrees) if (LEAST_FOV..180.0).contains(&degrees) => Ok(degrees),
+        Ok(degrees) if is_fov(degrees) => Ok(degrees),
         _ => Err(format!(
             "expected an angle in degrees, at least {LEAST_FOV} and less than 180"
         )),
@@ -162,7 +253,7 @@ fn parse_fov(text: &str) -> Result<f64, String> {
 /// `2.5`.
 fn parse_height(text: &str) -> Result<f64, String> {
     match text.parse() {
-        Ok(height) if height > 0.0 && height <= f64::from(f32::MAX) => Ok(height),
+        Ok(height) if is_height(height) => Ok(height),
         _ => Err(format!(
             "expected a height above 0, at most {:e}, in the file's units",
             f32::MAX

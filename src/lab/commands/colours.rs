@@ -100,7 +100,7 @@ impl ColourArgs {
     }
 }
 
-fn map_names() -> impl clap::builder::TypedValueParser<Value = String> {
+pub(super) fn map_names() -> impl clap::builder::TypedValueParser<Value = String> {
     PossibleValuesParser::new(COLOUR_MAPS.iter().map(|map| map.name)).map(|name| name)
 }
 

@@ -5,12 +5,12 @@ use super::kernel::parse_kernel;
 use super::lab::machine;
 use super::picture::picture_bytes;
 use super::scene::SceneArgs;
-use super::stderr::ProgressLine;
 use super::{CommandError, DARK_BACKGROUND, LightArgs, Output, ThreadsArg, file_error};
 use crate::json;
 use crate::measure::convergence::{
     Convergence, ConvergencePoint, ConvergenceSizes, LightSetting, measure,
 };
+use crate::progress::{Meter, ProgressBar};
 use crate::report;
 use clap::Args;
 use hitscope_core::integrator::{Context, Setting, ViewOptions, integrator};
@@ -95,16 +95,10 @@ impl ConvergeArgs {
             seconds: self.seconds,
             threads: self.threads.count(),
         };
-        let progress = ProgressLine::new();
-        progress.update(format_args!("reference"));
-        let show = |point: &ConvergencePoint| {
-            let ConvergencePoint {
-                setting, samples, ..
-            } = point;
-            progress.update(format_args!("{setting}, {samples} samples"));
-        };
-        let measured = measure(&base, &reference, &settings, sizes, show)?;
-        progress.end();
+        let meter = Meter::default();
+        let bar = ProgressBar::of(&meter);
+        let measured = measure(&base, &reference, &settings, sizes, &meter)?;
+        drop(bar);
         let json = self.report(&measured);
         if self.json {
             writeln!(out, "{}", json::to_pretty(&json))?;

@@ -1,8 +1,9 @@
 //! Loads the scene of a command from a file or from standard input.
 
 use super::CommandError;
-use super::stderr::{ProgressLine, print_line};
+use super::stderr::{print_line, print_on_terminal};
 use crate::measure::scene::counted_primitives;
+use crate::progress::ProgressBar;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::{self, LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
@@ -28,14 +29,17 @@ pub(super) fn load(
     options: SceneOptions,
 ) -> Result<LoadedScene, CommandError> {
     let name = name_of(path);
+    let progress = Progress::default();
+    let bar = ProgressBar::of_load(&progress);
     let loaded = if is_stdin(path) {
-        load_stdin(name, load_options, options)?
+        load_stdin(name, load_options, options, &progress)?
     } else {
-        LoadedScene::load(path, load_options, options, &Progress::default())?
+        LoadedScene::load(path, load_options, options, &progress)?
     };
+    drop(bar);
     let contents = counted_primitives(&loaded.scene);
     let ms = (loaded.report.duration + loaded.scene.build_time()).as_secs_f64() * 1e3;
-    ProgressLine::new().print(format_args!("{}: {contents} in {ms:.0} ms", shown(name)));
+    print_on_terminal(format_args!("{}: {contents} in {ms:.0} ms", shown(name)));
     Ok(loaded)
 }
 
@@ -47,7 +51,7 @@ pub fn print_warnings(path: &Path, loaded: &LoadedScene) {
 }
 
 /// The name of an input in messages.
-fn name_of(path: &Path) -> &Path {
+pub(super) fn name_of(path: &Path) -> &Path {
     if is_stdin(path) {
         Path::new("standard input")
     } else {
@@ -59,9 +63,9 @@ fn load_stdin(
     name: &Path,
     load_options: LoadOptions,
     options: SceneOptions,
+    progress: &Progress,
 ) -> Result<LoadedScene, LoadError> {
-    let progress = Progress::default();
     let no_folder = |_: &str| Err(io::Error::other("standard input has no folder to look in"));
-    let loaded = obj::parse(io::stdin(), name, load_options, &no_folder, &progress)?;
-    Ok(LoadedScene::of(loaded, options, &progress).expect("never cancelled"))
+    let loaded = obj::parse(io::stdin(), name, load_options, &no_folder, progress)?;
+    Ok(LoadedScene::of(loaded, options, progress).expect("never cancelled"))
 }

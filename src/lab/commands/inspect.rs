@@ -1,10 +1,12 @@
 //! `hitscope inspect`: prints the inspection of one pixel's ray.
 
 use super::CommandError;
+use super::aim::AimArg;
 use super::camera::CameraArgs;
 use super::clip::ClipArgs;
 use super::path::{PathArgs, print_path};
 use super::scene::SceneArgs;
+use super::thickness::{ThicknessArg, print_thickness};
 use crate::inspection::{
     CrossingReport, ExactReport, HitReport, Inspection, KernelRow, OperandName, SolidReport,
 };
@@ -49,6 +51,11 @@ Values, in the text and in JSON:
   ray_rounding       largest distance per coordinate, in units of the file,
                      between this ray and the camera's ray in f64, where they
                      may meet the scene. It is large for a distant camera.
+  thickness          with --thickness: what one exact ray each way along the
+                     normal on the ray's side hits. inwards: the other side of
+                     the wall; outwards: the next surface in front; null if
+                     there is none. distance is along the normal, in units of
+                     the file
   path               of a sample, with --view or --sample: the surfaces that it
                      meets, and the light in linear RGB that each adds to the
                      sample's colour, emitted there (emission) or scattered
@@ -70,6 +77,7 @@ Examples:
   hitscope inspect bunny.obj --pixel 12,7 --size 100x100 --eye 0,0.1,1 --json
   hitscope inspect bunny.obj --pixel 640,360 --kernel exact --shading smooth
   hitscope inspect bunny.obj --pixel 640,360 --view path --sample 3
+  hitscope inspect bunny.obj --look-at face:1234 --thickness
 
 Exit status:
   0  success, even if the ray hits nothing
@@ -83,15 +91,21 @@ pub struct InspectArgs {
     /// Scene, shading and kernel.
     #[command(flatten)]
     pub scene: SceneArgs,
-    /// Pixel; 0,0 is at the top left
-    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_pixel)]
-    pub pixel: UVec2,
+    /// Pixel; 0,0 is at the top left [default with --look-at: the one in the middle]
+    #[arg(long, value_name = "X,Y", allow_hyphen_values = true, value_parser = parse_pixel, required_unless_present = "look_at")]
+    pub pixel: Option<UVec2>,
     /// Camera
     #[command(flatten)]
     pub camera: CameraArgs,
+    /// Element to look at.
+    #[command(flatten)]
+    pub aim: AimArg,
     /// Clip
     #[command(flatten)]
     pub clip: ClipArgs,
+    /// Thickness.
+    #[command(flatten)]
+    pub thickness: ThicknessArg,
     /// The path of a sample.
     #[command(flatten)]
     pub path: PathArgs,
@@ -115,11 +129,14 @@ impl InspectArgs {
         let mut loaded = self.scene.load()?;
         loaded.scene = self.clip.apply(loaded.scene)?;
         let scene = &loaded.scene;
-        let camera = self.camera.camera(scene, loaded.view.as_ref())?;
+        let aimed = self.aim.aimed(&self.camera, &loaded, &self.scene.file)?;
+        let camera = aimed.camera;
         self.check_pixel(camera.resolution())?;
         let intersector = self.scene.intersector(scene);
-        let (shading, pixel) = (self.scene.shading.into(), self.pixel);
+        let shading = self.scene.shading.into();
+        let pixel = self.pixel.unwrap_or(camera.resolution() / 2);
         let mut inspection = Inspection::of_pixel(scene, &*intersector, shading, &camera, pixel);
+        inspection.thickness = self.thickness.report(scene, &camera, pixel);
         inspection.find_line(&loaded.report.face_lines);
         let for_path = (pixel, self.scene.mesh.memory.bytes());
         inspection.path = self
@@ -134,8 +151,9 @@ impl InspectArgs {
     }
 
     fn check_pixel(&self, size: UVec2) -> Result<(), CommandError> {
-        let pixel = self.pixel;
-        if pixel.cmpge(size).any() {
+        if let Some(pixel) = self.pixel
+            && pixel.cmpge(size).any()
+        {
             return Err(CommandError::PixelOutside {
                 x: pixel.x,
                 y: pixel.y,
@@ -157,6 +175,7 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
         exact,
         kernels,
         cost,
+        thickness,
         path,
     } = inspection;
     writeln!(out, "pixel      {x},{y}")?;
@@ -179,6 +198,9 @@ fn print(inspection: &Inspection, out: &mut dyn Write) -> std::io::Result<()> {
     )?;
     print_hit(kernel, hit.as_ref(), out)?;
     print_crossings(crossings, out)?;
+    if let Some(thickness) = thickness {
+        print_thickness(thickness.as_ref(), out)?;
+    }
     print_exact(exact.as_ref(), out)?;
     print_kernels(kernels, out)?;
     path.iter().try_for_each(|path| print_path(path, out))
@@ -340,7 +362,7 @@ pub(super) fn at_most(bound: f64) -> String {
 }
 
 /// Formats three numbers, minus zero as zero.
-fn list<T: Copy + Debug + Default + PartialEq>(numbers: [T; 3]) -> String {
+pub(super) fn list<T: Copy + Debug + Default + PartialEq>(numbers: [T; 3]) -> String {
     let plain = |x: T| if x == T::default() { T::default() } else { x };
     format!("{:?}", numbers.map(plain))
 }

@@ -3,12 +3,13 @@
 use super::args::MeshArgs;
 use super::camera::CameraArgs;
 use super::kernel::kernel_list;
-use super::stderr::ProgressLine;
+use super::stderr::print_on_terminal;
 use super::{CommandError, Output, default_thread_count, file_error};
 use crate::json;
 use crate::measure::scene::{SceneRow, SceneSizes};
 use crate::measure::statistics::{rate_text, short, speed_text};
 use crate::measure::{self, CaseInfo, Measurements, RunProgress, Sizes};
+use crate::progress::{Meter, ProgressBar, seconds_text};
 use crate::report::{self, RunInfo};
 use clap::Args;
 use hitscope_core::counts::grouped;
@@ -19,7 +20,7 @@ use serde_json::json;
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
-use std::time::{Duration, Instant, SystemTime};
+use std::time::{Instant, SystemTime};
 
 const EXAMPLES: &str = "\
 Examples:
@@ -116,23 +117,23 @@ impl LabArgs {
             self.case.is_empty() || self.case.iter().any(|case| name.starts_with(&**case))
         };
         let (began, start) = (SystemTime::now(), Instant::now());
-        let progress = ProgressLine::new();
         let threads = default_thread_count();
         let time = measure::expected(sizes, &is_wanted, threads);
-        progress.print(format_args!(
+        print_on_terminal(format_args!(
             "about {} on {threads} threads",
-            duration_text(time)
+            seconds_text(time)
         ));
-        let show = |run: RunProgress| {
-            let (percent, left) = (100.0 * run.done, duration_text(run.left));
-            progress.update(format_args!(
-                "{percent:3.0} %, {left} left, not counting speed"
-            ));
+        let meter = Meter::default();
+        let bar = ProgressBar::of(&meter);
+        meter.begin("Measuring accuracy");
+        let show = |run: RunProgress| match run {
+            RunProgress::Accuracy(done) => meter.set(done),
+            RunProgress::Speed => meter.begin("Measuring speed and packing"),
         };
         let never_cancelled = Progress::default();
         let measured = measure::run(sizes, self.seed, &is_wanted, &never_cancelled, &show);
         let all = measured.expect("never cancelled");
-        progress.end();
+        drop(bar);
         let about = RunInfo {
             version: env!("CARGO_PKG_VERSION"),
             command: self.command_line(),
@@ -200,18 +201,19 @@ impl LabArgs {
         let is_empty = scene.primitive_count() == 0;
         let kernels = measure::scene::measured_kernels(&scene);
         let mut rows = Vec::new();
-        let progress = ProgressLine::new();
+        let meter = Meter::default();
+        let bar = ProgressBar::of(&meter);
+        meter.begin("Measuring kernels");
         let never_cancelled = Progress::default();
         if !is_empty {
             let each = |row| {
-                let (done, all) = (rows.len() + 1, kernels.len());
-                progress.update(format_args!("{done} of {all} kernels"));
                 rows.push(row);
+                meter.set(rows.len() as f64 / kernels.len() as f64);
             };
             let measured = measure::scene::measure(&scene, &camera, sizes, &never_cancelled, each);
             measured.expect("never cancelled");
         }
-        progress.end();
+        drop(bar);
         if self.json {
             let json = json!({
                 "file": file.display().to_string(),
@@ -332,10 +334,4 @@ pub(super) fn machine() -> String {
         default_thread_count(),
         SimdLevel::current().name()
     )
-}
-
-/// Formats a duration in whole seconds, as in `2m 5s`.
-fn duration_text(time: Duration) -> String {
-    let seconds = Duration::from_secs(time.as_secs_f64().ceil() as u64);
-    humantime::format_duration(seconds).to_string()
 }

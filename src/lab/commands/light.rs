@@ -5,7 +5,6 @@ use super::stderr::print_line;
 use clap::Args;
 use clap::builder::{PossibleValuesParser, TypedValueParser as _};
 use glam::{DVec3, Vec3};
-use hitscope_core::Camera;
 use hitscope_core::brightness::check_brightness;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Lighting, Setting};
 use hitscope_core::light::{
@@ -17,6 +16,7 @@ use hitscope_core::obj::shown;
 use hitscope_core::progress::Progress;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, spawn_policy};
 use hitscope_core::terminator::{TERMINATOR_REPAIRS, terminator_repair};
+use hitscope_core::{Camera, Scene};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -116,13 +116,21 @@ impl LightArgs {
     /// What light transport depends on in a picture of a scene. A picture of an environment may take `max_memory` bytes.
     ///
     /// # Errors
-    /// [`CommandError::Usage`] if there is no picture to turn, and [`CommandError::Load`].
+    /// See [`load`](Self::load).
     pub fn lighting(
         &self,
         loaded: &LoadedScene,
         camera: &Camera,
         max_memory: u64,
     ) -> Result<Lighting, CommandError> {
+        Ok(self.load(loaded, max_memory)?.seen_by(camera))
+    }
+
+    /// The light of a scene, for any camera. A picture of an environment may take `max_memory` bytes.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`] if there is no picture to turn, and [`CommandError::Load`].
+    pub fn load(&self, loaded: &LoadedScene, max_memory: u64) -> Result<SceneLight, CommandError> {
         let default = Lighting::default();
         let policy = |name: &Option<String>, default: &'static SpawnPolicy| {
             name.as_deref().map_or(default, |name| {
@@ -133,30 +141,28 @@ impl LightArgs {
             .terminator
             .as_deref()
             .map(|name| terminator_repair(name).expect("clap accepts only names in the table"));
-        Ok(Lighting {
-            lights: Arc::new(Lights::or_white(
-                &loaded.scene,
-                self.lights(loaded, camera, max_memory)?,
-            )),
-            spawn: policy(&self.spawn, default.spawn),
-            second_spawn: policy(&self.second_spawn, default.second_spawn),
-            ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
-            depth_limit: self.depth.or(loaded.depth_limit()),
-            terminator: repair.unwrap_or(default.terminator),
+        let lights = self.lights(loaded, max_memory)?;
+        Ok(SceneLight {
+            settings: Lighting {
+                lights: Arc::new(Lights::or_white(&loaded.scene, lights.clone())),
+                spawn: policy(&self.spawn, default.spawn),
+                second_spawn: policy(&self.second_spawn, default.second_spawn),
+                ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
+                depth_limit: self.depth.or(loaded.depth_limit()),
+                terminator: repair.unwrap_or(default.terminator),
+            },
+            scene: Arc::clone(&loaded.scene),
+            has_studio: self.environment == Some(EnvironmentSource::Studio),
+            lights,
         })
     }
 
-    /// The lights of the file and the chosen environment, which replaces the file's.
-    fn lights(
-        &self,
-        loaded: &LoadedScene,
-        camera: &Camera,
-        max_memory: u64,
-    ) -> Result<Vec<Light>, CommandError> {
+    /// The lights of the file and the chosen environment, which replaces the file's; without the studio, which moves with
+    /// the camera.
+    fn lights(&self, loaded: &LoadedScene, max_memory: u64) -> Result<Vec<Light>, CommandError> {
         let mut lights = loaded.lights.clone();
         match &self.environment {
-            None => {}
-            Some(EnvironmentSource::Studio) => lights.extend(studio(camera)),
+            None | Some(EnvironmentSource::Studio) => {}
             Some(EnvironmentSource::Constant(radiance)) => {
                 lights.push(Light::Environment(Environment::Constant(*radiance)));
             }
@@ -176,6 +182,29 @@ impl LightArgs {
             return Err(CommandError::Usage(message.to_owned()));
         }
         Ok(lights)
+    }
+}
+
+/// The light of a scene, which several cameras see.
+pub struct SceneLight {
+    scene: Arc<Scene>,
+    /// Without the studio.
+    lights: Vec<Light>,
+    has_studio: bool,
+    settings: Lighting,
+}
+
+impl SceneLight {
+    /// The light in the picture of a camera.
+    pub fn seen_by(&self, camera: &Camera) -> Lighting {
+        if !self.has_studio {
+            return self.settings.clone();
+        }
+        let lights = self.lights.iter().cloned().chain(studio(camera)).collect();
+        Lighting {
+            lights: Arc::new(Lights::or_white(&self.scene, lights)),
+            ..self.settings.clone()
+        }
     }
 }
 

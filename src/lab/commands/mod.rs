@@ -1,11 +1,13 @@
 //! The commands that need no window. They print results to stdout and errors, one line each, to stderr.
 
+mod aim;
 mod args;
 mod bench;
 mod camera;
 mod camera_text;
 mod clip;
 mod colours;
+mod compare;
 mod converge;
 mod digits;
 mod display;
@@ -27,14 +29,17 @@ mod prepared;
 mod render;
 mod scene;
 mod stderr;
+mod thickness;
 mod threads;
 mod trace;
 
+pub use aim::{AimArg, Aimed};
 pub use args::MemoryArg;
 pub use bench::BenchArgs;
 pub use camera::CameraArgs;
 pub use clip::ClipArgs;
 pub use colours::{ColourArgs, RangeArg, SpacingArg};
+pub use compare::CompareArgs;
 pub use converge::ConvergeArgs;
 pub use display::DisplayArgs;
 pub use info::InfoArgs;
@@ -46,10 +51,11 @@ pub use light::{EnvironmentSource, LightArgs};
 pub use output::Output;
 pub use path::PathArgs;
 pub use picture::{DARK_BACKGROUND, Noise, PictureArgs, Rendered};
-pub use prepared::PreparedPicture;
-pub use render::{RenderArgs, RenderOutputs, parse_png};
+pub use prepared::{PreparedPicture, PreparedScene};
+pub use render::{OverlayPen, PictureFormat, RenderArgs, parse_png};
 pub use scene::{SceneArgs, ShadingArg};
 pub use stderr::print_line;
+pub use thickness::ThicknessArg;
 pub use threads::{ThreadsArg, default_thread_count, start_thread_pool};
 pub use trace::TraceArgs;
 

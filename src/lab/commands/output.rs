@@ -45,6 +45,11 @@ impl Output {
         })
     }
 
+    /// The path, as it was given.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Writes the file. `content` receives a buffered writer.
     ///
     /// # Errors
@@ -108,6 +113,14 @@ impl Output {
     }
 }
 
+/// Whether two paths name the same existing file.
+pub(super) fn is_same_file(a: &Path, b: &Path) -> bool {
+    match (a.canonicalize(), b.canonicalize()) {
+        (Ok(a), Ok(b)) => a == b,
+        _ => false,
+    }
+}
+
 /// Whether a path is written directly, as pipes, devices and descriptors are, and not replaced.
 pub(super) fn is_stream(path: &Path) -> bool {
     // A file that stdout is redirected to mustn't be replaced: other programs may write to it, too.
@@ -137,6 +150,11 @@ fn stream(path: &Path) -> io::Result<File> {
     if path == Path::new(STDOUT) {
         use std::os::fd::AsFd as _;
         return Ok(io::stdout().as_fd().try_clone_to_owned()?.into());
+    }
+    #[cfg(windows)]
+    if path == Path::new(STDOUT) {
+        use std::os::windows::io::AsHandle as _;
+        return Ok(io::stdout().as_handle().try_clone_to_owned()?.into());
     }
     OpenOptions::new().append(true).open(path)
 }

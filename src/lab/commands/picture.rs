@@ -5,9 +5,10 @@ use super::camera::CameraArgs;
 use super::kernel::parse_kernel;
 use super::legend;
 use super::light::no_effect;
-use super::prepared::PreparedPicture;
+use super::prepared::PreparedScene;
 use super::scene::SceneArgs;
 use super::{ClipArgs, ColourArgs, CommandError, DisplayArgs, LightArgs, ThreadsArg};
+use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use glam::{UVec2, Vec3};
 use hitscope_core::camera::UpAxis;
@@ -19,7 +20,6 @@ use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::Guides;
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Film};
-use std::cell::OnceCell;
 use std::fmt;
 use std::sync::Arc;
 
@@ -148,7 +148,6 @@ impl PictureArgs {
     /// # Errors
     /// [`CommandError::Usage`].
     pub fn check(&self) -> Result<(), CommandError> {
-        let refuse = |message: String| Err(CommandError::Usage(message));
         self.camera.check()?;
         let file = &self.scene.file;
         if let Some(views) = self.view.known(file) {
@@ -156,18 +155,26 @@ impl PictureArgs {
         }
         self.scene.check()?;
         // The size of a scene file's picture may be known only later.
-        let Some(size) = self.camera.known_size(file) else {
-            return Ok(());
-        };
-        let (bytes, memory) = (picture_bytes(size), self.scene.mesh.memory);
-        if bytes > memory.bytes() {
-            let UVec2 { x, y } = size;
-            let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
-            return refuse(format!(
-                "a picture of {x}x{y} pixels takes {megabytes} MB; the limit is {limit} MB (--max-memory)"
-            ));
+        match self.camera.known_size(file) {
+            Some(size) => self.check_size(size),
+            None => Ok(()),
         }
-        Ok(())
+    }
+
+    /// Refuses a picture that exceeds the memory limit on its own.
+    ///
+    /// # Errors
+    /// [`CommandError::Usage`].
+    pub(super) fn check_size(&self, size: UVec2) -> Result<(), CommandError> {
+        let (bytes, memory) = (picture_bytes(size), self.scene.mesh.memory);
+        if bytes <= memory.bytes() {
+            return Ok(());
+        }
+        let UVec2 { x, y } = size;
+        let (megabytes, limit) = (bytes.div_ceil(1 << 20), memory.max_memory);
+        Err(CommandError::Usage(format!(
+            "a picture of {x}x{y} pixels takes {megabytes} MB; the limit is {limit} MB (--max-memory)"
+        )))
     }
 
     /// Refuses options that don't change the picture of any of the views.
@@ -186,8 +193,12 @@ impl PictureArgs {
     /// # Errors
     /// See [`CommandError`].
     pub fn trace(&self, loaded: LoadedScene, has_guides: bool) -> Result<Rendered, CommandError> {
-        let prepared = self.prepare(loaded, has_guides)?;
-        prepared.trace(prepared.views()[0])
+        let scene = self.prepare(loaded, has_guides)?;
+        let camera = scene.camera(&self.camera)?;
+        let meter = Meter::default();
+        let _bar = ProgressBar::of(&meter);
+        meter.begin("Rendering");
+        scene.seen_by(camera).trace(scene.views()[0], &meter)
     }
 
     /// Prepares a scene for the pictures of its views.
@@ -198,20 +209,19 @@ impl PictureArgs {
         &self,
         mut loaded: LoadedScene,
         has_guides: bool,
-    ) -> Result<PreparedPicture<'_>, CommandError> {
+    ) -> Result<PreparedScene<'_>, CommandError> {
         loaded.scene = self.clip.apply(loaded.scene)?;
-        let camera = self.camera.camera(&loaded.scene, loaded.view.as_ref())?;
         let views = self.view.views(&loaded);
         self.check_views(&views)?;
-        Ok(PreparedPicture {
+        let need_light = views.iter().any(|view| view.needs.lights);
+        let light = || self.light.load(&loaded, self.scene.mesh.memory.bytes());
+        Ok(PreparedScene {
+            light: need_light.then(light).transpose()?,
             args: self,
             intersector: self.scene.intersector(&loaded.scene),
             loaded: Arc::new(loaded),
-            camera,
             views,
             has_guides,
-            lighting: OnceCell::new(),
-            guides: OnceCell::new(),
         })
     }
 }

@@ -1,7 +1,9 @@
-//! A loaded scene, ready for the pictures of its views.
+//! A loaded scene, ready for the pictures of its views by any camera.
 
-use super::CommandError;
+use super::light::SceneLight;
 use super::picture::{DARK_BACKGROUND, PictureArgs, Rendered, picture_bytes};
+use super::{CameraArgs, CommandError};
+use crate::progress::Meter;
 use glam::Vec3;
 use hitscope_core::integrator::{Context, Integrator, Lighting, ViewOptions};
 use hitscope_core::kernel::exact_triangle_kernel;
@@ -9,26 +11,24 @@ use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::{Guides, TraceError, VisibleSurfaces, guides};
 use hitscope_core::plan::Plan;
 use hitscope_core::progress::Progress;
-use hitscope_core::render::{Job, render};
+use hitscope_core::render::{Job, render_with_progress};
 use hitscope_core::srgb::from_display;
 use hitscope_core::{Camera, Intersector};
 use std::cell::OnceCell;
 use std::sync::Arc;
 
-/// A loaded scene, packed for its kernel, with its camera and views.
-pub struct PreparedPicture<'a> {
+/// A loaded scene, packed for its kernel, with its views and its light.
+pub struct PreparedScene<'a> {
     pub(super) args: &'a PictureArgs,
     pub(super) loaded: Arc<LoadedScene>,
-    pub(super) camera: Camera,
     pub(super) intersector: Arc<dyn Intersector>,
     pub(super) views: Vec<&'static Integrator>,
     pub(super) has_guides: bool,
-    /// The lights, for the views that need them.
-    pub(super) lighting: OnceCell<Lighting>,
-    pub(super) guides: OnceCell<Arc<Guides>>,
+    /// `None` if no view needs light.
+    pub(super) light: Option<SceneLight>,
 }
 
-impl PreparedPicture<'_> {
+impl PreparedScene<'_> {
     /// The views, at least one.
     pub fn views(&self) -> &[&'static Integrator] {
         &self.views
@@ -39,38 +39,74 @@ impl PreparedPicture<'_> {
         &self.loaded
     }
 
-    /// Traces the picture of a view.
+    /// The camera that arguments describe.
+    ///
+    /// # Errors
+    /// See [`CameraArgs::camera`].
+    pub fn camera(&self, camera: &CameraArgs) -> Result<Camera, CommandError> {
+        camera.camera(&self.loaded.scene, self.loaded.view.as_ref())
+    }
+
+    /// The scene as a camera sees it.
+    pub fn seen_by(&self, camera: Camera) -> PreparedPicture<'_> {
+        PreparedPicture {
+            scene: self,
+            camera,
+            guides: OnceCell::new(),
+        }
+    }
+}
+
+/// A prepared scene as a camera sees it.
+pub struct PreparedPicture<'a> {
+    scene: &'a PreparedScene<'a>,
+    camera: Camera,
+    guides: OnceCell<Arc<Guides>>,
+}
+
+impl PreparedPicture<'_> {
+    /// The scene.
+    pub fn loaded(&self) -> &LoadedScene {
+        self.scene.loaded()
+    }
+
+    /// Traces the picture of a view. `meter` shows how much of it is traced.
     ///
     /// # Errors
     /// See [`CommandError`].
-    pub fn trace(&self, view: &'static Integrator) -> Result<Rendered, CommandError> {
+    pub fn trace(
+        &self,
+        view: &'static Integrator,
+        meter: &Meter,
+    ) -> Result<Rendered, CommandError> {
+        let (scene, args) = (self.scene, self.scene.args);
         let default = || exact_triangle_kernel().into();
-        let chosen = self.args.against.unwrap_or_else(default);
-        let second = view.second(&self.loaded.scene, &self.intersector, chosen);
+        let chosen = args.against.unwrap_or_else(default);
+        let second = view.second(&scene.loaded.scene, &scene.intersector, chosen);
         self.require_memory(&second)?;
-        let context = self.args.colours.apply(self.context(view, second)?, view)?;
-        let (shading, threads) = (context.shading, self.args.threads.count());
+        let context = args.colours.apply(self.context(view, second), view)?;
+        let (shading, threads) = (context.shading, args.threads.count());
         // The colours were checked.
         let scale = view.scale(&context).ok().flatten();
         let job = Job {
             context,
             integrator: view,
-            plan: Plan::new(self.camera.resolution(), 1, self.args.samples),
+            plan: Plan::new(self.camera.resolution(), 1, args.samples),
         };
-        let guides = if self.has_guides {
+        let guides = if scene.has_guides {
             Some(self.guides(&job)?)
         } else {
             None
         };
-        let mut film = render(job, threads)?;
-        film.set_display(self.args.display.display());
+        let mut film = render_with_progress(job, threads, |part| meter.set(part))?;
+        film.set_display(args.display.display());
         Ok(Rendered {
             view,
             film,
             scale,
             camera: self.camera,
-            up_axis: self.args.camera.up_axis(self.loaded.view.as_ref()),
-            loaded: Arc::clone(&self.loaded),
+            up_axis: args.camera.up_axis(scene.loaded.view.as_ref()),
+            loaded: Arc::clone(&scene.loaded),
             shading,
             guides,
         })
@@ -81,54 +117,37 @@ impl PreparedPicture<'_> {
     /// # Errors
     /// See [`CommandError`].
     pub fn surfaces(&self) -> Result<VisibleSurfaces, CommandError> {
-        let context = self.context(self.views[0], Arc::clone(&self.intersector))?;
-        let threads = self.args.threads.count();
+        let scene = self.scene;
+        let context = self.context(scene.views[0], Arc::clone(&scene.intersector));
+        let threads = scene.args.threads.count();
         VisibleSurfaces::trace(&context, threads, &Progress::default()).map_err(other)
     }
 
-    fn context(
-        &self,
-        view: &Integrator,
-        second: Arc<dyn Intersector>,
-    ) -> Result<Context, CommandError> {
-        Ok(Context {
+    fn context(&self, view: &Integrator, second: Arc<dyn Intersector>) -> Context {
+        let scene = self.scene;
+        let light = scene.light.as_ref().filter(|_| view.needs.lights);
+        Context {
             second,
-            intersector: Arc::clone(&self.intersector),
-            scene: Arc::clone(&self.loaded.scene),
+            intersector: Arc::clone(&scene.intersector),
+            scene: Arc::clone(&scene.loaded.scene),
             camera: self.camera,
-            shading: self.args.scene.shading.into(),
+            shading: scene.args.scene.shading.into(),
             // No light comes from a background.
-            background: if self.has_guides {
+            background: if scene.has_guides {
                 Vec3::ZERO
             } else {
                 from_display(DARK_BACKGROUND)
             },
-            lighting: self.lighting(view)?,
+            lighting: light.map_or_else(Lighting::default, |light| light.seen_by(&self.camera)),
             options: ViewOptions::default(),
-        })
-    }
-
-    /// The lights, if the view needs any.
-    fn lighting(&self, view: &Integrator) -> Result<Lighting, CommandError> {
-        if !view.needs.lights {
-            return Ok(Lighting::default());
         }
-        if let Some(lighting) = self.lighting.get() {
-            return Ok(lighting.clone());
-        }
-        let max_memory = self.args.scene.mesh.memory.bytes();
-        let lighting = self
-            .args
-            .light
-            .lighting(&self.loaded, &self.camera, max_memory)?;
-        Ok(self.lighting.get_or_init(|| lighting).clone())
     }
 
     fn guides(&self, job: &Job) -> Result<Arc<Guides>, CommandError> {
         if let Some(guides) = self.guides.get() {
             return Ok(Arc::clone(guides));
         }
-        let threads = self.args.threads.count();
+        let threads = self.scene.args.threads.count();
         let guides = guides(&job.context, &job.plan, threads, &Progress::default());
         let guides = Arc::new(guides.map_err(other)?);
         Ok(Arc::clone(self.guides.get_or_init(|| guides)))
@@ -136,13 +155,15 @@ impl PreparedPicture<'_> {
 
     /// Refuses a picture that exceeds the memory limit together with the mesh.
     fn require_memory(&self, second: &Arc<dyn Intersector>) -> Result<(), CommandError> {
-        let mut packed_bytes = self.intersector.bytes();
-        if !Arc::ptr_eq(&self.intersector, second) {
+        let first = &self.scene.intersector;
+        let mut packed_bytes = first.bytes();
+        if !Arc::ptr_eq(first, second) {
             packed_bytes += second.bytes();
         }
         let size = self.camera.resolution();
         let what = format_args!("a picture of {}x{} pixels", size.x, size.y);
-        let (scene, memory) = (&self.loaded.scene, self.args.scene.mesh.memory);
+        let memory = self.scene.args.scene.mesh.memory;
+        let scene = &self.loaded().scene;
         memory.require(picture_bytes(size), scene, packed_bytes, what)
     }
 }

@@ -8,36 +8,9 @@ pub fn print_line(line: impl Display) {
     _ = writeln!(io::stderr(), "{line}");
 }
 
-/// A progress line, printed on terminals only.
-#[derive(Clone, Copy)]
-pub(super) struct ProgressLine {
-    is_terminal: bool,
-}
-
-impl ProgressLine {
-    pub(super) fn new() -> Self {
-        Self {
-            is_terminal: io::stderr().is_terminal(),
-        }
-    }
-
-    /// Prints a permanent line.
-    pub(super) fn print(self, line: impl Display) {
-        if self.is_terminal {
-            print_line(line);
-        }
-    }
-
-    /// Overwrites the progress line.
-    pub(super) fn update(self, line: impl Display) {
-        if self.is_terminal {
-            // Spaces overwrite the end of a longer line.
-            _ = write!(io::stderr(), "\r{line}     ");
-        }
-    }
-
-    /// Ends the progress line.
-    pub(super) fn end(self) {
-        self.print("");
+/// Prints a line if stderr is a terminal.
+pub(super) fn print_on_terminal(line: impl Display) {
+    if io::stderr().is_terminal() {
+        print_line(line);
     }
 }

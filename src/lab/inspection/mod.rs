@@ -7,6 +7,7 @@ mod kernel_row;
 mod parameters;
 mod path;
 mod solid;
+mod thickness;
 
 pub use crossing::CrossingReport;
 pub use exact::{ExactReport, ExactTriangle};
@@ -15,10 +16,11 @@ pub use kernel_row::KernelRow;
 pub use parameters::{ParameterReport, ParameterValue, Parameters};
 pub use path::{PathReport, ShadowRayReport, VertexReport, light_text};
 pub use solid::{OperandName, OperandReport, SolidPart, SolidPartKind, SolidReport};
+pub use thickness::{ThicknessReport, WallReport};
 
 use crate::frames;
 use crate::json;
-use glam::{UVec2, Vec3};
+use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::intersector::Cost;
 use hitscope_core::mesh::TriangleMesh;
 use hitscope_core::obj::LineRuns;
@@ -46,6 +48,9 @@ pub struct Inspection {
     pub kernels: Vec<KernelRow>,
     /// The number of tests done for the ray.
     pub cost: CostReport,
+    /// The thickness of the wall, if it was asked for; `Some(None)` if the ray hits nothing.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub thickness: Option<Option<ThicknessReport>>,
     /// The path of a sample, if one was asked for.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub path: Option<PathReport>,
@@ -126,18 +131,22 @@ impl Inspection {
                 .collect(),
             exact,
             cost: cost.into(),
+            thickness: None,
             path: None,
         }
     }
 }
 
 impl Inspection {
-    /// Finds the line of the face that was hit.
+    /// Finds the lines of the faces that were hit.
     pub fn find_line(&mut self, face_lines: &LineRuns) {
         let hit = self.hit.as_mut();
         if let Some(triangle) = hit.and_then(|hit| hit.triangle.as_mut()) {
             let line = face_lines.line(triangle.face as usize);
             triangle.line = (line > 0).then_some(line);
+        }
+        if let Some(Some(thickness)) = &mut self.thickness {
+            thickness.find_lines(face_lines);
         }
     }
 
@@ -149,5 +158,9 @@ impl Inspection {
 
 /// A point of the mesh in the file's coordinates.
 fn in_file(mesh: &TriangleMesh, p: Vec3) -> [f64; 3] {
-    mesh.in_file(p.as_dvec3()).to_array()
+    in_file_f64(mesh, p.as_dvec3())
+}
+
+fn in_file_f64(mesh: &TriangleMesh, p: DVec3) -> [f64; 3] {
+    mesh.in_file(p).to_array()
 }

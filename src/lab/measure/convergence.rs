@@ -1,11 +1,12 @@
 //! The error of pictures against the CPU time that they take.
 
+use crate::progress::Meter;
 use cpu_time::ProcessTime;
 use glam::UVec2;
 use hitscope_core::integrator::{Context, Integrator, Lighting};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::plan::Plan;
-use hitscope_core::render::{Job, RenderError, render};
+use hitscope_core::render::{Job, RenderError, render_with_progress};
 use hitscope_core::spawn::SpawnPolicy;
 use hitscope_core::srgb::luminance;
 use hitscope_core::{Film, Intersector};
@@ -83,7 +84,8 @@ pub struct ConvergenceSizes {
 const MOST_OF_REFERENCE: u32 = 16;
 
 /// Renders the reference and pictures of each setting with 1, 2, 4, … samples per pixel. `base` has the scene and the
-/// camera; `show` receives each picture's figures. If the reference is black, relative errors are infinite or NaN.
+/// camera; `meter` shows the picture that is being rendered. If the reference is black, relative errors are infinite or
+/// NaN.
 ///
 /// # Errors
 /// See [`RenderError`].
@@ -92,10 +94,11 @@ pub fn measure(
     reference: &LightSetting,
     settings: &[LightSetting],
     sizes: ConvergenceSizes,
-    mut show: impl FnMut(&ConvergencePoint),
+    meter: &Meter,
 ) -> Result<Convergence, RenderError> {
     let samples = sizes.reference_samples;
-    let (exact, cpu_s) = picture(base, reference, samples, sizes.threads)?;
+    meter.begin("Reference");
+    let (exact, cpu_s) = picture(base, reference, samples, (sizes.threads, meter))?;
     let expected = luminances(&exact);
     let mean = expected.iter().sum::<f64>() / expected.len().max(1) as f64;
     let errors = pixels(&exact).map(|pixel| exact.standard_error(pixel).unwrap_or(0.0));
@@ -104,17 +107,16 @@ pub fn measure(
     for setting in settings {
         let (mut samples, mut spent) = (1, 0.0);
         while samples <= (sizes.reference_samples / MOST_OF_REFERENCE).max(1) {
-            let (film, cpu_s) = picture(base, setting, samples, sizes.threads)?;
+            meter.begin(format!("{}, {samples} spp", setting.name));
+            let (film, cpu_s) = picture(base, setting, samples, (sizes.threads, meter))?;
             let found = luminances(&film);
             let errors = found.iter().zip(&expected).map(|(x, y)| x - y);
-            let point = ConvergencePoint {
+            points.push(ConvergencePoint {
                 setting: setting.name.clone(),
                 samples,
                 cpu_s,
                 relative_rmse: root_mean_square(errors) / mean,
-            };
-            show(&point);
-            points.push(point);
+            });
             spent += cpu_s;
             if spent >= sizes.seconds {
                 break;
@@ -140,7 +142,7 @@ fn picture(
     base: &Context,
     setting: &LightSetting,
     samples: u32,
-    threads: usize,
+    (threads, meter): (usize, &Meter),
 ) -> Result<(Film, f64), RenderError> {
     let intersector: Arc<dyn Intersector> = Arc::from(base.scene.intersector(setting.kernel));
     let context = Context {
@@ -159,7 +161,7 @@ fn picture(
         integrator: setting.view,
     };
     let start = ProcessTime::now();
-    let film = render(job, threads)?;
+    let film = render_with_progress(job, threads, |part| meter.set(part))?;
     Ok((film, start.elapsed().as_secs_f64()))
 }
 

@@ -54,7 +54,7 @@ pub use sizes::Sizes;
 use spawning::{SpawnCell, spawn_cases};
 use speed::Speed;
 use std::sync::Arc;
-use std::time::{Duration, Instant};
+use std::time::Duration;
 use triangles::TriangleCell;
 
 /// Results of all measurements.
@@ -160,12 +160,12 @@ impl Task {
 }
 
 /// Progress of a run.
-#[derive(Clone, Copy, Debug)]
-pub struct RunProgress {
-    /// Finished fraction of the work, 0 to 1.
-    pub done: f64,
-    /// Estimated time left.
-    pub left: Duration,
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum RunProgress {
+    /// The part of the cases that is measured, from 0 to 1.
+    Accuracy(f64),
+    /// All cases are measured; speed and packing, whose time isn't counted, follow.
+    Speed,
 }
 
 /// Runs the cases for which `is_wanted` holds. Measures speed and packing only if the sizes have rays for speed.
@@ -181,7 +181,6 @@ pub fn run(
 ) -> Result<Measurements, Cancelled> {
     let tasks = tasks(sizes, seed, is_wanted);
     let total: f64 = tasks.iter().map(|task| task.seconds).sum();
-    let start = Instant::now();
     let done = std::sync::Mutex::new(0.0);
     let parts: Vec<Measurements> = tasks
         .par_iter()
@@ -190,11 +189,7 @@ pub fn run(
             let part = (task.run)();
             let mut done = done.lock().expect("adding doesn't panic");
             *done += task.seconds / total;
-            let elapsed = start.elapsed();
-            advanced(RunProgress {
-                done: *done,
-                left: elapsed.mul_f64((1.0 - *done).max(0.0) / *done),
-            });
+            advanced(RunProgress::Accuracy(*done));
             Ok(part)
         })
         .collect::<Result<_, _>>()?;
@@ -203,6 +198,7 @@ pub fn run(
         all.append(part);
     }
     if sizes.speed_rays > 0 {
+        advanced(RunProgress::Speed);
         all.speed = speed_on_sphere(sizes, seed, progress)?;
         all.shape_speed = shape_speed::measure(sizes.shape_speed(), seed, progress)?;
         let (count, rounds) = (sizes.packed_primitives, sizes.speed_rounds);

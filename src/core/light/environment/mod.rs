@@ -5,15 +5,12 @@
 //! | **a measured environment: lookup and sampling** | `map` |
 //! | random choice by inverting a cumulative distribution | `cumulative` |
 //! | reader of environment files | `file` |
-//! | the formats | `radiance_hdr`, `open_exr` |
 //! | a map with its orientation and brightness | `placed` |
 
 mod cumulative;
 mod file;
 mod map;
-mod open_exr;
 mod placed;
-mod radiance_hdr;
 
 pub use file::LoadedMap;
 pub use map::{EnvironmentMap, MapError, MapSample};

@@ -2,7 +2,7 @@
 //!
 //! Source: "OpenEXR File Layout", <https://openexr.com/en/latest/OpenEXRFileLayout.html>.
 
-use super::file::{Cancellable, Picture, Problem, black};
+use super::{Cancellable, Memory, Picture, Problem, black};
 use crate::obj::printable;
 use crate::progress::{Cancelled, Progress};
 use exr::meta::MetaData;
@@ -20,7 +20,7 @@ const CHANNELS: [&str; 3] = ["R", "G", "B"];
 /// Decodes the first layer with the channels R, G and B. An alpha channel is ignored: colours are stored multiplied by it.
 pub(super) fn decode(
     bytes: &[u8],
-    max_bytes: u64,
+    memory: Memory,
     progress: &Progress,
 ) -> Result<Picture, Problem> {
     let problem = |error: exr::error::Error| match progress.check() {
@@ -37,7 +37,7 @@ pub(super) fn decode(
         return Err("the picture is too large".to_owned().into());
     };
     let size = UVec2::new(width, height);
-    let texels = Cell::new(black(size, max_bytes)?);
+    let texels = Cell::new(black(size, memory)?);
     let reader = read()
         .no_deep_data()
         .largest_resolution_level()

@@ -2,7 +2,7 @@
 //!
 //! Source: G. Ward, "Radiance File Formats", <https://radsite.lbl.gov/radiance/refer/filefmts.pdf>.
 
-use super::file::{Cancellable, Picture, Problem, black};
+use super::{Cancellable, Memory, Picture, Problem, black};
 use crate::obj::printable;
 use crate::progress::{Cancelled, Progress};
 use glam::{UVec2, Vec3};
@@ -19,7 +19,7 @@ const SIGNATURE: &[u8] = b"#?RADIANCE";
 /// Decodes a picture. Its radiance is the stored one divided by `EXPOSURE` and `COLORCORR`, as the format demands.
 pub(super) fn decode(
     bytes: &[u8],
-    max_bytes: u64,
+    memory: Memory,
     progress: &Progress,
 ) -> Result<Picture, Problem> {
     let first_line = memchr::memchr(b'\n', bytes).unwrap_or(bytes.len());
@@ -31,7 +31,7 @@ pub(super) fn decode(
     let decoder = HdrDecoder::new(SIGNATURE.chain(rest)).map_err(problem)?;
     let divisor = divisor(&decoder.metadata())?;
     let size = UVec2::from(decoder.dimensions());
-    let mut texels = black(size, max_bytes)?;
+    let mut texels = black(size, memory)?;
     let read = decoder.read_image(bytemuck::cast_slice_mut(&mut texels));
     read.map_err(problem)?;
     if divisor != Vec3::ONE {
