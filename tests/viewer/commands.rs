@@ -260,6 +260,9 @@ fn the_menu_bar_sets_the_up_axis_and_ctrl_z_and_ctrl_y_do_not() {
 #[test]
 fn the_picked_triangle_can_be_framed_and_the_first_view_comes_back() {
     let Some(mut window) = app(None) else { return };
+    // For the picture's final size.
+    window.key_press_modifiers(Modifiers::SHIFT, Key::Home);
+    window.run_steps(3);
     let first = *window.state().turntable();
     let (x, y) = on_the_knot(&window);
     let at = in_picture(&window, x, y);
@@ -314,8 +317,11 @@ fn the_tool_bar_and_the_menu_bar_fit_a_small_window_and_long_menus_scroll() {
     }
     let picture = window.get_by_label("Rendered picture").rect();
     assert!(picture.height() > 100.0, "{picture}");
+    // So low that the last entry is below the window's edge.
+    window.set_size(egui::vec2(400.0, 180.0));
+    window.run_steps(4);
+    let inside = egui::Rect::from_min_size(egui::Pos2::ZERO, egui::vec2(400.0, 180.0));
     open_menu(&mut window, "View");
-    // The last entry is below the window's edge.
     let kernel = || window.get_by_role_and_label(Role::Button, "Kernel");
     assert!(!inside.contains_rect(kernel().rect()));
     kernel().scroll_to_me();

@@ -60,7 +60,8 @@ fn every_command_has_a_man_page_and_the_main_page_lists_it() {
         let help = stdout(&program.run(&format!("{command} --help")));
         for line in help.lines() {
             let words = line.split_whitespace();
-            let Some(option) = words.take(2).find(|word| word.starts_with("--")) else {
+            let mut names = words.take_while(|word| word.starts_with('-'));
+            let Some(option) = names.find(|word| word.starts_with("--")) else {
                 continue;
             };
             let is_of_name = |c: &char| *c == '-' || c.is_alphanumeric();

@@ -6,13 +6,14 @@ use hitscope_core::camera::{Turntable, UpAxis};
 
 impl App {
     /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
-    /// there is one. Before the first layout the picture has no size; the first layout then calls this again.
+    /// there is one.
     pub(super) fn use_first_view(&mut self) {
         self.settings.file_view = self.document.loaded.integrator().map(|view| view.name);
         self.use_first_camera();
     }
 
-    /// The same without changing what the picture shows.
+    /// The camera of the first view. Before the first layout the picture has no size; the first layout then calls this
+    /// again.
     pub(crate) fn use_first_camera(&mut self) {
         self.settings.file_up_axis = None;
         let turntable = &mut self.turntable;
@@ -51,7 +52,7 @@ impl App {
         let is_files_view = self.view_of_file() == Some(self.turntable);
         self.resolution = resolution;
         if self.is_unframed {
-            self.use_first_view();
+            self.use_first_camera();
         } else if let (true, Some(view)) = (is_files_view, self.view_of_file()) {
             self.use_view(view);
         }

@@ -54,10 +54,12 @@ fn submenu_ui(ui: &mut egui::Ui, place: Place, commands: &Commands) {
 
 /// Shows the rows of a menu, which scroll in a low window.
 fn list_ui(ui: &mut egui::Ui, rows: impl FnOnce(&mut egui::Ui)) {
-    let height = ui.ctx().content_rect().height() - RESERVED_HEIGHT;
+    let height = (ui.ctx().content_rect().height() - RESERVED_HEIGHT).max(MIN_HEIGHT);
     ui.set_min_width(MIN_WIDTH);
     ui.style_mut().wrap_mode = Some(TextWrapMode::Extend);
     ScrollArea::vertical()
-        .max_height(height.max(MIN_HEIGHT))
+        .max_height(height)
+        // Else a popup offers less than the window has.
+        .min_scrolled_height(height)
         .show(ui, rows);
 }

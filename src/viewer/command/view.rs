@@ -10,7 +10,7 @@ use hitscope_core::integrator::{INTEGRATORS, Integrator};
 use hitscope_core::kernel::{KernelInfo, TRIANGLE_KERNELS};
 
 /// The views.
-pub const VIEWS: Place = Place::new(Menu::View, 0);
+pub const VIEWS: Place = Place::submenu(Menu::View, 0, "View as");
 const SHADING: Place = Place::new(Menu::View, 1);
 const LINES: Place = Place::new(Menu::View, 2);
 const OVERLAYS: Place = Place::submenu(Menu::View, 2, "Overlay");
