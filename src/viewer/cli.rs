@@ -10,8 +10,7 @@ use crate::man::ManArgs;
 use crate::offscreen;
 use crate::render;
 use crate::screenshot::{Outcome, ScreenshotOptions};
-use crate::settings::Settings;
-use crate::storage::{APP_ID, stored_settings};
+use crate::storage::{APP_ID, Kept, stored};
 use crate::window;
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
@@ -230,17 +229,18 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
         max_memory: cli.memory.bytes(),
         ..StartOptions::default().load_options
     };
+    // A screenshot uses the default settings, not the stored ones.
+    let mut kept = match &cli.screenshot {
+        Some(_) => Kept::default(),
+        None => stored(),
+    };
+    if cli.screenshot.is_none() && cli.file.is_none() {
+        kept.settings.file_view = Some(BUILT_IN_VIEW);
+    }
     let start = StartOptions {
         file: cli.file.clone(),
-        // A screenshot uses the default settings, not the stored ones.
-        settings: match (&cli.screenshot, &cli.file) {
-            (Some(_), _) => Settings::default(),
-            (None, Some(_)) => stored_settings(),
-            (None, None) => Settings {
-                file_view: Some(BUILT_IN_VIEW),
-                ..stored_settings()
-            },
-        },
+        settings: kept.settings,
+        preferences: kept.preferences,
         load_options,
         screenshot: output.map(|output| ScreenshotOptions {
             output,
@@ -303,7 +303,7 @@ fn run_window(start: &StartOptions) -> Result<(), eframe::Error> {
             persistence_path: is_screenshot.then(PathBuf::new),
             ..eframe::NativeOptions::default()
         };
-        let (ctx, start) = (egui_context(start.settings.zoom), start.clone());
+        let (ctx, start) = (egui_context(start.preferences.zoom), start.clone());
         let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, start)?)));
         let run = || eframe::run_native_ext(APP_ID, options, Some(ctx), create);
         window::run_until_destroyed(run).unwrap_or(Ok(()))

@@ -1,6 +1,6 @@
 //! The open document: a scene, its file, and the intersectors that trace it.
 
-use crate::task::{KeyedTask, Task, TaskPanicked};
+use crate::task::{Pending, Task, TaskPanicked};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::light::{Environment, EnvironmentMap, Light, MapPlacement, PlacedMap};
 use hitscope_core::loading::LoadedScene;
@@ -41,37 +41,72 @@ pub struct Document {
     pub loaded: LoadedScene,
     /// Time when loading began; the document doesn't contain later changes of the file.
     pub began: SystemTime,
-    intersector: Arc<dyn Intersector>,
-    /// The kernel that was chosen for it. A shape whose table lacks this kernel uses another one.
-    kernel: KernelChoice,
-    /// The intersector for another kernel, while it is being built.
-    packing: PackingTask,
-    /// The second intersector of comparing views, and the next one while it is being built.
-    second: Option<(KernelChoice, Arc<dyn Intersector>)>,
-    packing_second: PackingTask,
-    health: HealthState,
+    packing: Packing,
+    /// The second intersector of comparing views.
+    second: Option<Packing>,
+    /// The check of the mesh.
+    check: Pending<Arc<MeshReport>>,
     /// Cancelled when the document is dropped, which ends the work on a better tree.
     progress: Progress,
-    improvement: Improvement,
+    /// The work on the best tree.
+    improvement: Pending<Result<(), Cancelled>>,
+}
+
+/// A scene packed for a kernel, and for another one while that is under way.
+struct Packing {
+    /// The kernel that was chosen. A shape whose table lacks it uses another one.
+    kernel: KernelChoice,
+    intersector: Arc<dyn Intersector>,
+    /// The kernel that is wanted.
+    wanted: KernelChoice,
+    /// The intersector of the wanted kernel.
+    next: Pending<Box<dyn Intersector>>,
+}
+
+impl Packing {
+    fn new(kernel: KernelChoice, intersector: Arc<dyn Intersector>) -> Self {
+        Self {
+            kernel,
+            intersector,
+            wanted: kernel,
+            next: Pending::Unasked,
+        }
+    }
+
+    /// Starts to pack the scene for a kernel unless that is done or under way.
+    fn want(&mut self, kernel: KernelChoice, scene: &Arc<Scene>, ctx: &egui::Context) {
+        if self.wanted == kernel {
+            return;
+        }
+        self.wanted = kernel;
+        self.next = Pending::Unasked;
+        if self.kernel != kernel {
+            let scene = Arc::clone(scene);
+            let pack = move || scene.intersector(kernel);
+            self.next = Pending::Running(Task::spawn("pack", ctx, pack));
+        }
+    }
+
+    /// Switches to the wanted kernel once the scene is packed for it. If packing failed, the previous kernel stays.
+    fn poll(&mut self) -> Result<(), TaskPanicked> {
+        match self.next.take() {
+            Ok(None) => {}
+            Ok(Some(packed)) => {
+                (self.intersector, self.kernel) = (Arc::from(packed), self.wanted);
+            }
+            Err(panicked) => {
+                self.wanted = self.kernel;
+                return Err(panicked);
+            }
+        }
+        Ok(())
+    }
 }
 
 impl Drop for Document {
     fn drop(&mut self) {
         self.stop_improving();
     }
-}
-
-enum Improvement {
-    Unasked,
-    UnderWay(Task<Result<(), Cancelled>>),
-    Over,
-}
-
-enum HealthState {
-    Unasked,
-    Checking(Task<MeshReport>),
-    Known(Arc<MeshReport>),
-    Failed,
 }
 
 impl Document {
@@ -118,44 +153,33 @@ impl Document {
         Self {
             path,
             is_blank: false,
-            intersector: Arc::from(loaded.scene.intersector(kernel)),
-            kernel,
+            packing: Packing::new(kernel, Arc::from(loaded.scene.intersector(kernel))),
             loaded,
             began: SystemTime::now(),
-            packing: KeyedTask::default(),
             second: None,
-            packing_second: KeyedTask::default(),
-            health: HealthState::Unasked,
+            check: Pending::Unasked,
             progress: Progress::default(),
-            improvement: Improvement::Unasked,
+            improvement: Pending::Unasked,
         }
     }
 
     /// Starts to build the scene's best tree unless the scene has it. The scene switches to it when it is built.
+    pub fn improve(&mut self, ctx: &egui::Context) {
+        if self.loaded.scene.has_best_tree() {
+            self.improvement = Pending::Done(Ok(()));
+        } else {
+            let (scene, progress) = (Arc::clone(&self.loaded.scene), self.progress.clone());
+            let improve = move || scene.improve(&progress);
+            self.improvement = Pending::Running(Task::spawn("improve", ctx, improve));
+        }
+    }
+
+    /// Collects the end of the work on the best tree.
     ///
     /// # Errors
     /// [`TaskPanicked`], once, if building failed; the first tree stays.
-    pub fn improve(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
-        match &self.improvement {
-            Improvement::Unasked if self.loaded.scene.has_best_tree() => {
-                self.improvement = Improvement::Over;
-            }
-            Improvement::Unasked => {
-                let (scene, progress) = (Arc::clone(&self.loaded.scene), self.progress.clone());
-                let improve = move || scene.improve(&progress);
-                self.improvement = Improvement::UnderWay(Task::spawn("improve", ctx, improve));
-            }
-            Improvement::UnderWay(task) => match task.poll() {
-                Ok(None) => {}
-                Ok(Some(_)) => self.improvement = Improvement::Over,
-                Err(broken) => {
-                    self.improvement = Improvement::Over;
-                    return Err(broken);
-                }
-            },
-            Improvement::Over => {}
-        }
-        Ok(())
+    pub fn poll_tree(&mut self) -> Result<(), TaskPanicked> {
+        self.improvement.poll().map(|_| ())
     }
 
     /// Cancels building the best tree; the scene keeps its current tree.
@@ -165,7 +189,7 @@ impl Document {
 
     /// Whether the scene's tree is final.
     pub fn has_last_tree(&self) -> bool {
-        matches!(self.improvement, Improvement::Over)
+        self.improvement.is_over()
     }
 
     /// The document's name for titles.
@@ -177,125 +201,100 @@ impl Document {
         }
     }
 
-    /// Sets where smooth shading has creases.
-    pub fn use_crease(&mut self, crease: Crease) {
+    /// Sets where smooth shading has creases. Returns whether that changed the scene.
+    pub fn use_crease(&mut self, crease: Crease) -> bool {
         let scene = &mut self.loaded.scene;
-        if scene.crease() != crease {
+        let is_new = scene.crease() != crease;
+        if is_new {
             *scene = Arc::new(scene.with_crease(crease));
         }
+        is_new
     }
 
     /// The intersector of the kernel that was packed last.
     pub fn intersector(&self) -> &Arc<dyn Intersector> {
-        &self.intersector
-    }
-
-    /// Switches to a kernel as soon as the scene is packed for it.
-    ///
-    /// # Errors
-    /// [`TaskPanicked`] if packing failed; the previous kernel stays.
-    pub fn use_kernel(
-        &mut self,
-        kernel: KernelChoice,
-        ctx: &egui::Context,
-    ) -> Result<(), TaskPanicked> {
-        if self.kernel == kernel {
-            return Ok(());
-        }
-        let scene = &self.loaded.scene;
-        if let Some(packed) = packed(&mut self.packing, scene, kernel, ctx)? {
-            (self.intersector, self.kernel) = (packed, kernel);
-        }
-        Ok(())
+        &self.packing.intersector
     }
 
     /// The kernel that was chosen for the intersector.
     pub fn kernel(&self) -> KernelChoice {
-        self.kernel
+        self.packing.kernel
     }
 
-    /// The intersector to compare with; the first one if there is no second.
-    pub fn second(&self) -> &Arc<dyn Intersector> {
-        let second = self.second.as_ref();
-        second.map_or(&self.intersector, |(_, second)| second)
+    /// Starts to pack the scene for a kernel unless that is done or under way.
+    pub fn use_kernel(&mut self, kernel: KernelChoice, ctx: &egui::Context) {
+        self.packing.want(kernel, &self.loaded.scene, ctx);
     }
 
-    /// Packs the scene for a second kernel; `None` drops the second intersector.
+    /// Switches to the kernel once the scene is packed for it.
     ///
     /// # Errors
-    /// [`TaskPanicked`] if packing failed.
-    pub fn use_second(
-        &mut self,
-        kernel: Option<KernelChoice>,
-        ctx: &egui::Context,
-    ) -> Result<(), TaskPanicked> {
+    /// [`TaskPanicked`], once, if packing failed; the previous kernel stays.
+    pub fn poll_kernel(&mut self) -> Result<(), TaskPanicked> {
+        self.packing.poll()
+    }
+
+    /// The intersector to compare with; the first one if there is no second, or until it is ready.
+    pub fn second(&self) -> &Arc<dyn Intersector> {
+        let second = self.second.as_ref().unwrap_or(&self.packing);
+        &second.intersector
+    }
+
+    /// Starts to pack the scene for a second kernel unless that is done or under way; `None` drops the second
+    /// intersector.
+    pub fn use_second(&mut self, kernel: Option<KernelChoice>, ctx: &egui::Context) {
         let Some(kernel) = kernel else {
             self.second = None;
-            return Ok(());
+            return;
         };
-        if self.second.as_ref().map(|(packed, _)| *packed) == Some(kernel) {
-            return Ok(());
-        }
-        let scene = &self.loaded.scene;
-        if let Some(packed) = packed(&mut self.packing_second, scene, kernel, ctx)? {
-            self.second = Some((kernel, packed));
-        }
-        Ok(())
+        let Packing {
+            kernel: first,
+            intersector,
+            ..
+        } = &self.packing;
+        let second = self
+            .second
+            .get_or_insert_with(|| Packing::new(*first, Arc::clone(intersector)));
+        second.want(kernel, &self.loaded.scene, ctx);
+    }
+
+    /// Switches to the second kernel once the scene is packed for it.
+    ///
+    /// # Errors
+    /// [`TaskPanicked`], once, if packing failed.
+    pub fn poll_second(&mut self) -> Result<(), TaskPanicked> {
+        self.second.as_mut().map_or(Ok(()), Packing::poll)
     }
 
     /// The mesh's health and required tier. The first call starts the check; `None` until it is done.
     pub fn findings(&mut self, ctx: &egui::Context) -> Option<Arc<MeshReport>> {
-        match &self.health {
-            HealthState::Unasked => {
-                let scene = Arc::clone(&self.loaded.scene);
-                let check = move || {
-                    let health = Arc::new(Health::of(scene.mesh()));
-                    let requirement = required_tier(&scene, &health);
-                    MeshReport {
-                        health,
-                        requirement,
-                        bytes_as: bytes_as(scene.mesh()),
-                    }
-                };
-                self.health = HealthState::Checking(Task::spawn("health", ctx, check));
-            }
-            HealthState::Checking(task) => match task.poll() {
-                Ok(None) => {}
-                Ok(Some(findings)) => self.health = HealthState::Known(Arc::new(findings)),
-                Err(TaskPanicked) => self.health = HealthState::Failed,
-            },
-            HealthState::Known(_) | HealthState::Failed => {}
+        if matches!(self.check, Pending::Unasked) {
+            let scene = Arc::clone(&self.loaded.scene);
+            let check = move || {
+                let health = Arc::new(Health::of(scene.mesh()));
+                let requirement = required_tier(&scene, &health);
+                Arc::new(MeshReport {
+                    health,
+                    requirement,
+                    bytes_as: bytes_as(scene.mesh()),
+                })
+            };
+            self.check = Pending::Running(Task::spawn("health", ctx, check));
         }
+        // The Mesh tab tells if it failed.
+        _ = self.check.poll();
         self.known_findings()
     }
 
     /// Whether checking the mesh failed.
     pub fn has_failed_check(&self) -> bool {
-        matches!(self.health, HealthState::Failed)
+        matches!(self.check, Pending::Failed)
     }
 
     /// Like [`findings`](Self::findings), without starting the check.
     pub fn known_findings(&self) -> Option<Arc<MeshReport>> {
-        match &self.health {
-            HealthState::Known(findings) => Some(Arc::clone(findings)),
-            _ => None,
-        }
+        self.check.get().map(Arc::clone)
     }
-}
-
-/// A task that packs the scene for a kernel, keyed by the kernel's name.
-type PackingTask = KeyedTask<&'static str, Box<dyn Intersector>>;
-
-/// The scene packed for a kernel, once ready. The first call for a kernel starts the packing.
-fn packed(
-    packing: &mut PackingTask,
-    scene: &Arc<Scene>,
-    kernel: KernelChoice,
-    ctx: &egui::Context,
-) -> Result<Option<Arc<dyn Intersector>>, TaskPanicked> {
-    let scene = Arc::clone(scene);
-    let pack = || Task::spawn("pack", ctx, move || scene.intersector(kernel));
-    Ok(packing.get(kernel.info.name, pack)?.map(Arc::from))
 }
 
 /// The built-in scene, which is shown if no file is given.

@@ -17,8 +17,9 @@
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
-//! | [`panels`], [`tab`], [`settings`] | the contents and names of the side panel's tabs; the settings |
-//! | [`storage`], [`window`] | storage of the settings; the window's size and end |
+//! | [`panels`], [`tab`] | the contents and names of the side panel's tabs |
+//! | [`settings`], [`preferences`] | how the scene is shown; preferences of the window |
+//! | [`storage`], [`window`] | storage of settings and preferences; the window's size and end |
 //! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
 //! | [`render`], [`offscreen`], [`screenshot`] | the command `render`; the overlay without a window; `--screenshot` |
 
@@ -42,6 +43,7 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
+pub mod preferences;
 pub mod recent;
 pub mod render;
 pub mod saving;

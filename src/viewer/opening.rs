@@ -2,10 +2,11 @@
 
 use crate::document::Document;
 use crate::panels::progress::progress_ui;
-use crate::settings::Settings;
 use crate::task::{Task, TaskPanicked};
+use hitscope_core::kernel::KernelChoice;
 use hitscope_core::obj::{LoadError, LoadOptions, shown};
 use hitscope_core::progress::Progress;
+use hitscope_core::scene::SceneOptions;
 use std::path::{Path, PathBuf};
 
 /// A file that is being loaded.
@@ -17,16 +18,16 @@ pub struct Loading {
 }
 
 impl Loading {
-    /// Starts the loading thread.
+    /// Starts the loading thread, which packs the scene for a kernel.
     pub fn start(
         path: PathBuf,
         load_options: LoadOptions,
-        settings: &Settings,
+        kernel: KernelChoice,
+        options: SceneOptions,
         ctx: &egui::Context,
     ) -> Self {
         let progress = Progress::default();
-        let (kernel, shared, file) = (settings.kernel(), progress.clone(), path.clone());
-        let options = settings.scene_options();
+        let (shared, file) = (progress.clone(), path.clone());
         let load = move || Document::load(&file, kernel, load_options, options, &shared);
         Self {
             path,

@@ -1,23 +1,18 @@
-//! The settings of the window, kept between runs.
+//! The settings of the picture: how the scene is shown. They are kept between runs, in sessions and in undo steps.
 
 use crate::overlay::Overlays;
 use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::vertex_normals::VERTEX_NORMALS;
-use crate::recent::RecentFiles;
-use crate::tab::Tab;
-use egui::ThemePreference;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Setting, integrator};
-use hitscope_core::intersector::Packing;
 use hitscope_core::kernel::{KernelChoice, default_triangle_kernel, exact_triangle_kernel};
 use hitscope_core::mesh::Crease;
-use hitscope_core::scene::{FirstTree, SceneOptions, Shading};
+use hitscope_core::scene::Shading;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy, spawn_policy};
 use hitscope_core::terminator::{TerminatorRepair, default_terminator_repair, terminator_repair};
 use hitscope_core::tone::{Display, TONE_CURVES, ToneCurve, tone_curve};
 use serde::{Deserialize, Serialize};
-use std::ops::RangeInclusive;
 use std::path::PathBuf;
 
 /// Where light from far away comes from.
@@ -33,10 +28,7 @@ pub enum EnvironmentSource {
     File,
 }
 
-/// Allowed widths of the side panel, in points.
-pub const PANEL_WIDTHS: RangeInclusive<f32> = 240.0..=460.0;
-
-/// The settings of the window. Unknown names of views, kernels, spawn policies and tone curves stand for the defaults.
+/// How the scene is shown. Unknown names of views, kernels, spawn policies and tone curves stand for the defaults.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 #[serde(default)]
 pub struct Settings {
@@ -107,22 +99,6 @@ pub struct Settings {
     pub has_crease: bool,
     /// The crease angle.
     pub crease_degrees: f32,
-    /// Whether the file is reloaded when it changes.
-    pub watches: bool,
-    /// Whether triangles are packed for memory rather than for speed.
-    pub is_compact: bool,
-    /// Whether the side panel is shown.
-    pub shows_panel: bool,
-    /// The tab of the side panel.
-    pub tab: Tab,
-    /// Width of the side panel in points.
-    pub panel_width: f32,
-    /// Scale of the user interface, which excludes the picture.
-    pub zoom: f32,
-    /// Dark, light, or the system's theme.
-    pub theme: ThemePreference,
-    /// The files that were opened last.
-    pub recent: RecentFiles,
 }
 
 impl Default for Settings {
@@ -160,14 +136,6 @@ impl Default for Settings {
             has_crease: false,
             // The default of modelling programs.
             crease_degrees: 30.0,
-            watches: false,
-            is_compact: false,
-            shows_panel: true,
-            tab: Tab::Display,
-            panel_width: 385.0,
-            zoom: 1.0,
-            theme: ThemePreference::Dark,
-            recent: RecentFiles::default(),
         }
     }
 }
@@ -200,18 +168,6 @@ impl Settings {
     pub fn keep_kernel(&mut self, kernel: &str) {
         self.session_kernel = None;
         self.kernel = kernel.to_owned();
-    }
-
-    /// Options for building a scene: quick first tree, packed for speed or for memory.
-    pub fn scene_options(&self) -> SceneOptions {
-        SceneOptions {
-            first_tree: FirstTree::Quick,
-            packing: if self.is_compact {
-                Packing::Compact
-            } else {
-                Packing::Full
-            },
-        }
     }
 
     /// The kernel that the view *Disagreement* compares the selected kernel with.

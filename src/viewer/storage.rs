@@ -7,15 +7,16 @@ use crate::overlay::older;
 use crate::panels::light::{
     AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
 };
-use crate::settings::{EnvironmentSource, PANEL_WIDTHS, Settings};
+use crate::preferences::{PANEL_WIDTHS, Preferences};
+use crate::settings::{EnvironmentSource, Settings};
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
 use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::spawn::spawn_policy;
 use hitscope_core::terminator::terminator_repair;
 use hitscope_core::tone::tone_curve;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
+use serde::{Deserialize, Serialize};
 use serde_json::{Map, Value};
 use std::collections::HashMap;
 use std::fs::File;
@@ -38,8 +39,20 @@ const ZOOMS: RangeInclusive<f32> = 0.2..=5.0;
 // The ranges of controls in the Display tab.
 const CREASES: RangeInclusive<f32> = 0.0..=180.0;
 
-/// The settings that were stored last, or the defaults.
-pub fn stored_settings() -> Settings {
+/// What is kept between runs, in one table.
+#[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Kept {
+    /// How the scene is shown.
+    #[serde(flatten)]
+    pub settings: Settings,
+    /// The preferences of the window.
+    #[serde(flatten)]
+    pub preferences: Preferences,
+}
+
+/// The settings and preferences that were stored last, or the defaults.
+pub fn stored() -> Kept {
     let folder = eframe::storage_dir(APP_ID);
     folder
         .and_then(|folder| read(&folder.join("app.ron")))
@@ -47,14 +60,18 @@ pub fn stored_settings() -> Settings {
 }
 
 /// The settings of the first run: the default ones, with smooth shading.
-fn of_first_run() -> Settings {
-    Settings {
+fn of_first_run() -> Kept {
+    let settings = Settings {
         is_smooth: true,
         ..Settings::default()
+    };
+    Kept {
+        settings,
+        ..Kept::default()
     }
 }
 
-fn read(path: &Path) -> Option<Settings> {
+fn read(path: &Path) -> Option<Kept> {
     let mut text = String::new();
     let file = File::open(path).ok()?;
     file.take(MAX_BYTES).read_to_string(&mut text).ok()?;
@@ -63,8 +80,12 @@ fn read(path: &Path) -> Option<Settings> {
 }
 
 /// Passes the settings to eframe, which writes the file.
-pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
-    if let Some(text) = to_json(settings) {
+pub fn store(settings: &Settings, preferences: &Preferences, storage: &mut dyn eframe::Storage) {
+    let kept = Kept {
+        settings: settings.clone(),
+        preferences: preferences.clone(),
+    };
+    if let Some(text) = to_json(kept) {
         storage.set_string(KEY, text);
     }
     if storage.get_string(EGUI_KEY).is_some() {
@@ -73,23 +94,27 @@ pub fn store(settings: &Settings, storage: &mut dyn eframe::Storage) {
 }
 
 /// The settings as JSON. A path that isn't UTF-8, which JSON can't hold, is left out.
-fn to_json(settings: &Settings) -> Option<String> {
-    let mut settings = settings.clone();
-    settings.recent = settings.recent.in_utf_8();
-    settings.environment_file = settings
+fn to_json(mut kept: Kept) -> Option<String> {
+    kept.preferences.recent = kept.preferences.recent.in_utf_8();
+    kept.settings.environment_file = kept
+        .settings
         .environment_file
         .filter(|path| path.to_str().is_some());
-    serde_json::to_string(&settings).ok()
+    serde_json::to_string(&kept).ok()
 }
 
 /// Parses the settings; a setting that is missing or invalid has its default.
-pub(crate) fn from_json(text: &str) -> Settings {
-    let default = Settings::default();
+pub(crate) fn from_json(text: &str) -> Kept {
+    let default = Kept::default();
     let Ok(Value::Object(mut stored)) = serde_json::from_str(text) else {
         return default;
     };
     older::convert(&mut stored);
-    usable(merged(&default, stored))
+    let kept = merged(&default, stored);
+    Kept {
+        settings: usable(kept.settings),
+        preferences: usable_preferences(kept.preferences),
+    }
 }
 
 /// A struct with the stored fields; a field that is missing or invalid has its default. Unknown fields, from other versions,
@@ -114,7 +139,17 @@ where
 }
 
 /// Replaces values that the window can't have set by the defaults.
-fn usable(settings: Settings) -> Settings {
+fn usable_preferences(preferences: Preferences) -> Preferences {
+    let default = Preferences::default();
+    Preferences {
+        zoom: number(preferences.zoom, ZOOMS, default.zoom),
+        panel_width: number(preferences.panel_width, PANEL_WIDTHS, default.panel_width),
+        ..preferences
+    }
+}
+
+/// The same for settings.
+pub(crate) fn usable(settings: Settings) -> Settings {
     let default = Settings::default();
     let kernel = |name: String, default: String| {
         if kernel_named(&name).is_some() {
@@ -125,8 +160,6 @@ fn usable(settings: Settings) -> Settings {
     };
     let settings = usable_light(settings);
     Settings {
-        zoom: number(settings.zoom, ZOOMS, default.zoom),
-        panel_width: number(settings.panel_width, PANEL_WIDTHS, default.panel_width),
         crease_degrees: number(settings.crease_degrees, CREASES, default.crease_degrees),
         samples: if settings.samples.is_power_of_two() && settings.samples <= MAX_SAMPLES {
             settings.samples
@@ -215,19 +248,24 @@ mod tests {
     use super::*;
     use crate::tab::Tab;
 
-    /// Settings that differ from the defaults.
-    fn chosen() -> Settings {
-        Settings {
-            zoom: 1.5,
-            samples: 16,
-            tab: Tab::Mesh,
-            is_smooth: true,
-            ..Settings::default()
+    /// Values that differ from the defaults.
+    fn chosen() -> Kept {
+        Kept {
+            settings: Settings {
+                samples: 16,
+                is_smooth: true,
+                ..Settings::default()
+            },
+            preferences: Preferences {
+                zoom: 1.5,
+                tab: Tab::Mesh,
+                ..Preferences::default()
+            },
         }
     }
 
     /// The chosen settings with one value replaced by other JSON.
-    fn with(name: &str, value: &str) -> Settings {
+    fn with(name: &str, value: &str) -> Kept {
         let text = serde_json::to_string(&chosen()).expect("JSON");
         let mut fields: HashMap<String, Value> = serde_json::from_str(&text).expect("an object");
         assert!(fields.contains_key(name), "{name}");
@@ -244,25 +282,23 @@ mod tests {
 
     #[test]
     fn a_bad_value_becomes_the_default_and_affects_no_other() {
-        let default = Settings::default();
+        let default = Kept::default();
         for zoom in ["0", "-1", "NaN", "1000", "1e39", "null", "\"large\"", "[1]"] {
-            let expected = Settings {
-                zoom: default.zoom,
-                ..chosen()
-            };
+            let mut expected = chosen();
+            expected.preferences.zoom = default.preferences.zoom;
             assert_eq!(with("zoom", zoom), expected, "{zoom}");
         }
         for width in ["0", "-5", "1e30", "null"] {
-            let panel_width = with("panel_width", width).panel_width;
-            assert_eq!(panel_width, default.panel_width, "{width}");
+            let panel_width = with("panel_width", width).preferences.panel_width;
+            assert_eq!(panel_width, default.preferences.panel_width, "{width}");
         }
         // Without the name of a file.
-        let environment = with("environment", "\"File\"").environment;
-        assert_eq!(environment, default.environment);
+        let environment = with("environment", "\"File\"").settings.environment;
+        assert_eq!(environment, default.settings.environment);
         for samples in ["0", "3", "131072", "-1", "1.5"] {
             assert_eq!(
-                with("samples", samples).samples,
-                default.samples,
+                with("samples", samples).settings.samples,
+                default.settings.samples,
                 "{samples}"
             );
         }
@@ -280,10 +316,9 @@ mod tests {
             "recent",
         ] {
             let read = with(name, "\"of another version\"");
-            let kept =
-                |settings: &Settings| serde_json::to_value(settings).expect("JSON")[name].clone();
+            let kept = |kept: &Kept| serde_json::to_value(kept).expect("JSON")[name].clone();
             assert_eq!(kept(&read), kept(&default), "{name}");
-            assert!(read.is_smooth, "{name} affects no other");
+            assert!(read.settings.is_smooth, "{name} affects no other");
         }
         for name in [
             "overlays",
@@ -298,14 +333,7 @@ mod tests {
             "exposure_stops",
         ] {
             let read = with(name, "-100");
-            assert_eq!(
-                read,
-                Settings {
-                    zoom: 1.5,
-                    ..chosen()
-                },
-                "{name}"
-            );
+            assert_eq!(read, chosen(), "{name}");
         }
     }
 
@@ -313,15 +341,15 @@ mod tests {
     #[test]
     fn a_path_that_is_not_utf_8_does_not_prevent_storage() {
         use std::os::unix::ffi::OsStringExt as _;
-        let mut settings = chosen();
-        settings.environment = EnvironmentSource::File;
-        settings.environment_file = Some("sky.hdr".into());
-        let text = to_json(&settings).expect("JSON");
-        assert_eq!(from_json(&text), settings);
+        let mut kept = chosen();
+        kept.settings.environment = EnvironmentSource::File;
+        kept.settings.environment_file = Some("sky.hdr".into());
+        let text = to_json(kept.clone()).expect("JSON");
+        assert_eq!(from_json(&text), kept);
         let path = std::ffi::OsString::from_vec(b"sky\xff.hdr".to_vec());
-        settings.recent.add(Path::new(&path));
-        settings.environment_file = Some(path.into());
-        let text = to_json(&settings).expect("JSON");
+        kept.preferences.recent.add(Path::new(&path));
+        kept.settings.environment_file = Some(path.into());
+        let text = to_json(kept).expect("JSON");
         assert_eq!(from_json(&text), chosen());
     }
 
@@ -347,7 +375,7 @@ mod tests {
             );
         }
         for text in ["", "{", "[]", "3", "(view:\"facing\")", "{\"settings\":1}"] {
-            assert_eq!(from_json(text), Settings::default(), "{text}");
+            assert_eq!(from_json(text), Kept::default(), "{text}");
         }
         let text = serde_json::to_string(&chosen()).expect("JSON");
         let texts = HashMap::from([(KEY, text)]);

@@ -47,6 +47,69 @@ impl<T: Send + 'static> Task<T> {
     }
 }
 
+/// A result that a background task computes.
+pub enum Pending<T> {
+    /// No task was started.
+    Unasked,
+    /// The task is running.
+    Running(Task<T>),
+    /// The result.
+    Done(T),
+    /// The task panicked.
+    Failed,
+}
+
+impl<T: Send + 'static> Pending<T> {
+    /// Collects the result once it is ready. Returns whether that happened in this call.
+    ///
+    /// # Errors
+    /// [`TaskPanicked`], once, if the thread panicked.
+    pub fn poll(&mut self) -> Result<bool, TaskPanicked> {
+        let Self::Running(task) = self else {
+            return Ok(false);
+        };
+        match task.poll() {
+            Ok(None) => Ok(false),
+            Ok(Some(result)) => {
+                *self = Self::Done(result);
+                Ok(true)
+            }
+            Err(panicked) => {
+                *self = Self::Failed;
+                Err(panicked)
+            }
+        }
+    }
+
+    /// The result; `None` unless it is there.
+    pub fn get(&self) -> Option<&T> {
+        match self {
+            Self::Done(result) => Some(result),
+            _ => None,
+        }
+    }
+
+    /// Takes the result once it is ready; nothing is asked for then.
+    ///
+    /// # Errors
+    /// [`TaskPanicked`], once, if the thread panicked.
+    pub fn take(&mut self) -> Result<Option<T>, TaskPanicked> {
+        self.poll()?;
+        match std::mem::replace(self, Self::Unasked) {
+            Self::Done(result) => Ok(Some(result)),
+            other => {
+                *self = other;
+                Ok(None)
+            }
+        }
+    }
+
+    /// Whether the task has ended.
+    pub fn is_over(&self) -> bool {
+        matches!(self, Self::Done(_) | Self::Failed)
+    }
+}
+
 /// A task for one of several keys.
 pub struct KeyedTask<K, T>(Option<(K, Task<T>)>);
 
@@ -149,6 +212,27 @@ mod tests {
             std::thread::sleep(Duration::from_millis(1));
         }
         assert!(matches!(end(&Task::spawn("bad", &ctx, || 3)), Ok(3)));
+    }
+
+    #[test]
+    fn a_pending_result_is_taken_once_and_a_panic_is_reported_once() {
+        let ctx = egui::Context::default();
+        let mut pending = Pending::Unasked;
+        assert!(matches!(pending.take(), Ok(None)) && !pending.is_over());
+        pending = Pending::Running(Task::spawn("pending", &ctx, || 1));
+        let taken = loop {
+            if let Some(taken) = pending.take().expect("no panic") {
+                break taken;
+            }
+            std::thread::sleep(Duration::from_millis(1));
+        };
+        assert_eq!((taken, pending.get()), (1, None));
+        sabotage::next("pending");
+        pending = Pending::Running(Task::spawn("pending", &ctx, || 2));
+        while !matches!(pending.poll(), Err(TaskPanicked)) {
+            std::thread::sleep(Duration::from_millis(1));
+        }
+        assert!(pending.is_over() && matches!(pending.poll(), Ok(false)));
     }
 
     #[test]

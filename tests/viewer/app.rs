@@ -179,7 +179,7 @@ fn every_tab_can_be_opened() {
     window.get_by_label("Light").click();
     window.run_steps(3);
     assert_eq!(
-        window.state().settings().theme,
+        window.state().preferences().theme,
         egui::ThemePreference::Light
     );
 }

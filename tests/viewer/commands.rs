@@ -138,7 +138,7 @@ fn the_palette_lists_views_overlays_kernels_tabs_and_themes_and_arrows_choose_on
     press(&mut window, Key::ArrowDown);
     press(&mut window, Key::Enter);
     window.run_steps(3);
-    let theme = window.state().settings().theme;
+    let theme = window.state().preferences().theme;
     assert_eq!(theme, ThemePreference::Light);
     search(&mut window, "view barycentric error");
     press(&mut window, Key::Enter);
@@ -152,7 +152,7 @@ fn the_palette_lists_views_overlays_kernels_tabs_and_themes_and_arrows_choose_on
     assert_eq!(kernel.info.short_name(), "precise");
     search(&mut window, "tab mesh");
     press(&mut window, Key::Enter);
-    wait(&mut window, "the tab", |app| app.settings().shows_panel);
+    wait(&mut window, "the tab", |app| app.preferences().shows_panel);
     window.run_steps(20);
     window.get_by_label("Flaws");
 }

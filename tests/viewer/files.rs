@@ -42,7 +42,7 @@ fn recent_files_open_again_and_a_missing_one_is_removed_with_a_message() {
     wait_for(&mut window, "one.obj");
     drop_file(&mut window, two.clone());
     wait_for(&mut window, "two.obj");
-    let recent = |window: &Window| window.state().settings().recent.paths().to_vec();
+    let recent = |window: &Window| window.state().preferences().recent.paths().to_vec();
     assert_eq!(recent(&window), [two.clone(), one.clone()]);
     open_recent(&mut window, "one.obj");
     wait_for(&mut window, "one.obj");

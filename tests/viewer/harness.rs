@@ -6,6 +6,7 @@ use egui_kittest::Harness;
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
 use hitscope::gpu::adapter::Gpu;
+use hitscope::preferences::Preferences;
 use hitscope::settings::Settings;
 use std::io::Write as _;
 use std::path::PathBuf;
@@ -83,11 +84,28 @@ pub fn app_on(
 
 /// The app with these settings, in a window of 800 × 600 points, after its first picture.
 pub fn app_with(settings: Settings) -> Option<Window> {
-    let gpu = gpu()?;
     let start = StartOptions {
         settings,
         ..StartOptions::default()
     };
+    app_started(start)
+}
+
+/// Like [`app_with`] without the side panel.
+pub fn bare_with(settings: Settings) -> Option<Window> {
+    app_started(StartOptions {
+        settings,
+        preferences: Preferences {
+            shows_panel: false,
+            ..Preferences::default()
+        },
+        ..StartOptions::default()
+    })
+}
+
+/// The app with these options, in a window of 800 × 600 points, after its first picture.
+pub fn app_started(start: StartOptions) -> Option<Window> {
+    let gpu = gpu()?;
     let size = egui::vec2(800.0, 600.0);
     Some(started(shared_setup(gpu), start, size, 1.0))
 }
@@ -136,7 +154,7 @@ pub fn bare() -> Option<Window> {
     let mut window = app(None)?;
     press(&mut window, Key::I);
     window.run_steps(20);
-    assert!(!window.state().settings().shows_panel);
+    assert!(!window.state().preferences().shows_panel);
     Some(window)
 }
 

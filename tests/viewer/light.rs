@@ -1,7 +1,7 @@
 //! Tests of views that need lights: their options, noise and limits.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, app_with, in_picture, pointer, wait};
+use crate::harness::{Window, app, bare_with, in_picture, pointer, wait};
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
@@ -16,7 +16,6 @@ fn ambient_occlusion(samples: u32) -> Settings {
     Settings {
         view: "ao".to_owned(),
         samples,
-        shows_panel: false,
         ..Settings::default()
     }
 }
@@ -68,7 +67,7 @@ fn each_view_shows_the_options_that_it_uses() {
 
 #[test]
 fn the_status_line_shows_samples_and_noise() {
-    let Some(mut window) = app_with(ambient_occlusion(16)) else {
+    let Some(mut window) = bare_with(ambient_occlusion(16)) else {
         return;
     };
     wait(&mut window, "all samples", App::is_settled);
@@ -99,7 +98,7 @@ fn at_the_wanted_noise_nothing_is_traced_and_no_frame_is_drawn() {
         noise_limit_percent: 50.0,
         ..ambient_occlusion(65536)
     };
-    let Some(mut window) = app_with(settings) else {
+    let Some(mut window) = bare_with(settings) else {
         return;
     };
     wait(&mut window, "the limit", App::is_settled);
@@ -128,7 +127,7 @@ fn on_screen(window: &mut Window) -> Vec<[u8; 4]> {
 
 #[test]
 fn noise_is_shown_without_new_samples() {
-    let Some(mut window) = app_with(ambient_occlusion(4)) else {
+    let Some(mut window) = bare_with(ambient_occlusion(4)) else {
         return;
     };
     wait(&mut window, "all samples", App::is_settled);
@@ -155,7 +154,7 @@ fn a_drag_with_ctrl_rotates_the_environment_of_views_with_light() {
             environment: EnvironmentSource::Studio,
             ..ambient_occlusion(1)
         };
-        let Some(mut window) = app_with(settings) else {
+        let Some(mut window) = bare_with(settings) else {
             return;
         };
         let camera = *window.state().turntable();
@@ -181,7 +180,7 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
         view: "direct".to_owned(),
         ..ambient_occlusion(1)
     };
-    let Some(mut window) = app_with(settings) else {
+    let Some(mut window) = bare_with(settings) else {
         return;
     };
     wait(&mut window, "the picture", App::is_settled);

@@ -87,7 +87,7 @@ fn reloading_a_watched_file_keeps_the_camera_and_the_pick() {
     wait(&mut window, "the pick", |app| app.inspection().is_some());
     window.key_press_modifiers(Modifiers::COMMAND, Key::R);
     window.run_steps(3);
-    assert!(window.state().settings().watches);
+    assert!(window.state().preferences().watches);
     let before = *window.state().turntable();
     let raised = FLAWED.replace(" 0\n", " 0.25\n");
     write(&folder, &raised);

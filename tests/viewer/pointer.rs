@@ -160,7 +160,7 @@ fn rest(window: &mut Window) {
 #[test]
 fn a_double_click_sets_the_pivot_without_picking_or_changing_the_tab_or_sizes() {
     let Some(mut window) = app(None) else { return };
-    let tab = window.state().settings().tab;
+    let tab = window.state().preferences().tab;
     let (x, y) = on_the_mesh(&window);
     let place = in_picture(&window, x, y);
     let before = *window.state().turntable();
@@ -169,7 +169,7 @@ fn a_double_click_sets_the_pivot_without_picking_or_changing_the_tab_or_sizes() 
     rest(&mut window);
     let app = window.state();
     assert!(app.inspection().is_none());
-    assert_eq!(app.settings().tab, tab);
+    assert_eq!(app.preferences().tab, tab);
     let after = *app.turntable();
     assert_ne!(after.pivot, before.pivot);
     let size = app.film().size();

@@ -83,14 +83,13 @@ impl App {
             response.widget_info(|| {
                 egui::WidgetInfo::labeled(egui::Role::Image, true, "Rendered picture")
             });
-            self.canvas_rect = canvas.rect;
-            self.turntable.up_axis = self.settings.up_axis();
+            self.shown.canvas_rect = canvas.rect;
             self.use_resolution(canvas.resolution);
             self.pointer(ui, &response, canvas);
             self.rotate(ui);
             self.paint(ui, canvas, response.dragged());
             let wanted = self.wanted(ui.ctx(), canvas.resolution);
-            self.tracer.request(wanted);
+            self.traced.tracer.request(wanted);
         });
     }
 
@@ -99,69 +98,76 @@ impl App {
         /// One turn per twelve seconds; a frame longer than [`LONGEST_S`] counts as that long.
         const RADIANS_PER_S: f64 = std::f64::consts::TAU / 12.0;
         const LONGEST_S: f64 = 0.2;
-        if self.is_rotating {
+        if self.seen.is_rotating {
             let secs = f64::from(ui.input(|input| input.unstable_dt)).min(LONGEST_S);
-            self.turntable.turn(secs * RADIANS_PER_S);
+            self.seen.turntable.turn(secs * RADIANS_PER_S);
             ui.ctx().request_repaint();
         }
     }
 
     /// The request for the current camera and settings.
     fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
-        let background = theme::background(self.settings.view(), ctx.theme());
+        let background = theme::background(self.seen.settings.view(), ctx.theme());
         Request {
             context: Context {
-                scene: Arc::clone(&self.document.loaded.scene),
-                intersector: Arc::clone(self.document.intersector()),
-                second: Arc::clone(self.document.second()),
-                camera: self.turntable.camera(resolution),
-                shading: self.settings.shading(),
+                scene: Arc::clone(&self.open.document.loaded.scene),
+                intersector: Arc::clone(self.open.document.intersector()),
+                second: Arc::clone(self.open.document.second()),
+                camera: self.seen.turntable.camera(resolution),
+                shading: self.seen.settings.shading(),
                 background,
                 lighting: self.lighting(),
                 options: ViewOptions::default(),
             },
-            integrator: self.settings.view(),
-            samples: self.settings.samples,
+            integrator: self.seen.settings.view(),
+            samples: self.seen.settings.samples,
             shows_last_tree: self.shows_last_tree(),
         }
     }
 
     /// Draws the traced picture, the overlay and the marks.
     fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
-        let changed = self.tracer.take_changes().map(|(_, changed)| changed);
-        let (look, film) = (self.look(), self.tracer.film());
-        if let Some((pixels, changed)) = self.development.update(film, changed, look) {
-            self.picture.upload(film.size(), pixels, changed);
+        let changed = self
+            .traced
+            .tracer
+            .take_changes()
+            .map(|(_, changed)| changed);
+        let (look, film) = (self.look(), self.traced.tracer.film());
+        if let Some((pixels, changed)) = self.traced.development.update(film, changed, look) {
+            self.traced.picture.upload(film.size(), pixels, changed);
         }
         // Overlay and marks match the scene and the camera of the picture on the screen.
-        let Some((scene, camera)) = self.tracer.shown().cloned() else {
+        let Some((scene, camera)) = self.traced.tracer.shown().cloned() else {
             return;
         };
         let input = self.overlay_input(&scene, camera, canvas.pixels_per_point);
-        let is_moving = is_dragging || self.tracer.is_moving();
-        let overlays = &self.settings.overlays;
+        let is_moving = is_dragging || self.traced.tracer.is_moving();
+        let overlays = &self.seen.settings.overlays;
         let labels = overlay::labels(&input, overlays);
-        let drawn = if is_moving && self.overlay.omits_lines_while_moving(&scene) {
-            self.overlay.pause();
+        let drawn = if is_moving && self.traced.overlay.omits_lines_while_moving(&scene) {
+            self.traced.overlay.pause();
             Ok(None)
         } else {
-            self.overlay.draw(&input, overlays, ui.ctx())
+            self.traced.overlay.draw(&input, overlays, ui.ctx())
         };
         let (texture, error) = match drawn {
             Ok(texture) => (texture, None),
             Err(error) => (None, Some(error)),
         };
-        self.on_screen = Some((scene, camera));
+        self.traced.on_screen = Some((scene, camera));
         let painter = ui.painter_at(canvas.rect);
-        painter.extend(self.picture.shape(canvas.rect, texture.as_ref()));
+        painter.extend(self.traced.picture.shape(canvas.rect, texture.as_ref()));
         if let Some(error) = error {
-            self.settings.overlays.turn_off_added();
+            self.seen.settings.overlays.turn_off_added();
             self.error(error);
         }
         labels_ui(ui, canvas, &camera, &labels);
         let marks = [
             (self.marked_point(), theme::PICK),
-            (self.flaw.as_ref().map(|place| place.point), theme::FLAW),
+            (
+                self.picked.flaw.as_ref().map(|place| place.point),
+                theme::FLAW,
+            ),
         ];
         for (point, colour) in marks {
             if let Some(pixel) = point.and_then(|point| camera.pixel_of(point)) {
@@ -176,19 +182,23 @@ impl App {
         camera: Camera,
         pixels_per_point: f32,
     ) -> OverlayInput {
-        let is_current = Arc::ptr_eq(scene, &self.document.loaded.scene);
-        let flaw = self.flaw.as_ref().map(|place| place.flaw);
-        let findings = self.document.known_findings();
+        let is_current = Arc::ptr_eq(scene, &self.open.document.loaded.scene);
+        let flaw = self.picked.flaw.as_ref().map(|place| place.flaw);
+        let findings = self.open.document.known_findings();
         let marks = Marks {
             flaw: flaw.zip(findings.map(|findings| Arc::clone(&findings.health))),
-            picked: self.pick.as_ref().and_then(Pick::marked_primitive),
-            path: self.path.followed().map(|path| Arc::clone(&path.record)),
+            picked: self.picked.pick.as_ref().and_then(Pick::marked_primitive),
+            path: self
+                .picked
+                .path
+                .followed()
+                .map(|path| Arc::clone(&path.record)),
         };
         OverlayInput {
             scene: Arc::clone(scene),
             camera,
-            up_axis: self.settings.up_axis(),
-            pivot: self.turntable.pivot,
+            up_axis: self.seen.settings.up_axis(),
+            pivot: self.seen.turntable.pivot,
             marks: if is_current { marks } else { Marks::default() },
             scale: pixels_per_point.max(1.0),
         }

@@ -14,7 +14,7 @@ use std::path::{Path, PathBuf};
 
 /// The search for the next or the previous file of the folder.
 #[derive(Default)]
-pub(super) struct Neighbours {
+pub(crate) struct Neighbours {
     search: Option<Task<io::Result<Option<PathBuf>>>>,
     /// The file that was found last, unless a file was opened since.
     last: Option<PathBuf>,
@@ -23,25 +23,25 @@ pub(super) struct Neighbours {
 impl App {
     /// Shows the dialog that opens a file.
     pub(crate) fn show_open_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let near = self.document.path.as_deref();
-        self.open_dialog.open(ctx, frame, near);
+        let near = self.open.document.path.as_deref();
+        self.open.dialog.open(ctx, frame, near);
     }
 
     /// Shows the dialog that opens a picture of an environment.
     pub(crate) fn show_environment_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let near = self.document.path.as_deref();
-        self.environment_dialog.open(ctx, frame, near);
+        let near = self.open.document.path.as_deref();
+        self.open.environment_dialog.open(ctx, frame, near);
     }
 
     /// Shows the dialog that saves a scene file.
     pub(crate) fn show_save_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let suggested = suggested_path(&self.document);
-        self.save_dialog.open(ctx, frame, suggested.as_deref());
+        let suggested = suggested_path(&self.open.document);
+        self.open.save_dialog.open(ctx, frame, suggested.as_deref());
     }
 
     /// Loads the open file again.
     pub(crate) fn reload(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.document.path.clone() {
+        if let Some(path) = self.open.document.path.clone() {
             self.load(path, ctx);
         }
     }
@@ -49,24 +49,24 @@ impl App {
     /// Opens the next or the previous file of the folder, once it is found. The search begins at the file that was found
     /// last, so that one that can't be loaded is left behind.
     pub(crate) fn open_neighbour(&mut self, direction: Direction, ctx: &egui::Context) {
-        let last = self.neighbours.last.as_ref();
-        let Some(file) = last.or(self.document.path.as_ref()).cloned() else {
+        let last = self.open.neighbours.last.as_ref();
+        let Some(file) = last.or(self.open.document.path.as_ref()).cloned() else {
             return;
         };
         let search = move || folder::neighbour(&file, direction);
-        self.neighbours.search = Some(Task::spawn("neighbour", ctx, search));
+        self.open.neighbours.search = Some(Task::spawn("neighbour", ctx, search));
     }
 
     pub(super) fn poll_neighbours(&mut self, ctx: &egui::Context) {
-        let result = match self.neighbours.search.as_ref().map(Task::poll) {
+        let result = match self.open.neighbours.search.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(result))) => result.map_err(|error| format!("the folder: {error}")),
             Some(Err(broken @ TaskPanicked)) => Err(broken.to_string()),
         };
-        self.neighbours.search = None;
+        self.open.neighbours.search = None;
         match result {
             Ok(Some(path)) => {
-                self.neighbours.last = Some(path.clone());
+                self.open.neighbours.last = Some(path.clone());
                 self.load(path, ctx);
             }
             Ok(None) => self.refuse("The folder has no other mesh or scene file"),
@@ -77,42 +77,50 @@ impl App {
     /// Loads a file. The open one stays until it is loaded.
     pub(crate) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
         self.cancel_loading();
-        self.notice = None;
-        self.loading = Some(Loading::start(path, self.load_options, &self.settings, ctx));
+        self.shown.notice = None;
+        self.open.loading = Some(Loading::start(
+            path,
+            self.open.load_options,
+            self.seen.settings.kernel(),
+            self.preferences.scene_options(),
+            ctx,
+        ));
     }
 
     /// Cancels loading without waiting for its thread.
     pub(super) fn cancel_loading(&mut self) {
-        if let Some(loading) = self.loading.take() {
+        if let Some(loading) = self.open.loading.take() {
             loading.cancel();
         }
     }
 
     /// Shows a document that has been loaded. If the file can't be loaded, the old document stays.
     pub(super) fn poll_loading(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.open_dialog.poll() {
+        if let Some(path) = self.open.dialog.poll() {
             self.load(path, ctx);
         }
-        if let Some(path) = self.environment_dialog.poll() {
+        if let Some(path) = self.open.environment_dialog.poll() {
             self.set_environment(&path);
         }
-        let Some(loading) = &self.loading else { return };
+        let Some(loading) = &self.open.loading else {
+            return;
+        };
         let result = match loading.poll() {
             Ok(None) => return,
             // Cancelled by the user.
             Ok(Some(Err(LoadError::Cancelled { .. }))) => {
-                self.loading = None;
+                self.open.loading = None;
                 return;
             }
             Ok(Some(result)) => result.map_err(|error| error.to_string()),
             Err(broken) => Err(format!("{}: {broken}", loading.path.display())),
         };
         let path = loading.path.clone();
-        self.loading = None;
+        self.open.loading = None;
         match result {
             Ok(document) => self.show(document, ctx),
             Err(mut message) => {
-                if !path.exists() && self.settings.recent.remove(&path) {
+                if !path.exists() && self.preferences.recent.remove(&path) {
                     message += " (it is no longer listed under Open recent)";
                 }
                 if let Some(screenshot) = &self.screenshot {
@@ -124,25 +132,31 @@ impl App {
     }
 
     fn show(&mut self, document: Document, ctx: &egui::Context) {
-        let is_same_file = self.document.path == document.path;
+        let is_same_file = self.open.document.path == document.path;
         let origin = |document: &Document| document.loaded.scene.mesh().origin();
-        let shift = origin(&self.document) - origin(&document);
-        self.document = document;
-        if let Some(path) = &self.document.path {
-            self.settings.recent.add(path);
+        let shift = origin(&self.open.document) - origin(&document);
+        self.open.document = document;
+        if let Some(path) = &self.open.document.path {
+            self.preferences.recent.add(path);
         }
-        self.neighbours.last = None;
-        self.watch = None;
-        self.document.use_crease(self.settings.crease());
-        let pick = self.pick.take();
-        (self.picking, self.face_lookup, self.flaw) = (None, None, None);
-        self.clicks.pending = None;
-        self.trade = None;
+        self.open.neighbours.last = None;
+        self.open.watch = None;
+        self.prepare(ctx);
+        self.open.document.improve(ctx);
+        let pick = self.picked.pick.take();
+        (
+            self.picked.picking,
+            self.picked.face_lookup,
+            self.picked.flaw,
+        ) = (None, None, None);
+        self.picked.clicks.pending = None;
+        self.open.trade = None;
         if is_same_file {
-            self.turntable
-                .set_scene(self.document.loaded.scene.bounds_with_elements());
+            self.seen
+                .turntable
+                .set_scene(self.open.document.loaded.scene.bounds_with_elements());
             // Keep the camera's place in the file's coordinates.
-            self.turntable.pivot += shift;
+            self.seen.turntable.pivot += shift;
             if let Some(mut pick) = pick {
                 pick.camera = pick.camera.moved(shift);
                 self.inspect_again(&pick, ctx);
@@ -152,19 +166,19 @@ impl App {
         }
         // The next frame drops the old scene's picture without waiting for the first rays in the new scene.
         ctx.request_repaint();
-        let title = format!("{} – hitscope", self.document.name());
+        let title = format!("{} – hitscope", self.open.document.name());
         ctx.send_viewport_cmd(egui::ViewportCommand::Title(title));
-        let warnings = &self.document.loaded.report.warnings;
-        if let (true, Some(path)) = (self.screenshot.is_some(), &self.document.path) {
-            print_warnings(path, &self.document.loaded);
+        let warnings = &self.open.document.loaded.report.warnings;
+        if let (true, Some(path)) = (self.screenshot.is_some(), &self.open.document.path) {
+            print_warnings(path, &self.open.document.loaded);
         }
         if let Some(first) = warnings.first() {
             let more = match warnings.len() - 1 {
                 0 => String::new(),
                 n => format!(" (and {n} more; see the Mesh tab)"),
             };
-            self.notice = Some(Notice {
-                text: format!("{}: {first}{more}", self.document.name()),
+            self.shown.notice = Some(Notice {
+                text: format!("{}: {first}{more}", self.open.document.name()),
                 kind: NoticeKind::Warning,
             });
         }
@@ -172,27 +186,27 @@ impl App {
 
     /// Writes what is open, with the current camera, to a scene file.
     pub(super) fn save_as(&mut self, path: &Path, ctx: &egui::Context) {
-        let camera = self.turntable.camera(self.resolution);
-        match Saving::start(&self.document, &camera, path, ctx) {
-            Ok(saving) => self.saving = Some(saving),
+        let camera = self.seen.turntable.camera(self.shown.resolution);
+        match Saving::start(&self.open.document, &camera, path, ctx) {
+            Ok(saving) => self.open.saving = Some(saving),
             Err(error) => self.error(error),
         }
     }
 
     /// Starts to save to the chosen path, and tells when it is done.
     pub(super) fn poll_saving(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.save_dialog.poll() {
+        if let Some(path) = self.open.save_dialog.poll() {
             self.save_as(&path, ctx);
         }
-        let Some(result) = self.saving.as_ref().and_then(Saving::poll) else {
+        let Some(result) = self.open.saving.as_ref().and_then(Saving::poll) else {
             return;
         };
         let result = result.map(shown);
-        self.saving = None;
+        self.open.saving = None;
         match result {
             Ok(text) => {
                 let kind = NoticeKind::Saved;
-                self.notice = Some(Notice { text, kind });
+                self.shown.notice = Some(Notice { text, kind });
             }
             Err(error) => self.error(error),
         }
@@ -200,22 +214,28 @@ impl App {
 
     /// Reloads the file if it has changed and auto-reload is on.
     pub(super) fn poll_watch(&mut self, ctx: &egui::Context) {
-        let Some(path) = self.document.path.clone().filter(|_| self.settings.watches) else {
-            self.watch = None;
+        let Some(path) = self
+            .open
+            .document
+            .path
+            .clone()
+            .filter(|_| self.preferences.watches)
+        else {
+            self.open.watch = None;
             return;
         };
-        if self.watch.is_none() {
-            let named = &self.document.loaded.report.files;
-            match Watch::of(&path, named, self.document.began, ctx) {
-                Ok(watch) => self.watch = Some(watch),
+        if self.open.watch.is_none() {
+            let named = &self.open.document.loaded.report.files;
+            match Watch::of(&path, named, self.open.document.began, ctx) {
+                Ok(watch) => self.open.watch = Some(watch),
                 Err(error) => {
-                    self.settings.watches = false;
+                    self.preferences.watches = false;
                     self.error(format!("{} can't be watched: {error}", path.display()));
                     return;
                 }
             }
         }
-        if self.watch.as_ref().is_some_and(Watch::poll) {
+        if self.open.watch.as_ref().is_some_and(Watch::poll) {
             self.load(path, ctx);
         }
     }

@@ -8,23 +8,24 @@ impl App {
     /// Shows the view of the file's sensor, or the scene from the default direction; as the file's integrator sees it, if
     /// there is one.
     pub(super) fn use_first_view(&mut self) {
-        self.settings.file_view = self.document.loaded.integrator().map(|view| view.name);
+        self.seen.settings.file_view = self.open.document.loaded.integrator().map(|view| view.name);
         self.use_first_camera();
     }
 
     /// The camera of the first view. Before the first layout the picture has no size; the first layout then calls this
     /// again.
     pub(crate) fn use_first_camera(&mut self) {
-        self.settings.file_up_axis = None;
-        let turntable = &mut self.turntable;
-        if let Some(own) = self.own_projection.take() {
+        self.seen.settings.file_up_axis = None;
+        let turntable = &mut self.seen.turntable;
+        turntable.up_axis = self.seen.settings.up_axis();
+        if let Some(own) = self.seen.own_projection.take() {
             (turntable.fov_y_radians, turntable.is_orthographic) = own;
         }
         let own = (turntable.fov_y_radians, turntable.is_orthographic);
-        self.is_unframed = self.resolution == UVec2::ZERO;
+        self.seen.is_unframed = self.shown.resolution == UVec2::ZERO;
         match self.view_of_file() {
             Some(view) => {
-                self.own_projection = Some(own);
+                self.seen.own_projection = Some(own);
                 self.use_view(view);
             }
             None => self.use_default_view(),
@@ -35,23 +36,23 @@ impl App {
     /// default direction if the picture shows nothing.
     pub(crate) fn frame(&mut self) {
         match self.view_of_file() {
-            Some(view) if view != self.turntable => self.use_view(view),
+            Some(view) if view != self.seen.turntable => self.use_view(view),
             _ if self.shows_nothing() => self.use_default_view(),
             _ => {
-                let bounds = self.document.loaded.scene.bounds_with_elements();
-                self.turntable.frame(bounds, self.resolution);
+                let bounds = self.open.document.loaded.scene.bounds_with_elements();
+                self.seen.turntable.frame(bounds, self.shown.resolution);
             }
         }
     }
 
     /// Sets the picture's size. The file's view, while it is shown, keeps the whole film in the picture.
     pub(super) fn use_resolution(&mut self, resolution: UVec2) {
-        if resolution == self.resolution {
+        if resolution == self.shown.resolution {
             return;
         }
-        let is_files_view = self.view_of_file() == Some(self.turntable);
-        self.resolution = resolution;
-        if self.is_unframed {
+        let is_files_view = self.view_of_file() == Some(self.seen.turntable);
+        self.shown.resolution = resolution;
+        if self.seen.is_unframed {
             self.use_first_camera();
         } else if let (true, Some(view)) = (is_files_view, self.view_of_file()) {
             self.use_view(view);
@@ -59,8 +60,8 @@ impl App {
     }
 
     fn use_view(&mut self, view: Turntable) {
-        self.settings.file_up_axis = Some(view.up_axis);
-        self.turntable = view;
+        self.seen.settings.file_up_axis = Some(view.up_axis);
+        self.seen.turntable = view;
     }
 
     /// The view of the file's sensor, about the axis for which the horizon is less tilted; of two, the one for which the
@@ -68,19 +69,19 @@ impl App {
     fn view_of_file(&self) -> Option<Turntable> {
         /// More than the rounding of angles.
         const SAME_TILT: f64 = 1e-9;
-        let loaded = &self.document.loaded;
+        let loaded = &self.open.document.loaded;
         let view = loaded.view.as_ref()?;
         let bounds = loaded.scene.bounds_with_elements();
         let eye = view.eye - loaded.scene.mesh().origin();
         let about = |axis| {
             let axes = [eye, view.forward, view.up];
-            let projection = view.projection_in(self.resolution);
+            let projection = view.projection_in(self.shown.resolution);
             Turntable::looking(axes, projection, axis, bounds).ok()
         };
         let tilt = |turntable: &Turntable| turntable.roll_radians.abs();
         let slope = |turntable: &Turntable| turntable.pitch_radians.abs();
-        let kept = about(self.settings.up_axis())?;
-        let other = about(match self.settings.up_axis() {
+        let kept = about(self.seen.settings.up_axis())?;
+        let other = about(match self.seen.settings.up_axis() {
             UpAxis::Y => UpAxis::Z,
             UpAxis::Z => UpAxis::Y,
         })?;
@@ -96,12 +97,12 @@ impl App {
     /// Looks at the scene from the default direction. Keeps the settings that don't depend on the mesh: up
     /// axis, projection and field of view.
     pub(super) fn use_default_view(&mut self) {
-        let bounds = self.document.loaded.scene.bounds_with_elements();
-        let mut turntable = Turntable::framing(bounds, self.resolution);
-        turntable.fov_y_radians = self.turntable.fov_y_radians;
-        turntable.is_orthographic = self.turntable.is_orthographic;
-        turntable.up_axis = self.turntable.up_axis;
-        turntable.frame(bounds, self.resolution);
-        self.turntable = turntable;
+        let bounds = self.open.document.loaded.scene.bounds_with_elements();
+        let mut turntable = Turntable::framing(bounds, self.shown.resolution);
+        turntable.fov_y_radians = self.seen.turntable.fov_y_radians;
+        turntable.is_orthographic = self.seen.turntable.is_orthographic;
+        turntable.up_axis = self.seen.turntable.up_axis;
+        turntable.frame(bounds, self.shown.resolution);
+        self.seen.turntable = turntable;
     }
 }

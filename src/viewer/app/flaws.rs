@@ -13,15 +13,17 @@ pub type ShownFlaw = Option<(Flaw, usize)>;
 impl App {
     /// Marks the flaws of a kind and frames the triangles around one of them; `None` clears the mark.
     pub(super) fn show_flaw(&mut self, shown: ShownFlaw) {
-        let findings = self.document.known_findings();
-        self.flaw = shown.zip(findings).and_then(|((flaw, index), findings)| {
-            let scene = &self.document.loaded.scene;
+        let findings = self.open.document.known_findings();
+        self.picked.flaw = shown.zip(findings).and_then(|((flaw, index), findings)| {
+            let scene = &self.open.document.loaded.scene;
             FlawPlace::find(scene.mesh(), &findings.health, flaw, index)
         });
-        if let Some(place) = &self.flaw {
-            self.turntable.frame(place.bounds, self.resolution);
+        if let Some(place) = &self.picked.flaw {
+            self.seen
+                .turntable
+                .frame(place.bounds, self.shown.resolution);
             // Shows some of the surface around it.
-            self.turntable.distance *= FLAW_DISTANCE;
+            self.seen.turntable.distance *= FLAW_DISTANCE;
         }
     }
 }

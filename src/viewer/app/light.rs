@@ -19,7 +19,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 /// The lights of a scene, and what they were made from.
-pub(super) struct SceneLights {
+pub(crate) struct SceneLights {
     scene: Arc<Scene>,
     /// `None` for that of the scene's file.
     environment: Option<Environment>,
@@ -28,7 +28,7 @@ pub(super) struct SceneLights {
 
 /// The picture of an environment in a file.
 #[derive(Default)]
-pub(super) enum EnvironmentFile {
+pub(crate) enum EnvironmentFile {
     #[default]
     None,
     Loading(PathBuf, Task<Result<LoadedMap, LoadError>>),
@@ -55,15 +55,15 @@ pub(super) fn is_environment(path: &Path) -> bool {
 impl App {
     /// The lights of the scene and the options of light transport.
     pub(super) fn lighting(&mut self) -> Lighting {
-        if !self.settings.view().needs.lights {
+        if !self.seen.settings.view().needs.lights {
             return Lighting::default();
         }
-        let loaded = &self.document.loaded;
+        let loaded = &self.open.document.loaded;
         let (scene, environment) = (&loaded.scene, self.environment());
         let is_current = |lights: &SceneLights| {
             Arc::ptr_eq(&lights.scene, scene) && lights.environment == environment
         };
-        let kept = self.lights.take().filter(is_current);
+        let kept = self.traced.lights.take().filter(is_current);
         let lights = kept.unwrap_or_else(|| {
             let mut others = loaded.lights.clone();
             let lights = match environment.clone() {
@@ -79,7 +79,7 @@ impl App {
                 lights: Arc::new(lights),
             }
         });
-        let settings = &self.settings;
+        let settings = &self.seen.settings;
         let lighting = Lighting {
             lights: Arc::clone(&lights.lights),
             spawn: settings.spawn(),
@@ -88,13 +88,13 @@ impl App {
             depth_limit: settings.depth_limit().or(loaded.depth_limit()),
             terminator: settings.terminator(),
         };
-        self.lights = Some(lights);
+        self.traced.lights = Some(lights);
         lighting
     }
 
     /// The environment that replaces that of the scene's file; `None` also while it is being loaded.
     fn environment(&self) -> Option<Environment> {
-        let settings = &self.settings;
+        let settings = &self.seen.settings;
         let brightness = settings.environment_brightness;
         let map = match settings.environment {
             EnvironmentSource::Scene => return None,
@@ -103,7 +103,7 @@ impl App {
                 return Some(Environment::Constant(brightness * colour));
             }
             EnvironmentSource::Studio => EnvironmentMap::built_in(),
-            EnvironmentSource::File => match &self.environment_file {
+            EnvironmentSource::File => match &self.traced.environment_file {
                 EnvironmentFile::Loaded(_, map) => Arc::clone(map),
                 _ => return None,
             },
@@ -121,26 +121,32 @@ impl App {
 
     /// Lights the scene by a picture of an environment, once it is loaded.
     pub fn set_environment(&mut self, path: &Path) {
-        self.settings.environment_file = Some(path.to_owned());
-        self.settings.environment = EnvironmentSource::File;
+        self.seen.settings.environment_file = Some(path.to_owned());
+        self.seen.settings.environment = EnvironmentSource::File;
         // Also loads a file again that has changed.
-        self.environment_file = EnvironmentFile::None;
+        self.traced.environment_file = EnvironmentFile::None;
     }
 
     /// Loads the file of the environment if it is wanted. If that fails, the environment is that of the scene again.
     pub(super) fn poll_environment(&mut self, ctx: &egui::Context) {
-        let is_wanted = self.settings.environment == EnvironmentSource::File
-            && self.settings.view().needs.lights;
-        let Some(path) = self.settings.environment_file.clone().filter(|_| is_wanted) else {
+        let is_wanted = self.seen.settings.environment == EnvironmentSource::File
+            && self.seen.settings.view().needs.lights;
+        let Some(path) = self
+            .seen
+            .settings
+            .environment_file
+            .clone()
+            .filter(|_| is_wanted)
+        else {
             return;
         };
-        if self.environment_file.path() != Some(&path) {
-            let (file, limit) = (path.clone(), self.load_options.max_memory);
+        if self.traced.environment_file.path() != Some(&path) {
+            let (file, limit) = (path.clone(), self.open.load_options.max_memory);
             let load = move || EnvironmentMap::load(&file, limit, &Progress::default());
             let task = Task::spawn("environment", ctx, load);
-            self.environment_file = EnvironmentFile::Loading(path.clone(), task);
+            self.traced.environment_file = EnvironmentFile::Loading(path.clone(), task);
         }
-        let EnvironmentFile::Loading(_, task) = &self.environment_file else {
+        let EnvironmentFile::Loading(_, task) = &self.traced.environment_file else {
             return;
         };
         let result = match task.poll() {
@@ -151,17 +157,17 @@ impl App {
         match result {
             Ok(loaded) => {
                 if let Some(warning) = loaded.warnings.first() {
-                    self.notice = Some(Notice {
+                    self.shown.notice = Some(Notice {
                         text: format!("{}: {warning}", path.display()),
                         kind: NoticeKind::Warning,
                     });
                 }
-                self.environment_file = EnvironmentFile::Loaded(path, loaded.map);
+                self.traced.environment_file = EnvironmentFile::Loaded(path, loaded.map);
             }
             Err(message) => {
-                self.settings.environment = EnvironmentSource::Scene;
-                self.settings.environment_file = None;
-                self.environment_file = EnvironmentFile::None;
+                self.seen.settings.environment = EnvironmentSource::Scene;
+                self.seen.settings.environment_file = None;
+                self.traced.environment_file = EnvironmentFile::None;
                 self.error(message);
             }
         }
@@ -169,20 +175,20 @@ impl App {
 
     /// Whether an environment is being loaded.
     pub(super) fn is_loading_environment(&self) -> bool {
-        matches!(self.environment_file, EnvironmentFile::Loading(..))
+        matches!(self.traced.environment_file, EnvironmentFile::Loading(..))
     }
 
     /// Rotates the environment by a drag to the right, in points.
     pub(super) fn rotate_environment(&mut self, drag: f32) {
         const DEGREES_PER_POINT: f32 = 0.5;
         // Counter-clockwise as seen from above moves the far side to the left.
-        let degrees = self.settings.environment_degrees - DEGREES_PER_POINT * drag;
-        self.settings.environment_degrees = degrees.rem_euclid(360.0);
+        let degrees = self.seen.settings.environment_degrees - DEGREES_PER_POINT * drag;
+        self.seen.settings.environment_degrees = degrees.rem_euclid(360.0);
     }
 
     /// The conditions that end refinement. Noise is that of the picture as it is exposed.
     pub(super) fn limits(&self) -> Limits {
-        let settings = &self.settings;
+        let settings = &self.seen.settings;
         let noise = f64::from(settings.noise_limit_percent / settings.exposure()) / 100.0;
         Limits {
             secs: settings
@@ -194,8 +200,8 @@ impl App {
 
     /// What is shown of the film.
     pub(super) fn look(&self) -> Look {
-        let settings = &self.settings;
-        if !self.tracer.shows_lit() {
+        let settings = &self.seen.settings;
+        if !self.traced.tracer.shows_lit() {
             Look::plain()
         } else if settings.shows_noise {
             Look::Noise(settings.exposure())

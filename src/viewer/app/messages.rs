@@ -17,38 +17,37 @@ pub(crate) enum Sheet {
 impl App {
     /// Shows a sheet, or closes it if it is shown.
     pub(crate) fn toggle_sheet(&mut self, sheet: Sheet) {
-        self.sheet = (self.sheet != Some(sheet)).then_some(sheet);
+        self.shown.sheet = (self.shown.sheet != Some(sheet)).then_some(sheet);
     }
 
     /// Closes the topmost window or message, cancels loading, clears the marked flaw, or clears the pick: the first
     /// of these that applies.
     pub(crate) fn dismiss(&mut self) {
-        if self.palette.dismiss() || self.sheet.take().is_some() {
+        if self.shown.palette.dismiss() || self.shown.sheet.take().is_some() {
             return;
         }
-        if let Some(loading) = &self.loading {
+        if let Some(loading) = &self.open.loading {
             loading.cancel();
             return;
         }
-        let is_closed = self.open_dialog.dismiss()
-            || self.save_dialog.dismiss()
-            || self.environment_dialog.dismiss()
-            || self.notice.take().is_some();
-        if !is_closed && self.flaw.take().is_none() {
-            (self.pick, self.picking, self.face_lookup) = (None, None, None);
-            self.clicks.pending = None;
+        let is_closed = self.open.dialog.dismiss()
+            || self.open.save_dialog.dismiss()
+            || self.open.environment_dialog.dismiss()
+            || self.shown.notice.take().is_some();
+        if !is_closed && self.picked.flaw.take().is_none() {
+            self.picked.clear_pick();
         }
     }
 
     /// Shows what is over the picture.
     pub(super) fn windows_ui(&mut self, ctx: &egui::Context, commands: &Commands) {
-        if let Some(path) = self.open_dialog.field_ui(ctx) {
+        if let Some(path) = self.open.dialog.field_ui(ctx) {
             self.load(path, ctx);
         }
-        if let Some(path) = self.save_dialog.field_ui(ctx) {
+        if let Some(path) = self.open.save_dialog.field_ui(ctx) {
             self.save_as(&path, ctx);
         }
-        if let Some(path) = self.environment_dialog.field_ui(ctx) {
+        if let Some(path) = self.open.environment_dialog.field_ui(ctx) {
             self.set_environment(&path);
         }
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
@@ -63,7 +62,7 @@ impl App {
         self.drop_hint_ui(ctx);
         self.notices_ui(ctx);
         self.sheet_ui(ctx);
-        self.palette.palette_ui(ctx, commands);
+        self.shown.palette.palette_ui(ctx, commands);
     }
 
     fn drop_hint_ui(&self, ctx: &egui::Context) {
@@ -80,23 +79,27 @@ impl App {
     /// Shows the loading progress and the notice.
     fn notices_ui(&mut self, ctx: &egui::Context) {
         // Without an open document, `hints_ui` shows the progress.
-        let loading = self.loading.as_ref().filter(|_| !self.document.is_blank);
-        if loading.is_none() && self.notice.is_none() {
+        let loading = self
+            .open
+            .loading
+            .as_ref()
+            .filter(|_| !self.open.document.is_blank);
+        if loading.is_none() && self.shown.notice.is_none() {
             return;
         }
         let (mut is_closed, mut is_cancelled) = (false, false);
         egui::Area::new(egui::Id::unique("notices"))
-            .fixed_pos(self.canvas_rect.min + egui::vec2(10.0, 10.0))
+            .fixed_pos(self.shown.canvas_rect.min + egui::vec2(10.0, 10.0))
             .show(ctx, |ui| {
                 // Don't overlap the side panel.
-                ui.set_max_width((self.canvas_rect.width() - 40.0).clamp(80.0, 560.0));
+                ui.set_max_width((self.shown.canvas_rect.width() - 40.0).clamp(80.0, 560.0));
                 if let Some(loading) = loading {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         ui.label(format!("Loading {}", loading.name()));
                         is_cancelled = loading.progress_ui(ui);
                     });
                 }
-                if let Some(notice) = &self.notice {
+                if let Some(notice) = &self.shown.notice {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         let visuals = ui.visuals();
                         let (title, colour) = match notice.kind {
@@ -115,7 +118,7 @@ impl App {
                 }
             });
         if is_closed {
-            self.notice = None;
+            self.shown.notice = None;
         }
         if is_cancelled {
             self.cancel_loading();
@@ -123,13 +126,13 @@ impl App {
     }
 
     fn sheet_ui(&mut self, ctx: &egui::Context) {
-        let is_closed = match self.sheet {
+        let is_closed = match self.shown.sheet {
             None => return,
             Some(Sheet::Help) => help_sheet::help_ui(ctx),
-            Some(Sheet::About) => self.about.about_ui(ctx),
+            Some(Sheet::About) => self.shown.about.about_ui(ctx),
         };
         if is_closed {
-            self.sheet = None;
+            self.shown.sheet = None;
         }
     }
 }

@@ -1,9 +1,10 @@
-//! The app: its state and the order of work in a frame.
+//! The app: its parts and the order of work in a frame.
 //!
 //! | file | part |
 //! |---|---|
-//! | this file | state and the order of work in a frame |
-//! | `state` | what others may read of the state |
+//! | this file, `parts` | the app and its parts; the order of work in a frame |
+//! | `state` | what others may read of the parts |
+//! | `prepare` | preparing the document for the settings |
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
@@ -24,9 +25,11 @@ mod hints;
 mod labels;
 mod light;
 mod messages;
+mod parts;
 mod path;
 mod pick;
 mod pointer;
+mod prepare;
 mod side_panel;
 mod state;
 mod status_line;
@@ -34,39 +37,18 @@ mod view_text;
 
 pub(crate) use messages::Sheet;
 
-use crate::about_sheet::AboutSheet;
-use crate::command::palette::Palette;
 use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
-use crate::dialog::{FileDialog, Purpose};
 use crate::document::Document;
-use crate::face_lookup::FaceLookup;
-use crate::flaw_place::FlawPlace;
-use crate::gpu::picture::Picture;
-use crate::look::Development;
-use crate::opening::Loading;
-use crate::overlay::OverlayLayer;
-use crate::saving::Saving;
+use crate::preferences::Preferences;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::storage;
-use crate::task::Task;
-use crate::times::Times;
 use crate::tracer::Tracer;
-use crate::trade::Trade;
-use crate::watch::Watch;
-use crate::window::FitToScreen;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
-use files::Neighbours;
-use glam::UVec2;
-use hitscope_core::camera::Turntable;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
-use hitscope_core::{Camera, Scene};
 use hitscope_lab::commands::{default_thread_count, print_line};
-use light::{EnvironmentFile, SceneLights};
-use path::PickedPath;
-use pick::Pick;
-use pointer::Clicks;
+use parts::{Open, Picked, Seen, Shown, Traced};
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -76,8 +58,10 @@ use std::time::Duration;
 pub struct StartOptions {
     /// The file to load; `None` for the built-in scene.
     pub file: Option<PathBuf>,
-    /// The settings at the start.
+    /// How the scene is shown at the start.
     pub settings: Settings,
+    /// The preferences of the window at the start.
+    pub preferences: Preferences,
     /// How files are loaded.
     pub load_options: LoadOptions,
     /// If set, saves a screenshot and closes the window.
@@ -89,6 +73,7 @@ impl Default for StartOptions {
         Self {
             file: None,
             settings: Settings::default(),
+            preferences: Preferences::default(),
             // The viewer shows as much of a faulty mesh as it can.
             load_options: LoadOptions {
                 faults: FaultPolicy::Lenient,
@@ -105,7 +90,7 @@ impl Default for StartOptions {
 pub struct NoWgpu;
 
 /// A message that stays until the user closes it.
-struct Notice {
+pub(crate) struct Notice {
     text: String,
     kind: NoticeKind,
 }
@@ -121,63 +106,14 @@ enum NoticeKind {
 
 /// The viewer.
 pub struct App {
-    pub(crate) settings: Settings,
-    document: Document,
-    loading: Option<Loading>,
-    load_options: LoadOptions,
-    watch: Option<Watch>,
-    open_dialog: FileDialog,
-    save_dialog: FileDialog,
-    environment_dialog: FileDialog,
-    /// The search for the next or the previous file of the folder.
-    neighbours: Neighbours,
-    saving: Option<Saving>,
-    pub(crate) turntable: Turntable,
-    /// Field of view and projection before a file's view replaced them; the next file gets them back.
-    own_projection: Option<(f64, bool)>,
-    pub(crate) tracer: Tracer,
-    development: Development,
-    picture: Picture,
-    /// The lights of the last request that needs lights.
-    lights: Option<SceneLights>,
-    environment_file: EnvironmentFile,
-    overlay: OverlayLayer,
-    /// Scene and camera of the picture that is on the screen.
-    on_screen: Option<(Arc<Scene>, Camera)>,
-    clicks: Clicks,
-    pick: Option<Pick>,
-    /// The next pick, while it is being inspected.
-    picking: Option<Task<Pick>>,
-    path: PickedPath,
-    /// The lookup of the pick's face in the file, while it runs.
-    face_lookup: Option<FaceLookup>,
-    /// The flaw that is shown; all of its kind are marked.
-    flaw: Option<FlawPlace>,
-    /// The measurement of this scene, if it was started.
-    trade: Option<Trade>,
-    /// Whether any scene has been measured since the start.
-    has_measured: bool,
-    notice: Option<Notice>,
-    pub(crate) palette: Palette,
-    /// The sheet over the window.
-    sheet: Option<Sheet>,
-    about: AboutSheet,
-    /// Whether the camera rotates around the mesh.
-    pub(crate) is_rotating: bool,
-    /// The picture's place in points, at the last layout. `resolution` is its size in physical pixels.
-    canvas_rect: egui::Rect,
-    resolution: UVec2,
-    /// Whether the camera has yet to frame the mesh, which requires the picture's size from the first layout.
-    is_unframed: bool,
-    /// Whether the last complete picture shows only background.
-    shows_nothing: bool,
-    fit_to_screen: FitToScreen,
-    /// The side panel's width in the last frame.
-    panel_width: f32,
+    pub(crate) open: Open,
+    pub(crate) seen: Seen,
+    pub(crate) picked: Picked,
+    pub(crate) shown: Shown,
+    pub(crate) traced: Traced,
+    pub(crate) preferences: Preferences,
     /// Uncaught errors of the GPU, from any thread.
     gpu_errors: Arc<Mutex<Vec<String>>>,
-    /// UI thread times per frame.
-    ui_times: Times,
     screenshot: Option<Screenshot>,
 }
 
@@ -188,63 +124,36 @@ impl App {
     /// [`NoWgpu`].
     pub fn new(cc: &eframe::CreationContext<'_>, start: StartOptions) -> Result<Self, NoWgpu> {
         let render_state = cc.wgpu_render_state.clone().ok_or(NoWgpu)?;
-        let settings = start.settings;
-        crate::theme::apply(&cc.egui_ctx);
-        cc.egui_ctx.set_theme(settings.theme);
+        let ctx = &cc.egui_ctx;
+        crate::theme::apply(ctx);
+        ctx.set_theme(start.preferences.theme);
+        let kernel = start.settings.kernel();
         let document = match start.file {
-            Some(_) => Document::blank(settings.kernel()),
-            None => Document::embedded(settings.kernel()),
+            Some(_) => Document::blank(kernel),
+            None => Document::embedded(kernel),
         };
-        let loading = start
-            .file
-            .map(|file| Loading::start(file, start.load_options, &settings, &cc.egui_ctx));
-        Ok(Self {
-            turntable: Turntable::framing(document.loaded.scene.bounds(), UVec2::new(16, 9)),
-            own_projection: None,
-            document,
-            loading,
-            load_options: start.load_options,
-            watch: None,
-            open_dialog: FileDialog::new(Purpose::Open),
-            save_dialog: FileDialog::new(Purpose::Save),
-            environment_dialog: FileDialog::new(Purpose::Environment),
-            neighbours: Neighbours::default(),
-            saving: None,
-            tracer: Tracer::new(default_thread_count(), &cc.egui_ctx),
-            gpu_errors: catch_gpu_errors(&render_state, &cc.egui_ctx),
-            development: Development::default(),
-            picture: Picture::new(&render_state),
-            lights: None,
-            environment_file: EnvironmentFile::default(),
-            overlay: OverlayLayer::new(&render_state),
-            on_screen: None,
-            clicks: Clicks::default(),
-            pick: None,
-            picking: None,
-            path: PickedPath::default(),
-            face_lookup: None,
-            flaw: None,
-            trade: None,
-            has_measured: false,
-            notice: None,
-            palette: Palette::default(),
-            sheet: None,
-            about: AboutSheet::new(&render_state),
-            is_rotating: false,
-            canvas_rect: egui::Rect::ZERO,
-            resolution: UVec2::ZERO,
-            is_unframed: true,
-            shows_nothing: false,
-            fit_to_screen: FitToScreen::default(),
-            panel_width: 0.0,
-            ui_times: Times::default(),
+        let seen = Seen::new(start.settings, &document.loaded.scene);
+        let tracer = Tracer::new(default_thread_count(), ctx);
+        let mut app = Self {
+            open: Open::new(document, start.load_options),
+            seen,
+            picked: Picked::default(),
+            shown: Shown::new(&render_state),
+            traced: Traced::new(tracer, &render_state),
+            preferences: start.preferences,
+            gpu_errors: catch_gpu_errors(&render_state, ctx),
             screenshot: start.screenshot.map(Screenshot::new),
-            settings,
-        })
+        };
+        app.prepare(ctx);
+        app.open.document.improve(ctx);
+        if let Some(file) = start.file {
+            app.load(file, ctx);
+        }
+        Ok(app)
     }
 
     fn error(&mut self, text: impl ToString) {
-        self.notice = Some(Notice {
+        self.shown.notice = Some(Notice {
             text: text.to_string(),
             kind: NoticeKind::Error,
         });
@@ -252,7 +161,7 @@ impl App {
 
     /// Shows why a command can't be run.
     pub(crate) fn refuse(&mut self, obstacle: &str) {
-        self.notice = Some(Notice {
+        self.shown.notice = Some(Notice {
             text: obstacle.to_owned(),
             kind: NoticeKind::Warning,
         });
@@ -260,12 +169,12 @@ impl App {
 
     /// Stops all background work, so that the window closes without delay.
     fn stop_work(&mut self) {
-        if let Some(loading) = self.loading.take() {
+        if let Some(loading) = self.open.loading.take() {
             loading.cancel();
         }
-        self.trade = None;
-        self.document.stop_improving();
-        self.tracer.stop();
+        self.open.trade = None;
+        self.open.document.stop_improving();
+        self.traced.tracer.stop();
     }
 
     fn poll_gpu_errors(&mut self) {
@@ -286,7 +195,7 @@ impl eframe::App for App {
     /// Also called while the window is hidden, so that results are collected.
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         if let Some(secs) = frame.info().cpu_usage {
-            self.ui_times.push(Duration::from_secs_f32(secs));
+            self.shown.ui_times.push(Duration::from_secs_f32(secs));
         }
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
@@ -298,34 +207,18 @@ impl eframe::App for App {
         self.poll_watch(ctx);
         self.poll_gpu_errors();
         self.poll_picking(ctx);
-        if let Err(broken) = self.document.use_kernel(self.settings.kernel(), ctx) {
-            self.error(broken);
-            let packed = self.document.kernel().info.name;
-            self.settings.use_for_session(packed);
-        }
-        // Not while a slider is dragged: each step would recompute all normals.
-        if !ctx.egui_is_using_pointer() {
-            self.document.use_crease(self.settings.crease());
-        }
-        let second = self.settings.second_kernel();
-        if let Err(broken) = self.document.use_second(second, ctx) {
-            self.error(broken);
-            self.settings.keep_view(&Settings::default().view);
-        }
-        if let Err(broken) = self.document.improve(ctx) {
-            self.error(broken);
-        }
+        self.poll_document();
         self.refresh_pick(ctx);
-        self.tracer.set_limits(self.limits());
-        if let Some(panic) = self.tracer.collect(ctx).first() {
+        self.traced.tracer.set_limits(self.limits());
+        if let Some(panic) = self.traced.tracer.collect(ctx).first() {
             self.error(panic);
         }
         self.check_view();
         self.poll_path(ctx);
-        self.settings.zoom = ctx.zoom_factor();
+        self.preferences.zoom = ctx.zoom_factor();
         let is_settled = self.is_settled();
         if self.screenshot.is_none() {
-            self.fit_to_screen.step(ctx);
+            self.shown.fit_to_screen.step(ctx);
         }
         if let Some(screenshot) = &mut self.screenshot {
             screenshot.step(ctx, is_settled);
@@ -351,12 +244,13 @@ impl eframe::App for App {
         for entry in commands.into_chosen() {
             entry.run(self, &ctx, frame);
         }
+        self.prepare(&ctx);
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {
         // A screenshot uses the defaults, which must not replace the user's settings.
         if self.screenshot.is_none() {
-            storage::store(&self.settings, storage);
+            storage::store(&self.seen.settings, &self.preferences, storage);
         }
     }
 

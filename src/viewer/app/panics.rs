@@ -38,7 +38,7 @@ fn a_panic_in_the_overlay_is_reported_and_lines_are_turned_off_and_can_be_turned
         sabotage::next(task);
         press(&mut window, Key::W);
         // The overlay is drawn in the background only on a software GPU.
-        if task == "overlay" && !window.state().overlay.is_software() {
+        if task == "overlay" && !window.state().traced.overlay.is_software() {
             continue;
         }
         wait_for_message(&mut window);
@@ -58,6 +58,7 @@ fn a_panic_while_packing_a_kernel_is_reported_and_the_previous_kernel_stays() {
     sabotage::next("pack");
     window
         .state_mut()
+        .seen
         .settings
         .use_for_session("moller-trumbore");
     wait_for_message(&mut window);
@@ -68,6 +69,7 @@ fn a_panic_while_packing_a_kernel_is_reported_and_the_previous_kernel_stays() {
     );
     window
         .state_mut()
+        .seen
         .settings
         .use_for_session("moller-trumbore");
     wait(&mut window, "the kernel", |app| {
@@ -79,7 +81,7 @@ fn a_panic_while_packing_a_kernel_is_reported_and_the_previous_kernel_stays() {
 fn a_panic_while_packing_for_a_comparing_view_is_reported_and_the_default_view_is_restored() {
     let Some(mut window) = app(None) else { return };
     sabotage::next("pack");
-    window.state_mut().settings.view = "error-t".to_owned();
+    window.state_mut().seen.settings.view = "error-t".to_owned();
     assert!(window.state().settings().second_kernel().is_some());
     wait_for_message(&mut window);
     assert_eq!(window.state().settings().view, Settings::default().view);
@@ -105,10 +107,10 @@ fn a_measurement_that_panics_is_reported_as_failed() {
     let camera = window.state().turntable().camera(UVec2::new(64, 64));
     let scene = std::sync::Arc::clone(&window.state().document().loaded.scene);
     sabotage::next("trade");
-    window.state_mut().trade = Some(Trade::start(&scene, camera, Axis::default(), &ctx));
+    window.state_mut().open.trade = Some(Trade::start(&scene, camera, Axis::default(), &ctx));
     wait(&mut window, "the end", |_| true);
     while window.state().trade().map(Trade::state) == Some(TradeState::Measuring) {
-        if let Some(trade) = &mut window.state_mut().trade {
+        if let Some(trade) = &mut window.state_mut().open.trade {
             trade.poll();
         }
     }

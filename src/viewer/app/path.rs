@@ -19,14 +19,14 @@ struct PathKey {
 }
 
 /// A path that was followed.
-pub(super) struct FollowedPath {
+pub(crate) struct FollowedPath {
     pub record: Arc<PathRecord>,
     pub report: PathReport,
 }
 
 /// The path of the picked pixel.
 #[derive(Default)]
-pub(super) struct PickedPath {
+pub(crate) struct PickedPath {
     /// The selected sample.
     sample: u32,
     /// The last path; `None` if it couldn't be followed.
@@ -45,22 +45,22 @@ impl App {
     /// Follows the path of the selected sample of the picked pixel if the view follows paths.
     pub(super) fn poll_path(&mut self, ctx: &egui::Context) {
         let Some(key) = self.wanted_path() else {
-            self.path.followed = None;
+            self.picked.path.followed = None;
             return;
         };
-        if let Some((followed, _)) = &self.path.followed
+        if let Some((followed, _)) = &self.picked.path.followed
             && *followed == key
         {
             return;
         }
         let (wanted, background) = (key.clone(), ctx.clone());
         let start = move || Task::spawn("path", &background, move || follow(&wanted));
-        match self.path.task.get(key.clone(), start) {
+        match self.picked.path.task.get(key.clone(), start) {
             // The last path stays until the next one is known.
             Ok(None) => {}
-            Ok(Some(path)) => self.path.followed = Some((key, path)),
+            Ok(Some(path)) => self.picked.path.followed = Some((key, path)),
             Err(panicked) => {
-                self.path.followed = Some((key, None));
+                self.picked.path.followed = Some((key, None));
                 self.error(panicked);
             }
         }
@@ -68,8 +68,8 @@ impl App {
 
     /// The sample whose path is shown.
     fn wanted_path(&self) -> Option<PathKey> {
-        let (pick, request) = (self.pick.as_ref()?, self.tracer.posted()?);
-        let is_current = Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene);
+        let (pick, request) = (self.picked.pick.as_ref()?, self.traced.tracer.posted()?);
+        let is_current = Arc::ptr_eq(&request.context.scene, &self.open.document.loaded.scene);
         if !request.integrator.follows_paths() || !is_current {
             return None;
         }
@@ -78,17 +78,17 @@ impl App {
         Some(PathKey {
             request,
             pixel: UVec2::from_array(pick.inspection.pixel),
-            sample: self.path.sample.min(self.last_sample()),
+            sample: self.picked.path.sample.min(self.last_sample()),
         })
     }
 
     /// The last sample that can be selected: the last one that is traced, or that will be if the camera has moved since.
     fn last_sample(&self) -> u32 {
-        let camera = self.pick.as_ref().map(|pick| pick.camera);
-        let posted = self.tracer.posted();
+        let camera = self.picked.pick.as_ref().map(|pick| pick.camera);
+        let posted = self.traced.tracer.posted();
         let traced = match posted {
             Some(request) if camera != Some(request.context.camera) => request.samples,
-            _ => self.tracer.film().samples(),
+            _ => self.traced.tracer.film().samples(),
         };
         traced.max(1) - 1
     }
@@ -97,7 +97,7 @@ impl App {
     pub(super) fn path_view(&self) -> Option<PathView<'_>> {
         let key = self.wanted_path()?;
         Some(PathView {
-            path: self.path.followed().map(|path| &path.report),
+            path: self.picked.path.followed().map(|path| &path.report),
             sample: key.sample,
             last: self.last_sample(),
         })
@@ -105,7 +105,7 @@ impl App {
 
     /// Selects the sample whose path is shown.
     pub(super) fn select_sample(&mut self, sample: u32) {
-        self.path.sample = sample;
+        self.picked.path.sample = sample;
     }
 }
 

@@ -15,7 +15,7 @@ use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
 
 /// A clicked pixel and its inspection.
-pub(super) struct Pick {
+pub(crate) struct Pick {
     pub inspection: Inspection,
     /// The camera of the picture that was clicked.
     pub camera: Camera,
@@ -126,7 +126,8 @@ fn colour_at(mesh: &TriangleMesh, hit: &TriangleReport) -> Option<[f32; 3]> {
 impl App {
     /// Why nothing can be done with the pick; `None` if there is one.
     pub(crate) fn lacks_pick(&self) -> Option<&'static str> {
-        self.pick
+        self.picked
+            .pick
             .is_none()
             .then_some("No pixel is picked: click one")
     }
@@ -144,19 +145,20 @@ impl App {
 
     fn obstacle_unless(&self, is_met: impl Fn(&Pick) -> bool) -> Option<&'static str> {
         let misses = |pick: &Pick| (!is_met(pick)).then_some("The picked ray hits nothing");
-        self.lacks_pick().or_else(|| misses(self.pick.as_ref()?))
+        self.lacks_pick()
+            .or_else(|| misses(self.picked.pick.as_ref()?))
     }
 
     /// Marks the crossing so many further along the picked ray.
     pub(crate) fn step_crossing(&mut self, step: i8) {
-        if let Some(pick) = &mut self.pick {
+        if let Some(pick) = &mut self.picked.pick {
             pick.step(step);
         }
     }
 
     /// Copies the inspection as JSON.
     pub(crate) fn copy_pick(&self, ctx: &egui::Context) {
-        if let Some(pick) = &self.pick {
+        if let Some(pick) = &self.picked.pick {
             ctx.copy_text(pick.inspection.to_json());
         }
     }
@@ -166,27 +168,27 @@ impl App {
         /// Distance of the camera, relative to the distance that frames the primitive: shows some of the surface
         /// around it.
         const DISTANCE: f64 = 3.0;
-        let scene = &self.document.loaded.scene;
-        let Some(primitive) = self.pick.as_ref().and_then(Pick::marked_primitive) else {
+        let scene = &self.open.document.loaded.scene;
+        let Some(primitive) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) else {
             return;
         };
         let bounds = scene.subset(&[primitive]).bounds();
         if !bounds.is_empty() {
-            self.turntable.frame(bounds, self.resolution);
-            self.turntable.distance *= DISTANCE;
-            self.turntable.set_scene(scene.bounds_with_elements());
+            self.seen.turntable.frame(bounds, self.shown.resolution);
+            self.seen.turntable.distance *= DISTANCE;
+            self.seen.turntable.set_scene(scene.bounds_with_elements());
         } else if let Some(point) = self.marked_point() {
-            self.turntable.centre_on(point);
+            self.seen.turntable.centre_on(point);
         }
     }
 
     /// Inspects a pixel and opens the Inspect tab.
     pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
-        if let Some(pick) = &mut self.pick {
+        if let Some(pick) = &mut self.picked.pick {
             pick.crossing = None;
         }
         self.start_picking(camera, pixel, ctx);
-        self.settings.tab = Tab::Inspect;
+        self.preferences.tab = Tab::Inspect;
     }
 
     /// Inspects a picked pixel again, with its camera.
@@ -197,10 +199,12 @@ impl App {
 
     /// Inspects the picked pixel again if the kernel, the shading or the tree has changed.
     pub(super) fn refresh_pick(&mut self, ctx: &egui::Context) {
-        if self.picking.is_some() {
+        if self.picked.picking.is_some() {
             return;
         }
-        let Some(pick) = &self.pick else { return };
+        let Some(pick) = &self.picked.pick else {
+            return;
+        };
         if pick.basis != self.inspection_basis() {
             let pixel = UVec2::from_array(pick.inspection.pixel);
             self.start_picking(pick.camera, pixel, ctx);
@@ -209,17 +213,17 @@ impl App {
 
     fn inspection_basis(&self) -> InspectionBasis {
         InspectionBasis {
-            kernel: self.document.intersector().kernel().name,
-            shading: self.settings.shading(),
-            crease: self.document.loaded.scene.crease(),
-            has_last_tree: self.document.has_last_tree(),
+            kernel: self.open.document.intersector().kernel().name,
+            shading: self.seen.settings.shading(),
+            crease: self.open.document.loaded.scene.crease(),
+            has_last_tree: self.open.document.has_last_tree(),
         }
     }
 
     fn start_picking(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
         let basis = self.inspection_basis();
-        let scene = Arc::clone(&self.document.loaded.scene);
-        let intersector = Arc::clone(self.document.intersector());
+        let scene = Arc::clone(&self.open.document.loaded.scene);
+        let intersector = Arc::clone(self.open.document.intersector());
         // In the background: each kernel tests every triangle near the ray, which may be a million in a bad mesh.
         let inspect = move || {
             let shading = basis.shading;
@@ -234,15 +238,15 @@ impl App {
                 basis,
             }
         };
-        self.picking = Some(Task::spawn("inspect", ctx, inspect));
+        self.picked.picking = Some(Task::spawn("inspect", ctx, inspect));
     }
 
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let document = &self.document;
+        let document = &self.open.document;
         let triangle = pick.triangle();
         // The faces of a scene file's meshes aren't in that file.
         let is_mesh = !document.path.as_deref().is_some_and(is_scene_file);
-        self.face_lookup = triangle.filter(|_| is_mesh).map(|triangle| {
+        self.picked.face_lookup = triangle.filter(|_| is_mesh).map(|triangle| {
             let line = triangle.line.unwrap_or(0);
             let scene = &document.loaded.scene;
             FaceLookup::start(document.path.clone(), scene, triangle.index, line, ctx)
@@ -250,13 +254,13 @@ impl App {
     }
 
     fn poll_face_lookup(&mut self) {
-        let face = match self.face_lookup.as_ref().map(FaceLookup::poll) {
+        let face = match self.picked.face_lookup.as_ref().map(FaceLookup::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(face))) => face,
             Some(Err(panicked)) => FaceInFile::Unknown(panicked.to_string()),
         };
-        self.face_lookup = None;
-        if let Some(pick) = &mut self.pick {
+        self.picked.face_lookup = None;
+        if let Some(pick) = &mut self.picked.pick {
             pick.face = Some(face);
         }
     }
@@ -264,18 +268,18 @@ impl App {
     /// Shows the result of the last inspection once it is ready.
     pub(super) fn poll_picking(&mut self, ctx: &egui::Context) {
         self.poll_face_lookup();
-        let result = match self.picking.as_ref().map(Task::poll) {
+        let result = match self.picked.picking.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(pick))) => Ok(pick),
             Some(Err(panicked)) => Err(panicked),
         };
-        self.picking = None;
+        self.picked.picking = None;
         match result {
             Ok(mut pick) => {
                 pick.inspection
-                    .find_line(&self.document.loaded.report.face_lines);
+                    .find_line(&self.open.document.loaded.report.face_lines);
                 // The same ray, inspected again.
-                if let Some(old) = &self.pick
+                if let Some(old) = &self.picked.pick
                     && old.inspection.pixel == pick.inspection.pixel
                     && old.camera == pick.camera
                 {
@@ -283,15 +287,15 @@ impl App {
                 }
                 let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);
                 let is_same = |old: &Pick| index(old) == index(&pick) && old.face.is_some();
-                match self.pick.take().filter(is_same) {
+                match self.picked.pick.take().filter(is_same) {
                     Some(old) => pick.face = old.face,
                     None => self.start_face_lookup(&pick, ctx),
                 }
-                self.pick = Some(pick);
+                self.picked.pick = Some(pick);
             }
             Err(panicked) => {
                 // The old result is outdated.
-                self.pick = None;
+                self.picked.pick = None;
                 self.error(panicked);
             }
         }

@@ -11,7 +11,7 @@ use hitscope_core::Camera;
 
 /// Recognizes single and double clicks. egui's own click count covers a longer time than a double click takes.
 #[derive(Default)]
-pub(super) struct Clicks {
+pub(crate) struct Clicks {
     /// A click that may still become a double click.
     pub pending: Option<PendingClick>,
     /// Time of the last double click, by egui's clock.
@@ -19,7 +19,7 @@ pub(super) struct Clicks {
 }
 
 /// A click that may still become a double click.
-pub(super) struct PendingClick {
+pub(crate) struct PendingClick {
     camera: Camera,
     pixel: UVec2,
     pos: Pos2,
@@ -34,12 +34,12 @@ impl App {
         let drag = DVec2::new(drag.x.into(), drag.y.into());
         let modifiers = ui.input(|input| input.modifiers);
         let is_primary = response.dragged_by(PointerButton::Primary);
-        if is_primary && modifiers.command && self.settings.has_map() {
+        if is_primary && modifiers.command && self.seen.settings.has_map() {
             self.rotate_environment(response.drag_delta().x);
         } else if is_primary && !modifiers.shift {
-            self.turntable.orbit(drag, canvas.resolution);
+            self.seen.turntable.orbit(drag, canvas.resolution);
         } else if response.dragged() {
-            self.turntable.pan(drag, canvas.resolution);
+            self.seen.turntable.pan(drag, canvas.resolution);
         }
         if let Some(pos) = response.hover_pos() {
             self.wheel(ui, pos, canvas);
@@ -57,12 +57,12 @@ impl App {
         let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
         let factor = (-(scroll.y + scroll.x) / POINTS_PER_E).exp() / pinch;
         if factor != 1.0 {
-            let newest = || self.turntable.camera(canvas.resolution);
+            let newest = || self.seen.turntable.camera(canvas.resolution);
             let camera = self.shown_camera().unwrap_or_else(newest);
             let at = canvas.pixel_of(pos, &camera);
-            let on_pivots_plane = || camera.on_plane_through(self.turntable.pivot, at);
+            let on_pivots_plane = || camera.on_plane_through(self.seen.turntable.pivot, at);
             let anchor = self.surface_at(&camera, at).unwrap_or_else(on_pivots_plane);
-            self.turntable.zoom(factor.into(), anchor);
+            self.seen.turntable.zoom(factor.into(), anchor);
         }
     }
 
@@ -88,21 +88,22 @@ impl App {
             (input.time, releases.count())
         });
         let at = canvas.pixel_of(pos, &camera);
-        let first = self.clicks.pending.take();
+        let first = self.picked.clicks.pending.take();
         let is_second = first.is_some_and(|first| first.pos.distance(pos) <= distance);
         if is_second || clicks > 1 {
-            self.clicks.last_double_secs = Some(now);
+            self.picked.clicks.last_double_secs = Some(now);
             if let Some(point) = self.surface_at(&camera, at) {
-                self.turntable.centre_on(point);
+                self.seen.turntable.centre_on(point);
             }
         } else if self
+            .picked
             .clicks
             .last_double_secs
             .is_none_or(|last| now - last > delay)
         {
             // The third click of three is ignored.
             let last_pixel = camera.resolution() - 1;
-            self.clicks.pending = Some(PendingClick {
+            self.picked.clicks.pending = Some(PendingClick {
                 camera,
                 pixel: at.max(DVec2::ZERO).as_uvec2().min(last_pixel),
                 pos,
@@ -113,7 +114,7 @@ impl App {
 
     /// Inspects the pixel of a click that can no longer become a double click.
     fn end_click(&mut self, ctx: &egui::Context) {
-        let Some(click) = &self.clicks.pending else {
+        let Some(click) = &self.picked.clicks.pending else {
             return;
         };
         // At a low frame rate, the second click may still be in progress.
@@ -127,21 +128,21 @@ impl App {
             return;
         }
         let (camera, pixel) = (click.camera, click.pixel);
-        self.clicks.pending = None;
+        self.picked.clicks.pending = None;
         self.inspect(camera, pixel, ctx);
     }
 
     /// The camera of the picture on the screen; `None` while the screen shows another mesh or nothing.
     pub fn shown_camera(&self) -> Option<Camera> {
-        let (scene, camera) = self.on_screen.as_ref()?;
-        let is_current = std::ptr::eq(scene.mesh(), self.document.loaded.scene.mesh());
+        let (scene, camera) = self.traced.on_screen.as_ref()?;
+        let is_current = std::ptr::eq(scene.mesh(), self.open.document.loaded.scene.mesh());
         is_current.then_some(*camera)
     }
 
     /// The point of the mesh at a pixel, in the scene's coordinates.
     fn surface_at(&self, camera: &Camera, at_px: DVec2) -> Option<DVec3> {
         let ray = camera.ray_through(at_px);
-        let hit = self.document.intersector().closest_hit(&ray)?;
+        let hit = self.open.document.intersector().closest_hit(&ray)?;
         Some(ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3())
     }
 }

@@ -3,7 +3,7 @@
 use super::App;
 use crate::command::{Commands, TABS};
 use crate::panels;
-use crate::settings::PANEL_WIDTHS;
+use crate::preferences::PANEL_WIDTHS;
 use crate::tab::Tab;
 use crate::trade::Trade;
 use glam::UVec2;
@@ -15,12 +15,12 @@ const MIN_PANEL_WIDTH: f32 = 160.0;
 
 impl App {
     pub(super) fn panel_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
-        let mut is_expanded = self.settings.shows_panel;
+        let mut is_expanded = self.preferences.shows_panel;
         let (narrowest, widest) = (*PANEL_WIDTHS.start(), *PANEL_WIDTHS.end());
         // In a narrow window, the panel leaves some room for the picture.
         let limit = (ui.available_width() - NARROWEST_PICTURE).clamp(MIN_PANEL_WIDTH, widest);
         let shown = egui::Panel::right("panel")
-            .default_size(self.settings.panel_width)
+            .default_size(self.preferences.panel_width)
             .size_range(narrowest.min(limit)..=limit)
             .show_collapsible(ui, &mut is_expanded, |ui| {
                 tabs_ui(ui, commands);
@@ -29,30 +29,30 @@ impl App {
                     self.tab_ui(ui, commands);
                 });
             });
-        self.settings.shows_panel = is_expanded;
+        self.preferences.shows_panel = is_expanded;
         if let Some(shown) = shown {
             // The width changes from frame to frame while the panel slides in or out.
             let width = shown.response.rect.width();
-            let last = std::mem::replace(&mut self.panel_width, width);
+            let last = std::mem::replace(&mut self.shown.panel_width, width);
             if last == width && width < limit && PANEL_WIDTHS.contains(&width) {
-                self.settings.panel_width = width;
+                self.preferences.panel_width = width;
             }
         }
     }
 
     /// The contents of the selected tab.
     fn tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
-        match self.settings.tab {
-            Tab::Inspect | Tab::Mesh | Tab::Trade if self.document.is_blank => {
+        match self.preferences.tab {
+            Tab::Inspect | Tab::Mesh | Tab::Trade if self.open.document.is_blank => {
                 ui.label("No file is open.");
             }
             Tab::Inspect => {
-                let is_busy = self.picking.is_some() || self.clicks.pending.is_some();
-                let pick = self.pick.as_ref();
-                let is_reading = self.face_lookup.is_some();
-                let view = pick.map(|pick| pick.view(&self.document, is_reading));
+                let is_busy = self.picked.picking.is_some() || self.picked.clicks.pending.is_some();
+                let pick = self.picked.pick.as_ref();
+                let is_reading = self.picked.face_lookup.is_some();
+                let view = pick.map(|pick| pick.view(&self.open.document, is_reading));
                 let selected = panels::inspect::inspect_ui(ui, view, is_busy, commands);
-                if let Some((pick, crossing)) = self.pick.as_mut().zip(selected) {
+                if let Some((pick, crossing)) = self.picked.pick.as_mut().zip(selected) {
                     pick.select(crossing);
                 }
                 let path = self.path_view();
@@ -64,15 +64,15 @@ impl App {
             Tab::Display => {
                 panels::view::view_ui(
                     ui,
-                    &mut self.settings,
-                    &mut self.turntable,
-                    &self.document.loaded.scene.kernels(),
+                    &mut self.seen.settings,
+                    &mut self.seen.turntable,
+                    &self.open.document.loaded.scene.kernels(),
                     commands,
                 );
             }
             Tab::Mesh => {
-                let flaw = self.flaw.as_ref();
-                let shown = panels::mesh::mesh_ui(ui, &mut self.document, flaw, commands);
+                let flaw = self.picked.flaw.as_ref();
+                let shown = panels::mesh::mesh_ui(ui, &mut self.open.document, flaw, commands);
                 if let Some(shown) = shown {
                     self.show_flaw(shown);
                 }
@@ -83,23 +83,23 @@ impl App {
 
     /// Measures the scene when the tab is first shown, and later only on request.
     fn trade_ui(&mut self, ui: &mut egui::Ui) {
-        let is_wanted = match &mut self.trade {
+        let is_wanted = match &mut self.open.trade {
             Some(trade) => {
                 trade.poll();
-                panels::trade::trade_ui(ui, trade, &mut self.settings)
+                panels::trade::trade_ui(ui, trade, &mut self.seen.settings)
             }
-            None if self.has_measured => panels::trade::measure_ui(ui),
+            None if self.open.has_measured => panels::trade::measure_ui(ui),
             None => true,
         };
         // Requires the picture's camera and the final tree.
-        let is_ready = self.resolution != UVec2::ZERO && !self.is_unframed;
-        if is_wanted && is_ready && self.document.has_last_tree() {
-            let camera = self.turntable.camera(self.resolution);
-            let axis = self.trade.take().map(|trade| trade.axis);
-            let scene = &self.document.loaded.scene;
+        let is_ready = self.shown.resolution != UVec2::ZERO && !self.seen.is_unframed;
+        if is_wanted && is_ready && self.open.document.has_last_tree() {
+            let camera = self.seen.turntable.camera(self.shown.resolution);
+            let axis = self.open.trade.take().map(|trade| trade.axis);
+            let scene = &self.open.document.loaded.scene;
             let axis = axis.unwrap_or_default();
-            self.trade = Some(Trade::start(scene, camera, axis, ui.ctx()));
-            self.has_measured = true;
+            self.open.trade = Some(Trade::start(scene, camera, axis, ui.ctx()));
+            self.open.has_measured = true;
         }
     }
 }

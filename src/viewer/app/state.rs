@@ -3,6 +3,7 @@
 use super::App;
 use crate::document::Document;
 use crate::flaw_place::FlawPlace;
+use crate::preferences::Preferences;
 use crate::settings::Settings;
 use crate::tracer::Request;
 use crate::trade::Trade;
@@ -15,91 +16,99 @@ use std::sync::Arc;
 impl App {
     /// The film of the picture being traced.
     pub fn film(&self) -> &Film {
-        self.tracer.film()
+        self.traced.tracer.film()
     }
 
     /// Whether the picture has all samples or has reached a limit, the overlay has all lines, and nothing is being loaded.
     pub fn is_settled(&self) -> bool {
         let is_wanted = |request: &Request| {
-            Arc::ptr_eq(&request.context.scene, &self.document.loaded.scene)
+            Arc::ptr_eq(&request.context.scene, &self.open.document.loaded.scene)
                 && request.shows_last_tree == self.shows_last_tree()
         };
-        self.loading.is_none()
+        self.open.loading.is_none()
             && !self.is_loading_environment()
-            && self.document.has_last_tree()
-            && self.tracer.posted().is_some_and(is_wanted)
-            && self.tracer.is_finished()
-            && self.overlay.is_complete()
+            && self.open.document.has_last_tree()
+            && self.traced.tracer.posted().is_some_and(is_wanted)
+            && self.traced.tracer.is_finished()
+            && self.traced.overlay.is_complete()
     }
 
     /// Whether the view shows the cost of rays in the final tree.
     pub(super) fn shows_last_tree(&self) -> bool {
-        self.settings.view().needs.final_tree && self.document.has_last_tree()
+        self.seen.settings.view().needs.final_tree && self.open.document.has_last_tree()
     }
 
     /// The scene of the picture.
     pub fn traced_scene(&self) -> Option<&Scene> {
-        let posted = self.tracer.posted()?;
+        let posted = self.traced.tracer.posted()?;
         Some(&posted.context.scene)
     }
 
     /// Whether auto-rotation is on.
     pub fn is_rotating(&self) -> bool {
-        self.is_rotating
+        self.seen.is_rotating
     }
 
     /// Whether the user has paused refinement.
     pub fn is_paused(&self) -> bool {
-        self.tracer.is_paused()
+        self.traced.tracer.is_paused()
     }
 
-    /// The settings.
+    /// How the scene is shown.
     pub fn settings(&self) -> &Settings {
-        &self.settings
+        &self.seen.settings
+    }
+
+    /// The preferences of the window.
+    pub fn preferences(&self) -> &Preferences {
+        &self.preferences
     }
 
     /// The open document.
     pub fn document(&self) -> &Document {
-        &self.document
+        &self.open.document
     }
 
     /// The camera.
     pub fn turntable(&self) -> &Turntable {
-        &self.turntable
+        &self.seen.turntable
     }
 
     /// The inspection of the picked pixel.
     pub fn inspection(&self) -> Option<&Inspection> {
-        self.pick.as_ref().map(|pick| &pick.inspection)
+        self.picked.pick.as_ref().map(|pick| &pick.inspection)
     }
 
     /// The path of a sample of the picked pixel, if the view follows paths.
     pub fn path(&self) -> Option<&PathReport> {
-        self.path.followed().map(|path| &path.report)
+        self.picked.path.followed().map(|path| &path.report)
     }
 
     /// The crossing of the picked ray that is marked, counted from 0.
     pub fn crossing(&self) -> Option<usize> {
-        self.pick.as_ref()?.selected()
+        self.picked.pick.as_ref()?.selected()
     }
 
     /// Where the picked ray is marked, in the scene's coordinates.
     pub fn marked_point(&self) -> Option<DVec3> {
-        self.pick.as_ref()?.point()
+        self.picked.pick.as_ref()?.point()
     }
 
     /// The flaw that is shown; all of its kind are marked.
     pub fn flaw(&self) -> Option<&FlawPlace> {
-        self.flaw.as_ref()
+        self.picked.flaw.as_ref()
     }
 
     /// The measurement of this scene, if it was started.
     pub fn trade(&self) -> Option<&Trade> {
-        self.trade.as_ref()
+        self.open.trade.as_ref()
     }
 
     /// The text of the message that is shown.
     pub fn notice(&self) -> Option<&str> {
-        self.notice.as_ref().map(|notice| notice.text.as_str())
+        self.shown
+            .notice
+            .as_ref()
+            .map(|notice| notice.text.as_str())
     }
 }

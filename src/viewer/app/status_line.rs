@@ -22,8 +22,8 @@ impl App {
 
     /// The parts of the status line, most important first: a narrow window truncates it.
     fn status_parts(&self) -> Vec<String> {
-        let status = self.tracer.status();
-        let scene = &self.document.loaded.scene;
+        let status = self.traced.tracer.status();
+        let scene = &self.open.document.loaded.scene;
         let ms = |time: std::time::Duration| time.as_secs_f64() * 1e3;
         let tree = if scene.has_best_tree() {
             "tree"
@@ -31,12 +31,12 @@ impl App {
             "quick tree"
         };
         // A path has many rays.
-        let unit = if self.settings.view().needs.lights {
+        let unit = if self.seen.settings.view().needs.lights {
             "Msamples/s"
         } else {
             "Mrays/s"
         };
-        let kernel = shown_kernel(self.document.kernel(), &scene.kernels()).short_name();
+        let kernel = shown_kernel(self.open.document.kernel(), &scene.kernels()).short_name();
         let mut parts = vec![
             format!("{kernel} kernel"),
             primitives(scene),
@@ -49,20 +49,20 @@ impl App {
         // Medians and 99th percentiles.
         for (name, times) in [
             ("frame", status.frame_interval),
-            ("UI", self.ui_times.median_and_99th()),
+            ("UI", self.shown.ui_times.median_and_99th()),
         ] {
             if let Some([median, p99]) = times.map(|times| times.map(ms)) {
                 parts.push(format!("{name} {median:.0} ms, p99 {p99:.0} ms"));
             }
         }
-        if self.tracer.non_finite() > 0 {
-            let count = self.tracer.non_finite() as usize;
+        if self.traced.tracer.non_finite() > 0 {
+            let count = self.traced.tracer.non_finite() as usize;
             parts.insert(2, format!("{} not finite", counted(count, "sample")));
         }
-        if self.watch.as_ref().is_some_and(Watch::is_missing) {
+        if self.open.watch.as_ref().is_some_and(Watch::is_missing) {
             parts.insert(0, "the file is missing".to_owned());
         }
-        if self.document.is_blank {
+        if self.open.document.is_blank {
             parts = vec!["no file open".to_owned()];
         }
         parts
@@ -73,17 +73,17 @@ impl App {
         if status.is_preview {
             return "preview".to_owned();
         }
-        let all = counted(self.settings.samples as usize, "sample");
+        let all = counted(self.seen.settings.samples as usize, "sample");
         let mut text = format!("{} of {all}", status.samples);
         if let Some(noise) = status.noise {
-            let exposure = f64::from(self.settings.exposure());
+            let exposure = f64::from(self.seen.settings.exposure());
             let [mean, worst] = [noise.mean, noise.worst].map(|error| percent(exposure * error));
             text += &format!(", noise {mean} (worst {worst})");
         }
         text += match status.stopped {
             Some(StopReason::Time) => ", stopped by time",
             Some(StopReason::Noise) => ", stopped by noise",
-            None if self.tracer.is_paused() => ", paused",
+            None if self.traced.tracer.is_paused() => ", paused",
             None => "",
         };
         text

@@ -7,9 +7,9 @@ use hitscope_lab::commands::CameraArgs;
 impl App {
     /// The camera as command-line arguments.
     pub fn view_text(&self) -> String {
-        let camera = self.turntable.camera(self.resolution);
-        let origin = self.document.loaded.scene.mesh().origin();
-        let distance = (camera.exact_eye() - self.turntable.pivot).length();
+        let camera = self.seen.turntable.camera(self.shown.resolution);
+        let origin = self.open.document.loaded.scene.mesh().origin();
+        let distance = (camera.exact_eye() - self.seen.turntable.pivot).length();
         CameraArgs::of_camera(&camera, origin, distance).to_string()
     }
 
@@ -17,8 +17,8 @@ impl App {
     pub(super) fn paste_view(&mut self, text: &str) {
         match self.view_of_text(text) {
             Ok(view) => {
-                self.turntable = view;
-                self.is_unframed = false;
+                self.seen.turntable = view;
+                self.seen.is_unframed = false;
             }
             Err(reason) => self.error(format!(
                 "the clipboard holds no view, such as --eye 1,2,3 --target 0,0,0 --fov 40: {reason}"
@@ -32,14 +32,14 @@ impl App {
         if args.eye.is_none() {
             return Err("--eye is missing".to_owned());
         }
-        let scene = &self.document.loaded.scene;
+        let scene = &self.open.document.loaded.scene;
         args.check().map_err(|error| error.to_string())?;
         let camera = args.camera(scene, None);
         let camera = camera.map_err(|error| error.to_string())?;
         let eye = camera.exact_eye();
         let axes = [eye, -camera.back(), camera.up()];
         let bounds = scene.bounds_with_elements();
-        let (projection, up_axis) = (camera.projection(), self.settings.up_axis());
+        let (projection, up_axis) = (camera.projection(), self.seen.settings.up_axis());
         let mut view = Turntable::looking(axes, projection, up_axis, bounds)
             .map_err(|error| error.to_string())?;
         if let Some(target) = args.target {
@@ -49,7 +49,7 @@ impl App {
             Projection::Perspective { .. } => view.distance = (eye - view.pivot).length(),
             // The angle stays for the next perspective view.
             Projection::Orthographic { height } => {
-                view.fov_y_radians = self.turntable.fov_y_radians;
+                view.fov_y_radians = self.seen.turntable.fov_y_radians;
                 view.distance = 0.5 * height / (0.5 * view.fov_y_radians).tan();
             }
         }

@@ -72,9 +72,9 @@ pub(super) const ROWS: &[Command] = &[
         title: "Auto-reload",
         tooltip: "Reloads the file when it, its materials or its textures change",
         place: RELOAD,
-        is_on: Some(|app| app.settings.watches),
+        is_on: Some(|app| app.preferences.watches),
         obstacle: lacks_file,
-        run: |app, _, _| app.settings.watches ^= true,
+        run: |app, _, _| app.preferences.watches ^= true,
     },
     Command {
         name: "compact",
@@ -82,10 +82,10 @@ pub(super) const ROWS: &[Command] = &[
         title: "Compact triangles",
         tooltip: "Reloads the file with tree and triangles in a third less memory; tracing is slower",
         place: RELOAD,
-        is_on: Some(|app| app.settings.is_compact),
+        is_on: Some(|app| app.preferences.is_compact),
         obstacle: lacks_file,
         run: |app, ctx, _| {
-            app.settings.is_compact ^= true;
+            app.preferences.is_compact ^= true;
             app.reload(ctx);
         },
     },
@@ -113,7 +113,7 @@ pub(super) const ROWS: &[Command] = &[
 
 /// The files that were opened last.
 pub(super) fn recent_files(app: &App) -> Vec<Entry> {
-    let paths = app.settings.recent.paths();
+    let paths = app.preferences.recent.paths();
     let entry = |path: &PathBuf| {
         let file = path.clone();
         let open = move |app: &mut App, ctx: &egui::Context| app.load(file.clone(), ctx);

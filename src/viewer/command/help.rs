@@ -19,7 +19,7 @@ pub(super) const ROWS: &[Command] = &[
         obstacle: none,
         run: |app, ctx, _| {
             egui::Popup::close_all(ctx);
-            app.palette.open();
+            app.shown.palette.open();
         },
     },
     Command {

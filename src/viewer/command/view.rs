@@ -24,9 +24,9 @@ pub(super) const ROWS: &[Command] = &[
         title: "Smooth shading",
         tooltip: "Interpolates normals over each face; flat shading uses the normals of faces",
         place: SHADING,
-        is_on: Some(|app| app.settings.is_smooth),
+        is_on: Some(|app| app.seen.settings.is_smooth),
         obstacle: none,
-        run: |app, _, _| app.settings.is_smooth ^= true,
+        run: |app, _, _| app.seen.settings.is_smooth ^= true,
     },
     Command {
         name: "wireframe",
@@ -34,9 +34,9 @@ pub(super) const ROWS: &[Command] = &[
         title: "Wireframe",
         tooltip: "Draws the edges of faces over the picture",
         place: LINES,
-        is_on: Some(|app| app.settings.overlays.is_on(&WIREFRAME)),
+        is_on: Some(|app| app.seen.settings.overlays.is_on(&WIREFRAME)),
         obstacle: none,
-        run: |app, _, _| app.settings.overlays.toggle(&WIREFRAME),
+        run: |app, _, _| app.seen.settings.overlays.toggle(&WIREFRAME),
     },
     Command {
         name: "normals",
@@ -44,9 +44,9 @@ pub(super) const ROWS: &[Command] = &[
         title: "Normals",
         tooltip: "Draws the normals of faces, or those of vertices with smooth shading",
         place: LINES,
-        is_on: Some(|app| app.settings.shows_normals()),
+        is_on: Some(|app| app.seen.settings.shows_normals()),
         obstacle: none,
-        run: |app, _, _| app.settings.toggle_normals(),
+        run: |app, _, _| app.seen.settings.toggle_normals(),
     },
     Command {
         name: "noise",
@@ -54,12 +54,12 @@ pub(super) const ROWS: &[Command] = &[
         title: "Noise",
         tooltip: "Shows the standard error of each pixel, in percent of white",
         place: REFINEMENT,
-        is_on: Some(|app| app.settings.shows_noise),
+        is_on: Some(|app| app.seen.settings.shows_noise),
         obstacle: |app| {
-            let lacks_light = !app.settings.view().needs.lights;
+            let lacks_light = !app.seen.settings.view().needs.lights;
             lacks_light.then_some("Only views that trace light have noise")
         },
-        run: |app, _, _| app.settings.shows_noise ^= true,
+        run: |app, _, _| app.seen.settings.shows_noise ^= true,
     },
     Command {
         name: "pause",
@@ -69,17 +69,17 @@ pub(super) const ROWS: &[Command] = &[
         place: REFINEMENT,
         is_on: Some(App::is_paused),
         obstacle: none,
-        run: |app, _, _| app.tracer.toggle_pause(),
+        run: |app, _, _| app.traced.tracer.toggle_pause(),
     },
 ];
 
 /// All views.
 pub(super) fn views(app: &App) -> Vec<Entry> {
-    let current = app.settings.view();
+    let current = app.seen.settings.view();
     let entry = |view: &&'static Integrator| {
         let name = view.name;
         let is_chosen = name == current.name;
-        let choose = move |app: &mut App, _: &egui::Context| app.settings.keep_view(name);
+        let choose = move |app: &mut App, _: &egui::Context| app.seen.settings.keep_view(name);
         Entry::choice(VIEWS, view.title, view.about, is_chosen, choose)
     };
     INTEGRATORS.iter().map(entry).collect()
@@ -90,8 +90,9 @@ pub(super) fn overlays(app: &App) -> Vec<Entry> {
     let has_row = |overlay: &OverlaySpec| all().any(|row| row.name == overlay.name);
     let others = switches().filter(|overlay| !has_row(overlay));
     let entry = |overlay: &'static OverlaySpec| {
-        let is_on = app.settings.overlays.is_on(overlay);
-        let toggle = move |app: &mut App, _: &egui::Context| app.settings.overlays.toggle(overlay);
+        let is_on = app.seen.settings.overlays.is_on(overlay);
+        let toggle =
+            move |app: &mut App, _: &egui::Context| app.seen.settings.overlays.toggle(overlay);
         Entry::choice(OVERLAYS, overlay.title, overlay.about, is_on, toggle)
     };
     others.map(entry).collect()
@@ -110,13 +111,13 @@ impl Commands {
 
 /// The kernels that serve a tier, by the name of the tier.
 pub(super) fn kernels(app: &App) -> Vec<Entry> {
-    let current = app.settings.kernel();
+    let current = app.seen.settings.kernel();
     let tiers = TRIANGLE_KERNELS.iter().map(|row| row.info);
     let tiers = tiers.filter(|info| info.tier.is_some());
     let entry = |info: &'static KernelInfo| {
         let (title, name) = (info.short_name(), info.name);
         let is_chosen = current.info.short_name() == title;
-        let choose = move |app: &mut App, _: &egui::Context| app.settings.keep_kernel(name);
+        let choose = move |app: &mut App, _: &egui::Context| app.seen.settings.keep_kernel(name);
         Entry::choice(KERNELS, title, info.summary, is_chosen, choose)
     };
     tiers.map(entry).collect()

@@ -20,9 +20,9 @@ pub(super) const ROWS: &[Command] = &[
         title: "Side panel",
         tooltip: "Shows the panel with the inspected pixel, the display options and the mesh",
         place: PANEL,
-        is_on: Some(|app| app.settings.shows_panel),
+        is_on: Some(|app| app.preferences.shows_panel),
         obstacle: none,
-        run: |app, _, _| app.settings.shows_panel ^= true,
+        run: |app, _, _| app.preferences.shows_panel ^= true,
     },
     Command {
         name: "larger",
@@ -59,10 +59,10 @@ pub(super) const ROWS: &[Command] = &[
 /// The tabs of the side panel.
 pub(super) fn tabs(app: &App) -> Vec<Entry> {
     let entry = |tab: Tab| {
-        let is_chosen = app.settings.tab == tab;
+        let is_chosen = app.preferences.tab == tab;
         let choose = move |app: &mut App, _: &egui::Context| {
-            app.settings.tab = tab;
-            app.settings.shows_panel = true;
+            app.preferences.tab = tab;
+            app.preferences.shows_panel = true;
         };
         Entry::choice(TABS, tab.title(), tab.about(), is_chosen, choose)
     };
@@ -72,9 +72,9 @@ pub(super) fn tabs(app: &App) -> Vec<Entry> {
 /// The themes.
 pub(super) fn themes(app: &App) -> Vec<Entry> {
     let entry = |(theme, title, tooltip): (ThemePreference, &'static str, &'static str)| {
-        let is_chosen = app.settings.theme == theme;
+        let is_chosen = app.preferences.theme == theme;
         let choose = move |app: &mut App, ctx: &egui::Context| {
-            app.settings.theme = theme;
+            app.preferences.theme = theme;
             ctx.set_theme(theme);
         };
         Entry::choice(THEMES, title, tooltip, is_chosen, choose)

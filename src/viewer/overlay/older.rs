@@ -38,14 +38,13 @@ mod tests {
     use crate::overlay::normals::LENGTH;
     use crate::overlay::vertex_normals::VERTEX_NORMALS;
     use crate::overlay::wireframe::{DIAGONALS, WIREFRAME};
-    use crate::settings::Settings;
-    use crate::storage::from_json;
+    use crate::storage::{Kept, from_json};
 
     #[test]
     fn overlays_of_older_versions_are_read() {
         let text = r#"{"is_smooth": true, "shows_wireframe": true, "shows_diagonals": true,
             "wire_colour": [200, 100, 50], "shows_normals": true, "normal_length": 0.25}"#;
-        let overlays = from_json(text).overlays;
+        let overlays = from_json(text).settings.overlays;
         let wireframe = overlays.state(&WIREFRAME);
         assert!(wireframe.is_on && wireframe.is_set(&DIAGONALS));
         assert_eq!(wireframe.colour, [200, 100, 50]);
@@ -53,15 +52,15 @@ mod tests {
         for normals in [&VERTEX_NORMALS, &FACE_NORMALS] {
             assert_eq!(overlays.state(normals).value(&LENGTH), 0.25);
         }
-        let flat = from_json(r#"{"shows_normals": true, "normal_length": 7}"#).overlays;
+        let flat = from_json(r#"{"shows_normals": true, "normal_length": 7}"#)
+            .settings
+            .overlays;
         assert!(flat.is_on(&FACE_NORMALS) && !flat.is_on(&VERTEX_NORMALS));
         assert_eq!(flat.state(&FACE_NORMALS).value(&LENGTH), LENGTH.default);
         let bad =
             r#"{"shows_wireframe": 3, "wire_colour": "red", "normal_length": [], "zoom": 1.5}"#;
-        let expected = Settings {
-            zoom: 1.5,
-            ..Settings::default()
-        };
+        let mut expected = Kept::default();
+        expected.preferences.zoom = 1.5;
         assert_eq!(from_json(bad), expected);
     }
 }

@@ -1,0 +1,194 @@
+//! The parts of the app's state, each with one owner.
+//!
+//! | part | contents |
+//! |---|---|
+//! | [`Open`] | what is open: the document, and work on files |
+//! | [`Seen`] | how it is seen: the camera and the settings of the picture |
+//! | [`Picked`] | what is picked: the pixel, its face and path, and the marked flaw |
+//! | [`Shown`] | what the window shows over and beside the picture |
+//! | [`Traced`] | what traces and draws the picture |
+
+use super::files::Neighbours;
+use super::light::{EnvironmentFile, SceneLights};
+use super::path::PickedPath;
+use super::pick::Pick;
+use super::pointer::Clicks;
+use super::{Notice, Sheet};
+use crate::about_sheet::AboutSheet;
+use crate::command::palette::Palette;
+use crate::dialog::{FileDialog, Purpose};
+use crate::document::Document;
+use crate::face_lookup::FaceLookup;
+use crate::flaw_place::FlawPlace;
+use crate::gpu::picture::Picture;
+use crate::look::Development;
+use crate::opening::Loading;
+use crate::overlay::OverlayLayer;
+use crate::saving::Saving;
+use crate::settings::Settings;
+use crate::task::Task;
+use crate::times::Times;
+use crate::tracer::Tracer;
+use crate::trade::Trade;
+use crate::watch::Watch;
+use crate::window::FitToScreen;
+use eframe::egui_wgpu::RenderState;
+use glam::UVec2;
+use hitscope_core::camera::{Turntable, UpAxis};
+use hitscope_core::obj::LoadOptions;
+use hitscope_core::{Camera, Scene};
+use std::sync::Arc;
+
+/// What is open, and work on files.
+pub(crate) struct Open {
+    pub document: Document,
+    pub loading: Option<Loading>,
+    pub load_options: LoadOptions,
+    pub watch: Option<Watch>,
+    pub dialog: FileDialog,
+    pub save_dialog: FileDialog,
+    pub environment_dialog: FileDialog,
+    /// The search for the next or the previous file of the folder.
+    pub neighbours: Neighbours,
+    pub saving: Option<Saving>,
+    /// The measurement of this scene, if it was started.
+    pub trade: Option<Trade>,
+    /// Whether any scene has been measured since the start.
+    pub has_measured: bool,
+}
+
+impl Open {
+    pub fn new(document: Document, load_options: LoadOptions) -> Self {
+        Self {
+            document,
+            loading: None,
+            load_options,
+            watch: None,
+            dialog: FileDialog::new(Purpose::Open),
+            save_dialog: FileDialog::new(Purpose::Save),
+            environment_dialog: FileDialog::new(Purpose::Environment),
+            neighbours: Neighbours::default(),
+            saving: None,
+            trade: None,
+            has_measured: false,
+        }
+    }
+}
+
+/// How the document is seen.
+pub(crate) struct Seen {
+    pub settings: Settings,
+    /// The camera.
+    pub turntable: Turntable,
+    /// Field of view and projection before a file's view replaced them; the next file gets them back.
+    pub own_projection: Option<(f64, bool)>,
+    /// Whether the camera has yet to frame the mesh, which requires the picture's size from the first layout.
+    pub is_unframed: bool,
+    /// Whether the camera rotates around the mesh.
+    pub is_rotating: bool,
+}
+
+impl Seen {
+    pub fn new(settings: Settings, scene: &Scene) -> Self {
+        let mut turntable = Turntable::framing(scene.bounds(), UVec2::new(16, 9));
+        turntable.up_axis = settings.up_axis();
+        Self {
+            settings,
+            turntable,
+            own_projection: None,
+            is_unframed: true,
+            is_rotating: false,
+        }
+    }
+
+    /// Turns an axis of the file up and keeps it between runs.
+    pub fn turn_up(&mut self, axis: UpAxis) {
+        self.settings.keep_up_axis(axis);
+        self.turntable.up_axis = axis;
+    }
+}
+
+/// What is picked.
+#[derive(Default)]
+pub(crate) struct Picked {
+    pub clicks: Clicks,
+    pub pick: Option<Pick>,
+    /// The next pick, while it is being inspected.
+    pub picking: Option<Task<Pick>>,
+    pub path: PickedPath,
+    /// The lookup of the pick's face in the file, while it runs.
+    pub face_lookup: Option<FaceLookup>,
+    /// The flaw that is shown; all of its kind are marked.
+    pub flaw: Option<FlawPlace>,
+}
+
+impl Picked {
+    /// Clears the pick, and a click that may become one.
+    pub fn clear_pick(&mut self) {
+        (self.pick, self.picking, self.face_lookup) = (None, None, None);
+        self.clicks.pending = None;
+    }
+}
+
+/// What the window shows over and beside the picture.
+pub(crate) struct Shown {
+    pub notice: Option<Notice>,
+    pub palette: Palette,
+    /// The sheet over the window.
+    pub sheet: Option<Sheet>,
+    pub about: AboutSheet,
+    /// The picture's place in points, at the last layout. `resolution` is its size in physical pixels.
+    pub canvas_rect: egui::Rect,
+    pub resolution: UVec2,
+    /// Whether the last complete picture shows only background.
+    pub shows_nothing: bool,
+    pub fit_to_screen: FitToScreen,
+    /// The side panel's width in the last frame.
+    pub panel_width: f32,
+    /// UI thread times per frame.
+    pub ui_times: Times,
+}
+
+impl Shown {
+    pub fn new(render_state: &RenderState) -> Self {
+        Self {
+            notice: None,
+            palette: Palette::default(),
+            sheet: None,
+            about: AboutSheet::new(render_state),
+            canvas_rect: egui::Rect::ZERO,
+            resolution: UVec2::ZERO,
+            shows_nothing: false,
+            fit_to_screen: FitToScreen::default(),
+            panel_width: 0.0,
+            ui_times: Times::default(),
+        }
+    }
+}
+
+/// What traces and draws the picture.
+pub(crate) struct Traced {
+    pub tracer: Tracer,
+    pub development: Development,
+    pub picture: Picture,
+    /// The lights of the last request that needs lights.
+    pub lights: Option<SceneLights>,
+    pub environment_file: EnvironmentFile,
+    pub overlay: OverlayLayer,
+    /// Scene and camera of the picture that is on the screen.
+    pub on_screen: Option<(Arc<Scene>, Camera)>,
+}
+
+impl Traced {
+    pub fn new(tracer: Tracer, render_state: &RenderState) -> Self {
+        Self {
+            tracer,
+            development: Development::default(),
+            picture: Picture::new(render_state),
+            lights: None,
+            environment_file: EnvironmentFile::default(),
+            overlay: OverlayLayer::new(render_state),
+            on_screen: None,
+        }
+    }
+}

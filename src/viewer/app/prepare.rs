@@ -1,0 +1,34 @@
+//! Preparing the open document for the settings: its packing for kernels, its creases and its tree.
+
+use super::App;
+use crate::settings::Settings;
+
+impl App {
+    /// Starts the work that the settings require of the document, unless it is done or under way. Called when the
+    /// settings may have changed: after the widgets of a frame, and for a new document.
+    pub(super) fn prepare(&mut self, ctx: &egui::Context) {
+        let (settings, document) = (&self.seen.settings, &mut self.open.document);
+        // Not while a slider is dragged: each step would recompute all normals.
+        if !ctx.egui_is_using_pointer() && document.use_crease(settings.crease()) {
+            ctx.request_repaint();
+        }
+        document.use_kernel(settings.kernel(), ctx);
+        document.use_second(settings.second_kernel(), ctx);
+    }
+
+    /// Collects finished work on the document. If packing failed, the settings are those of what is packed again.
+    pub(super) fn poll_document(&mut self) {
+        if let Err(broken) = self.open.document.poll_kernel() {
+            self.error(broken);
+            let packed = self.open.document.kernel().info.name;
+            self.seen.settings.use_for_session(packed);
+        }
+        if let Err(broken) = self.open.document.poll_second() {
+            self.error(broken);
+            self.seen.settings.keep_view(&Settings::default().view);
+        }
+        if let Err(broken) = self.open.document.poll_tree() {
+            self.error(broken);
+        }
+    }
+}
