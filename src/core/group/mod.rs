@@ -25,7 +25,7 @@ use crate::mesh::TextureFrame;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{
-    AddLine, Interior, LineDetail, Primitives, SampledPoint, Shape, ShapeInfo, SurfacePoint,
+    AddLine, Interior, LineDetail, Primitives, SampledSurface, Shape, ShapeInfo, SurfacePoint,
 };
 use crate::simd::SimdLevel;
 use glam::{DVec2, Vec3};
@@ -76,8 +76,8 @@ pub trait Group: Debug + Send + Sync {
         0.0
     }
 
-    /// A point of a primitive to be lit by; see [`Shape::sampled_from`].
-    fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledPoint> {
+    /// A point of a primitive to be lit by; see [`Shape::sampled_surface`].
+    fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledSurface> {
         None
     }
 
@@ -203,8 +203,12 @@ impl<S: Grouped> Group for ShapeGroup<S> {
         self.primitives.primitive(index).area()
     }
 
-    fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledPoint> {
-        self.primitives.primitive(index).sampled_from(from, at)
+    fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledSurface> {
+        let sampled = self.primitives.primitive(index).sampled_surface(from, at)?;
+        Some(SampledSurface {
+            surface: self.appearance.surface(index, sampled.surface),
+            ..sampled
+        })
     }
 
     fn density_from(&self, index: u32, from: Vec3) -> Option<f64> {

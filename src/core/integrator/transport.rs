@@ -11,7 +11,8 @@ use crate::sampler::Sampler;
 use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
+use std::borrow::Cow;
 
 /// A point of a surface that a ray hits, with the way it scatters light.
 pub(super) struct ShadingPoint<'a> {
@@ -27,7 +28,7 @@ pub(super) struct ShadingPoint<'a> {
     normal: Vec3,
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
-    bsdf: Bsdf,
+    bsdf: Cow<'a, Bsdf>,
     /// What the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray comes from.
     offset: Vec3,
     /// The light that the surface emits towards the ray's origin.
@@ -95,15 +96,17 @@ impl<'a> ShadingPoint<'a> {
         &self.hit
     }
 
-    fn departure(&self, dir: Vec3) -> Departure<'_> {
-        let goes_back = self.goes_back(dir);
+    /// A departure by a policy.
+    fn departure(&self, policy: &SpawnPolicy, dir: Vec3) -> Departure<'_> {
+        let moves = self.offset != Vec3::ZERO && self.goes_back(dir);
+        let corners = || self.context.scene.corners(self.hit.primitive);
         Departure {
             arrived_by: &self.ray,
             hit: &self.hit,
             surface: self.surface,
-            corners: self.context.scene.corners(self.hit.primitive),
+            corners: if policy.uses_corners { corners() } else { None },
             dir,
-            offset: if goes_back { self.offset } else { Vec3::ZERO },
+            offset: if moves { self.offset } else { Vec3::ZERO },
         }
     }
 
@@ -120,7 +123,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// The same by another policy.
     pub fn spawn_by(&self, policy: &SpawnPolicy, dir: Vec3) -> Option<Ray> {
-        policy.spawn(&self.departure(dir)).ok()
+        policy.spawn(&self.departure(policy, dir)).ok()
     }
 
     /// The ray that continues behind the surface.
@@ -131,7 +134,18 @@ impl<'a> ShadingPoint<'a> {
     /// A direction that light comes from, in the world. One that the shading normal puts on the other side of the surface
     /// carries no light.
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
+        // Numbers that the model doesn't use aren't drawn: those that are drawn together are spread together.
+        let model = self.bsdf.model();
+        let at = if model.uses_point {
+            sampler.next_2d()
+        } else {
+            Vec2::ZERO
+        };
+        let choice = if model.uses_choice {
+            sampler.next_1d()
+        } else {
+            0.0
+        };
         self.in_world(self.bsdf.sample(self.outgoing, at, choice)?)
     }
 
@@ -177,9 +191,8 @@ impl<'a> ShadingPoint<'a> {
 
     /// A direction to a light; without a light to aim at, a uniform direction.
     pub fn light_direction(&self, sampler: &mut Sampler) -> Vec3 {
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        let lights = &self.context.lighting.lights;
-        let sample = lights.sample(&self.context.scene, self.position(), at, choice);
+        let at = sampler.next_2d();
+        let sample = self.light_at(at, sampler);
         sample.map_or_else(|| on_sphere(at.as_dvec2()).as_vec3(), |sample| sample.dir)
     }
 
@@ -239,14 +252,26 @@ impl<'a> ShadingPoint<'a> {
 
     /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
     fn light_sample(&self, sampler: &mut Sampler) -> Option<LightSample> {
+        let lights = &self.context.lighting.lights;
+        if self.bsdf.model().is_specular || !lights.can_be_sampled() {
+            return None;
+        }
+        let at = sampler.next_2d();
+        self.light_at(at, sampler)
+    }
+
+    /// The sample of a light for a point of the unit square. The number that chooses among several lights is drawn.
+    fn light_at(&self, at: Vec2, sampler: &mut Sampler) -> Option<LightSample> {
         let Context {
             scene, lighting, ..
         } = self.context;
-        if self.bsdf.model().is_specular || !lighting.lights.can_be_sampled() {
-            return None;
-        }
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        lighting.lights.sample(scene, self.position(), at, choice)
+        let lights = &lighting.lights;
+        let choice = if lights.are_several() {
+            sampler.next_1d()
+        } else {
+            0.0
+        };
+        lights.sample(scene, self.position(), at, choice)
     }
 
     /// The light of a sample that arrives and is scattered towards the ray's origin, weighted by the balance heuristic.
@@ -256,9 +281,10 @@ impl<'a> ShadingPoint<'a> {
             return Vec3::ZERO;
         }
         let part = self.remaining_part(sample.dir) * self.unshadowed(sample.dir);
-        let mut light = part * sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
+        let (value, own) = self.bsdf.evaluate_with_density(self.outgoing, incoming);
+        let mut light = part * sample.weight * value;
         if let Some(density) = sample.density {
-            light *= balance(density, self.bsdf.density(self.outgoing, incoming));
+            light *= balance(density, own);
         }
         if light == Vec3::ZERO {
             return light;
@@ -271,7 +297,7 @@ impl<'a> ShadingPoint<'a> {
     /// The part of a light sample that arrives: surfaces with coverage let some of it pass.
     fn visibility(&self, sample: &LightSample) -> f32 {
         let policy = self.context.lighting.spawn;
-        let departure = self.departure(sample.dir);
+        let departure = self.departure(policy, sample.dir);
         let ray = match &sample.end {
             None => policy.spawn(&departure),
             Some(end) => policy.connect(&departure, end),
