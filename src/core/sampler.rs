@@ -50,6 +50,7 @@ const SEQUENCE: u32 = 1 << 16;
 
 impl Sampler {
     /// The numbers of a sample of a pixel.
+    #[inline]
     pub fn new(pixel: UVec2, sample: u32) -> Self {
         let pixel = u64::from(pixel.x) << 32 | u64::from(pixel.y);
         let seed = mix(mix(!pixel) ^ u64::from(sample / SEQUENCE));
@@ -63,6 +64,7 @@ impl Sampler {
     }
 
     /// A number in [0, 1).
+    #[inline]
     pub fn next_1d(&mut self) -> f32 {
         if self.drawn == 4 {
             self.fill();
@@ -73,6 +75,7 @@ impl Sampler {
     }
 
     /// A point in the unit square, without its right and upper edge.
+    #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
         if self.drawn > 2 {
             self.fill();

@@ -6,7 +6,7 @@
 //! fails, and the height at which its rays start.
 
 use crate::ray::{Hit, Ray, RayError};
-use crate::shape::{Shape as _, SurfacePoint, Triangle};
+use crate::shape::SurfacePoint;
 use glam::Vec3;
 
 /// A hit on a primitive, and the direction in which a new ray leaves it.
@@ -17,7 +17,7 @@ pub struct Departure<'a> {
     /// Its hit.
     pub hit: &'a Hit,
     /// The surface there.
-    pub surface: SurfacePoint,
+    pub surface: &'a SurfacePoint,
     /// The corners of the triangle, if it is one.
     pub corners: Option<[Vec3; 3]>,
     /// The direction of the new ray.
@@ -79,6 +79,7 @@ impl SpawnPolicy {
     ///
     /// # Errors
     /// See [`RayError`].
+    #[inline]
     pub fn spawn(&self, departure: &Departure<'_>) -> Result<Ray, RayError> {
         let RayStart {
             origin,
@@ -89,6 +90,7 @@ impl SpawnPolicy {
         Ok(Ray { exclude, ..ray })
     }
 
+    #[inline]
     fn start(&self, departure: &Departure<'_>) -> RayStart {
         let offset = departure.offset;
         if offset == Vec3::ZERO {
@@ -112,10 +114,11 @@ impl SpawnPolicy {
     ///
     /// # Errors
     /// See [`RayError`]; also if both ends are the same point.
+    #[inline]
     pub fn connect(&self, departure: &Departure<'_>, end: &Endpoint) -> Result<Ray, RayError> {
         let start = self.start(departure);
-        let target = match *end {
-            Endpoint::InSpace(point) => point,
+        let target = match end {
+            Endpoint::InSpace(point) => *point,
             Endpoint::OnSurface {
                 hit,
                 surface,
@@ -133,9 +136,9 @@ impl SpawnPolicy {
                 };
                 let arrival = Departure {
                     arrived_by: &arrived_by,
-                    hit: &Hit { t: 1.0, ..hit },
+                    hit: &Hit { t: 1.0, ..*hit },
                     surface,
-                    corners,
+                    corners: *corners,
                     dir: -way,
                     offset: Vec3::ZERO,
                 };
@@ -263,11 +266,17 @@ impl RayStart {
 
 impl<'a> Departure<'a> {
     /// A departure from a triangle.
-    pub fn of_triangle(arrived_by: &'a Ray, hit: &'a Hit, corners: [Vec3; 3], dir: Vec3) -> Self {
+    pub fn of_triangle(
+        arrived_by: &'a Ray,
+        hit: &'a Hit,
+        surface: &'a SurfacePoint,
+        corners: [Vec3; 3],
+        dir: Vec3,
+    ) -> Self {
         Self {
             arrived_by,
             hit,
-            surface: Triangle(corners).surface(arrived_by, hit),
+            surface,
             corners: Some(corners),
             dir,
             offset: Vec3::ZERO,
@@ -307,7 +316,7 @@ fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
 /// The source's terms in object space: u for the corner and 3u for the edges. Its terms for the transforms
 /// between object and world are omitted, as there is no transform. Other shapes than triangles use their own bound.
 fn nvidia(departure: &Departure<'_>) -> Vec3 {
-    let surface = &departure.surface;
+    let surface = departure.surface;
     let normal = surface.facing_normal(departure.dir);
     let Some([a, b, c]) = departure.corners else {
         return surface.position + normal * surface.error.dot(normal.abs());
@@ -327,7 +336,7 @@ fn nvidia(departure: &Departure<'_>) -> Vec3 {
 fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     let SurfacePoint {
         position, error, ..
-    } = departure.surface;
+    } = *departure.surface;
     let normal = departure.surface.facing_normal(departure.dir);
     let offset = normal * error.dot(normal.abs());
     // Round the sum away from the surface.

@@ -35,12 +35,14 @@ pub(super) static DIFFUSE: Model = Model {
 /// A direction about the z axis with a density of cos θ / π.
 ///
 /// Source: Malley's method; Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, A.5.3.
+#[inline]
 pub(crate) fn cosine_direction(at: Vec2) -> Vec3 {
     let (disk, radius) = in_disk(at);
     disk.extend(((1.0 - radius) * (1.0 + radius)).sqrt())
 }
 
 /// The density of [`cosine_direction`] for light that comes from `incoming`; 0 unless both directions are on the front.
+#[inline]
 pub(super) fn cosine_density(outgoing: Vec3, incoming: Vec3) -> f32 {
     if outgoing.z > 0.0 && incoming.z > 0.0 {
         FRAC_1_PI * incoming.z

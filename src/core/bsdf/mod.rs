@@ -166,6 +166,7 @@ macro_rules! of_model {
 }
 
 impl Scatter for Bsdf {
+    #[inline]
     fn model(&self) -> &'static Model {
         of_model!(self, model => model.model())
     }
@@ -174,18 +175,22 @@ impl Scatter for Bsdf {
         of_model!(self, model => model.colour())
     }
 
+    #[inline]
     fn evaluate(&self, outgoing: Vec3, incoming: Vec3) -> Vec3 {
         of_model!(self, model => model.evaluate(outgoing, incoming))
     }
 
+    #[inline]
     fn sample(&self, outgoing: Vec3, at: Vec2, choice: f32) -> Option<Scattered> {
         of_model!(self, model => model.sample(outgoing, at, choice))
     }
 
+    #[inline]
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
         of_model!(self, model => model.density(outgoing, incoming))
     }
 
+    #[inline]
     fn evaluate_with_density(&self, outgoing: Vec3, incoming: Vec3) -> (Vec3, f32) {
         of_model!(self, model => model.evaluate_with_density(outgoing, incoming))
     }

@@ -191,8 +191,9 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
-        self.appearance.surface(hit.primitive, surface)
+        let mut surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
+        self.appearance.turn(hit.primitive, &mut surface);
+        surface
     }
 
     fn texture_frame(&self, index: u32, position: Vec3) -> Option<TextureFrame> {
@@ -204,11 +205,11 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledSurface> {
-        let sampled = self.primitives.primitive(index).sampled_surface(from, at)?;
-        Some(SampledSurface {
-            surface: self.appearance.surface(index, sampled.surface),
-            ..sampled
-        })
+        let mut sampled = self.primitives.primitive(index).sampled_surface(from, at);
+        if let Some(sampled) = &mut sampled {
+            self.appearance.turn(index, &mut sampled.surface);
+        }
+        sampled
     }
 
     fn density_from(&self, index: u32, from: Vec3) -> Option<f64> {

@@ -17,7 +17,7 @@ use std::borrow::Cow;
 /// A point of a surface that a ray hits, with the way it scatters light.
 pub(super) struct ShadingPoint<'a> {
     context: &'a Context,
-    ray: Ray,
+    ray: &'a Ray,
     hit: Hit,
     surface: SurfacePoint,
     /// About the shading normal, on the side that the ray comes from unless light passes through the surface.
@@ -38,7 +38,7 @@ pub(super) struct ShadingPoint<'a> {
 }
 
 impl<'a> ShadingPoint<'a> {
-    pub fn new(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
+    pub fn new(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
         let scene = &context.scene;
         let surface = scene.surface(ray, &hit);
         let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
@@ -64,7 +64,7 @@ impl<'a> ShadingPoint<'a> {
         let opacity = appearance.opacity();
         Self {
             context,
-            ray: *ray,
+            ray,
             hit,
             surface,
             outgoing: frame.to_local(to_eye),
@@ -79,7 +79,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The same without a repair of the shadow terminator.
-    pub fn unrepaired(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
+    pub fn unrepaired(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
         Self {
             offset: Vec3::ZERO,
             ..Self::new(context, ray, hit)
@@ -97,13 +97,14 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// A departure by a policy.
+    #[inline]
     fn departure(&self, policy: &SpawnPolicy, dir: Vec3) -> Departure<'_> {
         let moves = self.offset != Vec3::ZERO && self.goes_back(dir);
         let corners = || self.context.scene.corners(self.hit.primitive);
         Departure {
-            arrived_by: &self.ray,
+            arrived_by: self.ray,
             hit: &self.hit,
-            surface: self.surface,
+            surface: &self.surface,
             corners: if policy.uses_corners { corners() } else { None },
             dir,
             offset: if moves { self.offset } else { Vec3::ZERO },
@@ -112,16 +113,19 @@ impl<'a> ShadingPoint<'a> {
 
     /// Whether a direction leads to the side that the ray comes from, by the shading normal before a texture tilts it:
     /// the repairs of the shadow terminator know the surface without relief.
+    #[inline]
     fn goes_back(&self, dir: Vec3) -> bool {
         self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
     /// The ray that leaves in a direction; `None` if numbers overflow.
+    #[inline]
     pub fn spawn(&self, dir: Vec3) -> Option<Ray> {
         self.spawn_by(self.context.lighting.spawn, dir)
     }
 
     /// The same by another policy.
+    #[inline]
     pub fn spawn_by(&self, policy: &SpawnPolicy, dir: Vec3) -> Option<Ray> {
         policy.spawn(&self.departure(policy, dir)).ok()
     }
@@ -133,6 +137,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// A direction that light comes from, in the world. One that the shading normal puts on the other side of the surface
     /// carries no light.
+    #[inline]
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
         // Numbers that the model doesn't use aren't drawn: those that are drawn together are spread together.
         let model = self.bsdf.model();
@@ -150,6 +155,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The part of light from a direction that the repair of the shadow terminator leaves. Single directions keep all.
+    #[inline]
     fn remaining_part(&self, dir: Vec3) -> f32 {
         let part = self.context.lighting.terminator.part;
         part.map_or(1.0, |part| part(self.normal, self.untilted, dir))
@@ -164,6 +170,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// A scattered direction of the frame in the world; `None` if the shading normal puts it on the other side of the
     /// surface.
+    #[inline]
     fn in_world(&self, scattered: Scattered) -> Option<Scattered> {
         let incoming = self.frame.to_world(scattered.incoming);
         if !self.is_consistent(scattered.incoming, incoming) {
@@ -203,6 +210,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
     /// Rays that start above the surface may point through it.
+    #[inline]
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
         let is_reflected = local.z * self.outgoing.z > 0.0;
         let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
@@ -214,6 +222,7 @@ impl<'a> ShadingPoint<'a> {
     ///
     /// Source: Conty Estevez, Lecocq, Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem",
     /// Ray Tracing Gems, 2019; with Mitsuba's factor.
+    #[inline]
     fn unshadowed(&self, dir: Vec3) -> f32 {
         if self.untilted == self.frame.z {
             return 1.0;
@@ -231,6 +240,7 @@ impl<'a> ShadingPoint<'a> {
     /// [`scatter`](Self::scatter) by the balance heuristic.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
+    #[inline]
     pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
         let sample = self.light_sample(sampler);
         sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, recorder))
@@ -251,6 +261,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
+    #[inline]
     fn light_sample(&self, sampler: &mut Sampler) -> Option<LightSample> {
         let lights = &self.context.lighting.lights;
         if self.bsdf.model().is_specular || !lights.can_be_sampled() {
@@ -261,6 +272,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The sample of a light for a point of the unit square. The number that chooses among several lights is drawn.
+    #[inline]
     fn light_at(&self, at: Vec2, sampler: &mut Sampler) -> Option<LightSample> {
         let Context {
             scene, lighting, ..
@@ -275,6 +287,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The light of a sample that arrives and is scattered towards the ray's origin, weighted by the balance heuristic.
+    #[inline]
     fn scattered_light(&self, sample: &LightSample, recorder: &mut impl Recorder) -> Vec3 {
         let incoming = self.frame.to_local(sample.dir);
         if !self.is_consistent(incoming, sample.dir) {
@@ -295,6 +308,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The part of a light sample that arrives: surfaces with coverage let some of it pass.
+    #[inline]
     fn visibility(&self, sample: &LightSample) -> f32 {
         let policy = self.context.lighting.spawn;
         let departure = self.departure(policy, sample.dir);
@@ -323,6 +337,7 @@ fn terminator_offset(context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
 }
 
 /// The part of light that passes along a ray.
+#[inline]
 pub(super) fn transmittance(context: &Context, mut ray: Ray) -> f32 {
     if !context.lighting.lights.has_coverage() {
         return if context.intersector.any_hit(&ray) {
@@ -378,6 +393,7 @@ pub(super) fn from_afar(context: &Context, ray: &Ray, scattered_with: Option<f32
 
 /// The light that a surface emits towards a ray's origin; `scattered_with` as in [`from_afar`]. `from` is the point where
 /// the ray left a surface, which differs from its origin behind surfaces with coverage.
+#[inline]
 pub(super) fn emitted(point: &ShadingPoint<'_>, from: Vec3, scattered_with: Option<f32>) -> Vec3 {
     if point.emission == Vec3::ZERO {
         return Vec3::ZERO;
@@ -389,7 +405,7 @@ pub(super) fn emitted(point: &ShadingPoint<'_>, from: Vec3, scattered_with: Opti
     let weight = scattered_with.map_or(1.0, |own| {
         balance(
             own,
-            lights.density_of_hit(scene, from, &point.ray, &point.hit),
+            lights.density_of_hit(scene, from, point.ray, &point.hit),
         )
     });
     weight * point.emission

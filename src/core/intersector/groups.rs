@@ -101,13 +101,39 @@ impl Numbered {
     }
 
     /// The ray in this group's numbers, up to `t_max`.
+    #[inline]
     fn ray(&self, ray: &Ray, t_max: f32) -> Ray {
-        let local = ray.exclude.and_then(|index| index.checked_sub(self.first));
         Ray {
-            exclude: local.filter(|&index| index < self.count),
+            exclude: self.exclude(ray),
             t_max,
             ..*ray
         }
+    }
+
+    /// The excluded primitive in this group's numbers.
+    #[inline]
+    fn exclude(&self, ray: &Ray) -> Option<u32> {
+        let local = ray.exclude.and_then(|index| index.checked_sub(self.first));
+        local.filter(|&index| index < self.count)
+    }
+
+    /// The nearest hit up to `t_max`, in the group's numbers.
+    #[inline]
+    fn closest_hit(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
+        // A copy of a ray that has just been made waits until it is in memory.
+        if t_max == ray.t_max && self.exclude(ray) == ray.exclude {
+            return self.intersector.closest_hit(ray);
+        }
+        self.intersector.closest_hit(&self.ray(ray, t_max))
+    }
+
+    /// Whether a ray hits the group.
+    #[inline]
+    fn any_hit(&self, ray: &Ray) -> bool {
+        if self.exclude(ray) == ray.exclude {
+            return self.intersector.any_hit(ray);
+        }
+        self.intersector.any_hit(&self.ray(ray, ray.t_max))
     }
 
     /// The hit in the scene's numbers.
@@ -242,7 +268,7 @@ impl SceneIntersector {
             if !group.may_be_hit(box_ray.as_ref(), t_max) {
                 continue;
             }
-            let Some(found) = group.intersector.closest_hit(&group.ray(ray, t_max)) else {
+            let Some(found) = group.closest_hit(ray, t_max) else {
                 continue;
             };
             let is_clear = nearest.is_none_or(|nearest| found.t < nearest.t.next_down());
@@ -276,11 +302,16 @@ impl Intersector for SceneIntersector {
         for group in &self.groups {
             // A hit's t is as computed, so a hit of a later group counts only if it is nearer.
             let t_max = |ray: &Ray, hit: &Option<Hit>| hit.map_or(ray.t_max, |hit| hit.t);
-            let pairs = rays.iter().zip(&*hits);
-            let rays: Vec<Ray> = pairs
-                .map(|(ray, hit)| group.ray(ray, t_max(ray, hit)))
-                .collect();
-            group.intersector.coherent_hits(&rays, &mut found);
+            let mut pairs = rays.iter().zip(&*hits);
+            if pairs.all(|(ray, hit)| hit.is_none() && group.exclude(ray) == ray.exclude) {
+                group.intersector.coherent_hits(rays, &mut found);
+            } else {
+                let pairs = rays.iter().zip(&*hits);
+                let rays: Vec<Ray> = pairs
+                    .map(|(ray, hit)| group.ray(ray, t_max(ray, hit)))
+                    .collect();
+                group.intersector.coherent_hits(&rays, &mut found);
+            }
             for (hit, found) in hits.iter_mut().zip(&found) {
                 if let Some(found) = found {
                     *hit = Some(group.numbered(*found));
@@ -302,10 +333,10 @@ impl Intersector for SceneIntersector {
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         for (ray, is_hit) in rays.iter().zip(are_hits) {
             let box_ray = box_ray(ray);
-            *is_hit = self.groups.iter().any(|group| {
-                group.may_be_hit(box_ray.as_ref(), ray.t_max)
-                    && group.intersector.any_hit(&group.ray(ray, ray.t_max))
-            });
+            *is_hit = self
+                .groups
+                .iter()
+                .any(|group| group.may_be_hit(box_ray.as_ref(), ray.t_max) && group.any_hit(ray));
         }
     }
 

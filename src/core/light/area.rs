@@ -64,6 +64,7 @@ impl AreaLight {
     }
 
     /// `None` if the sampled point doesn't emit towards `from`.
+    #[inline]
     pub(super) fn sample(&self, scene: &Scene, from: Vec3, at: Vec2) -> Option<LightSample> {
         let sampled = scene.sampled(self.primitive, from, at.as_dvec2())?;
         let surface = sampled.surface;

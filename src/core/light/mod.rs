@@ -144,6 +144,7 @@ impl Lights {
     }
 
     /// Light that reaches a point, from a light chosen by its power. `at` and `choice` are uniform numbers in [0, 1).
+    #[inline]
     pub fn sample(&self, scene: &Scene, from: Vec3, at: Vec2, choice: f32) -> Option<LightSample> {
         let (index, probability) = self.choice.sample(choice)?;
         let mut sample = match &self.lights[index] {
