@@ -242,8 +242,11 @@ impl<'a> ShadingPoint<'a> {
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
     #[inline]
     pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
-        let sample = self.light_sample(sampler);
-        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, recorder))
+        // By reference: it is large.
+        match &self.light_sample(sampler) {
+            Some(sample) => self.scattered_light(sample, recorder),
+            None => Vec3::ZERO,
+        }
     }
 
     /// The same without the lights that are single points or directions.

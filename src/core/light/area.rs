@@ -5,6 +5,7 @@ use crate::appearance::Appearance;
 use crate::mesh::{Material, Property};
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
+use crate::shape::SampledSurface;
 use crate::spawn::Endpoint;
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
@@ -63,30 +64,42 @@ impl AreaLight {
         sides * PI * self.area as f32 * self.radiance
     }
 
-    /// `None` if the sampled point doesn't emit towards `from`.
+    /// The sample of a light that is chosen with a probability. `None` if the sampled point doesn't emit towards `from`.
     #[inline]
-    pub(super) fn sample(&self, scene: &Scene, from: Vec3, at: Vec2) -> Option<LightSample> {
-        let sampled = scene.sampled(self.primitive, from, at.as_dvec2())?;
-        let surface = sampled.surface;
+    pub(super) fn sample(
+        &self,
+        scene: &Scene,
+        from: Vec3,
+        at: Vec2,
+        probability: f32,
+    ) -> Option<LightSample> {
+        let sampled = scene.sampled(self.primitive, from, at.as_dvec2());
+        // By reference: a copy would wait until all of it is in memory.
+        let SampledSurface {
+            surface,
+            u,
+            v,
+            density,
+        } = sampled.as_ref()?;
         let hit = Hit {
             t: 1.0,
-            u: sampled.u,
-            v: sampled.v,
+            u: *u,
+            v: *v,
             primitive: self.primitive,
         };
         let way = surface.position.as_dvec3() - from.as_dvec3();
         let dir = way.try_normalize()?.as_vec3();
         let cos = surface.normal.as_vec3().dot(-dir);
-        let density = self.density_at(sampled.density, way.length_squared(), cos)?;
+        let density = self.density_at(*density, way.length_squared(), cos)?;
         Some(LightSample {
             dir,
+            weight: self.radiance_at(scene, surface.position, &hit) / density / probability,
+            density: Some(density * probability),
             end: Some(Endpoint::OnSurface {
                 hit,
-                surface,
+                surface: *surface,
                 corners: scene.corners(self.primitive),
             }),
-            weight: self.radiance_at(scene, surface.position, &hit) / density,
-            density: Some(density),
         })
     }
 

@@ -147,15 +147,18 @@ impl Lights {
     #[inline]
     pub fn sample(&self, scene: &Scene, from: Vec3, at: Vec2, choice: f32) -> Option<LightSample> {
         let (index, probability) = self.choice.sample(choice)?;
-        let mut sample = match &self.lights[index] {
+        let sample = match &self.lights[index] {
+            // Without a change afterwards, which would copy it: it is large.
+            Light::Area(light) => return light.sample(scene, from, at, probability),
             Light::Environment(light) => light.sample(at),
             Light::Directional(light) => Some(light.sample()),
             Light::Point(light) => light.sample(from),
-            Light::Area(light) => light.sample(scene, from, at),
-        }?;
-        sample.weight /= probability;
-        sample.density = sample.density.map(|density| density * probability);
-        Some(sample)
+        };
+        sample.map(|sample| LightSample {
+            weight: sample.weight / probability,
+            density: sample.density.map(|density| density * probability),
+            ..sample
+        })
     }
 
     /// The light that reaches a point from each single point and direction.
