@@ -8,13 +8,14 @@ use crate::scene::Scene;
 use crate::srgb::{from_display, luminance};
 use crate::statements::{self, CLAY, Values};
 use glam::{Vec2, Vec3};
+use std::borrow::Cow;
 
 /// A material at a hit.
 pub(crate) struct Appearance<'a> {
     scene: &'a Scene,
     material: Option<&'a Material>,
     position: Vec3,
-    hit: &'a Hit,
+    hit: Hit,
 }
 
 impl<'a> Appearance<'a> {
@@ -22,19 +23,19 @@ impl<'a> Appearance<'a> {
         scene: &'a Scene,
         material: Option<&'a Material>,
         position: Vec3,
-        hit: &'a Hit,
+        hit: &Hit,
     ) -> Self {
         Self {
             scene,
             material,
             position,
-            hit,
+            hit: *hit,
         }
     }
 
     /// Texture coordinates. A face without them shows no texture.
     fn uv(&self) -> Option<Vec2> {
-        texture_coordinates(self.scene, self.position, self.hit)
+        texture_coordinates(self.scene, self.position, &self.hit)
     }
 
     /// The value of a property's texture; 1 without one.
@@ -53,7 +54,7 @@ impl<'a> Appearance<'a> {
         let map = self
             .material
             .and_then(|material| material.diffuse_map.as_ref());
-        let of_vertices = vertex_colour(self.scene, self.hit).map(from_display);
+        let of_vertices = vertex_colour(self.scene, &self.hit).map(from_display);
         let colours = [self.of_texture(map), of_vertices].into_iter().flatten();
         colours.reduce(|a, b| a * b)
     }
@@ -110,21 +111,25 @@ impl<'a> Appearance<'a> {
         opacity
     }
 
-    /// How the front or the back scatters light.
-    pub fn bsdf(&self, is_front: bool) -> Bsdf {
+    /// How the front or the back scatters light. Borrowed from a scene file's material where nothing changes it: copies are
+    /// large.
+    pub fn bsdf(&self, is_front: bool) -> Cow<'a, Bsdf> {
         let Some(material) = self.material else {
-            return self.of_statements(&Material::default());
+            return Cow::Owned(self.of_statements(&Material::default()));
         };
         if material.sides.is_none() {
             let bsdf = self.of_statements(material);
             let is_visible = is_front || material.is_two_sided || bsdf.model().transmits;
-            return if is_visible { bsdf } else { Bsdf::Black(Black) };
+            return Cow::Owned(if is_visible { bsdf } else { Bsdf::Black(Black) });
         }
         let Some(side) = self.side(is_front) else {
-            return Bsdf::Black(Black);
+            return Cow::Owned(Bsdf::Black(Black));
         };
         let bsdf = self.textured(side);
-        vertex_colour(self.scene, self.hit).map_or(bsdf, |colour| bsdf.tinted(from_display(colour)))
+        match vertex_colour(self.scene, &self.hit) {
+            Some(colour) => Cow::Owned(bsdf.tinted(from_display(colour))),
+            None => bsdf,
+        }
     }
 
     /// The side of a material of a scene file; `None` for others, and for a back that is black.
@@ -137,12 +142,14 @@ impl<'a> Appearance<'a> {
     }
 
     /// The model of a side with the values of its textures.
-    fn textured(&self, side: &Side) -> Bsdf {
+    fn textured<'s>(&self, side: &'s Side) -> Cow<'s, Bsdf> {
+        if side.maps.is_empty() {
+            return Cow::Borrowed(&side.bsdf);
+        }
         let value = |map| self.of_texture(Some(map));
-        side.maps
-            .iter()
-            .filter_map(|(slot, map)| Some((*slot, value(map)?)))
-            .fold(side.bsdf, |bsdf, (slot, value)| bsdf.with(slot, value))
+        let values = side.maps.iter();
+        let values = values.filter_map(|(slot, map)| Some((*slot, value(map)?)));
+        Cow::Owned(values.fold(side.bsdf, |bsdf, (slot, value)| bsdf.with(slot, value)))
     }
 
     /// The texture that tilts the shading normal.
@@ -157,7 +164,7 @@ impl<'a> Appearance<'a> {
     /// How a texture tilts the front's shading normal, on either side.
     pub fn tilt(&self, normal: Vec3, is_front: bool) -> Option<Tilt> {
         let relief = self.relief(is_front)?;
-        let frame = texture_frame(self.scene, self.position, self.hit)?;
+        let frame = texture_frame(self.scene, self.position, &self.hit)?;
         relief.tilt(normal, &frame, &self.scene.mesh().attributes().textures)
     }
 
@@ -329,7 +336,7 @@ mod tests {
         let two = sides(Bsdf::Plastic(plastic), Some(Bsdf::Black(Black)));
         seen(two, |appearance| {
             assert_eq!(appearance.bsdf(true).colour(), Vec3::X);
-            assert_eq!(appearance.bsdf(false), Bsdf::Black(Black));
+            assert_eq!(*appearance.bsdf(false), Bsdf::Black(Black));
             assert_eq!(appearance.diffuse(), Vec3::X);
         });
         let glass = Bsdf::Dielectric(Dielectric {
@@ -338,7 +345,7 @@ mod tests {
             transmittance: Vec3::ONE,
         });
         seen(sides(glass, None), |appearance| {
-            assert_eq!(appearance.bsdf(false), glass);
+            assert_eq!(*appearance.bsdf(false), glass);
         });
     }
 }

@@ -8,6 +8,8 @@
 //! B. Burley, "Practical Hash-based Owen Scrambling", JCGT 9(4), 2020.
 
 use glam::{UVec2, Vec2};
+use sobol_burley::parts;
+use std::sync::LazyLock;
 
 /// 2⁶⁴/φ₂ and 2⁶⁴/φ₂², φ₂ = 1.3247… the plastic number, the root of x³ = x + 1.
 const STEP: [u64; 2] = [0xc13f_a9a9_02a6_328f, 0x91e1_0da5_c79e_7b1c];
@@ -48,6 +50,7 @@ const SEQUENCE: u32 = 1 << 16;
 
 impl Sampler {
     /// The numbers of a sample of a pixel.
+    #[inline]
     pub fn new(pixel: UVec2, sample: u32) -> Self {
         let pixel = u64::from(pixel.x) << 32 | u64::from(pixel.y);
         let seed = mix(mix(!pixel) ^ u64::from(sample / SEQUENCE));
@@ -61,6 +64,7 @@ impl Sampler {
     }
 
     /// A number in [0, 1).
+    #[inline]
     pub fn next_1d(&mut self) -> f32 {
         if self.drawn == 4 {
             self.fill();
@@ -71,6 +75,7 @@ impl Sampler {
     }
 
     /// A point in the unit square, without its right and upper edge.
+    #[inline]
     pub fn next_2d(&mut self) -> Vec2 {
         if self.drawn > 2 {
             self.fill();
@@ -82,11 +87,41 @@ impl Sampler {
 
     fn fill(&mut self) {
         let seed = mix(u64::from(self.seed) << 32 | u64::from(self.four)) as u32;
-        self.numbers = sobol_burley::sample_4d(self.index, 0, seed);
+        self.numbers = point(self.index, seed);
         self.four += 1;
         self.drawn = 0;
     }
 }
+
+/// The point of an index below [`SEQUENCE`]: that of [`sobol_burley::sample_4d`], bit for bit. A table adds the direction
+/// numbers of four bits of the index at a time, in place of one.
+fn point(index: u32, seed: u32) -> [f32; 4] {
+    let index = parts::owen_scramble_rev(index.reverse_bits(), parts::hash(seed ^ SHUFFLE));
+    let mut sobol = [0; 4];
+    for (digit, sums) in SUMS.iter().enumerate() {
+        let sum = sums[(index >> (28 - 4 * digit)) as usize % 16];
+        sobol = std::array::from_fn(|k| sobol[k] ^ sum[k]);
+    }
+    let seed = seed.wrapping_mul(SPREAD);
+    let scramble = parts::hash_int4(SCRAMBLES.map(|scramble| scramble ^ seed).into());
+    let scrambled = parts::owen_scramble_int4_rev(sobol.into(), scramble);
+    scrambled.reverse_bits().to_f32_norm()
+}
+
+// The numbers by which `sobol_burley` tells seeds and dimensions apart.
+const SHUFFLE: u32 = 0x79c6_8e4a;
+const SPREAD: u32 = 0x9c8f_2d3b;
+const SCRAMBLES: [u32; 4] = [0x912f_69ba, 0x174f_18ab, 0x691e_72ca, 0xb40c_c1b8];
+
+/// For each of the four hexadecimal digits of an index, from the one that is reversed last, the sums of direction numbers in
+/// four dimensions.
+static SUMS: LazyLock<[[[u32; 4]; 16]; 4]> = LazyLock::new(|| {
+    let sum = |digit: usize, value: usize| {
+        let index = (value as u32) << (28 - 4 * digit);
+        [0, 1, 2, 3].map(|dimension| parts::sobol_rev(index, dimension))
+    };
+    std::array::from_fn(|digit| std::array::from_fn(|value| sum(digit, value)))
+});
 
 /// A bijective hash of 64-bit words (a finaliser).
 ///
@@ -139,6 +174,16 @@ mod tests {
                 }
             };
             assert!(cells.iter().all(is_even), "{skipped}: {cells:?}");
+        }
+    }
+
+    #[test]
+    fn points_are_those_of_the_library() {
+        for index in (0..SEQUENCE).step_by(37) {
+            for seed in [0, 1, u32::MAX, index.wrapping_mul(SPREAD)] {
+                let expected = sobol_burley::sample_4d(index, 0, seed);
+                assert_eq!(point(index, seed), expected, "{index} {seed}");
+            }
         }
     }
 

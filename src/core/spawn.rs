@@ -6,7 +6,7 @@
 //! fails, and the height at which its rays start.
 
 use crate::ray::{Hit, Ray, RayError};
-use crate::shape::{Shape as _, SurfacePoint, Triangle};
+use crate::shape::SurfacePoint;
 use glam::Vec3;
 
 /// A hit on a primitive, and the direction in which a new ray leaves it.
@@ -17,7 +17,7 @@ pub struct Departure<'a> {
     /// Its hit.
     pub hit: &'a Hit,
     /// The surface there.
-    pub surface: SurfacePoint,
+    pub surface: &'a SurfacePoint,
     /// The corners of the triangle, if it is one.
     pub corners: Option<[Vec3; 3]>,
     /// The direction of the new ray.
@@ -62,6 +62,8 @@ pub struct SpawnPolicy {
     pub source: &'static str,
     /// Strengths and weaknesses in a sentence.
     pub summary: &'static str,
+    /// Whether the rule uses the triangle's corners.
+    pub uses_corners: bool,
     begin: fn(&Departure<'_>) -> RayStart,
 }
 
@@ -77,6 +79,7 @@ impl SpawnPolicy {
     ///
     /// # Errors
     /// See [`RayError`].
+    #[inline]
     pub fn spawn(&self, departure: &Departure<'_>) -> Result<Ray, RayError> {
         let RayStart {
             origin,
@@ -87,6 +90,7 @@ impl SpawnPolicy {
         Ok(Ray { exclude, ..ray })
     }
 
+    #[inline]
     fn start(&self, departure: &Departure<'_>) -> RayStart {
         let offset = departure.offset;
         if offset == Vec3::ZERO {
@@ -110,25 +114,31 @@ impl SpawnPolicy {
     ///
     /// # Errors
     /// See [`RayError`]; also if both ends are the same point.
+    #[inline]
     pub fn connect(&self, departure: &Departure<'_>, end: &Endpoint) -> Result<Ray, RayError> {
         let start = self.start(departure);
-        let target = match *end {
-            Endpoint::InSpace(point) => point,
+        let target = match end {
+            Endpoint::InSpace(point) => *point,
             Endpoint::OnSurface {
                 hit,
                 surface,
                 corners,
             } => {
                 let way = surface.position - start.origin;
-                let arrived_by = Ray::new(start.origin, way)?;
+                // Only the policy reads it.
+                let arrived_by = Ray {
+                    origin: start.origin,
+                    dir: way,
+                    t_min: 0.0,
+                    t_max: f32::INFINITY,
+                    scale: 0,
+                    exclude: None,
+                };
                 let arrival = Departure {
                     arrived_by: &arrived_by,
-                    hit: &Hit {
-                        t: 2f32.powi(-arrived_by.scale),
-                        ..hit
-                    },
+                    hit: &Hit { t: 1.0, ..*hit },
                     surface,
-                    corners,
+                    corners: *corners,
                     dir: -way,
                     offset: Vec3::ZERO,
                 };
@@ -151,6 +161,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Fixed ε",
         source: "Lensch, Basic Geometry, lecture, 2022",
         summary: "Ignores hits with t < 1e-6 at any scale; fails in most scenes.",
+        uses_corners: false,
         begin: |departure| RayStart {
             origin: departure.point_along_ray(),
             t_min: LECTURE_EPSILON,
@@ -162,6 +173,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Scaled ε",
         source: "Jakob et al., Mitsuba 3, 2022",
         summary: "Lifted by 1500 half ulps of the largest coordinate; far too high at large coordinates.",
+        uses_corners: false,
         begin: |departure| {
             let p = departure.surface.position;
             let height = (1.0 + p.abs().max_element()) * MITSUBA_EPSILON;
@@ -173,6 +185,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Wächter–Binder",
         source: "Wächter, Binder, A Fast and Robust Method for Avoiding Self-Intersection, Ray Tracing Gems 2019",
         summary: "Lifted by up to 256 ulps of each coordinate; simple, but too high at large coordinates.",
+        uses_corners: false,
         begin: |departure| {
             RayStart::at(wachter_binder(
                 departure.surface.position,
@@ -185,6 +198,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "NVIDIA, object space",
         source: "NVIDIA, Self Intersection Avoidance, 2023",
         summary: "Lifted by a bound on the error of A + u(B − A) + v(C − A); low, but the sum is rounded once more.",
+        uses_corners: true,
         begin: |departure| RayStart::at(nvidia(departure)),
     },
     SpawnPolicy {
@@ -192,6 +206,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Error-bounded",
         source: "Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, 6.8.6",
         summary: "Lifted by a bound on the errors of the point and of the next test, then rounded away from the surface.",
+        uses_corners: false,
         begin: |departure| RayStart::at(error_bounded(departure)),
     },
     SpawnPolicy {
@@ -199,6 +214,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Exclusion",
         source: "Folklore",
         summary: "Not lifted; ignores the triangle that the ray leaves, but not its neighbours.",
+        uses_corners: false,
         begin: |departure| RayStart {
             exclude: departure.excluded(),
             ..RayStart::at(departure.surface.position)
@@ -209,6 +225,7 @@ pub static SPAWN_POLICIES: &[SpawnPolicy] = &[
         title: "Error-bounded and exclusion",
         source: "Pharr et al., 2023, with exclusion",
         summary: "The bound avoids hits on neighbours, the exclusion hits on the triangle itself.",
+        uses_corners: false,
         begin: |departure| RayStart {
             exclude: departure.excluded(),
             ..RayStart::at(error_bounded(departure))
@@ -249,11 +266,17 @@ impl RayStart {
 
 impl<'a> Departure<'a> {
     /// A departure from a triangle.
-    pub fn of_triangle(arrived_by: &'a Ray, hit: &'a Hit, corners: [Vec3; 3], dir: Vec3) -> Self {
+    pub fn of_triangle(
+        arrived_by: &'a Ray,
+        hit: &'a Hit,
+        surface: &'a SurfacePoint,
+        corners: [Vec3; 3],
+        dir: Vec3,
+    ) -> Self {
         Self {
             arrived_by,
             hit,
-            surface: Triangle(corners).surface(arrived_by, hit),
+            surface,
             corners: Some(corners),
             dir,
             offset: Vec3::ZERO,
@@ -293,7 +316,7 @@ fn wachter_binder(p: Vec3, normal: Vec3) -> Vec3 {
 /// The source's terms in object space: u for the corner and 3u for the edges. Its terms for the transforms
 /// between object and world are omitted, as there is no transform. Other shapes than triangles use their own bound.
 fn nvidia(departure: &Departure<'_>) -> Vec3 {
-    let surface = &departure.surface;
+    let surface = departure.surface;
     let normal = surface.facing_normal(departure.dir);
     let Some([a, b, c]) = departure.corners else {
         return surface.position + normal * surface.error.dot(normal.abs());
@@ -313,19 +336,54 @@ fn nvidia(departure: &Departure<'_>) -> Vec3 {
 fn error_bounded(departure: &Departure<'_>) -> Vec3 {
     let SurfacePoint {
         position, error, ..
-    } = departure.surface;
+    } = *departure.surface;
     let normal = departure.surface.facing_normal(departure.dir);
     let offset = normal * error.dot(normal.abs());
     // Round the sum away from the surface.
-    let coordinate = |axis: usize| {
-        let (x, offset) = (position[axis] + offset[axis], offset[axis]);
-        if offset > 0.0 {
-            x.next_up()
-        } else if offset < 0.0 {
-            x.next_down()
-        } else {
-            x
-        }
+    Vec3::new(
+        next_towards(position.x + offset.x, offset.x),
+        next_towards(position.y + offset.y, offset.y),
+        next_towards(position.z + offset.z, offset.z),
+    )
+}
+
+/// The next number in the direction of `offset`'s sign; `x` itself if that is 0. What isn't finite may become another number
+/// that isn't, or the largest finite one.
+// Without branches on signs, which are as good as random.
+#[inline]
+fn next_towards(x: f32, offset: f32) -> f32 {
+    let (bits, sign) = (x.to_bits(), offset.to_bits());
+    // The bit pattern grows with the magnitude, for either sign: 1 if both signs are equal, else −1.
+    let step = ((bits ^ sign) as i32 >> 31) | 1;
+    let from_zero = (sign & (1 << 31)) | 1;
+    let next = if x == 0.0 {
+        from_zero
+    } else {
+        bits.wrapping_add_signed(step)
     };
-    Vec3::from_array(std::array::from_fn(coordinate))
+    f32::from_bits(if offset == 0.0 { bits } else { next })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_next_number_in_a_direction_is_that_of_the_standard_library() {
+        let sizes = [
+            0.0,
+            f32::from_bits(1),
+            f32::MIN_POSITIVE,
+            1.0,
+            1.5,
+            f32::MAX,
+        ];
+        for x in sizes.into_iter().flat_map(|x| [x, -x]) {
+            assert_eq!(next_towards(x, 1e-9), x.next_up(), "{x}");
+            assert_eq!(next_towards(x, -1e-9), x.next_down(), "{x}");
+            for zero in [0.0, -0.0] {
+                assert_eq!(next_towards(x, zero).to_bits(), x.to_bits());
+            }
+        }
+    }
 }

@@ -6,6 +6,7 @@ use hitscope_core::mesh::shapes::soup;
 use hitscope_core::mesh::unit_normal;
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
+use hitscope_core::shape::{Shape as _, Triangle};
 use hitscope_core::spawn::{Departure, default_spawn_policy};
 use hitscope_core::{Hit, Ray};
 
@@ -22,7 +23,8 @@ fn watertight_kernels() -> impl Iterator<Item = &'static TriangleKernel> {
 fn leaving(corners: [Vec3; 3], origin: Vec3, target: Vec3, dir: Vec3) -> Option<(Ray, Hit)> {
     let arrived_by = Ray::new(origin, target - origin).ok()?;
     let hit = exact_triangle_kernel().intersect(&arrived_by, corners)?;
-    let departure = Departure::of_triangle(&arrived_by, &hit, corners, dir);
+    let surface = Triangle(corners).surface(&arrived_by, &hit);
+    let departure = Departure::of_triangle(&arrived_by, &hit, &surface, corners, dir);
     let ray = default_spawn_policy().spawn(&departure);
     Some((ray.expect("a finite place and direction"), hit))
 }
@@ -101,7 +103,8 @@ fn the_spawned_origin_lies_above_the_computed_point_by_the_policys_derived_bound
             normal
         };
         let arrived_by = Ray::new(a + dir, -dir).expect("a ray");
-        let departure = Departure::of_triangle(&arrived_by, &hit, corners, dir);
+        let surface = Triangle(corners).surface(&arrived_by, &hit);
+        let departure = Departure::of_triangle(&arrived_by, &hit, &surface, corners, dir);
         let ray = default_spawn_policy().spawn(&departure).expect("a ray");
         let [l1, l2, l3] = hit.barycentric();
         let [a, b, c] = [l1 * a, l2 * b, l3 * c];

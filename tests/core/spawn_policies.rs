@@ -1,6 +1,7 @@
 //! Where each spawn policy puts the ray's origin.
 
 use glam::Vec3;
+use hitscope_core::shape::{Shape as _, Triangle};
 use hitscope_core::spawn::{Departure, SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
 use hitscope_core::{Hit, Ray, ray::ulp_at};
 
@@ -16,16 +17,14 @@ fn leave(policy: &SpawnPolicy, z: f32, side: f32) -> Ray {
         v: 0.5,
         primitive: 7,
     };
-    let departure = Departure::of_triangle(
-        &arrived_by,
-        &hit,
-        [
-            Vec3::new(1.0, 2.0, z),
-            Vec3::new(9.0, 2.0, z),
-            Vec3::new(7.0, 4.0, z),
-        ],
-        Vec3::new(0.5, -0.25, side),
-    );
+    let corners = [
+        Vec3::new(1.0, 2.0, z),
+        Vec3::new(9.0, 2.0, z),
+        Vec3::new(7.0, 4.0, z),
+    ];
+    let surface = Triangle(corners).surface(&arrived_by, &hit);
+    let dir = Vec3::new(0.5, -0.25, side);
+    let departure = Departure::of_triangle(&arrived_by, &hit, &surface, corners, dir);
     policy.spawn(&departure).expect("a ray")
 }
 
@@ -94,12 +93,9 @@ fn the_fixed_epsilon_starts_at_o_plus_t_d_and_the_others_at_the_barycentric_poin
             v: 0.25,
             primitive: 0,
         };
-        let departure = Departure::of_triangle(
-            &arrived_by,
-            &hit,
-            [Vec3::ZERO, Vec3::X * 16.0, Vec3::Y * 32.0],
-            Vec3::Z,
-        );
+        let corners = [Vec3::ZERO, Vec3::X * 16.0, Vec3::Y * 32.0];
+        let surface = Triangle(corners).surface(&arrived_by, &hit);
+        let departure = Departure::of_triangle(&arrived_by, &hit, &surface, corners, Vec3::Z);
         let origin = policy.spawn(&departure).expect("a ray").origin.truncate();
         let expected = match policy.name {
             "fixed-epsilon" => [4.0, 3.0],

@@ -13,6 +13,8 @@ pub(super) static BLACK: Model = Model {
     transmits: false,
     is_specular: true,
     is_reciprocal: true,
+    uses_point: false,
+    uses_choice: false,
     examples: || vec![Bsdf::Black(Black)],
 };
 

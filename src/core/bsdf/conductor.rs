@@ -39,6 +39,8 @@ pub(super) static CONDUCTOR: Model = Model {
     transmits: false,
     is_specular: true,
     is_reciprocal: true,
+    uses_point: false,
+    uses_choice: false,
     examples: || {
         let metal = Conductor {
             eta: Vec3::new(0.2, 0.92, 1.1),

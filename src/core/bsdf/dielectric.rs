@@ -24,6 +24,8 @@ pub(super) static DIELECTRIC: Model = Model {
     transmits: true,
     is_specular: true,
     is_reciprocal: true,
+    uses_point: false,
+    uses_choice: true,
     examples: || {
         let of_index = |eta| Dielectric {
             eta,

@@ -20,6 +20,8 @@ pub(super) static DIFFUSE: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: false,
     examples: || {
         let grey = |x| {
             Bsdf::Diffuse(Diffuse {
@@ -33,13 +35,14 @@ pub(super) static DIFFUSE: Model = Model {
 /// A direction about the z axis with a density of cos θ / π.
 ///
 /// Source: Malley's method; Pharr, Jakob, Humphreys, Physically Based Rendering, 4th edition, 2023, A.5.3.
+#[inline]
 pub(crate) fn cosine_direction(at: Vec2) -> Vec3 {
-    let disk = in_disk(at.as_dvec2());
-    let z = (1.0 - disk.length_squared()).max(0.0).sqrt();
-    Vec3::new(disk.x as f32, disk.y as f32, z as f32)
+    let (disk, radius) = in_disk(at);
+    disk.extend(((1.0 - radius) * (1.0 + radius)).sqrt())
 }
 
 /// The density of [`cosine_direction`] for light that comes from `incoming`; 0 unless both directions are on the front.
+#[inline]
 pub(super) fn cosine_density(outgoing: Vec3, incoming: Vec3) -> f32 {
     if outgoing.z > 0.0 && incoming.z > 0.0 {
         FRAC_1_PI * incoming.z

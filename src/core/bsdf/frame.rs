@@ -17,6 +17,7 @@ impl Frame {
     /// A frame about a unit normal.
     ///
     /// Source: Duff et al., "Building an Orthonormal Basis, Revisited", JCGT 6(1), 2017.
+    #[inline]
     pub fn about(normal: Vec3) -> Self {
         let Vec3 { x, y, z } = normal;
         let sign = 1f32.copysign(z);
@@ -30,11 +31,13 @@ impl Frame {
     }
 
     /// A direction of the world in the frame.
+    #[inline]
     pub fn to_local(&self, dir: Vec3) -> Vec3 {
         Vec3::new(self.x.dot(dir), self.y.dot(dir), self.z.dot(dir))
     }
 
     /// A direction of the frame in the world.
+    #[inline]
     pub fn to_world(&self, dir: Vec3) -> Vec3 {
         dir.x * self.x + dir.y * self.y + dir.z * self.z
     }

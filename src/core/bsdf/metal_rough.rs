@@ -54,6 +54,8 @@ pub(super) static METAL_ROUGH: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: true,
     examples: || {
         let of = |colour, metalness, roughness| {
             Bsdf::MetalRough(MetalRough::new(colour, metalness, roughness))

@@ -135,7 +135,7 @@ fn ggx_normal(v: Vec3, at: Vec2) -> Vec3 {
         Vec3::X
     };
     let y = v.cross(x);
-    let disk = in_disk(at.as_dvec2()).as_vec2();
+    let (disk, _) = in_disk(at);
     let s = 0.5 * (1.0 + v.z);
     let rest = (1.0 - disk.x * disk.x).max(0.0);
     let height = (1.0 - s) * rest.sqrt() + s * disk.y;

@@ -61,6 +61,12 @@ pub trait Scatter {
     /// The probability density of [`sample`](Self::sample) per solid angle, 0 for single directions.
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32;
 
+    /// [`evaluate`](Self::evaluate) and [`density`](Self::density), which have much in common.
+    fn evaluate_with_density(&self, outgoing: Vec3, incoming: Vec3) -> (Vec3, f32) {
+        let value = self.evaluate(outgoing, incoming);
+        (value, self.density(outgoing, incoming))
+    }
+
     /// The single directions that the light may come from, as by a mirror, each with the part of light that it scatters.
     /// [`sample`](Self::sample) chooses among them and the other directions.
     fn single_directions(&self, _outgoing: Vec3) -> [Option<Scattered>; 2] {
@@ -139,48 +145,58 @@ pub enum Bsdf {
     MetalRough(MetalRough),
 }
 
-impl Bsdf {
-    fn scatter(&self) -> &dyn Scatter {
-        match self {
-            Self::Black(model) => model,
-            Self::Diffuse(model) => model,
-            Self::Conductor(model) => model,
-            Self::RoughConductor(model) => model,
-            Self::Dielectric(model) => model,
-            Self::RoughDielectric(model) => model,
-            Self::ThinDielectric(model) => model,
-            Self::Plastic(model) => model,
-            Self::RoughPlastic(model) => model,
-            Self::Phong(model) => model,
-            Self::Polished(model) => model,
-            Self::MetalRough(model) => model,
+/// Calls a method of the model.
+macro_rules! of_model {
+    ($bsdf:expr, $model:ident => $call:expr) => {
+        match $bsdf {
+            Bsdf::Black($model) => $call,
+            Bsdf::Diffuse($model) => $call,
+            Bsdf::Conductor($model) => $call,
+            Bsdf::RoughConductor($model) => $call,
+            Bsdf::Dielectric($model) => $call,
+            Bsdf::RoughDielectric($model) => $call,
+            Bsdf::ThinDielectric($model) => $call,
+            Bsdf::Plastic($model) => $call,
+            Bsdf::RoughPlastic($model) => $call,
+            Bsdf::Phong($model) => $call,
+            Bsdf::Polished($model) => $call,
+            Bsdf::MetalRough($model) => $call,
         }
-    }
+    };
 }
 
 impl Scatter for Bsdf {
+    #[inline]
     fn model(&self) -> &'static Model {
-        self.scatter().model()
+        of_model!(self, model => model.model())
     }
 
     fn colour(&self) -> Vec3 {
-        self.scatter().colour()
+        of_model!(self, model => model.colour())
     }
 
+    #[inline]
     fn evaluate(&self, outgoing: Vec3, incoming: Vec3) -> Vec3 {
-        self.scatter().evaluate(outgoing, incoming)
+        of_model!(self, model => model.evaluate(outgoing, incoming))
     }
 
+    #[inline]
     fn sample(&self, outgoing: Vec3, at: Vec2, choice: f32) -> Option<Scattered> {
-        self.scatter().sample(outgoing, at, choice)
+        of_model!(self, model => model.sample(outgoing, at, choice))
     }
 
+    #[inline]
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {
-        self.scatter().density(outgoing, incoming)
+        of_model!(self, model => model.density(outgoing, incoming))
+    }
+
+    #[inline]
+    fn evaluate_with_density(&self, outgoing: Vec3, incoming: Vec3) -> (Vec3, f32) {
+        of_model!(self, model => model.evaluate_with_density(outgoing, incoming))
     }
 
     fn single_directions(&self, outgoing: Vec3) -> [Option<Scattered>; 2] {
-        self.scatter().single_directions(outgoing)
+        of_model!(self, model => model.single_directions(outgoing))
     }
 }
 
@@ -196,6 +212,10 @@ pub struct Model {
     pub is_specular: bool,
     /// Whether exchanging both directions gives the same BSDF. Refraction scales it by the square of the index.
     pub is_reciprocal: bool,
+    /// Whether [`Scatter::sample`] uses its point `at`.
+    pub uses_point: bool,
+    /// Whether it uses the number `choice`.
+    pub uses_choice: bool,
     /// Examples, ordinary and extreme.
     pub examples: fn() -> Vec<Bsdf>,
 }

@@ -47,6 +47,8 @@ pub(super) static PHONG: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: true,
     examples: || {
         let of = |kd, ks, exponent| {
             Bsdf::Phong(Phong::new(

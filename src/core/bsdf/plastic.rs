@@ -73,6 +73,8 @@ pub(super) static PLASTIC: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: true,
     examples: || {
         let red = Vec3::new(0.7, 0.2, 0.1);
         vec![

@@ -67,6 +67,8 @@ pub(super) static POLISHED: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: true,
     examples: || {
         let of = |kd, ks, gain| {
             Bsdf::Polished(Polished::new(

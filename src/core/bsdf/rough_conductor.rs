@@ -23,6 +23,8 @@ pub(super) static ROUGH_CONDUCTOR: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: false,
     examples: || {
         let gold = Conductor {
             eta: Vec3::new(0.14, 0.38, 1.44),
@@ -99,10 +101,25 @@ impl Scatter for RoughConductor {
         }
         let m = self.facets.sample_visible(outgoing, at);
         let incoming = reflected(outgoing, m);
-        let density = self.density(outgoing, incoming);
+        if incoming.z <= 0.0 {
+            return None;
+        }
+        let density = reflection_density(&self.facets, outgoing, m);
         let weight =
             self.facets.visible_part(incoming, m) * self.metal.reflected_part(outgoing.dot(m));
         (density > 0.0).then(|| Scattered::reflected(incoming, weight, Some(density)))
+    }
+
+    fn evaluate_with_density(&self, outgoing: Vec3, incoming: Vec3) -> (Vec3, f32) {
+        let Some(m) = reflecting(outgoing, incoming) else {
+            return (Vec3::ZERO, 0.0);
+        };
+        let density = reflection_density(&self.facets, outgoing, m);
+        let geometry = density * self.facets.visible_part(incoming, m);
+        (
+            geometry * self.metal.reflected_part(outgoing.dot(m)),
+            density,
+        )
     }
 
     fn density(&self, outgoing: Vec3, incoming: Vec3) -> f32 {

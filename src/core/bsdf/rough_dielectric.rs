@@ -25,6 +25,8 @@ pub(super) static ROUGH_DIELECTRIC: Model = Model {
     transmits: true,
     is_specular: false,
     is_reciprocal: false,
+    uses_point: true,
+    uses_choice: true,
     examples: || {
         let of = |eta, law, alpha| {
             let media = Dielectric {

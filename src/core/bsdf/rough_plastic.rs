@@ -128,6 +128,8 @@ pub(super) static ROUGH_PLASTIC: Model = Model {
     transmits: false,
     is_specular: false,
     is_reciprocal: true,
+    uses_point: true,
+    uses_choice: true,
     examples: || {
         let of = |diffuse, eta, law, alpha, is_nonlinear| {
             let facets = Microfacets::new(law, alpha);

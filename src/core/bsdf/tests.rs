@@ -36,6 +36,27 @@ fn sampled(bsdf: &Bsdf, outgoing: Vec3, random: &mut Random) -> Option<Scattered
     bsdf.sample(outgoing, Vec2::new(unit(), unit()), unit())
 }
 
+#[test]
+fn models_use_only_the_random_numbers_that_their_row_names() {
+    let mut random = Random::new(6);
+    let mut unit = || (random.bits() >> 40) as f32 / (1u32 << 24) as f32;
+    for (name, bsdf, outgoing) in cases() {
+        let model = bsdf.model();
+        for _ in 0..100 {
+            let numbers = [0, 1].map(|_| (Vec2::new(unit(), unit()), unit()));
+            let [(at, choice), (other_at, other_choice)] = numbers;
+            let other_at = if model.uses_point { at } else { other_at };
+            let other_choice = if model.uses_choice {
+                choice
+            } else {
+                other_choice
+            };
+            let one = bsdf.sample(outgoing, at, choice);
+            assert_eq!(one, bsdf.sample(outgoing, other_at, other_choice), "{name}");
+        }
+    }
+}
+
 /// The index of refraction beyond the surface, relative to that on the side of a direction.
 fn index_beyond(bsdf: &Bsdf, outgoing: Vec3) -> f32 {
     match bsdf {
@@ -137,6 +158,10 @@ fn weights_are_the_bsdf_over_the_density_and_single_directions_have_none() {
             let incoming = random.direction().as_vec3();
             let value = bsdf.evaluate(outgoing, incoming);
             let density = bsdf.density(outgoing, incoming);
+            let (same, same_density) = bsdf.evaluate_with_density(outgoing, incoming);
+            // A few roundings.
+            assert!((same - value).abs().max_element() <= 1e-5 * value.max_element());
+            assert!((same_density - density).abs() <= 1e-5 * density, "{name}");
             assert!(
                 has_density || (value == Vec3::ZERO && density == 0.0),
                 "{name}"

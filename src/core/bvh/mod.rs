@@ -14,7 +14,7 @@ use crate::aabb::{Aabb, Planes};
 use crate::simd::prefetch;
 use fearless_simd::Simd;
 pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
-pub(crate) use slab::SlabRay;
+pub(crate) use slab::{BoxRay, SlabRay};
 pub(crate) use walk::{LentStack, Stack, Visitor, end_slackened, rank, rank_floor};
 
 /// Primitives per block; a SIMD test takes a whole block.

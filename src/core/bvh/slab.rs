@@ -24,7 +24,8 @@
 //! The other kernels accept rays beside a triangle by more than any padding covers: see `walk`.
 
 use super::WIDTH;
-use crate::aabb::Planes;
+use super::walk::{end_slackened, start_slackened};
+use crate::aabb::{Aabb, Planes};
 use crate::ray::Ray;
 use fearless_simd::{Simd, f32x8, prelude::*};
 
@@ -95,6 +96,43 @@ impl<S: Simd> SlabRay<S> {
     }
 }
 
+/// A ray prepared for testing single boxes, with the arithmetic of [`SlabRay`]: it meets the box around others if it meets
+/// one of them.
+pub(crate) struct BoxRay {
+    origin: [f32; 3],
+    inverse: [f32; 3],
+    t_min: f32,
+}
+
+impl BoxRay {
+    /// The ray must not start behind its origin.
+    #[inline]
+    pub(crate) fn new(ray: &Ray) -> Self {
+        Self {
+            origin: ray.origin.to_array(),
+            inverse: ray.dir.to_array().map(inverse_of),
+            t_min: start_slackened(ray.t_min),
+        }
+    }
+
+    /// Whether a walk up to `t_max` of a tree with these bounds visits any of the root's children.
+    #[inline]
+    pub(crate) fn meets(&self, bounds: &Aabb, t_max: f32) -> bool {
+        let planes = bounds.planes();
+        let (mut near, mut far) = (self.t_min, end_slackened(t_max));
+        for axis in 0..3 {
+            let (origin, inverse) = (self.origin[axis], self.inverse[axis]);
+            let row = near_row(axis, inverse);
+            // A NaN keeps the bound.
+            let enter = (planes[row] - origin) * inverse;
+            near = if enter > near { enter } else { near };
+            let leave = (planes[row ^ 1] - origin) * (inverse * AHEAD);
+            far = if leave < far { leave } else { far };
+        }
+        near <= far
+    }
+}
+
 /// The row of an axis's lower planes, or of its upper planes if the ray goes down.
 #[inline(always)]
 fn near_row(axis: usize, inverse: f32) -> usize {
@@ -148,7 +186,6 @@ pub(super) fn inverse_of(d: f32) -> f32 {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::aabb::Aabb;
     use crate::bvh::Node;
     use crate::simd::SimdLevel;
     use fearless_simd::dispatch;

@@ -32,12 +32,12 @@ impl Appearance {
         self.flipped.of(index) != 0
     }
 
-    /// A primitive's surface with the normal on its side.
-    pub(super) fn surface(&self, index: u32, mut surface: SurfacePoint) -> SurfacePoint {
+    /// Turns the normal of a primitive's surface to its side.
+    #[inline]
+    pub(super) fn turn(&self, index: u32, surface: &mut SurfacePoint) {
         if self.is_flipped(index) {
             surface.normal = -surface.normal;
         }
-        surface
     }
 
     /// The texture coordinates of a point of a primitive; `None` if it has none.

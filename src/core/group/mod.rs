@@ -25,7 +25,7 @@ use crate::mesh::TextureFrame;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{
-    AddLine, Interior, LineDetail, Primitives, SampledPoint, Shape, ShapeInfo, SurfacePoint,
+    AddLine, Interior, LineDetail, Primitives, SampledSurface, Shape, ShapeInfo, SurfacePoint,
 };
 use crate::simd::SimdLevel;
 use glam::{DVec2, Vec3};
@@ -79,8 +79,8 @@ pub trait Group: Debug + Send + Sync {
         0.0
     }
 
-    /// A point of a primitive to be lit by; see [`Shape::sampled_from`].
-    fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledPoint> {
+    /// A point of a primitive to be lit by; see [`Shape::sampled_surface`].
+    fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledSurface> {
         None
     }
 
@@ -198,8 +198,9 @@ impl<S: Grouped> Group for ShapeGroup<S> {
     }
 
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
-        self.appearance.surface(hit.primitive, surface)
+        let mut surface = self.primitives.primitive(hit.primitive).surface(ray, hit);
+        self.appearance.turn(hit.primitive, &mut surface);
+        surface
     }
 
     fn texture_frame(&self, index: u32, position: Vec3) -> Option<TextureFrame> {
@@ -210,8 +211,12 @@ impl<S: Grouped> Group for ShapeGroup<S> {
         self.primitives.primitive(index).area()
     }
 
-    fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledPoint> {
-        self.primitives.primitive(index).sampled_from(from, at)
+    fn sampled_from(&self, index: u32, from: Vec3, at: DVec2) -> Option<SampledSurface> {
+        let mut sampled = self.primitives.primitive(index).sampled_surface(from, at);
+        if let Some(sampled) = &mut sampled {
+            self.appearance.turn(index, &mut sampled.surface);
+        }
+        sampled
     }
 
     fn density_from(&self, index: u32, from: Vec3) -> Option<f64> {

@@ -44,7 +44,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, _: &mut Sampler) -> 
         let departure = Departure {
             arrived_by: &ray,
             hit: &nearest,
-            surface: context.scene.surface(&ray, &nearest),
+            surface: &context.scene.surface(&ray, &nearest),
             corners: None,
             dir: ray.dir,
             offset: Vec3::ZERO,

@@ -11,12 +11,13 @@ use crate::sampler::Sampler;
 use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
-use glam::Vec3;
+use glam::{Vec2, Vec3};
+use std::borrow::Cow;
 
 /// A point of a surface that a ray hits, with the way it scatters light.
 pub(super) struct ShadingPoint<'a> {
     context: &'a Context,
-    ray: Ray,
+    ray: &'a Ray,
     hit: Hit,
     surface: SurfacePoint,
     /// About the shading normal, on the side that the ray comes from unless light passes through the surface.
@@ -27,7 +28,7 @@ pub(super) struct ShadingPoint<'a> {
     normal: Vec3,
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
-    bsdf: Bsdf,
+    bsdf: Cow<'a, Bsdf>,
     /// What the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray comes from.
     offset: Vec3,
     /// The light that the surface emits towards the ray's origin.
@@ -37,7 +38,7 @@ pub(super) struct ShadingPoint<'a> {
 }
 
 impl<'a> ShadingPoint<'a> {
-    pub fn new(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
+    pub fn new(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
         let scene = &context.scene;
         let surface = scene.surface(ray, &hit);
         let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
@@ -63,7 +64,7 @@ impl<'a> ShadingPoint<'a> {
         let opacity = appearance.opacity();
         Self {
             context,
-            ray: *ray,
+            ray,
             hit,
             surface,
             outgoing: frame.to_local(to_eye),
@@ -78,7 +79,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The same without a repair of the shadow terminator.
-    pub fn unrepaired(context: &'a Context, ray: &Ray, hit: Hit) -> Self {
+    pub fn unrepaired(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
         Self {
             offset: Vec3::ZERO,
             ..Self::new(context, ray, hit)
@@ -95,32 +96,38 @@ impl<'a> ShadingPoint<'a> {
         &self.hit
     }
 
-    fn departure(&self, dir: Vec3) -> Departure<'_> {
-        let goes_back = self.goes_back(dir);
+    /// A departure by a policy.
+    #[inline]
+    fn departure(&self, policy: &SpawnPolicy, dir: Vec3) -> Departure<'_> {
+        let moves = self.offset != Vec3::ZERO && self.goes_back(dir);
+        let corners = || self.context.scene.corners(self.hit.primitive);
         Departure {
-            arrived_by: &self.ray,
+            arrived_by: self.ray,
             hit: &self.hit,
-            surface: self.surface,
-            corners: self.context.scene.corners(self.hit.primitive),
+            surface: &self.surface,
+            corners: if policy.uses_corners { corners() } else { None },
             dir,
-            offset: if goes_back { self.offset } else { Vec3::ZERO },
+            offset: if moves { self.offset } else { Vec3::ZERO },
         }
     }
 
     /// Whether a direction leads to the side that the ray comes from, by the shading normal before a texture tilts it:
     /// the repairs of the shadow terminator know the surface without relief.
+    #[inline]
     fn goes_back(&self, dir: Vec3) -> bool {
         self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
     /// The ray that leaves in a direction; `None` if numbers overflow.
+    #[inline]
     pub fn spawn(&self, dir: Vec3) -> Option<Ray> {
         self.spawn_by(self.context.lighting.spawn, dir)
     }
 
     /// The same by another policy.
+    #[inline]
     pub fn spawn_by(&self, policy: &SpawnPolicy, dir: Vec3) -> Option<Ray> {
-        policy.spawn(&self.departure(dir)).ok()
+        policy.spawn(&self.departure(policy, dir)).ok()
     }
 
     /// The ray that continues behind the surface.
@@ -130,12 +137,25 @@ impl<'a> ShadingPoint<'a> {
 
     /// A direction that light comes from, in the world. One that the shading normal puts on the other side of the surface
     /// carries no light.
+    #[inline]
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
+        // Numbers that the model doesn't use aren't drawn: those that are drawn together are spread together.
+        let model = self.bsdf.model();
+        let at = if model.uses_point {
+            sampler.next_2d()
+        } else {
+            Vec2::ZERO
+        };
+        let choice = if model.uses_choice {
+            sampler.next_1d()
+        } else {
+            0.0
+        };
         self.in_world(self.bsdf.sample(self.outgoing, at, choice)?)
     }
 
     /// The part of light from a direction that the repair of the shadow terminator leaves. Single directions keep all.
+    #[inline]
     fn remaining_part(&self, dir: Vec3) -> f32 {
         let part = self.context.lighting.terminator.part;
         part.map_or(1.0, |part| part(self.normal, self.untilted, dir))
@@ -150,6 +170,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// A scattered direction of the frame in the world; `None` if the shading normal puts it on the other side of the
     /// surface.
+    #[inline]
     fn in_world(&self, scattered: Scattered) -> Option<Scattered> {
         let incoming = self.frame.to_world(scattered.incoming);
         if !self.is_consistent(scattered.incoming, incoming) {
@@ -177,9 +198,8 @@ impl<'a> ShadingPoint<'a> {
 
     /// A direction to a light; without a light to aim at, a uniform direction.
     pub fn light_direction(&self, sampler: &mut Sampler) -> Vec3 {
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        let lights = &self.context.lighting.lights;
-        let sample = lights.sample(&self.context.scene, self.position(), at, choice);
+        let at = sampler.next_2d();
+        let sample = self.light_at(at, sampler);
         sample.map_or_else(|| on_sphere(at.as_dvec2()).as_vec3(), |sample| sample.dir)
     }
 
@@ -190,6 +210,7 @@ impl<'a> ShadingPoint<'a> {
 
     /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
     /// Rays that start above the surface may point through it.
+    #[inline]
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
         let is_reflected = local.z * self.outgoing.z > 0.0;
         let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
@@ -201,6 +222,7 @@ impl<'a> ShadingPoint<'a> {
     ///
     /// Source: Conty Estevez, Lecocq, Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem",
     /// Ray Tracing Gems, 2019; with Mitsuba's factor.
+    #[inline]
     fn unshadowed(&self, dir: Vec3) -> f32 {
         if self.untilted == self.frame.z {
             return 1.0;
@@ -218,9 +240,13 @@ impl<'a> ShadingPoint<'a> {
     /// [`scatter`](Self::scatter) by the balance heuristic.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
+    #[inline]
     pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
-        let sample = self.light_sample(sampler);
-        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, recorder))
+        // By reference: it is large.
+        match &self.light_sample(sampler) {
+            Some(sample) => self.scattered_light(sample, recorder),
+            None => Vec3::ZERO,
+        }
     }
 
     /// The same without the lights that are single points or directions.
@@ -238,27 +264,43 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
+    #[inline]
     fn light_sample(&self, sampler: &mut Sampler) -> Option<LightSample> {
+        let lights = &self.context.lighting.lights;
+        if self.bsdf.model().is_specular || !lights.can_be_sampled() {
+            return None;
+        }
+        let at = sampler.next_2d();
+        self.light_at(at, sampler)
+    }
+
+    /// The sample of a light for a point of the unit square. The number that chooses among several lights is drawn.
+    #[inline]
+    fn light_at(&self, at: Vec2, sampler: &mut Sampler) -> Option<LightSample> {
         let Context {
             scene, lighting, ..
         } = self.context;
-        if self.bsdf.model().is_specular || !lighting.lights.can_be_sampled() {
-            return None;
-        }
-        let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-        lighting.lights.sample(scene, self.position(), at, choice)
+        let lights = &lighting.lights;
+        let choice = if lights.are_several() {
+            sampler.next_1d()
+        } else {
+            0.0
+        };
+        lights.sample(scene, self.position(), at, choice)
     }
 
     /// The light of a sample that arrives and is scattered towards the ray's origin, weighted by the balance heuristic.
+    #[inline]
     fn scattered_light(&self, sample: &LightSample, recorder: &mut impl Recorder) -> Vec3 {
         let incoming = self.frame.to_local(sample.dir);
         if !self.is_consistent(incoming, sample.dir) {
             return Vec3::ZERO;
         }
         let part = self.remaining_part(sample.dir) * self.unshadowed(sample.dir);
-        let mut light = part * sample.weight * self.bsdf.evaluate(self.outgoing, incoming);
+        let (value, own) = self.bsdf.evaluate_with_density(self.outgoing, incoming);
+        let mut light = part * sample.weight * value;
         if let Some(density) = sample.density {
-            light *= balance(density, self.bsdf.density(self.outgoing, incoming));
+            light *= balance(density, own);
         }
         if light == Vec3::ZERO {
             return light;
@@ -269,9 +311,10 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The part of a light sample that arrives: surfaces with coverage let some of it pass.
+    #[inline]
     fn visibility(&self, sample: &LightSample) -> f32 {
         let policy = self.context.lighting.spawn;
-        let departure = self.departure(sample.dir);
+        let departure = self.departure(policy, sample.dir);
         let ray = match &sample.end {
             None => policy.spawn(&departure),
             Some(end) => policy.connect(&departure, end),
@@ -297,6 +340,7 @@ fn terminator_offset(context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
 }
 
 /// The part of light that passes along a ray.
+#[inline]
 pub(super) fn transmittance(context: &Context, mut ray: Ray) -> f32 {
     if !context.lighting.lights.has_coverage() {
         return if context.intersector.any_hit(&ray) {
@@ -352,6 +396,7 @@ pub(super) fn from_afar(context: &Context, ray: &Ray, scattered_with: Option<f32
 
 /// The light that a surface emits towards a ray's origin; `scattered_with` as in [`from_afar`]. `from` is the point where
 /// the ray left a surface, which differs from its origin behind surfaces with coverage.
+#[inline]
 pub(super) fn emitted(point: &ShadingPoint<'_>, from: Vec3, scattered_with: Option<f32>) -> Vec3 {
     if point.emission == Vec3::ZERO {
         return Vec3::ZERO;
@@ -363,7 +408,7 @@ pub(super) fn emitted(point: &ShadingPoint<'_>, from: Vec3, scattered_with: Opti
     let weight = scattered_with.map_or(1.0, |own| {
         balance(
             own,
-            lights.density_of_hit(scene, from, &point.ray, &point.hit),
+            lights.density_of_hit(scene, from, point.ray, &point.hit),
         )
     });
     weight * point.emission

@@ -1,8 +1,10 @@
 //! Intersector of several groups: their hits in one order.
 
 use super::order::{Comparison, precedes};
-use super::{Cost, Crossing, Intersector};
+use super::{Cost, Crossing, Intersector, is_behind};
+use crate::aabb::Aabb;
 use crate::algebra::{Algebraic, is_between};
+use crate::bvh::BoxRay;
 use crate::kernel::{KernelInfo, Precision};
 use crate::ray::{Hit, Ray};
 use std::cell::OnceCell;
@@ -46,6 +48,12 @@ pub trait GroupIntersector: Intersector {
 
     /// All hits of one ray, in any order.
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit>;
+
+    /// The box that rays which start at their origin or ahead of it must meet to hit anything, as tested by [`BoxRay`];
+    /// `None` if there is none.
+    fn box_to_meet(&self) -> Option<Aabb> {
+        None
+    }
 }
 
 /// The intersector of a scene's groups, given their numbers of primitives; that of the group if there is only one.
@@ -61,6 +69,7 @@ pub(crate) fn scene_intersector(
         let numbered = Numbered {
             first,
             count: count as u32,
+            bounds: intersector.box_to_meet(),
             intersector,
         };
         first += count as u32;
@@ -76,18 +85,55 @@ pub(crate) fn scene_intersector(
 struct Numbered {
     first: u32,
     count: u32,
+    /// See [`GroupIntersector::box_to_meet`].
+    bounds: Option<Aabb>,
     intersector: Box<dyn GroupIntersector>,
 }
 
 impl Numbered {
+    /// Whether a ray may hit the group before `t_max`. `box_ray` is `None` for rays that start behind their origin.
+    #[inline]
+    fn may_be_hit(&self, box_ray: Option<&BoxRay>, t_max: f32) -> bool {
+        match (box_ray, &self.bounds) {
+            (Some(ray), Some(bounds)) => ray.meets(bounds, t_max),
+            _ => true,
+        }
+    }
+
     /// The ray in this group's numbers, up to `t_max`.
+    #[inline]
     fn ray(&self, ray: &Ray, t_max: f32) -> Ray {
-        let local = ray.exclude.and_then(|index| index.checked_sub(self.first));
         Ray {
-            exclude: local.filter(|&index| index < self.count),
+            exclude: self.exclude(ray),
             t_max,
             ..*ray
         }
+    }
+
+    /// The excluded primitive in this group's numbers.
+    #[inline]
+    fn exclude(&self, ray: &Ray) -> Option<u32> {
+        let local = ray.exclude.and_then(|index| index.checked_sub(self.first));
+        local.filter(|&index| index < self.count)
+    }
+
+    /// The nearest hit up to `t_max`, in the group's numbers.
+    #[inline]
+    fn closest_hit(&self, ray: &Ray, t_max: f32) -> Option<Hit> {
+        // A copy of a ray that has just been made waits until it is in memory.
+        if t_max == ray.t_max && self.exclude(ray) == ray.exclude {
+            return self.intersector.closest_hit(ray);
+        }
+        self.intersector.closest_hit(&self.ray(ray, t_max))
+    }
+
+    /// Whether a ray hits the group.
+    #[inline]
+    fn any_hit(&self, ray: &Ray) -> bool {
+        if self.exclude(ray) == ray.exclude {
+            return self.intersector.any_hit(ray);
+        }
+        self.intersector.any_hit(&self.ray(ray, ray.t_max))
     }
 
     /// The hit in the scene's numbers.
@@ -177,6 +223,12 @@ pub(crate) fn crossings_of(mut hits: Vec<RankedHit>) -> Vec<Crossing> {
         .collect()
 }
 
+/// The ray for tests of groups' boxes; `None` if it starts behind its origin.
+#[inline]
+fn box_ray(ray: &Ray) -> Option<BoxRay> {
+    (!is_behind(ray)).then(|| BoxRay::new(ray))
+}
+
 impl SceneIntersector {
     fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
         let mut nearest: Option<RankedHit> = None;
@@ -204,6 +256,7 @@ impl SceneIntersector {
     /// other to be compared by that.
     fn clearly_closest_hit(&self, ray: &Ray) -> Option<Option<Hit>> {
         let is_rounded = self.kernel.precision != Precision::F32;
+        let box_ray = box_ray(ray);
         let mut nearest: Option<Hit> = None;
         for group in &self.groups {
             let t_max = match nearest {
@@ -212,7 +265,10 @@ impl SceneIntersector {
                 // As computed: at an equal t, the earlier group's primitive precedes.
                 Some(hit) => hit.t,
             };
-            let Some(found) = group.intersector.closest_hit(&group.ray(ray, t_max)) else {
+            if !group.may_be_hit(box_ray.as_ref(), t_max) {
+                continue;
+            }
+            let Some(found) = group.closest_hit(ray, t_max) else {
                 continue;
             };
             let is_clear = nearest.is_none_or(|nearest| found.t < nearest.t.next_down());
@@ -246,11 +302,16 @@ impl Intersector for SceneIntersector {
         for group in &self.groups {
             // A hit's t is as computed, so a hit of a later group counts only if it is nearer.
             let t_max = |ray: &Ray, hit: &Option<Hit>| hit.map_or(ray.t_max, |hit| hit.t);
-            let pairs = rays.iter().zip(&*hits);
-            let rays: Vec<Ray> = pairs
-                .map(|(ray, hit)| group.ray(ray, t_max(ray, hit)))
-                .collect();
-            group.intersector.coherent_hits(&rays, &mut found);
+            let mut pairs = rays.iter().zip(&*hits);
+            if pairs.all(|(ray, hit)| hit.is_none() && group.exclude(ray) == ray.exclude) {
+                group.intersector.coherent_hits(rays, &mut found);
+            } else {
+                let pairs = rays.iter().zip(&*hits);
+                let rays: Vec<Ray> = pairs
+                    .map(|(ray, hit)| group.ray(ray, t_max(ray, hit)))
+                    .collect();
+                group.intersector.coherent_hits(&rays, &mut found);
+            }
             for (hit, found) in hits.iter_mut().zip(&found) {
                 if let Some(found) = found {
                     *hit = Some(group.numbered(*found));
@@ -271,8 +332,11 @@ impl Intersector for SceneIntersector {
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         for (ray, is_hit) in rays.iter().zip(are_hits) {
-            let mut groups = self.groups.iter();
-            *is_hit = groups.any(|group| group.intersector.any_hit(&group.ray(ray, ray.t_max)));
+            let box_ray = box_ray(ray);
+            *is_hit = self
+                .groups
+                .iter()
+                .any(|group| group.may_be_hit(box_ray.as_ref(), ray.t_max) && group.any_hit(ray));
         }
     }
 

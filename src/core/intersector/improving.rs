@@ -1,6 +1,7 @@
 //! Intersector whose tree can be replaced while rays are traced; every tree gives the same bits.
 
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit};
+use crate::aabb::Aabb;
 use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
@@ -92,6 +93,10 @@ impl Intersector for Improving {
 impl GroupIntersector for Improving {
     fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
         self.current.get().nearest_with_cost(ray)
+    }
+
+    fn box_to_meet(&self) -> Option<Aabb> {
+        self.current.get().box_to_meet()
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {

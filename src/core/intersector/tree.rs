@@ -6,11 +6,12 @@ use super::method::{BlocksOf, Method, Tester};
 use super::order::crossings;
 use super::visitors::{Any, Each, Kept, Nearest};
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
+use crate::aabb::Aabb;
 use crate::bvh::{Bvh, LentStack, Stack};
 use crate::kernel::{KernelInfo, MAX_VALUES};
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
-use crate::shape::Primitives;
+use crate::shape::{Primitives, Shape as _};
 use crate::simd::{Baseline, SimdLevel, baseline};
 use fearless_simd::Simd;
 use std::marker::PhantomData;
@@ -230,6 +231,10 @@ impl<M: Method> GroupIntersector for TreeIntersector<M> {
             hit = found.pop().map(|found| tester.ranked(found));
         });
         (hit, cost)
+    }
+
+    fn box_to_meet(&self) -> Option<Aabb> {
+        M::Shape::IS_BOUNDED.then(|| self.blocks.bvh.bounds())
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {

@@ -2,9 +2,10 @@
 
 use super::LightSample;
 use crate::appearance::Appearance;
-use crate::mesh::Material;
+use crate::mesh::{Material, Property};
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
+use crate::shape::SampledSurface;
 use crate::spawn::Endpoint;
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
@@ -17,6 +18,8 @@ pub struct AreaLight {
     /// In square units of the scene.
     area: f64,
     emits_on_back: bool,
+    /// Whether a texture dims the light.
+    is_textured: bool,
 }
 
 /// Whether a primitive of the scene emits light.
@@ -47,6 +50,7 @@ impl AreaLight {
                 radiance: material.emission,
                 area,
                 emits_on_back: material.emits_on_back,
+                is_textured: material.further_map(Property::Emission).is_some(),
             })
         })
     }
@@ -60,28 +64,50 @@ impl AreaLight {
         sides * PI * self.area as f32 * self.radiance
     }
 
-    /// `None` if the sampled point doesn't emit towards `from`.
-    pub(super) fn sample(&self, scene: &Scene, from: Vec3, at: Vec2) -> Option<LightSample> {
-        let (ray, hit) = scene.sampled(self.primitive, from, at.as_dvec2())?;
-        let surface = scene.surface(&ray, &hit);
+    /// The sample of a light that is chosen with a probability. `None` if the sampled point doesn't emit towards `from`.
+    #[inline]
+    pub(super) fn sample(
+        &self,
+        scene: &Scene,
+        from: Vec3,
+        at: Vec2,
+        probability: f32,
+    ) -> Option<LightSample> {
+        let sampled = scene.sampled(self.primitive, from, at.as_dvec2());
+        // By reference: a copy would wait until all of it is in memory.
+        let SampledSurface {
+            surface,
+            u,
+            v,
+            density,
+        } = sampled.as_ref()?;
+        let hit = Hit {
+            t: 1.0,
+            u: *u,
+            v: *v,
+            primitive: self.primitive,
+        };
         let way = surface.position.as_dvec3() - from.as_dvec3();
         let dir = way.try_normalize()?.as_vec3();
         let cos = surface.normal.as_vec3().dot(-dir);
-        let density = self.density_at(scene, from, way.length_squared(), cos)?;
+        let density = self.density_at(*density, way.length_squared(), cos)?;
         Some(LightSample {
             dir,
+            weight: self.radiance_at(scene, surface.position, &hit) / density / probability,
+            density: Some(density * probability),
             end: Some(Endpoint::OnSurface {
                 hit,
-                surface,
+                surface: *surface,
                 corners: scene.corners(self.primitive),
             }),
-            weight: self.radiance_at(scene, surface.position, &hit) / density,
-            density: Some(density),
         })
     }
 
     /// The light at a hit, which a texture may dim.
     fn radiance_at(&self, scene: &Scene, position: Vec3, hit: &Hit) -> Vec3 {
+        if !self.is_textured {
+            return self.radiance;
+        }
         let materials = &scene.mesh().attributes().materials;
         let material = materials.get(scene.material(self.primitive));
         Appearance::new(scene, material, position, hit).emission()
@@ -93,13 +119,15 @@ impl AreaLight {
         let way = surface.position.as_dvec3() - from.as_dvec3();
         let towards = -(ray.dir.normalize());
         let cos = surface.normal.as_vec3().dot(towards);
-        let density = self.density_at(scene, from, way.length_squared(), cos);
+        let uniform = scene.density_from(self.primitive, from);
+        let density = self.density_at(uniform, way.length_squared(), cos);
         density.unwrap_or(0.0)
     }
 
-    /// The density of a point at a squared distance from `from`, with the cosine between its normal and the way back.
-    fn density_at(&self, scene: &Scene, from: Vec3, distance2: f64, cos: f32) -> Option<f32> {
-        let density = match scene.density_from(self.primitive, from) {
+    /// The density of a point at a squared distance, with the cosine between its normal and the way back. `uniform` is the
+    /// density if directions are uniform.
+    fn density_at(&self, uniform: Option<f64>, distance2: f64, cos: f32) -> Option<f32> {
+        let density = match uniform {
             // Only the front appears from there; a ray that has passed through it may hit the back.
             Some(density) => (cos > 0.0).then_some(density)?,
             None => {

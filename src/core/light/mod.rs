@@ -138,16 +138,23 @@ impl Lights {
         !self.choice.is_empty()
     }
 
+    /// Whether there are several lights to choose from, so that [`sample`](Self::sample) uses its `choice`.
+    pub fn are_several(&self) -> bool {
+        self.lights.len() > 1
+    }
+
     /// Light that reaches a point, from a light chosen by its power. `at` and `choice` are uniform numbers in [0, 1).
+    #[inline]
     pub fn sample(&self, scene: &Scene, from: Vec3, at: Vec2, choice: f32) -> Option<LightSample> {
         let (index, probability) = self.choice.sample(choice)?;
         let sample = match &self.lights[index] {
+            // Without a change afterwards, which would copy it: it is large.
+            Light::Area(light) => return light.sample(scene, from, at, probability),
             Light::Environment(light) => light.sample(at),
             Light::Directional(light) => Some(light.sample()),
             Light::Point(light) => light.sample(from),
-            Light::Area(light) => light.sample(scene, from, at),
-        }?;
-        Some(LightSample {
+        };
+        sample.map(|sample| LightSample {
             weight: sample.weight / probability,
             density: sample.density.map(|density| density * probability),
             ..sample

@@ -49,7 +49,7 @@ pub fn thickness(
         let departure = Departure {
             arrived_by: ray,
             hit,
-            surface,
+            surface: &surface,
             corners: scene.corners(hit.primitive),
             dir,
             offset: Vec3::ZERO,

@@ -17,6 +17,7 @@ impl Scene {
         Self {
             mesh: Arc::clone(&self.mesh),
             groups: self.groups.clone(),
+            ends: self.ends.clone(),
             vertex_normals: Arc::clone(&self.vertex_normals),
             clip,
             ..*self
@@ -63,6 +64,7 @@ impl Scene {
         Self {
             mesh: Arc::clone(&self.mesh),
             groups: self.groups.clone(),
+            ends: self.ends.clone(),
             crease,
             vertex_normals: Arc::default(),
             clip: self.clip.clone(),

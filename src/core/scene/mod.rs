@@ -12,7 +12,7 @@ use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
-use crate::shape::{SampledPoint, SurfacePoint};
+use crate::shape::{SampledSurface, SurfacePoint};
 use crate::simd::SimdLevel;
 use glam::{DVec2, Vec3};
 use std::sync::{Arc, OnceLock};
@@ -40,6 +40,8 @@ pub struct Scene {
     mesh: Arc<TriangleMesh>,
     /// The triangles, if there are any or nothing else, then the other groups.
     groups: Vec<Arc<dyn Group>>,
+    /// One more than the last primitive of each group.
+    ends: Vec<u32>,
     bounds: Aabb,
     /// The same with the lines and points of the file.
     bounds_with_elements: Aabb,
@@ -74,6 +76,7 @@ impl Scene {
         let group = ShapeGroup::new(mesh.clone(), options, progress)?;
         let bounds = mesh.bounds();
         Ok(Self {
+            ends: vec![mesh.triangles().len() as u32],
             bounds,
             bounds_with_elements: framed(bounds, mesh.line_and_point_bounds()),
             mesh,
@@ -125,6 +128,13 @@ impl Scene {
         self.bounds_with_elements = framed(self.bounds, self.mesh.line_and_point_bounds());
         self.groups.retain(|group| group.count() > 0);
         self.groups.push(group);
+        let count = |group: &Arc<dyn Group>| group.count() as u32;
+        let counts = self.groups.iter().map(count);
+        let ends = counts.scan(0, |end, count| {
+            *end += count;
+            Some(*end)
+        });
+        self.ends = ends.collect();
     }
 
     /// All triangles.
@@ -176,12 +186,12 @@ impl Scene {
     /// # Panics
     /// If the scene has no such primitive.
     pub fn group_of(&self, primitive: u32) -> (&dyn Group, u32) {
-        let mut index = primitive;
-        for group in &self.groups {
-            match index.checked_sub(group.count() as u32) {
-                Some(rest) => index = rest,
-                None => return (&**group, index),
+        let mut first = 0;
+        for (group, &end) in self.groups.iter().zip(&self.ends) {
+            if primitive < end {
+                return (&**group, primitive - first);
             }
+            first = end;
         }
         panic!("no primitive {primitive}")
     }
@@ -198,17 +208,14 @@ impl Scene {
         group.area(index)
     }
 
-    /// A point of a primitive, for uniform points `at` of the unit square: the ray from a point to it, and its hit there at
-    /// t = 1. Points are uniform by area, or their directions are uniform; see [`density_from`](Self::density_from). `None`
-    /// if the area is 0, the point is `from` itself, or the clip removes it.
-    pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<(Ray, Hit)> {
+    /// A point of a primitive, for uniform points `at` of the unit square. Points are uniform by area, or their directions
+    /// are uniform; see [`density_from`](Self::density_from). `None` if the area is 0, the point is `from` itself, or the
+    /// clip removes it.
+    pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<SampledSurface> {
         let (group, index) = self.group_of(primitive);
-        let SampledPoint { position, u, v } = group.sampled_from(index, from, at)?;
-        let ray = Ray::new(from, (position - from.as_dvec3()).as_vec3()).ok()?;
-        // The length of the direction may have been scaled.
-        let t = 2f32.powi(-ray.scale);
-        let is_shown = self.shows(&ray, t);
-        is_shown.then_some((ray, Hit { t, u, v, primitive }))
+        let sampled = group.sampled_from(index, from, at)?;
+        let is_kept = |clip: &Clip| clip.keeps(sampled.surface.position.as_dvec3());
+        self.clip.as_ref().is_none_or(is_kept).then_some(sampled)
     }
 
     /// The density per solid angle of the points of [`sampled`](Self::sampled) as seen from `from`, if their directions are

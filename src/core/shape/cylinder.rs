@@ -163,7 +163,7 @@ impl Shape for Cylinder {
             let (sin, cos) = libm::sincos(TAU * at.y);
             ends[0].lerp(ends[1], x) + radius * (cos * across + sin * along)
         } else {
-            let on_cap = radius * in_disk(DVec2::new(x, at.y));
+            let on_cap = radius * in_disk(DVec2::new(x, at.y).as_vec2()).0.as_dvec2();
             ends[usize::from(part == TOP)] + on_cap.x * across + on_cap.y * along
         };
         Some(SampledPoint {

@@ -5,7 +5,8 @@ use super::extent::{ellipse_reach, rounded_outwards};
 use super::lines::disk_lines;
 use super::span::{Span, SpannedRay};
 use super::{
-    AddLine, LineDetail, SampledPoint, Shape, ShapeInfo, SurfacePoint, in_disk, numbers_of,
+    AddLine, LineDetail, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint, in_disk,
+    numbers_of,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
@@ -69,7 +70,11 @@ impl Shape for Disk {
     }
 
     fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
-        Some(self.0.at(in_disk(at)))
+        Some(self.0.at(coordinates(at)))
+    }
+
+    fn sampled_surface(&self, _: Vec3, at: DVec2) -> Option<SampledSurface> {
+        Some(self.0.sampled(coordinates(at)))
     }
 
     /// Circles and diameters.
@@ -78,6 +83,11 @@ impl Shape for Disk {
         let normal = u.cross(v).normalize_or_zero();
         disk_lines(centre, [u, v], normal, detail, add);
     }
+}
+
+/// The coordinates of a point, uniform by area for uniform points of the unit square.
+fn coordinates(at: DVec2) -> DVec2 {
+    in_disk(at.as_vec2()).0.as_dvec2()
 }
 
 impl Pieces for Disk {

@@ -43,7 +43,7 @@ pub use plane::Plane;
 pub use plane_form::PlaneForm;
 pub use quadric::Quadric;
 pub use rectangle::Rectangle;
-pub use sample::SampledPoint;
+pub use sample::{SampledPoint, SampledSurface};
 pub(crate) use sample::{in_disk, on_sphere};
 pub use span::Span;
 pub use sphere::Sphere;
@@ -138,6 +138,27 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
     /// A point of the surface to be lit by from `from`; by default [`sampled_point`](Self::sampled_point).
     fn sampled_from(&self, _from: Vec3, at: DVec2) -> Option<SampledPoint> {
         self.sampled_point(at)
+    }
+
+    /// The surface at the point of [`sampled_from`](Self::sampled_from), and its density if the directions are uniform.
+    /// `None` also if the point is `from` itself.
+    fn sampled_surface(&self, from: Vec3, at: DVec2) -> Option<SampledSurface> {
+        let SampledPoint { position, u, v } = self.sampled_from(from, at)?;
+        let ray = Ray::new(from, (position - from.as_dvec3()).as_vec3()).ok()?;
+        // The length of the direction may have been scaled.
+        let t = 2f32.powi(-ray.scale);
+        let hit = Hit {
+            t,
+            u,
+            v,
+            primitive: 0,
+        };
+        Some(SampledSurface {
+            surface: self.surface(&ray, &hit),
+            u,
+            v,
+            density: self.density_from(from),
+        })
     }
 
     /// The density per solid angle of [`sampled_from`](Self::sampled_from), if the directions to its points are uniform over

@@ -4,7 +4,9 @@ use super::compact::Slots;
 use super::extent::{above, rounded_outwards};
 use super::lines::grid;
 use super::span::{Span, SpannedRay};
-use super::{AddLine, LineDetail, SampledPoint, Shape, ShapeInfo, SurfacePoint, numbers_of};
+use super::{
+    AddLine, LineDetail, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint, numbers_of,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
 use crate::lane::{Lane, Values, minus, plus};
@@ -68,6 +70,10 @@ impl Shape for Rectangle {
 
     fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
         Some(self.0.at(2.0 * at - 1.0))
+    }
+
+    fn sampled_surface(&self, _: Vec3, at: DVec2) -> Option<SampledSurface> {
+        Some(self.0.sampled(2.0 * at - 1.0))
     }
 
     /// A grid.

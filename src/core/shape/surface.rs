@@ -19,6 +19,7 @@ pub struct SurfacePoint {
 
 impl SurfacePoint {
     /// The normal on the side of a direction.
+    #[inline]
     pub fn facing_normal(&self, dir: Vec3) -> Vec3 {
         let side = self.normal.dot(dir.as_dvec3());
         (if side < 0.0 {

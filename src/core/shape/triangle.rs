@@ -3,7 +3,9 @@
 use super::lines::straight;
 use super::sample::in_triangle;
 use super::shared_corners::SharedCorners;
-use super::{AddLine, LineDetail, Parameter, SampledPoint, Shape, ShapeInfo, SurfacePoint, U};
+use super::{
+    AddLine, LineDetail, Parameter, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint, U,
+};
 use crate::aabb::{Aabb, Planes};
 use crate::lane::{Lane, Values};
 use crate::ray::{Hit, Ray};
@@ -66,17 +68,7 @@ impl Shape for Triangle {
 
     /// The point l1·A + l2·B + l3·C, with the error bounds of `Triangle::error`.
     fn surface(&self, _: &Ray, hit: &Hit) -> SurfacePoint {
-        let [l1, l2, l3] = hit.barycentric();
-        let [a, b, c] = self.0;
-        let weighted = [l1 * a, l2 * b, l3 * c];
-        let position = weighted.into_iter().sum();
-        SurfacePoint {
-            position,
-            normal: self.unit_normal(),
-            uv: DVec2::new(hit.u.into(), hit.v.into()),
-            error: self.error(weighted, position),
-            is_flat: true,
-        }
+        self.surface_at(hit)
     }
 
     fn area(&self) -> f64 {
@@ -94,6 +86,23 @@ impl Shape for Triangle {
         })
     }
 
+    fn sampled_surface(&self, _: Vec3, at: DVec2) -> Option<SampledSurface> {
+        let weights = in_triangle(at).as_vec2();
+        let (u, v) = (weights.x, weights.y);
+        let hit = Hit {
+            t: 1.0,
+            u,
+            v,
+            primitive: 0,
+        };
+        Some(SampledSurface {
+            surface: self.surface_at(&hit),
+            u,
+            v,
+            density: None,
+        })
+    }
+
     /// The edges.
     fn lines(&self, _: &LineDetail, add: AddLine<'_>) {
         let [a, b, c] = self.0.map(Vec3::as_dvec3);
@@ -105,6 +114,21 @@ impl Shape for Triangle {
 }
 
 impl Triangle {
+    /// The surface at the barycentric coordinates of a hit.
+    fn surface_at(&self, hit: &Hit) -> SurfacePoint {
+        let [l1, l2, l3] = hit.barycentric();
+        let [a, b, c] = self.0;
+        let weighted = [l1 * a, l2 * b, l3 * c];
+        let position = weighted.into_iter().sum();
+        SurfacePoint {
+            position,
+            normal: self.unit_normal(),
+            uv: DVec2::new(hit.u.into(), hit.v.into()),
+            error: self.error(weighted, position),
+            is_flat: true,
+        }
+    }
+
     /// The unit normal by the right-hand rule over A, B, C. Zero if the area is zero in f64 or a corner isn't finite.
     ///
     /// Computed in f64, where neither products nor lengths of f32 numbers under- or overflow.

@@ -15,6 +15,7 @@ use hitscope_core::mesh::shapes::{Placement, soup};
 use hitscope_core::mesh::{TriangleMesh, unit_normal};
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
+use hitscope_core::shape::{Shape as _, Triangle};
 use hitscope_core::spawn::{Departure, SPAWN_POLICIES};
 use hitscope_core::{Hit, Intersector, Ray};
 use serde::Serialize;
@@ -116,7 +117,8 @@ impl SpawnCase {
                     break;
                 };
                 let corners = scene.mesh().corners(hit.primitive);
-                let departure = Departure::of_triangle(&arrived_by, &hit, corners, dir);
+                let surface = Triangle(corners).surface(&arrived_by, &hit);
+                let departure = Departure::of_triangle(&arrived_by, &hit, &surface, corners, dir);
                 for (k, policy) in SPAWN_POLICIES.iter().enumerate() {
                     let ray = policy
                         .spawn(&departure)

@@ -31,7 +31,7 @@ fn spawned_rays_miss<S: Sample + Shape>(size: f32, offset: f32, seed: u64) {
                 let departure = Departure {
                     arrived_by: &arrived_by,
                     hit: &hit,
-                    surface,
+                    surface: &surface,
                     corners: None,
                     dir: dir.as_vec3(),
                     offset: Vec3::ZERO,
@@ -92,7 +92,7 @@ fn the_origin_lies_outside_after_leaving_outwards() {
         let departure = Departure {
             arrived_by: &arrived_by,
             hit: &hit,
-            surface: unit.surface(&arrived_by, &hit),
+            surface: &unit.surface(&arrived_by, &hit),
             corners: None,
             dir: dir.as_vec3(),
             offset: Vec3::ZERO,

@@ -133,8 +133,9 @@ impl Group for CsgGroup {
 
     /// `hit.v` is the index of the operand whose surface is hit.
     fn surface(&self, ray: &Ray, hit: &Hit) -> SurfacePoint {
-        let surface = self.solids[hit.primitive as usize].surface(ray, hit);
-        self.appearance.surface(hit.primitive, surface)
+        let mut surface = self.solids[hit.primitive as usize].surface(ray, hit);
+        self.appearance.turn(hit.primitive, &mut surface);
+        surface
     }
 
     fn lines(&self, index: u32, detail: &LineDetail, add: AddLine<'_>) {

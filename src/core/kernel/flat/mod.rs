@@ -91,7 +91,7 @@ impl KernelList for Rectangle {
 fn visit<S: Outline, V: KernelVisitor<S>>(visitor: &mut V) {
     visitor.visit::<PlaneFirst<S>, f32>();
     visitor.visit::<PlaneFirst<S>, f64>();
-    visitor.visit::<TripleProduct<S>, f32>();
+    visitor.visit_with_packets::<TripleProduct<S>>();
     visitor.visit::<TripleProduct<S>, f64>();
     visitor.visit_algebraic();
 }

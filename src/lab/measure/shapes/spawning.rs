@@ -246,7 +246,7 @@ fn leave(
     let departure = Departure {
         arrived_by,
         hit,
-        surface,
+        surface: &surface,
         corners: target.corners(),
         dir,
         offset: Vec3::ZERO,
