@@ -27,7 +27,7 @@ type Vector<S> = <f32 as Number>::Lanes<S>;
 
 /// The corners in the slots of blocks; a slot is a lane of a block. They are read from the block, not from the
 /// mesh, because the block is in the cache.
-struct SlotCorners<'a, T: Shape>(&'a BlocksOf<Exact<T>>)
+pub(super) struct SlotCorners<'a, T: Shape>(pub(super) &'a BlocksOf<Exact<T>>)
 where
     T: Into<Triangle>;
 
@@ -94,7 +94,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     fn batch() -> Batch {
         Batch {
             lanes: [HitLanes::EMPTY; BATCH_SIZE / LANES],
-            found: [None; BATCH_SIZE],
+            found: [Kept::NOTHING; BATCH_SIZE],
             count: 0,
         }
     }
@@ -107,12 +107,8 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
         _: &mut [Option<Hit>],
         batch: &mut Batch,
     ) {
-        // Store the corners now, while they are in the cache.
-        let corners = SlotCorners(tester.blocks).corners(nearest.slot);
-        let count = batch.count;
-        batch.lanes[count / LANES].set(count % LANES, tester.judge.ray(), corners);
-        batch.found[count] = Some((index, nearest));
-        batch.count += 1;
+        let (ray, corners) = (tester.judge.ray(), SlotCorners(tester.blocks));
+        batch.add(index, ray, nearest.primitive, nearest.slot as u32, corners);
     }
 
     fn round(
@@ -131,9 +127,55 @@ const BATCH_SIZE: usize = <Exact<Triangle> as Method>::BATCH_SIZE;
 /// The hits of some rays, before rounding.
 pub(super) struct Batch {
     lanes: [HitLanes; BATCH_SIZE / LANES],
-    /// Index of the ray, and its hit.
-    found: [Option<(usize, Candidate)>; BATCH_SIZE],
+    found: [Kept; BATCH_SIZE],
     count: usize,
+}
+
+/// A hit in a batch.
+#[derive(Clone, Copy)]
+struct Kept {
+    /// Index of the ray.
+    index: u32,
+    primitive: u32,
+    slot: u32,
+}
+
+impl Kept {
+    const NOTHING: Self = Self {
+        index: 0,
+        primitive: NO_PRIMITIVE,
+        slot: 0,
+    };
+
+    /// The hit as a candidate whose depth isn't known.
+    fn candidate(&self) -> Candidate {
+        let slot = self.slot as usize;
+        Candidate::new(self.primitive, slot, f32::NEG_INFINITY, f32::INFINITY)
+    }
+}
+
+impl Batch {
+    /// Adds the hit of the ray `index`.
+    #[inline(always)]
+    pub(super) fn add<T: Shape + Into<Triangle>>(
+        &mut self,
+        index: usize,
+        ray: &Ray,
+        primitive: u32,
+        slot: u32,
+        corners: SlotCorners<'_, T>,
+    ) {
+        // Store the corners now, while they are in the cache.
+        let corners = corners.corners(slot as usize);
+        let count = self.count;
+        self.lanes[count / LANES].set(count % LANES, ray, corners);
+        self.found[count] = Kept {
+            index: index as u32,
+            primitive,
+            slot,
+        };
+        self.count += 1;
+    }
 }
 
 /// Rounds the batch's hits.
@@ -148,10 +190,11 @@ fn round<T: Shape + Into<Triangle>, S: Simd>(
     let groups = batch.found[..batch.count].chunks(LANES);
     for (found, lanes) in groups.zip(&batch.lanes) {
         let values = lanes.values(token);
-        for (lane, (i, candidate)) in found.iter().flatten().enumerate() {
-            hits[*i] = Some(match values.of(lane) {
+        for (lane, kept) in found.iter().enumerate() {
+            let (i, candidate) = (kept.index as usize, kept.candidate());
+            hits[i] = Some(match values.of(lane) {
                 Some(values) => candidate.hit(values),
-                None => Judge::new(&rays[*i], SlotCorners(blocks)).hit(*candidate),
+                None => Judge::new(&rays[i], SlotCorners(blocks)).hit(candidate),
             });
         }
     }
@@ -174,17 +217,17 @@ pub(super) struct ExactTester<'a, T: Shape + Into<Triangle>, S: Simd> {
 /// A lane of a block that isn't a certain miss or certainly too deep.
 #[derive(Clone, Copy)]
 pub(super) struct LaneCandidate {
-    primitive: u32,
+    pub primitive: u32,
     /// The slot whose corners it has.
-    slot: u32,
+    pub slot: u32,
     /// Bounds of its depth.
-    near: f32,
-    far: f32,
-    is_certain: bool,
+    pub near: f32,
+    pub far: f32,
+    pub is_certain: bool,
 }
 
 impl LaneCandidate {
-    fn candidate(&self) -> Candidate {
+    pub fn candidate(&self) -> Candidate {
         Candidate::new(self.primitive, self.slot as usize, self.near, self.far)
     }
 }
@@ -254,7 +297,7 @@ impl<'a, T: Shape + Into<Triangle>, S: Simd> ExactTester<'a, T, S> {
 /// The nearer of a hit and the nearest so far, if f32 can't decide.
 // Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
-fn nearer<C: Corners>(
+pub(super) fn nearer<C: Corners>(
     judge: &mut Judge<'_, C>,
     hit: &LaneCandidate,
     nearest: Option<Candidate>,
