@@ -107,8 +107,16 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
         _: &mut [Option<Hit>],
         batch: &mut Batch,
     ) {
-        let (ray, corners) = (tester.judge.ray(), SlotCorners(tester.blocks));
-        batch.add(index, ray, nearest.primitive, nearest.slot as u32, corners);
+        // Store the corners now, while they are in the cache.
+        let corners = SlotCorners(tester.blocks).corners(nearest.slot);
+        let count = batch.count;
+        batch.lanes[count / LANES].set(count % LANES, tester.judge.ray(), corners);
+        batch.found[count] = Kept {
+            index: index as u32,
+            primitive: nearest.primitive,
+            slot: nearest.slot as u32,
+        };
+        batch.count += 1;
     }
 
     fn round(
@@ -131,13 +139,13 @@ pub(super) struct Batch {
     count: usize,
 }
 
-/// A hit in a batch.
+/// A hit in a batch, or nothing.
 #[derive(Clone, Copy)]
-struct Kept {
+pub(super) struct Kept {
     /// Index of the ray.
-    index: u32,
-    primitive: u32,
-    slot: u32,
+    pub index: u32,
+    pub primitive: u32,
+    pub slot: u32,
 }
 
 impl Kept {
@@ -155,26 +163,15 @@ impl Kept {
 }
 
 impl Batch {
-    /// Adds the hit of the ray `index`.
+    /// The next lanes, which become part of the batch.
     #[inline(always)]
-    pub(super) fn add<T: Shape + Into<Triangle>>(
-        &mut self,
-        index: usize,
-        ray: &Ray,
-        primitive: u32,
-        slot: u32,
-        corners: SlotCorners<'_, T>,
-    ) {
-        // Store the corners now, while they are in the cache.
-        let corners = corners.corners(slot as usize);
-        let count = self.count;
-        self.lanes[count / LANES].set(count % LANES, ray, corners);
-        self.found[count] = Kept {
-            index: index as u32,
-            primitive,
-            slot,
-        };
-        self.count += 1;
+    pub(super) fn next_lanes(&mut self) -> (&mut HitLanes, &mut [Kept]) {
+        let first = self.count;
+        self.count += LANES;
+        (
+            &mut self.lanes[first / LANES],
+            &mut self.found[first..self.count],
+        )
     }
 }
 
@@ -191,13 +188,24 @@ fn round<T: Shape + Into<Triangle>, S: Simd>(
     for (found, lanes) in groups.zip(&batch.lanes) {
         let values = lanes.values(token);
         for (lane, kept) in found.iter().enumerate() {
-            let (i, candidate) = (kept.index as usize, kept.candidate());
-            hits[i] = Some(match values.of(lane) {
-                Some(values) => candidate.hit(values),
-                None => Judge::new(&rays[i], SlotCorners(blocks)).hit(candidate),
-            });
+            if kept.primitive != NO_PRIMITIVE {
+                let i = kept.index as usize;
+                let hit = values.of(lane, kept.primitive);
+                hits[i] = hit.or_else(|| rounded_alone(&rays[i], blocks, kept));
+            }
         }
     }
+}
+
+/// The hit, with t, u and v in as many digits as they need.
+// Not inlined: this path is rare.
+#[inline(never)]
+fn rounded_alone<T: Shape + Into<Triangle>>(
+    ray: &Ray,
+    blocks: &BlocksOf<Exact<T>>,
+    kept: &Kept,
+) -> Option<Hit> {
+    Some(Judge::new(ray, SlotCorners(blocks)).hit(kept.candidate()))
 }
 
 /// Tests one ray.

@@ -7,11 +7,11 @@ use super::{BlockLane, PacketMethod, PacketTester};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, RayPacket, Slabs};
 use crate::intersector::blocks::{BlockValues, LaneValues, Row, stored};
-use crate::intersector::exact::{Batch, Exact, LaneCandidate, SlotCorners, nearer};
+use crate::intersector::exact::{Batch, Exact, Kept, LaneCandidate, SlotCorners, nearer};
 use crate::intersector::method::BlocksOf;
-use crate::kernel::exact::{Candidate, DepthInterval, Filtered, Judge, filter};
+use crate::kernel::exact::{Candidate, Corners as _, DepthInterval, Filtered, Judge, filter};
 use crate::kernel::{RayLanes, ShearedRay};
-use crate::lane::{Lane, LaneMask, PACKET};
+use crate::lane::{LANES, Lane, LaneMask, PACKET};
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, Triangle};
 use fearless_simd::{Simd, f32x8, f32x16, mask32x16, prelude::*, u32x16};
@@ -21,6 +21,7 @@ pub(in crate::intersector) struct ExactPacket<'a, T: Shape + Into<Triangle>, S: 
     token: S,
     rays: &'a [Ray; PACKET],
     corners: SlotCorners<'a, T>,
+    lanes: RayLanes<f32x16<S>>,
     sheared: ShearedRay<f32x16<S>>,
     interval: DepthInterval<f32x16<S>>,
     /// Factor from depth to t.
@@ -84,6 +85,7 @@ impl<T: Shape + Into<Triangle>> PacketMethod for Exact<T> {
             token,
             rays,
             corners: SlotCorners(blocks),
+            lanes,
             sheared,
             t_per_depth: <f32x16<S> as Lane>::splat(token, 1.0) / interval.per_t,
             interval,
@@ -108,23 +110,42 @@ impl<T: Shape + Into<Triangle>> PacketMethod for Exact<T> {
         hits: &mut [Option<Hit>],
         batch: &mut Batch,
     ) {
+        hits[first..][..PACKET].fill(None);
         let (primitive, slot) = (tester.primitive.to_array(), tester.slot.to_array());
-        let hits = &mut hits[first..][..PACKET];
-        let mut i = 0;
-        while i < PACKET {
-            hits[i] = None;
-            if primitive[i] != NO_PRIMITIVE {
-                batch.add(
-                    first + i,
-                    &tester.rays[i],
-                    primitive[i],
-                    slot[i],
-                    tester.corners,
-                );
+        let (origin, dir) = (halves(tester.lanes.origin), halves(tester.lanes.dir));
+        let mut half = 0;
+        while half < 2 {
+            let start = half * LANES;
+            let (primitive, slot) = (&primitive[start..][..LANES], &slot[start..][..LANES]);
+            if primitive.iter().any(|&p| p != NO_PRIMITIVE) {
+                let (lanes, kept) = batch.next_lanes();
+                lanes.set_rays(origin[half], dir[half], tester.lanes.axes);
+                let mut lane = 0;
+                while lane < LANES {
+                    kept[lane] = Kept {
+                        index: (first + start + lane) as u32,
+                        primitive: primitive[lane],
+                        slot: slot[lane],
+                    };
+                    if primitive[lane] != NO_PRIMITIVE {
+                        lanes.set_corners(lane, tester.corners.corners(slot[lane] as usize));
+                    }
+                    lane += 1;
+                }
             }
-            i += 1;
+            half += 1;
         }
     }
+}
+
+/// The first and the second half of the lanes.
+#[inline(always)]
+fn halves<S: Simd>([x, y, z]: [f32x16<S>; 3]) -> [[[f32; LANES]; 3]; 2] {
+    let (x, y, z) = (x.split(), y.split(), z.split());
+    [
+        [x.0.to_array(), y.0.to_array(), z.0.to_array()],
+        [x.1.to_array(), y.1.to_array(), z.1.to_array()],
+    ]
 }
 
 impl<T: Shape + Into<Triangle>, S: Simd> ExactPacket<'_, T, S> {
