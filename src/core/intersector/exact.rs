@@ -139,13 +139,13 @@ pub(super) struct Batch {
     count: usize,
 }
 
-/// A hit in a batch, or nothing.
+/// A hit in a batch.
 #[derive(Clone, Copy)]
-pub(super) struct Kept {
+struct Kept {
     /// Index of the ray.
-    pub index: u32,
-    pub primitive: u32,
-    pub slot: u32,
+    index: u32,
+    primitive: u32,
+    slot: u32,
 }
 
 impl Kept {
@@ -154,25 +154,6 @@ impl Kept {
         primitive: NO_PRIMITIVE,
         slot: 0,
     };
-
-    /// The hit as a candidate whose depth isn't known.
-    fn candidate(&self) -> Candidate {
-        let slot = self.slot as usize;
-        Candidate::new(self.primitive, slot, f32::NEG_INFINITY, f32::INFINITY)
-    }
-}
-
-impl Batch {
-    /// The next lanes, which become part of the batch.
-    #[inline(always)]
-    pub(super) fn next_lanes(&mut self) -> (&mut HitLanes, &mut [Kept]) {
-        let first = self.count;
-        self.count += LANES;
-        (
-            &mut self.lanes[first / LANES],
-            &mut self.found[first..self.count],
-        )
-    }
 }
 
 /// Rounds the batch's hits.
@@ -188,24 +169,30 @@ fn round<T: Shape + Into<Triangle>, S: Simd>(
     for (found, lanes) in groups.zip(&batch.lanes) {
         let values = lanes.values(token);
         for (lane, kept) in found.iter().enumerate() {
-            if kept.primitive != NO_PRIMITIVE {
-                let i = kept.index as usize;
-                let hit = values.of(lane, kept.primitive);
-                hits[i] = hit.or_else(|| rounded_alone(&rays[i], blocks, kept));
-            }
+            let Kept {
+                index,
+                primitive,
+                slot,
+            } = *kept;
+            let ray = &rays[index as usize];
+            let hit = values.of(lane, primitive);
+            hits[index as usize] = hit.or_else(|| rounded_alone(ray, blocks, primitive, slot));
         }
     }
 }
 
-/// The hit, with t, u and v in as many digits as they need.
+/// The hit of the triangle in a slot, with t, u and v computed with as many digits as they need.
 // Not inlined: this path is rare.
 #[inline(never)]
-fn rounded_alone<T: Shape + Into<Triangle>>(
+pub(super) fn rounded_alone<T: Shape + Into<Triangle>>(
     ray: &Ray,
     blocks: &BlocksOf<Exact<T>>,
-    kept: &Kept,
+    primitive: u32,
+    slot: u32,
 ) -> Option<Hit> {
-    Some(Judge::new(ray, SlotCorners(blocks)).hit(kept.candidate()))
+    let slot = slot as usize;
+    let candidate = Candidate::new(primitive, slot, f32::NEG_INFINITY, f32::INFINITY);
+    Some(Judge::new(ray, SlotCorners(blocks)).hit(candidate))
 }
 
 /// Tests one ray.

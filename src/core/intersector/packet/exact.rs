@@ -7,11 +7,11 @@ use super::{BlockLane, PacketMethod, PacketTester};
 use crate::aabb::Planes;
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, RayPacket, Slabs};
 use crate::intersector::blocks::{BlockValues, LaneValues, Row, stored};
-use crate::intersector::exact::{Batch, Exact, Kept, LaneCandidate, SlotCorners, nearer};
+use crate::intersector::exact::{Exact, LaneCandidate, SlotCorners, nearer, rounded_alone};
 use crate::intersector::method::BlocksOf;
-use crate::kernel::exact::{Candidate, Corners as _, DepthInterval, Filtered, Judge, filter};
+use crate::kernel::exact::{Candidate, DepthInterval, Filtered, HitLanes, Judge, VALUES, filter};
 use crate::kernel::{RayLanes, ShearedRay};
-use crate::lane::{LANES, Lane, LaneMask, PACKET};
+use crate::lane::{LANES, Lane, LaneMask, PACKET, Values as _};
 use crate::ray::{Hit, Ray};
 use crate::shape::{Shape, Triangle};
 use fearless_simd::{Simd, f32x8, f32x16, mask32x16, prelude::*, u32x16};
@@ -104,34 +104,27 @@ impl<T: Shape + Into<Triangle>> PacketMethod for Exact<T> {
     }
 
     #[inline(always)]
-    fn keep_packet<S: Simd>(
-        tester: &ExactPacket<'_, T, S>,
-        first: usize,
-        hits: &mut [Option<Hit>],
-        batch: &mut Batch,
-    ) {
-        hits[first..][..PACKET].fill(None);
+    fn write<S: Simd>(tester: &ExactPacket<'_, T, S>, hits: &mut [Option<Hit>; PACKET]) {
+        *hits = [None; PACKET];
+        let is_hit = tester.primitive.simd_lt(NO_PRIMITIVE).to_bitmask() as u32;
+        if is_hit == 0 {
+            return;
+        }
         let (primitive, slot) = (tester.primitive.to_array(), tester.slot.to_array());
-        let (origin, dir) = (halves(tester.lanes.origin), halves(tester.lanes.dir));
+        let groups = tester.hit_lanes(is_hit, &slot);
         let mut half = 0;
-        while half < 2 {
-            let start = half * LANES;
-            let (primitive, slot) = (&primitive[start..][..LANES], &slot[start..][..LANES]);
-            if primitive.iter().any(|&p| p != NO_PRIMITIVE) {
-                let (lanes, kept) = batch.next_lanes();
-                lanes.set_rays(origin[half], dir[half], tester.lanes.axes);
-                let mut lane = 0;
-                while lane < LANES {
-                    kept[lane] = Kept {
-                        index: (first + start + lane) as u32,
-                        primitive: primitive[lane],
-                        slot: slot[lane],
-                    };
-                    if primitive[lane] != NO_PRIMITIVE {
-                        lanes.set_corners(lane, tester.corners.corners(slot[lane] as usize));
-                    }
-                    lane += 1;
+        while half < groups.len() {
+            let values = groups[half].values(tester.token);
+            let mut lane = 0;
+            while lane < LANES {
+                let i = half * LANES + lane;
+                if is_hit >> i & 1 == 1 {
+                    let hit = values.of(lane, primitive[i]);
+                    let alone =
+                        || rounded_alone(&tester.rays[i], tester.corners.0, primitive[i], slot[i]);
+                    hits[i] = hit.or_else(alone);
                 }
+                lane += 1;
             }
             half += 1;
         }
@@ -140,12 +133,15 @@ impl<T: Shape + Into<Triangle>> PacketMethod for Exact<T> {
 
 /// The first and the second half of the lanes.
 #[inline(always)]
-fn halves<S: Simd>([x, y, z]: [f32x16<S>; 3]) -> [[[f32; LANES]; 3]; 2] {
-    let (x, y, z) = (x.split(), y.split(), z.split());
-    [
-        [x.0.to_array(), y.0.to_array(), z.0.to_array()],
-        [x.1.to_array(), y.1.to_array(), z.1.to_array()],
-    ]
+fn halves<S: Simd, const COUNT: usize>(rows: &[f32x16<S>; COUNT]) -> [[[f32; LANES]; COUNT]; 2] {
+    let mut halves = [[[0.0; LANES]; COUNT]; 2];
+    let mut k = 0;
+    while k < COUNT {
+        let (first, second) = rows[k].split();
+        (halves[0][k], halves[1][k]) = (first.to_array(), second.to_array());
+        k += 1;
+    }
+    halves
 }
 
 impl<T: Shape + Into<Triangle>, S: Simd> ExactPacket<'_, T, S> {
@@ -163,6 +159,37 @@ impl<T: Shape + Into<Triangle>, S: Simd> ExactPacket<'_, T, S> {
             deepest.simd_lt(found.near()) | found.far().simd_lt(self.interval.earliest);
         let is_possible = !(found.missed | is_outside);
         is_possible.any().then_some((found, is_possible))
+    }
+
+    /// The rays whose bits are set and the triangles that they hit, in two groups.
+    #[inline(always)]
+    fn hit_lanes(&self, is_hit: u32, slot: &[u32; PACKET]) -> [HitLanes; 2] {
+        let mut corners = [Lane::splat(self.token, 0.0); VALUES];
+        // Triangle by triangle: several rays often hit the same one.
+        let mut left = is_hit;
+        while left != 0 {
+            let slot = slot[left.trailing_zeros() as usize % PACKET];
+            let is_same = self.slot.simd_eq(slot);
+            left &= !(is_same.to_bitmask() as u32);
+            let slot = slot as usize;
+            let rows = self.corners.0.packed(slot / BLOCK_SIZE, VALUES);
+            let triangle = LaneValues::new(self.token, rows, slot % BLOCK_SIZE);
+            let mut k = 0;
+            while k < VALUES {
+                corners[k] = is_same.select(triangle.value(k), corners[k]);
+                k += 1;
+            }
+        }
+        let origin = halves(&self.lanes.origin);
+        let (dir, corners) = (halves(&self.lanes.dir), halves(&corners));
+        let axes = self.lanes.axes;
+        let group = |half: usize| HitLanes {
+            origin: origin[half],
+            dir: dir[half],
+            corners: corners[half],
+            axes,
+        };
+        [group(0), group(1)]
     }
 
     /// The triangle with the rays' bounds in memory.

@@ -35,13 +35,8 @@ pub(super) trait PacketMethod: Method {
     /// The box around each of a block's primitives.
     fn boxes<S: Simd>(token: S, rows: &[Row<Self::Stored>]) -> Planes<[f32; BLOCK_SIZE]>;
 
-    /// Writes the nearest hits of the rays from index `first` on to `hits`, or keeps them in the batch.
-    fn keep_packet<S: Simd>(
-        tester: &Self::Packet<'_, S>,
-        first: usize,
-        hits: &mut [Option<Hit>],
-        batch: &mut Self::Batch,
-    );
+    /// Writes the nearest hits.
+    fn write<S: Simd>(tester: &Self::Packet<'_, S>, hits: &mut [Option<Hit>; PACKET]);
 }
 
 /// Tests a packet against primitives.
@@ -141,39 +136,22 @@ const AT_ONCE: usize = u64::BITS as usize * PACKET;
 impl<M: PacketMethod> TreeIntersector<M> {
     /// Finds the nearest hits of coherent rays.
     fn nearest_of_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        let at_once = AT_ONCE.min(M::BATCH_SIZE);
-        let mut lent = LentStack::new();
-        for (rays, hits) in rays.chunks(at_once).zip(hits.chunks_mut(at_once)) {
-            let mut batch = M::batch();
+        let nearest = |rays: &[Ray], hits: &mut [Option<Hit>]| self.closest_hits(rays, hits);
+        in_packets(rays, hits, nearest, |packets, hits| {
+            let mut lent = LentStack::new();
             let stack = lent.get();
-            let packets = rays.as_chunks().0;
-            let mut incoherent = dispatch!(self.level.level(), token => {
-                self.nearest_at(token, packets, hits, &mut batch, stack)
-            });
-            M::round(&self.blocks, self.level, rays, &batch, hits);
-            while let Some(part) = next_incoherent(&mut incoherent) {
-                self.closest_hits(&rays[part.clone()], &mut hits[part]);
-            }
-            let done = packets.len() * PACKET;
-            self.closest_hits(&rays[done..], &mut hits[done..]);
-        }
+            dispatch!(self.level.level(), token => self.nearest_at(token, packets, hits, stack))
+        });
     }
 
     /// Finds out which coherent rays hit anything.
     fn any_of_packets(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        let mut lent = LentStack::new();
-        for (rays, are_hits) in rays.chunks(AT_ONCE).zip(are_hits.chunks_mut(AT_ONCE)) {
+        let any = |rays: &[Ray], are_hits: &mut [bool]| self.any_hits(rays, are_hits);
+        in_packets(rays, are_hits, any, |packets, are_hits| {
+            let mut lent = LentStack::new();
             let stack = lent.get();
-            let packets = rays.as_chunks().0;
-            let mut incoherent = dispatch!(self.level.level(), token => {
-                self.any_at(token, packets, are_hits, stack)
-            });
-            while let Some(part) = next_incoherent(&mut incoherent) {
-                self.any_hits(&rays[part.clone()], &mut are_hits[part]);
-            }
-            let done = packets.len() * PACKET;
-            self.any_hits(&rays[done..], &mut are_hits[done..]);
-        }
+            dispatch!(self.level.level(), token => self.any_at(token, packets, are_hits, stack))
+        });
     }
 
     /// Finds the nearest hits of packets; returns the bits of those that aren't coherent.
@@ -182,16 +160,16 @@ impl<M: PacketMethod> TreeIntersector<M> {
         &self,
         token: S,
         packets: &[[Ray; PACKET]],
-        hits: &mut [Option<Hit>],
-        batch: &mut M::Batch,
+        hits: &mut [[Option<Hit>; PACKET]],
         stack: &mut Stack,
     ) -> u64 {
         let mut incoherent = 0;
+        // A plain loop, here and below: functions called by an iterator may be compiled without the CPU's features.
         let mut i = 0;
         while i < packets.len() {
             announce_next(token, packets, i);
             match self.search::<S, false>(token, &packets[i], stack) {
-                Some(search) => M::keep_packet(&search.tester, i * PACKET, hits, batch),
+                Some(search) => M::write(&search.tester, &mut hits[i]),
                 None => incoherent |= 1 << i,
             }
             i += 1;
@@ -205,7 +183,7 @@ impl<M: PacketMethod> TreeIntersector<M> {
         &self,
         token: S,
         packets: &[[Ray; PACKET]],
-        are_hits: &mut [bool],
+        are_hits: &mut [[bool; PACKET]],
         stack: &mut Stack,
     ) -> u64 {
         let mut incoherent = 0;
@@ -215,10 +193,9 @@ impl<M: PacketMethod> TreeIntersector<M> {
             match self.search::<S, true>(token, &packets[i], stack) {
                 Some(search) => {
                     let ends = search.ends.to_array();
-                    let are_hits = &mut are_hits[i * PACKET..][..PACKET];
                     let mut lane = 0;
                     while lane < PACKET {
-                        are_hits[lane] = ends[lane] < 0.0;
+                        are_hits[i][lane] = ends[lane] < 0.0;
                         lane += 1;
                     }
                 }
@@ -258,9 +235,23 @@ fn announce_next<S: Simd>(token: S, packets: &[[Ray; PACKET]], index: usize) {
     prefetch(token, packets, index + 1, size_of::<[Ray; PACKET]>());
 }
 
-/// Removes the lowest bit, and returns the range of its packet's rays.
-fn next_incoherent(packets: &mut u64) -> Option<std::ops::Range<usize>> {
-    let first = (*packets != 0).then(|| packets.trailing_zeros() as usize * PACKET)?;
-    *packets &= *packets - 1;
-    Some(first..first + PACKET)
+/// Answers rays in packets by `together`, which returns the bits of packets that aren't coherent, and the rays of those
+/// and of the last, incomplete packet by `alone`.
+fn in_packets<T>(
+    rays: &[Ray],
+    answers: &mut [T],
+    alone: impl Fn(&[Ray], &mut [T]),
+    together: impl Fn(&[[Ray; PACKET]], &mut [[T; PACKET]]) -> u64,
+) {
+    for (rays, answers) in rays.chunks(AT_ONCE).zip(answers.chunks_mut(AT_ONCE)) {
+        let (packets, rest) = rays.as_chunks();
+        let (of_packets, of_rest) = answers.as_chunks_mut();
+        let mut incoherent = together(packets, of_packets);
+        while incoherent != 0 {
+            let i = incoherent.trailing_zeros() as usize;
+            incoherent &= incoherent - 1;
+            alone(&packets[i], &mut of_packets[i]);
+        }
+        alone(rest, of_rest);
+    }
 }

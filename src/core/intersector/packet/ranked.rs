@@ -68,19 +68,13 @@ impl<K: Kernel> PacketMethod for Ranked<K, f32, EveryLevel> {
     }
 
     #[inline(always)]
-    fn keep_packet<S: Simd>(
-        tester: &RankedPacket<'_, K, S>,
-        first: usize,
-        hits: &mut [Option<Hit>],
-        _: &mut (),
-    ) {
+    fn write<S: Simd>(tester: &RankedPacket<'_, K, S>, hits: &mut [Option<Hit>; PACKET]) {
         let (t, u, v) = (
             tester.t.to_array(),
             tester.u.to_array(),
             tester.v.to_array(),
         );
         let primitive = tester.primitive.to_array();
-        let hits = &mut hits[first..][..PACKET];
         let mut i = 0;
         while i < PACKET {
             hits[i] = (primitive[i] != NO_PRIMITIVE).then_some(Hit {

@@ -10,11 +10,11 @@ use glam::Vec3;
 /// Rays and the triangles that they hit, one pair per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct HitLanes {
-    origin: [[f32; LANES]; 3],
-    dir: [[f32; LANES]; 3],
-    corners: [[f32; LANES]; VALUES],
+    pub origin: [[f32; LANES]; 3],
+    pub dir: [[f32; LANES]; 3],
+    pub corners: [[f32; LANES]; VALUES],
     /// The axes of all the rays; see [`RayLanes::axes`].
-    axes: [usize; 3],
+    pub axes: [usize; 3],
 }
 
 /// The values computed from [`HitLanes`], rounded as by [`Candidate::hit`](super::Candidate::hit).
@@ -67,30 +67,18 @@ impl HitLanes {
     pub fn set(&mut self, lane: usize, ray: &Ray, corners: [Vec3; 3]) {
         let lane = lane % LANES;
         let [x, y, z] = axes_of(ray.dir.to_array());
-        let permuted = |p: Vec3| Vec3::new(p[x], p[y], p[z]);
-        put(&mut self.origin, lane, permuted(ray.origin));
-        put(&mut self.dir, lane, permuted(ray.dir));
-        self.set_corners(lane, corners.map(permuted));
-    }
-
-    /// Stores rays with common axes.
-    #[inline(always)]
-    pub fn set_rays(
-        &mut self,
-        origin: [[f32; LANES]; 3],
-        dir: [[f32; LANES]; 3],
-        axes: [usize; 3],
-    ) {
-        (self.origin, self.dir, self.axes) = (origin, dir, axes);
-    }
-
-    /// Stores the triangle that a lane's ray hits.
-    #[inline(always)]
-    pub fn set_corners(&mut self, lane: usize, [a, b, c]: [Vec3; 3]) {
-        let lane = lane % LANES;
-        put(&mut self.corners[..3], lane, a);
-        put(&mut self.corners[3..6], lane, b);
-        put(&mut self.corners[6..], lane, c);
+        let permuted = |p: Vec3| [p[x], p[y], p[z]];
+        let put = |rows: &mut [[f32; LANES]], p: Vec3| {
+            for (row, x) in rows.iter_mut().zip(permuted(p)) {
+                row[lane] = x;
+            }
+        };
+        put(&mut self.origin, ray.origin);
+        put(&mut self.dir, ray.dir);
+        let [a, b, c] = corners;
+        put(&mut self.corners[..3], a);
+        put(&mut self.corners[3..6], b);
+        put(&mut self.corners[6..], c);
     }
 
     /// Computes t, u and v in each lane.
@@ -146,12 +134,4 @@ impl HitLanes {
 pub(super) fn rounded_t(t: f64) -> f32 {
     // Slightly below the largest f32, t may round to infinity.
     (t as f32).min(f32::MAX)
-}
-
-/// Stores a point in a lane of its rows.
-#[inline(always)]
-fn put(rows: &mut [[f32; LANES]], lane: usize, point: Vec3) {
-    for (row, x) in rows.iter_mut().zip(point.to_array()) {
-        row[lane] = x;
-    }
 }
