@@ -5,7 +5,7 @@ use glam::{DVec3, Vec3};
 use hitscope_core::Ray;
 use hitscope_core::intersector::Intersector;
 use hitscope_core::kernel::TRIANGLE_KERNELS;
-use hitscope_core::mesh::shapes::{Placement, cube, soup};
+use hitscope_core::mesh::shapes::{Placement, cube, soup, torus};
 use hitscope_core::random::Random;
 use hitscope_core::scene::scene;
 use hitscope_core::simd::SimdLevel;
@@ -74,6 +74,23 @@ fn packets_along_box_planes_give_the_same_hits_as_single_rays() {
             hits += hits_alone_and_together(&*intersector, &rays);
         }
         assert!(hits > 20_000, "{hits}");
+    }
+}
+
+#[test]
+fn parallel_rays_from_all_over_the_scene_hit_what_single_rays_hit() {
+    let scene = scene(torus(200, 100, Placement::UNIT));
+    let dir = Vec3::new(0.2, 0.3, -1.0);
+    let mut random = Random::new(31);
+    let rays: Vec<Ray> = (0..4096)
+        .map(|_| Ray::new(1.5 * random.in_cube_f32() - 4.0 * dir, dir).expect("a ray"))
+        .collect();
+    for kernel in TRIANGLE_KERNELS.iter() {
+        let intersector = scene.intersector(kernel);
+        if intersector.rays_together() == TOGETHER {
+            let hits = hits_alone_and_together(&*intersector, &rays);
+            assert!(hits > 500, "{}: {hits}", kernel.info.name);
+        }
     }
 }
 
