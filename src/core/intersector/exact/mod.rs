@@ -1,19 +1,22 @@
 //! Method for triangles whose hits are decided and ordered as in exact arithmetic.
 
-use super::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
-use super::levels::EveryLevel;
-use super::method::{BlocksOf, Method, Tester};
-use super::order::precedes;
-use super::{ExactT, RankedHit};
+mod batch;
+
+pub(super) use batch::rounded_alone;
+
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay};
+use crate::intersector::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
+use crate::intersector::levels::EveryLevel;
+use crate::intersector::method::{BlocksOf, Method, Tester};
+use crate::intersector::order::precedes;
+use crate::intersector::{ExactT, RankedHit};
 use crate::kernel::ShearedRay;
-use crate::kernel::exact::{
-    Candidate, Corners, HitLanes, Judge, VALUES, exact_t, filter, t_bounds,
-};
-use crate::lane::{LANES, Lane, LaneMask, Number};
+use crate::kernel::exact::{Candidate, Corners, Judge, VALUES, exact_t, filter, t_bounds};
+use crate::lane::{Lane, LaneMask, Number};
 use crate::ray::{Hit, Ray};
 use crate::shape::{CompactBlocks, EmptyLanes, Shape, Triangle};
 use crate::simd::SimdLevel;
+use batch::Batch;
 use fearless_simd::{Simd, dispatch};
 use glam::Vec3;
 use std::cmp::Ordering;
@@ -92,11 +95,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     }
 
     fn batch() -> Batch {
-        Batch {
-            lanes: [HitLanes::EMPTY; BATCH_SIZE / LANES],
-            found: [Kept::NOTHING; BATCH_SIZE],
-            count: 0,
-        }
+        Batch::EMPTY
     }
 
     #[inline(always)]
@@ -109,14 +108,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     ) {
         // Store the corners now, while they are in the cache.
         let corners = SlotCorners(tester.blocks).corners(nearest.slot);
-        let count = batch.count;
-        batch.lanes[count / LANES].set(count % LANES, tester.judge.ray(), corners);
-        batch.found[count] = Kept {
-            index: index as u32,
-            primitive: nearest.primitive,
-            slot: nearest.slot as u32,
-        };
-        batch.count += 1;
+        batch.add(index, tester.judge.ray(), &nearest, corners);
     }
 
     fn round(
@@ -126,73 +118,8 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
         batch: &Batch,
         hits: &mut [Option<Hit>],
     ) {
-        dispatch!(level.level(), token => round(blocks, token, rays, batch, hits));
+        dispatch!(level.level(), token => batch::round(blocks, token, rays, batch, hits));
     }
-}
-
-const BATCH_SIZE: usize = <Exact<Triangle> as Method>::BATCH_SIZE;
-
-/// The hits of some rays, before rounding.
-pub(super) struct Batch {
-    lanes: [HitLanes; BATCH_SIZE / LANES],
-    found: [Kept; BATCH_SIZE],
-    count: usize,
-}
-
-/// A hit in a batch.
-#[derive(Clone, Copy)]
-struct Kept {
-    /// Index of the ray.
-    index: u32,
-    primitive: u32,
-    slot: u32,
-}
-
-impl Kept {
-    const NOTHING: Self = Self {
-        index: 0,
-        primitive: NO_PRIMITIVE,
-        slot: 0,
-    };
-}
-
-/// Rounds the batch's hits.
-#[inline(always)]
-fn round<T: Shape + Into<Triangle>, S: Simd>(
-    blocks: &BlocksOf<Exact<T>>,
-    token: S,
-    rays: &[Ray],
-    batch: &Batch,
-    hits: &mut [Option<Hit>],
-) {
-    let groups = batch.found[..batch.count].chunks(LANES);
-    for (found, lanes) in groups.zip(&batch.lanes) {
-        let values = lanes.values(token);
-        for (lane, kept) in found.iter().enumerate() {
-            let Kept {
-                index,
-                primitive,
-                slot,
-            } = *kept;
-            let ray = &rays[index as usize];
-            let hit = values.of(lane, primitive);
-            hits[index as usize] = hit.or_else(|| rounded_alone(ray, blocks, primitive, slot));
-        }
-    }
-}
-
-/// The hit of the triangle in a slot, with t, u and v computed with as many digits as they need.
-// Not inlined: this path is rare.
-#[inline(never)]
-pub(super) fn rounded_alone<T: Shape + Into<Triangle>>(
-    ray: &Ray,
-    blocks: &BlocksOf<Exact<T>>,
-    primitive: u32,
-    slot: u32,
-) -> Option<Hit> {
-    let slot = slot as usize;
-    let candidate = Candidate::new(primitive, slot, f32::NEG_INFINITY, f32::INFINITY);
-    Some(Judge::new(ray, SlotCorners(blocks)).hit(candidate))
 }
 
 /// Tests one ray.
