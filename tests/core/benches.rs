@@ -110,13 +110,31 @@ fn trace_random(bencher: Bencher<'_, '_>, name: &str) {
 /// Any-hit queries.
 #[divan::bench(args = KERNELS)]
 fn trace_any(bencher: Bencher<'_, '_>, name: &str) {
-    let rays = random();
+    any(bencher, name, &random(), |x, rays, are_hits| {
+        x.any_hits(rays, are_hits);
+    });
+}
+
+/// Any-hit queries of camera rays, in packets.
+#[divan::bench(args = KERNELS)]
+fn trace_any_coherent(bencher: Bencher<'_, '_>, name: &str) {
+    any(bencher, name, &coherent(), |x, rays, are_hits| {
+        x.coherent_any_hits(rays, are_hits);
+    });
+}
+
+fn any(
+    bencher: Bencher<'_, '_>,
+    name: &str,
+    rays: &[Ray],
+    ask: impl Fn(&dyn Intersector, &[Ray], &mut [bool]) + Sync,
+) {
     let intersector = TORUS.intersector(kernel(name));
     let mut are_hits = vec![false; rays.len()];
     bencher
         .counter(ItemsCount::new(rays.len()))
         .bench_local(|| {
-            intersector.any_hits(black_box(&rays), &mut are_hits);
+            ask(&*intersector, black_box(rays), &mut are_hits);
             black_box(are_hits[0])
         });
 }

@@ -95,6 +95,9 @@ fn every_level_gives_the_scalar_levels_bits_for_single_rays_and_packets() {
                     let mut any = vec![false; rays.len()];
                     intersector.any_hits(rays, &mut any);
                     assert!(any == is_hit, "any, {place}");
+                    any.fill(false);
+                    intersector.coherent_any_hits(rays, &mut any);
+                    assert!(any == is_hit, "any together, {place}");
                 }
             }
         }
@@ -102,14 +105,14 @@ fn every_level_gives_the_scalar_levels_bits_for_single_rays_and_packets() {
 }
 
 #[test]
-fn two_kernels_trace_coherent_rays_in_packets_of_16() {
+fn three_kernels_trace_coherent_rays_in_packets_of_16() {
     let scene = scene(torus(48, 24, Placement::UNIT));
     let together = TRIANGLE_KERNELS
         .iter()
         .map(|kernel| scene.intersector(kernel).rays_together());
     assert_eq!(
         together.filter(|&count| count == 16).count(),
-        2,
-        "fast and watertight"
+        3,
+        "fast, watertight and exact"
     );
 }

@@ -83,6 +83,9 @@ fn answers(tree: &dyn Intersector, rays: &[Ray]) -> Vec<(Option<[u32; 4]>, bool)
         assert_eq!(bits(&tree.closest_hit_with_cost(ray).0), bits(hit));
     }
     assert!(hits.iter().map(Option::is_some).eq(any.iter().copied()));
+    let mut any_together = vec![false; rays.len()];
+    tree.coherent_any_hits(rays, &mut any_together);
+    assert_eq!(any, any_together);
     hits.iter().map(bits).zip(any).collect()
 }
 

@@ -179,11 +179,14 @@ fn no_ray_leaves_a_long_box_prism_or_corridor() {
                 .map(|_| corridor.ray(&mut random))
                 .collect();
             let (mut alone, mut together) = (vec![None; rays.len()], vec![None; rays.len()]);
-            let mut any = vec![false; rays.len()];
+            let (mut any, mut any_together) = (vec![false; rays.len()], vec![false; rays.len()]);
             intersector.closest_hits(&rays, &mut alone);
             intersector.coherent_hits(&rays, &mut together);
             intersector.any_hits(&rays, &mut any);
-            let is_lost = |i: &usize| alone[*i].is_none() || together[*i].is_none() || !any[*i];
+            intersector.coherent_any_hits(&rays, &mut any_together);
+            let is_lost = |i: &usize| {
+                alone[*i].is_none() || together[*i].is_none() || !any[*i] || !any_together[*i]
+            };
             let lost: Vec<usize> = (0..rays.len()).filter(is_lost).collect();
             if let Some(first) = lost.first() {
                 leaks.push(format!(

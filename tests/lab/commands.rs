@@ -299,7 +299,14 @@ fn bench_prints_a_row_per_workload_and_kernel() {
         assert!(report[figure].as_f64().is_some_and(|x| x > 0.0), "{figure}");
     }
     let rows = report["workloads"].as_array().expect("rows");
-    for (name, count) in [("primary", 4), ("bounce", 2), ("random", 2), ("shadow", 2)] {
+    let workloads = [
+        ("primary", 4),
+        ("bounce", 2),
+        ("random", 2),
+        ("shadow", 2),
+        ("lamp", 4),
+    ];
+    for (name, count) in workloads {
         let rows: Vec<_> = rows.iter().filter(|row| row["name"] == name).collect();
         assert_eq!(rows.len(), count, "{name}");
         for row in &rows {

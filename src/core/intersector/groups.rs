@@ -255,29 +255,42 @@ impl SceneIntersector {
     /// The nearest hit, by each group's fast search, which rounds t to f32; `None` if two groups' hits are too close to each
     /// other to be compared by that.
     fn clearly_closest_hit(&self, ray: &Ray) -> Option<Option<Hit>> {
-        let is_rounded = self.kernel.precision != Precision::F32;
         let box_ray = box_ray(ray);
         let mut nearest: Option<Hit> = None;
         for group in &self.groups {
-            let t_max = match nearest {
-                None => ray.t_max,
-                Some(hit) if is_rounded => hit.t.next_up().min(ray.t_max),
-                // As computed: at an equal t, the earlier group's primitive precedes.
-                Some(hit) => hit.t,
-            };
+            let t_max = self.t_max(ray, nearest);
             if !group.may_be_hit(box_ray.as_ref(), t_max) {
                 continue;
             }
             let Some(found) = group.closest_hit(ray, t_max) else {
                 continue;
             };
-            let is_clear = nearest.is_none_or(|nearest| found.t < nearest.t.next_down());
-            if is_rounded && !is_clear {
+            if !self.is_clear(found, nearest) {
                 return None;
             }
             nearest = Some(group.numbered(found));
         }
         Some(nearest)
+    }
+
+    /// Whether a group's hits are rounded to f32, so that equal t may differ.
+    fn is_rounded(&self) -> bool {
+        self.kernel.precision != Precision::F32
+    }
+
+    /// An upper bound of t for hits of a later group that could precede the nearest so far.
+    fn t_max(&self, ray: &Ray, nearest: Option<Hit>) -> f32 {
+        match nearest {
+            None => ray.t_max,
+            Some(hit) if self.is_rounded() => hit.t.next_up().min(ray.t_max),
+            // As computed: at an equal t, the earlier group's primitive precedes.
+            Some(hit) => hit.t,
+        }
+    }
+
+    /// Whether a hit within [`t_max`](Self::t_max) certainly precedes the nearest of earlier groups.
+    fn is_clear(&self, found: Hit, nearest: Option<Hit>) -> bool {
+        !self.is_rounded() || nearest.is_none_or(|nearest| found.t < nearest.t.next_down())
     }
 }
 
@@ -294,29 +307,46 @@ impl Intersector for SceneIntersector {
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        if self.kernel.precision != Precision::F32 {
-            return self.closest_hits(rays, hits);
-        }
         hits.fill(None);
-        let mut found = vec![None; rays.len()];
+        let (mut found, mut are_clear) = (vec![None; rays.len()], vec![true; rays.len()]);
         for group in &self.groups {
-            // A hit's t is as computed, so a hit of a later group counts only if it is nearer.
-            let t_max = |ray: &Ray, hit: &Option<Hit>| hit.map_or(ray.t_max, |hit| hit.t);
             let mut pairs = rays.iter().zip(&*hits);
             if pairs.all(|(ray, hit)| hit.is_none() && group.exclude(ray) == ray.exclude) {
                 group.intersector.coherent_hits(rays, &mut found);
             } else {
                 let pairs = rays.iter().zip(&*hits);
                 let rays: Vec<Ray> = pairs
-                    .map(|(ray, hit)| group.ray(ray, t_max(ray, hit)))
+                    .map(|(ray, hit)| group.ray(ray, self.t_max(ray, *hit)))
                     .collect();
                 group.intersector.coherent_hits(&rays, &mut found);
             }
-            for (hit, found) in hits.iter_mut().zip(&found) {
-                if let Some(found) = found {
-                    *hit = Some(group.numbered(*found));
+            for ((hit, found), is_clear) in hits.iter_mut().zip(&found).zip(&mut are_clear) {
+                if let Some(found) = *found {
+                    *is_clear &= self.is_clear(found, *hit);
+                    *hit = Some(group.numbered(found));
                 }
             }
+        }
+        let all = rays.iter().zip(hits).zip(are_clear);
+        for ((ray, hit), _) in all.filter(|(_, is_clear)| !is_clear) {
+            *hit = self.closest_hit_with_cost(ray).0;
+        }
+    }
+
+    fn coherent_any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        are_hits.fill(false);
+        let mut left: Vec<usize> = (0..rays.len()).collect();
+        for group in &self.groups {
+            let rays: Vec<Ray> = left
+                .iter()
+                .map(|&i| group.ray(&rays[i], rays[i].t_max))
+                .collect();
+            let mut found = vec![false; rays.len()];
+            group.intersector.coherent_any_hits(&rays, &mut found);
+            for (&i, is_hit) in left.iter().zip(found) {
+                are_hits[i] = is_hit;
+            }
+            left.retain(|&i| !are_hits[i]);
         }
     }
 

@@ -73,6 +73,10 @@ impl Intersector for Improving {
         self.current.get().any_hits(rays, are_hits);
     }
 
+    fn coherent_any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        self.current.get().coherent_any_hits(rays, are_hits);
+    }
+
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
         self.current.get().all_hits(ray)
     }

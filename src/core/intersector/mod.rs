@@ -42,11 +42,12 @@ use algebraic::Algebraic;
 use exact::Exact;
 use levels::{BaselineLevel, EveryLevel};
 use method::Method;
+use packet::Packets;
 use ranked::Ranked;
 use std::ops::AddAssign;
 use std::slice::from_ref;
 use std::sync::Arc;
-use tree::{Packets, TreeIntersector};
+use tree::TreeIntersector;
 
 /// The cost of tracing a ray.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -145,15 +146,14 @@ impl<S: Shape> KernelVisitor<S> for Packer<'_, S> {
     }
 
     fn visit_with_packets<K: Kernel<Shape = S>>(&mut self) {
-        let trace = TreeIntersector::<Ranked<K, f32, EveryLevel>>::trace_packets;
-        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(trace));
+        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(Packets::NEW));
     }
 
     fn visit_exact_triangle(&mut self)
     where
         S: From<Triangle> + Into<Triangle>,
     {
-        self.pack::<Exact<S>>(&kernel::exact::INFO, None);
+        self.pack::<Exact<S>>(&kernel::exact::INFO, Some(Packets::NEW));
     }
 
     fn visit_algebraic(&mut self)
@@ -194,7 +194,8 @@ pub trait Intersector: Send + Sync {
         self.closest_hits(rays, hits);
     }
 
-    /// The number of rays that [`coherent_hits`](Self::coherent_hits) traces together.
+    /// The number of rays that [`coherent_hits`](Self::coherent_hits) and
+    /// [`coherent_any_hits`](Self::coherent_any_hits) trace together.
     fn rays_together(&self) -> usize {
         1
     }
@@ -211,6 +212,12 @@ pub trait Intersector: Send + Sync {
 
     /// Finds out for each ray whether it has any hit with `t_min < t < t_max`.
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]);
+
+    /// As [`any_hits`](Self::any_hits), but faster for coherent rays, such as those from neighbouring points to
+    /// one lamp.
+    fn coherent_any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        self.any_hits(rays, are_hits);
+    }
 
     /// Whether one ray has any hit.
     fn any_hit(&self, ray: &Ray) -> bool {

@@ -4,6 +4,7 @@ use super::blocks::{Blocks, Packing, Scratch, candidates};
 use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::crossings;
+use super::packet::Packets;
 use super::visitors::{Any, Each, Kept, Nearest};
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
 use crate::aabb::Aabb;
@@ -26,8 +27,6 @@ pub(super) struct TreeIntersector<M: Method> {
     packets: Option<Packets<M>>,
 }
 
-pub(super) type Packets<M> = fn(&TreeIntersector<M>, &[Ray], &mut [Option<Hit>]);
-
 impl<M: Method> TreeIntersector<M> {
     pub fn new(
         kernel: &'static KernelInfo,
@@ -44,6 +43,11 @@ impl<M: Method> TreeIntersector<M> {
             kernel,
             packets,
         }
+    }
+
+    /// The searches of packets, which need packed rows.
+    fn packets(&self) -> Option<&Packets<M>> {
+        self.packets.as_ref().filter(|_| !self.blocks.are_compact())
     }
 
     /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
@@ -174,18 +178,21 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        match self.packets {
-            Some(trace) if !self.blocks.are_compact() => trace(self, rays, hits),
-            _ => self.closest_hits(rays, hits),
+        match self.packets() {
+            Some(packets) => (packets.nearest)(self, rays, hits),
+            None => self.closest_hits(rays, hits),
+        }
+    }
+
+    fn coherent_any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        match self.packets() {
+            Some(packets) => (packets.any)(self, rays, are_hits),
+            None => self.any_hits(rays, are_hits),
         }
     }
 
     fn rays_together(&self) -> usize {
-        if self.packets.is_some() && !self.blocks.are_compact() {
-            PACKET
-        } else {
-            1
-        }
+        self.packets().map_or(1, |_| PACKET)
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {

@@ -7,7 +7,7 @@ use super::{CommandError, ThreadsArg, default_thread_count};
 use crate::json;
 use crate::measure::scene::counted_primitives;
 use crate::measure::speed::{RAYS_AT_ONCE, median};
-use crate::measure::workloads::{WORKLOADS, workloads};
+use crate::measure::workloads::{WORKLOADS, lamp_rays, workloads};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use cpu_time::ThreadTime;
@@ -34,6 +34,7 @@ Workloads:
   bounce   a diffuse ray from each hit of a primary ray
   random   rays from a sphere around the scene to points in its bounding box
   shadow   the bounce rays again, any hit instead of the closest
+  lamp     rays from the hits of the primary rays to one distant lamp, any hit
 
 Rates are rays per second of CPU time, averaged over the cores in use;
 “wall-clock” rates use elapsed time. Each rate is the median of all rounds; a
@@ -139,6 +140,7 @@ enum WorkloadQuery {
     Closest,
     Coherent,
     Any,
+    CoherentAny,
 }
 
 impl BenchArgs {
@@ -182,7 +184,8 @@ impl BenchArgs {
             workloads: {
                 meter.begin("Making rays");
                 let workloads = workloads(scene, &camera, MOST_RAYS, 1);
-                self.rows(&intersectors, &workloads, &meter)
+                let lamp = lamp_rays(scene, &camera, &workloads[0]);
+                self.rows(&intersectors, &workloads, &lamp, &meter)
             },
         };
         drop(bar);
@@ -207,14 +210,18 @@ impl BenchArgs {
         &self,
         intersectors: &[Box<dyn Intersector>],
         workloads: &[Vec<Ray>; 3],
+        lamp: &[Ray],
         meter: &Meter,
     ) -> Vec<Row> {
+        let workloads = workloads.each_ref().map(Vec::as_slice);
         let [primary, bounce, _] = workloads;
         let single = WORKLOADS.into_iter().zip(workloads);
         let single = single.map(|(name, rays)| (name, WorkloadQuery::Closest, rays));
         let more = [
             ("primary", WorkloadQuery::Coherent, primary),
             ("shadow", WorkloadQuery::Any, bounce),
+            ("lamp", WorkloadQuery::Any, lamp),
+            ("lamp", WorkloadQuery::CoherentAny, lamp),
         ];
         let mut rows = Vec::new();
         for (name, query, rays) in single.chain(more) {
@@ -241,8 +248,8 @@ impl BenchArgs {
                     name,
                     kernel: intersector.kernel().short_name(),
                     rays_together: match query {
-                        WorkloadQuery::Coherent => intersector.rays_together(),
                         WorkloadQuery::Closest | WorkloadQuery::Any => 1,
+                        _ => intersector.rays_together(),
                     },
                     threads: times[0].threads,
                     rays: rays.len(),
@@ -313,6 +320,7 @@ fn hit_count(intersector: &dyn Intersector, query: WorkloadQuery, rays: &[Ray]) 
         WorkloadQuery::Closest => intersector.closest_hits(black_box(rays), hits),
         WorkloadQuery::Coherent => intersector.coherent_hits(black_box(rays), hits),
         WorkloadQuery::Any => intersector.any_hits(black_box(rays), are_hits),
+        WorkloadQuery::CoherentAny => intersector.coherent_any_hits(black_box(rays), are_hits),
     }
     let count = hits.iter().flatten().count() + are_hits.iter().filter(|&&is_hit| is_hit).count();
     count as u64

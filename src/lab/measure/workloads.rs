@@ -1,4 +1,4 @@
-//! Workloads for measuring speed: camera rays, bounce rays and random rays.
+//! Workloads for measuring speed: camera rays, bounce rays, random rays, and rays to a lamp.
 
 use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::kernel::default_triangle_kernel;
@@ -63,17 +63,41 @@ fn bounce_rays(
     arriving: &[Ray],
     random: &mut Random,
 ) -> Vec<Ray> {
+    let lit = lit_points(scene, intersector, arriving).into_iter();
+    let bounce = lit.filter_map(|(origin, facing)| {
+        let dir = (facing + random.direction()).normalize_or(facing);
+        Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
+    });
+    bounce.collect()
+}
+
+/// The rays to a distant lamp behind the camera at its upper left, from the hits of camera rays that face the lamp, in
+/// the order of the camera rays.
+pub fn lamp_rays(scene: &Scene, camera: &Camera, arriving: &[Ray]) -> Vec<Ray> {
+    let intersector = scene.intersector(default_triangle_kernel());
+    let to_lamp = (camera.back() + camera.up() - camera.right()).normalize();
+    let lit = lit_points(scene, &*intersector, arriving).into_iter();
+    let rays = lit
+        .filter(|(_, facing)| facing.dot(to_lamp) > 0.0)
+        .filter_map(|(origin, _)| Ray::new(origin.as_vec3(), to_lamp.as_vec3()).ok());
+    rays.collect()
+}
+
+/// A point a little above each hit, and the normal that faces the arriving ray.
+fn lit_points(
+    scene: &Scene,
+    intersector: &dyn Intersector,
+    arriving: &[Ray],
+) -> Vec<(DVec3, DVec3)> {
     let mut hits = vec![None; arriving.len()];
     intersector.coherent_hits(arriving, &mut hits);
     let lift = LIFT * 2.0 * scene.bounds().radius();
-    let bounce = |(ray, hit): (&Ray, Option<hitscope_core::Hit>)| {
+    let lit = |(ray, hit): (&Ray, Option<hitscope_core::Hit>)| {
         let hit = hit?;
         if !scene.is_triangle(hit.primitive) {
             let surface = scene.surface(ray, &hit);
             let facing = -surface.facing_normal(ray.dir).as_dvec3();
-            let origin = surface.position.as_dvec3() + lift * facing;
-            let dir = (facing + random.direction()).normalize_or(facing);
-            return Ray::new(origin.as_vec3(), dir.as_vec3()).ok();
+            return Some((surface.position.as_dvec3() + lift * facing, facing));
         }
         let corners = scene.mesh().corners(hit.primitive);
         let normal = unit_normal(corners);
@@ -84,11 +108,9 @@ fn bounce_rays(
         };
         let [a, b, c] = corners.map(|p| p.as_dvec3());
         let (u, v) = (f64::from(hit.u), f64::from(hit.v));
-        let origin = a + u * (b - a) + v * (c - a) + lift * facing;
-        let dir = (facing + random.direction()).normalize_or(facing);
-        Ray::new(origin.as_vec3(), dir.as_vec3()).ok()
+        Some((a + u * (b - a) + v * (c - a) + lift * facing, facing))
     };
-    arriving.iter().zip(hits).filter_map(bounce).collect()
+    arriving.iter().zip(hits).filter_map(lit).collect()
 }
 
 /// A ray from a sphere around the scene, whose radius is the diagonal of its box, through a point of the box.
@@ -120,7 +142,8 @@ mod tests {
         let size = UVec2::new(32, 16);
         let eye = DVec3::Z * 4.0;
         let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Y, projection, size);
-        let [primary, bounce, random] = workloads(&scene, &camera.expect("a camera"), 512, 1);
+        let camera = camera.expect("a camera");
+        let [primary, bounce, random] = workloads(&scene, &camera, 512, 1);
         assert_eq!(primary.len(), 512);
         let intersector = scene.intersector(default_triangle_kernel());
         let is_hit = |ray: &&Ray| intersector.any_hit(ray);
@@ -128,6 +151,10 @@ mod tests {
         // A sphere is convex: rays that leave it never hit it again.
         assert_eq!(bounce.iter().filter(is_hit).count(), 0);
         assert!(random.iter().filter(is_hit).count() > 100);
+        let lamp = lamp_rays(&scene, &camera, &primary);
+        assert!(lamp.len() > bounce.len() / 2 && lamp.len() < bounce.len());
+        assert_eq!(lamp.iter().filter(is_hit).count(), 0);
+        assert!(lamp.iter().all(|ray| ray.dir == lamp[0].dir));
     }
 
     #[test]

@@ -172,6 +172,9 @@ fn the_nearest_hit_of_several_groups_counts() {
         let mut of_groups = [0, 0];
         let mut hits = vec![None; rays.len()];
         both.coherent_hits(&rays, &mut hits);
+        let mut any = vec![false; rays.len()];
+        both.coherent_any_hits(&rays, &mut any);
+        assert!(hits.iter().map(Option::is_some).eq(any), "{name}");
         for (ray, hit) in rays.iter().zip(hits) {
             let of_mesh = mesh.closest_hit(ray);
             let of_spheres = alone.closest_hit(ray).map(|hit| Hit {

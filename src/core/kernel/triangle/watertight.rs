@@ -17,7 +17,7 @@
 //! the ray to the wrong neighbour. If the computed t places that neighbour behind the ray's origin, or if the
 //! ray misses its box, both triangles are missed.
 
-use super::exact::{self, filter};
+use super::exact::{self, DepthInterval, filter};
 use super::shear::ShearedRay;
 use crate::kernel::{Kernel, KernelInfo, LaneHit, Precision, Promises, RayLanes, Tier};
 use crate::lane::{Lane, LaneMask, Number, Values};
@@ -31,30 +31,16 @@ pub(super) struct Watertight;
 #[derive(Clone, Copy)]
 pub(super) struct PreparedRay<L> {
     sheared: ShearedRay<L>,
-    /// |d_z|: a depth is t times this.
-    depth_per_t: L,
-    /// Hits below this depth certainly lie before the interval.
-    earliest: L,
-    /// Hits above this depth certainly lie after the start of the interval.
-    start: L,
-    /// Hits below this depth certainly lie before the end of the interval.
-    end: L,
+    interval: DepthInterval<L>,
 }
 
 impl<L: Lane> From<RayLanes<L>> for PreparedRay<L> {
     #[inline(always)]
     fn from(rays: RayLanes<L>) -> Self {
         let sheared = ShearedRay::new(&rays);
-        let depth_per_t = sheared.dir_z().abs();
-        let most = L::of(depth_per_t.token(), f32::MAX);
-        let start = rays.interval[0].greater(-most) * depth_per_t;
-        let end = rays.interval[1].lesser(most) * depth_per_t;
         Self {
             sheared,
-            depth_per_t,
-            earliest: surely_below(start),
-            start: -surely_below(-start),
-            end: surely_below(end),
+            interval: DepthInterval::new(&rays, &sheared),
         }
     }
 }
@@ -101,17 +87,16 @@ impl Kernel for Watertight {
 
         // Hits before the interval, or behind the nearest hit so far, don't count even if other decisions are
         // open.
-        let deepest = -surely_below(-(limit * ray.depth_per_t));
-        let is_outside = far.lt(ray.earliest) | deepest.lt(near);
+        let is_outside = far.lt(ray.interval.earliest) | ray.interval.deepest(limit).lt(near);
         let is_possible = !(found.missed | is_outside);
         if !is_possible.any() {
             return None;
         }
 
         // Whether a lane is doubtful depends only on ray and triangle, not on other hits.
-        let is_within = ray.start.lt(near) & far.lt(ray.end);
+        let is_within = ray.interval.contains(near, far);
         let is_known = found.certain & is_within & found.is_accurate();
-        let t = found.depth / ray.depth_per_t;
+        let t = found.depth / ray.interval.per_t;
         Some(LaneHit {
             mask: is_possible & is_known & t.le(limit),
             doubtful: is_possible & !is_known,
@@ -127,14 +112,4 @@ impl Kernel for Watertight {
         let [start, end] = ray.finite_interval().map(N::from);
         Some([t.greater(start.next_up()).lesser(end.next_down()), u, v])
     }
-}
-
-/// A lower bound of a product of two f32 that was rounded to `x`. Infinite if `x` is.
-#[inline(always)]
-fn surely_below<L: Lane>(x: L) -> L {
-    let token = x.token();
-    let number = |x: L::Number| L::splat(token, x);
-    let (one, ulps) = (L::of(token, 1.0), L::of(token, 8.0) * number(L::Number::U));
-    let nearer = (x * (one - ulps)).lesser(x * (one + ulps));
-    nearer - number(L::Number::LEAST_NORMAL)
 }

@@ -2,6 +2,7 @@
 //! integers.
 
 use super::super::shear::ShearedRay;
+use super::rounding::rounded_t;
 use super::{Filtered, VALUES, filter, integer};
 use crate::lane::Number;
 use crate::ray::{Hit, Ray};
@@ -54,8 +55,7 @@ impl Candidate {
     /// The candidate's hit, with t, u and v rounded to f32.
     pub fn hit(&self, [t, u, v]: [f64; 3]) -> Hit {
         Hit {
-            // Slightly below the largest f32, t may round to infinity.
-            t: (t as f32).min(f32::MAX),
+            t: rounded_t(t),
             u: u as f32,
             v: v as f32,
             primitive: self.primitive,

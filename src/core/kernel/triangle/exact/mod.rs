@@ -13,10 +13,12 @@
 
 mod filter;
 mod integer;
+mod interval;
 mod judge;
 mod rounding;
 
 pub(crate) use filter::{Filtered, filter};
+pub(crate) use interval::DepthInterval;
 pub(crate) use judge::{Candidate, Corners, Judge};
 pub(crate) use rounding::HitLanes;
 

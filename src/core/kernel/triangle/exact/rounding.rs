@@ -3,32 +3,39 @@
 use super::{VALUES, filter};
 use crate::kernel::{RayLanes, ShearedRay, axes_of};
 use crate::lane::{LANES, Lane, LaneMask, Number, Values};
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use fearless_simd::{Simd, f64x8};
 use glam::Vec3;
 
-/// Rays and the triangles that they hit, one pair per lane. Each ray's coordinates are permuted so that its
-/// dominant axis comes third in every lane.
+/// Rays and the triangles that they hit, one pair per lane.
 #[derive(Clone, Copy)]
 pub(crate) struct HitLanes {
-    origin: [[f32; LANES]; 3],
-    dir: [[f32; LANES]; 3],
-    corners: [[f32; LANES]; VALUES],
+    pub origin: [[f32; LANES]; 3],
+    pub dir: [[f32; LANES]; 3],
+    pub corners: [[f32; LANES]; VALUES],
+    /// The axes of all the rays; see [`RayLanes::axes`].
+    pub axes: [usize; 3],
 }
 
-/// The values computed from [`HitLanes`].
+/// The values computed from [`HitLanes`], rounded as by [`Candidate::hit`](super::Candidate::hit).
 pub(crate) struct RoundedLanes {
-    t: [f64; LANES],
-    u: [f64; LANES],
-    v: [f64; LANES],
+    t: [f32; LANES],
+    u: [f32; LANES],
+    v: [f32; LANES],
     accurate: u32,
 }
 
 impl RoundedLanes {
-    /// t, u and v of a lane, if they are [accurate](super::Filtered::is_accurate).
-    pub fn of(&self, lane: usize) -> Option<[f64; 3]> {
+    /// The hit of a lane, if t and the weights are [accurate](super::Filtered::is_accurate).
+    #[inline(always)]
+    pub fn of(&self, lane: usize, primitive: u32) -> Option<Hit> {
         let is_accurate = self.accurate >> lane & 1 == 1;
-        is_accurate.then(|| [self.t[lane], self.u[lane], self.v[lane]])
+        is_accurate.then(|| Hit {
+            t: self.t[lane],
+            u: self.u[lane],
+            v: self.v[lane],
+            primitive,
+        })
     }
 }
 
@@ -51,9 +58,11 @@ impl HitLanes {
         origin: [[0.0; LANES]; 3],
         dir: [[0.0; LANES]; 3],
         corners: [[0.0; LANES]; VALUES],
+        axes: [0, 1, 2],
     };
 
-    /// Stores a ray and the triangle that it hits in a lane.
+    /// Stores a ray and the triangle that it hits in a lane. The coordinates are permuted so that the ray's axes are
+    /// [`Self::EMPTY`]'s.
     #[inline(always)]
     pub fn set(&mut self, lane: usize, ray: &Ray, corners: [Vec3; 3]) {
         let lane = lane % LANES;
@@ -84,7 +93,7 @@ impl HitLanes {
             ],
             dir: [row(&self.dir, 0), row(&self.dir, 1), row(&self.dir, 2)],
             interval: [f64x8::splat(token, 0.0), f64x8::splat(token, f64::INFINITY)],
-            axes: [0, 1, 2],
+            axes: self.axes,
         };
         let sheared = ShearedRay::<f64x8<S>>::new(&rays);
         let corners = Widened {
@@ -102,11 +111,27 @@ impl HitLanes {
         let is_accurate = filtered.certain & filtered.is_accurate();
         let t = filtered.depth / sheared.dir_z().abs();
         let [u, v] = filtered.weights;
-        RoundedLanes {
-            t: f64::store(t),
-            u: f64::store(u),
-            v: f64::store(v),
+        let mut rounded = RoundedLanes {
+            t: [0.0; LANES],
+            u: [0.0; LANES],
+            v: [0.0; LANES],
             accurate: is_accurate.bits(),
+        };
+        let (t, u, v) = (f64::store(t), f64::store(u), f64::store(v));
+        let mut lane = 0;
+        while lane < LANES {
+            rounded.t[lane] = rounded_t(t[lane]);
+            rounded.u[lane] = u[lane] as f32;
+            rounded.v[lane] = v[lane] as f32;
+            lane += 1;
         }
+        rounded
     }
+}
+
+/// t in f32.
+#[inline(always)]
+pub(super) fn rounded_t(t: f64) -> f32 {
+    // Slightly below the largest f32, t may round to infinity.
+    (t as f32).min(f32::MAX)
 }

@@ -1,19 +1,22 @@
 //! Method for triangles whose hits are decided and ordered as in exact arithmetic.
 
-use super::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
-use super::levels::EveryLevel;
-use super::method::{BlocksOf, Method, Tester};
-use super::order::precedes;
-use super::{ExactT, RankedHit};
+mod batch;
+
+pub(super) use batch::rounded_alone;
+
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay};
+use crate::intersector::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
+use crate::intersector::levels::EveryLevel;
+use crate::intersector::method::{BlocksOf, Method, Tester};
+use crate::intersector::order::precedes;
+use crate::intersector::{ExactT, RankedHit};
 use crate::kernel::ShearedRay;
-use crate::kernel::exact::{
-    Candidate, Corners, HitLanes, Judge, VALUES, exact_t, filter, t_bounds,
-};
-use crate::lane::{LANES, Lane, LaneMask, Number};
+use crate::kernel::exact::{Candidate, Corners, Judge, VALUES, exact_t, filter, t_bounds};
+use crate::lane::{Lane, LaneMask, Number};
 use crate::ray::{Hit, Ray};
 use crate::shape::{CompactBlocks, EmptyLanes, Shape, Triangle};
 use crate::simd::SimdLevel;
+use batch::Batch;
 use fearless_simd::{Simd, dispatch};
 use glam::Vec3;
 use std::cmp::Ordering;
@@ -27,7 +30,7 @@ type Vector<S> = <f32 as Number>::Lanes<S>;
 
 /// The corners in the slots of blocks; a slot is a lane of a block. They are read from the block, not from the
 /// mesh, because the block is in the cache.
-struct SlotCorners<'a, T: Shape>(&'a BlocksOf<Exact<T>>)
+pub(super) struct SlotCorners<'a, T: Shape>(pub(super) &'a BlocksOf<Exact<T>>)
 where
     T: Into<Triangle>;
 
@@ -92,11 +95,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     }
 
     fn batch() -> Batch {
-        Batch {
-            lanes: [HitLanes::EMPTY; BATCH_SIZE / LANES],
-            found: [None; BATCH_SIZE],
-            count: 0,
-        }
+        Batch::EMPTY
     }
 
     #[inline(always)]
@@ -109,10 +108,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
     ) {
         // Store the corners now, while they are in the cache.
         let corners = SlotCorners(tester.blocks).corners(nearest.slot);
-        let count = batch.count;
-        batch.lanes[count / LANES].set(count % LANES, tester.judge.ray(), corners);
-        batch.found[count] = Some((index, nearest));
-        batch.count += 1;
+        batch.add(index, tester.judge.ray(), &nearest, corners);
     }
 
     fn round(
@@ -122,38 +118,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
         batch: &Batch,
         hits: &mut [Option<Hit>],
     ) {
-        dispatch!(level.level(), token => round(blocks, token, rays, batch, hits));
-    }
-}
-
-const BATCH_SIZE: usize = <Exact<Triangle> as Method>::BATCH_SIZE;
-
-/// The hits of some rays, before rounding.
-pub(super) struct Batch {
-    lanes: [HitLanes; BATCH_SIZE / LANES],
-    /// Index of the ray, and its hit.
-    found: [Option<(usize, Candidate)>; BATCH_SIZE],
-    count: usize,
-}
-
-/// Rounds the batch's hits.
-#[inline(always)]
-fn round<T: Shape + Into<Triangle>, S: Simd>(
-    blocks: &BlocksOf<Exact<T>>,
-    token: S,
-    rays: &[Ray],
-    batch: &Batch,
-    hits: &mut [Option<Hit>],
-) {
-    let groups = batch.found[..batch.count].chunks(LANES);
-    for (found, lanes) in groups.zip(&batch.lanes) {
-        let values = lanes.values(token);
-        for (lane, (i, candidate)) in found.iter().flatten().enumerate() {
-            hits[*i] = Some(match values.of(lane) {
-                Some(values) => candidate.hit(values),
-                None => Judge::new(&rays[*i], SlotCorners(blocks)).hit(*candidate),
-            });
-        }
+        dispatch!(level.level(), token => batch::round(blocks, token, rays, batch, hits));
     }
 }
 
@@ -174,17 +139,17 @@ pub(super) struct ExactTester<'a, T: Shape + Into<Triangle>, S: Simd> {
 /// A lane of a block that isn't a certain miss or certainly too deep.
 #[derive(Clone, Copy)]
 pub(super) struct LaneCandidate {
-    primitive: u32,
+    pub primitive: u32,
     /// The slot whose corners it has.
-    slot: u32,
+    pub slot: u32,
     /// Bounds of its depth.
-    near: f32,
-    far: f32,
-    is_certain: bool,
+    pub near: f32,
+    pub far: f32,
+    pub is_certain: bool,
 }
 
 impl LaneCandidate {
-    fn candidate(&self) -> Candidate {
+    pub fn candidate(&self) -> Candidate {
         Candidate::new(self.primitive, self.slot as usize, self.near, self.far)
     }
 }
@@ -254,7 +219,7 @@ impl<'a, T: Shape + Into<Triangle>, S: Simd> ExactTester<'a, T, S> {
 /// The nearer of a hit and the nearest so far, if f32 can't decide.
 // Not inlined: this path is rare, and the common path is faster without it.
 #[inline(never)]
-fn nearer<C: Corners>(
+pub(super) fn nearer<C: Corners>(
     judge: &mut Judge<'_, C>,
     hit: &LaneCandidate,
     nearest: Option<Candidate>,
