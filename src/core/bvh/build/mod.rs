@@ -61,9 +61,13 @@ fn items_of(count: usize, bounds_of: BoundsOf) -> Vec<Item> {
     let item = |index| {
         let bounds = bounds_of(index);
         let is_valid = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
-        is_valid.then(|| Item::new(bounds, index))
+        Item::new(if is_valid { bounds } else { Aabb::EMPTY }, index)
     };
-    (0..count as u32).into_par_iter().filter_map(item).collect()
+    // Written in place, which a filter couldn't do.
+    let indices = (0..count as u32).into_par_iter();
+    let mut items: Vec<Item> = indices.map(item).collect();
+    items.retain(|item| item.lower[0] <= item.upper[0]);
+    items
 }
 
 /// A box in registers.

@@ -92,6 +92,9 @@ impl Bounds {
     }
 }
 
+/// Floats from here on are integers: a sum with this number rounds to one, and its low bits are the bin.
+const WHOLE: f32 = (1 << 23) as f32;
+
 /// Maps centres to bins.
 #[derive(Clone, Copy)]
 struct Grid {
@@ -115,16 +118,20 @@ impl Grid {
         }
     }
 
+    /// The bin of a centre along each axis, plus [`WHOLE`].
+    #[inline(always)]
+    fn shifted_bin(&self, centre: Vec3A) -> Vec3A {
+        let place = (centre - self.start) * self.per_length;
+        (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + Vec3A::splat(WHOLE)
+    }
+
     /// The bin of a box along each axis.
     #[inline(always)]
     fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
-        // Floats from 2²³ on are integers: the sum rounds to one, and its low bits are the bin.
-        const WHOLE: Vec3A = Vec3A::splat((1 << 23) as f32);
-        let place = (self.scale.centre(bounds) - self.start) * self.per_length;
-        let whole = (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + WHOLE;
-        let [x, y, z] = whole.to_array();
         let low = |x: f32| x.to_bits() as usize % BINS;
-        [low(x), low(y), low(z)]
+        self.shifted_bin(self.scale.centre(bounds))
+            .to_array()
+            .map(low)
     }
 }
 
@@ -170,6 +177,14 @@ impl FilledBins {
     }
 }
 
+impl FilledBins {
+    /// The boxes of the primitives below and above a cut.
+    fn sides(&self, cut: &Cut, bins: usize) -> [Bounds; 2] {
+        let (below, above) = self.bounds[cut.axis][..bins].split_at(cut.bin);
+        [below, above].map(|bins| bins.iter().copied().fold(Bounds::EMPTY, union))
+    }
+}
+
 /// A plane between two bins.
 struct Cut {
     cost: f32,
@@ -206,21 +221,18 @@ impl Splitter {
                 return Err(range);
             }
         }
-        let is_below = |bounds: Bounds| grid.bins_of(bounds)[cut.axis] < cut.bin;
-        let (middle, sides) = partition(range.items, self.scale, &is_below);
-        Ok(halves(range.items, middle, sides))
+        let (middle, centres) = Side::of(&cut, grid).partition(range.items);
+        let bounds = self.filled.sides(&cut, grid.bins);
+        Ok(halves(range.items, middle, bounds, centres))
     }
 
     /// Splits a range in its present order into halves of equal count.
     pub fn halve<'a>(&self, range: Range<'a>) -> [Range<'a>; 2] {
         let middle = range.items.len() / 2;
         let (low, high) = range.items.split_at(middle);
-        let side = |items: &[Item]| SideBoxes {
-            bounds: around(items),
-            centres: self.scale.centres(items),
-        };
-        let sides = [side(low), side(high)];
-        halves(range.items, middle, sides)
+        let bounds = [around(low), around(high)];
+        let centres = [low, high].map(|items| self.scale.centres(items));
+        halves(range.items, middle, bounds, centres)
     }
 
     fn fill(&mut self, grid: &Grid, items: &[Item]) {
@@ -283,93 +295,130 @@ fn blocks(count: u32) -> f32 {
     count.div_ceil(BLOCK_SIZE as u32) as f32
 }
 
-/// The boxes of one side of a cut.
-#[derive(Clone, Copy)]
-struct SideBoxes {
-    bounds: Bounds,
-    centres: Bounds,
-}
-
-impl SideBoxes {
-    const EMPTY: Self = Self {
-        bounds: Bounds::EMPTY,
-        centres: Bounds::EMPTY,
-    };
-
-    #[inline(always)]
-    fn grow(&mut self, bounds: Bounds, scale: Scale) {
-        self.bounds.grow(bounds);
-        self.centres.grow_to(scale.centre(bounds));
-    }
-
-    fn union(mut self, other: Self) -> Self {
-        self.bounds.grow(other.bounds);
-        self.centres.grow(other.centres);
-        self
-    }
-}
-
-fn halves(items: &mut [Item], middle: usize, [low, high]: [SideBoxes; 2]) -> [Range<'_>; 2] {
+fn halves<'a>(
+    items: &'a mut [Item],
+    middle: usize,
+    bounds: [Bounds; 2],
+    centres: [Bounds; 2],
+) -> [Range<'a>; 2] {
     let (first, second) = items.split_at_mut(middle);
-    let range = |items, side: SideBoxes| Range {
+    let range = |items, side: usize| Range {
         items,
-        bounds: side.bounds,
-        centres: side.centres,
+        bounds: bounds[side],
+        centres: centres[side],
     };
-    [range(first, low), range(second, high)]
+    [range(first, 0), range(second, 1)]
 }
 
-/// Moves the items for which `is_below` holds to the front, in place; returns their number and the boxes of
-/// both sides. The halves of a large range are partitioned in parallel, then their middle parts swap places.
-/// This depends on the count alone, so the order doesn't depend on the threads.
-fn partition(
-    items: &mut [Item],
-    scale: Scale,
-    is_below: &(impl Fn(Bounds) -> bool + Sync),
-) -> (usize, [SideBoxes; 2]) {
-    if items.len() < PARALLEL_FROM {
-        return partition_sequentially(items, scale, is_below);
+/// A test of the side of a cut on which a centre lies.
+#[derive(Clone, Copy)]
+struct Side {
+    grid: Grid,
+    axis: usize,
+    /// [`Grid::shifted_bins_of`] of the first bin above the cut.
+    first_above: f32,
+}
+
+impl Side {
+    fn of(cut: &Cut, grid: Grid) -> Self {
+        Self {
+            grid,
+            axis: cut.axis,
+            first_above: WHOLE + cut.bin as f32,
+        }
     }
-    let half = items.len() / 2;
-    let (first, second) = items.split_at_mut(half);
-    let ((low, [a, b]), (low_too, [c, d])) = rayon::join(
-        || partition(first, scale, is_below),
-        || partition(second, scale, is_below),
-    );
-    // Low, high, low, high: swap the second run with the third, as far as both go.
-    let moved = (half - low).min(low_too);
-    let (front, back) = items.split_at_mut(half);
-    front[low..low + moved].swap_with_slice(&mut back[low_too - moved..low_too]);
-    (low + low_too, [a.union(c), b.union(d)])
+
+    /// Moves the items below the cut to the front; returns their number and the boxes around both sides' centres.
+    /// Chunks of a large range are partitioned in parallel, then items in the wrong part swap places in parallel.
+    /// This depends on the count alone, so the order doesn't depend on the threads.
+    fn partition(&self, items: &mut [Item]) -> (usize, [Bounds; 2]) {
+        if items.len() < PARALLEL_FROM {
+            return self.partition_sequentially(items);
+        }
+        let chunks = items.par_chunks_mut(CHUNK);
+        let parts = chunks.map(|chunk| self.partition_sequentially(chunk));
+        let parts: Vec<(usize, [Bounds; 2])> = parts.collect();
+        let (mut middle, mut centres) = (0, [Bounds::EMPTY; 2]);
+        for &(below, [low, high]) in &parts {
+            middle += below;
+            centres = [union(centres[0], low), union(centres[1], high)];
+        }
+        let below = parts.into_iter().map(|(below, _)| below);
+        exchange(items, middle, below);
+        (middle, centres)
+    }
+
+    fn partition_sequentially(&self, items: &mut [Item]) -> (usize, [Bounds; 2]) {
+        match self.axis {
+            0 => self.partition_along::<0>(items),
+            1 => self.partition_along::<1>(items),
+            _ => self.partition_along::<2>(items),
+        }
+    }
+
+    /// Without branches that depend on the items: half of them would be mispredicted.
+    fn partition_along<const AXIS: usize>(&self, items: &mut [Item]) -> (usize, [Bounds; 2]) {
+        let first_above = Vec3A::splat(self.first_above);
+        let [mut low, mut high] = [Bounds::EMPTY; 2];
+        let mut middle = 0;
+        for at in 0..items.len() {
+            let item = items[at];
+            let centre = self.grid.scale.centre(item.bounds());
+            let bin = self.grid.shifted_bin(centre)[AXIS];
+            let is_below = Vec3A::splat(bin).cmplt(first_above);
+            low.lower = Vec3A::select(is_below, low.lower.min(centre), low.lower);
+            low.upper = Vec3A::select(is_below, low.upper.max(centre), low.upper);
+            high.lower = Vec3A::select(is_below, high.lower, high.lower.min(centre));
+            high.upper = Vec3A::select(is_below, high.upper, high.upper.max(centre));
+            items[at] = items[middle];
+            items[middle] = item;
+            middle += (is_below.bitmask() & 1) as usize;
+        }
+        (middle, [low, high])
+    }
 }
 
-fn partition_sequentially(
-    items: &mut [Item],
-    scale: Scale,
-    is_below: &impl Fn(Bounds) -> bool,
-) -> (usize, [SideBoxes; 2]) {
-    let [mut low, mut high] = [SideBoxes::EMPTY; 2];
-    let (mut start, mut end) = (0, items.len());
+/// Completes a partition: `below` is the number of items at the front of each chunk that belong before `middle`.
+fn exchange(items: &mut [Item], middle: usize, below: impl Iterator<Item = usize>) {
+    let [mut high, mut low] = [Vec::new(), Vec::new()];
+    let mut start = 0;
+    for (chunk, below) in items.chunks_mut(CHUNK).zip(below) {
+        let count = chunk.len();
+        let (front, back) = chunk.split_at_mut(below);
+        let misplaced = middle.saturating_sub(start + below).min(back.len());
+        high.push(&mut back[..misplaced]);
+        let first = middle.saturating_sub(start).min(front.len());
+        low.push(&mut front[first..]);
+        start += count;
+    }
+    let pairs = pairs_of(high, low);
+    pairs
+        .into_par_iter()
+        .for_each(|(a, b)| a.swap_with_slice(b));
+}
+
+/// Cuts two lists of slices, whose total lengths are equal, into pairs of equal lengths.
+fn pairs_of<'a>(
+    a: Vec<&'a mut [Item]>,
+    b: Vec<&'a mut [Item]>,
+) -> Vec<(&'a mut [Item], &'a mut [Item])> {
+    let mut pairs = Vec::new();
+    let (mut a, mut b) = (a.into_iter(), b.into_iter());
+    let [mut left, mut right]: [&mut [Item]; 2] = [&mut [], &mut []];
     loop {
-        while start < end {
-            let bounds = items[start].bounds();
-            if !is_below(bounds) {
-                break;
-            }
-            low.grow(bounds, scale);
-            start += 1;
+        if left.is_empty() {
+            let Some(next) = a.next() else { break };
+            left = next;
+        } else if right.is_empty() {
+            let Some(next) = b.next() else { break };
+            right = next;
+        } else {
+            let count = left.len().min(right.len());
+            let (x, more_left) = left.split_at_mut(count);
+            let (y, more_right) = right.split_at_mut(count);
+            pairs.push((x, y));
+            (left, right) = (more_left, more_right);
         }
-        while start < end {
-            let bounds = items[end - 1].bounds();
-            if is_below(bounds) {
-                break;
-            }
-            high.grow(bounds, scale);
-            end -= 1;
-        }
-        if start == end {
-            return (start, [low, high]);
-        }
-        items.swap(start, end - 1);
     }
+    pairs
 }
