@@ -362,16 +362,14 @@ impl Side {
         let [mut low, mut high] = [Bounds::EMPTY; 2];
         let mut middle = 0;
         for at in 0..items.len() {
-            let item = items[at];
-            let centre = self.grid.scale.centre(item.bounds());
+            let centre = self.grid.scale.centre(items[at].bounds());
             let bin = self.grid.shifted_bin(centre)[AXIS];
             let is_below = Vec3A::splat(bin).cmplt(first_above);
             low.lower = Vec3A::select(is_below, low.lower.min(centre), low.lower);
             low.upper = Vec3A::select(is_below, low.upper.max(centre), low.upper);
             high.lower = Vec3A::select(is_below, high.lower, high.lower.min(centre));
             high.upper = Vec3A::select(is_below, high.upper, high.upper.max(centre));
-            items[at] = items[middle];
-            items[middle] = item;
+            items.swap(at, middle);
             middle += (is_below.bitmask() & 1) as usize;
         }
         (middle, [low, high])
