@@ -8,9 +8,9 @@ use rayon::prelude::*;
 /// Largest number of bins per axis; a power of two.
 const BINS: usize = 32;
 /// Larger ranges are binned and partitioned by several threads together.
-const PARALLEL_FROM: usize = 1 << 16;
+const PARALLEL_FROM: usize = 1 << 15;
 /// Primitives per chunk that one thread bins.
-const CHUNK: usize = 1 << 14;
+const CHUNK: usize = 1 << 13;
 
 /// Power-of-two factor of lengths that keeps areas from over- and underflowing.
 #[derive(Clone, Copy)]
