@@ -63,7 +63,7 @@ impl Joiner {
             }
             Part::Node(node, parts) => {
                 let index = self.nodes.len();
-                self.nodes.push(node);
+                self.nodes.push(*node);
                 for (slot, part) in parts.into_iter().enumerate() {
                     self.nodes[index].child[slot] = self.add(part);
                 }

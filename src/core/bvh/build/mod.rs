@@ -3,16 +3,18 @@
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
 //!   centroids' box). Differs from it: a node's largest child is split until there are eight; costs count
 //!   blocks, as a SIMD test costs the same with full and with empty lanes; near the root several threads bin
-//!   and partition a range together; below it each thread builds separate subtrees.
+//!   and partition a range together; below it each thread builds separate subtrees, which are joined at the end.
 
 mod join;
+mod partition;
 mod quick;
 mod split;
 #[cfg(test)]
 mod tests;
+mod unbounded;
 
 use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
-use crate::aabb::{Aabb, Planes};
+use crate::aabb::Aabb;
 use crate::progress::Cancelled;
 use glam::{Vec3A, Vec4};
 use join::joined;
@@ -130,61 +132,7 @@ enum Part {
     /// Built by one thread: the root and the tree below it.
     Subtree(Child, Subtree),
     /// A node and its children.
-    Node(Node, Vec<Part>),
-}
-
-/// Boxes that every ray meets.
-const EVERYWHERE: Planes<[f32; WIDTH]> = {
-    let (lower, upper) = ([f32::NEG_INFINITY; WIDTH], [f32::INFINITY; WIDTH]);
-    [lower, upper, lower, upper, lower, upper]
-};
-
-impl Bvh {
-    /// A tree of primitives without bounds: a ray visits all of them.
-    pub fn unbounded(count: usize) -> Self {
-        let mut tree = Self {
-            nodes: Vec::new(),
-            blocks: Vec::new(),
-            bounds: Aabb::EMPTY,
-        };
-        for first in (0..count).step_by(BLOCK_SIZE) {
-            let index = |lane: usize| (first + lane < count).then_some((first + lane) as u32);
-            tree.blocks.push(std::array::from_fn(|lane| {
-                index(lane).unwrap_or(NO_PRIMITIVE)
-            }));
-        }
-        // From the leaves up; the root is moved to the front.
-        let mut level: Vec<Child> = (0..tree.blocks.len())
-            .step_by(LEAF_BLOCKS)
-            .map(|first| Child::leaf(first, LEAF_BLOCKS.min(tree.blocks.len() - first)))
-            .collect();
-        if level.is_empty() {
-            return tree;
-        }
-        tree.nodes.push(Node::EMPTY);
-        loop {
-            let is_root = level.len() <= WIDTH;
-            let nodes = level.chunks(WIDTH).map(|children| {
-                let mut node = Node::EMPTY;
-                for (lane, child) in children.iter().enumerate() {
-                    node.child[lane] = *child;
-                    for (planes, everywhere) in node.planes.iter_mut().zip(&EVERYWHERE) {
-                        planes[lane] = everywhere[lane];
-                    }
-                }
-                node
-            });
-            let nodes: Vec<Node> = nodes.collect();
-            if is_root {
-                tree.nodes[0] = nodes[0].clone();
-                return tree;
-            }
-            level = (0..nodes.len())
-                .map(|k| Child::node(tree.nodes.len() + k))
-                .collect();
-            tree.nodes.extend(nodes);
-        }
-    }
+    Node(Box<Node>, Vec<Part>),
 }
 
 /// A function that returns the box of a primitive.
@@ -260,7 +208,10 @@ impl<'k> Parts<'k> {
                 let mut node = Node::EMPTY;
                 node.set_bounds(0, range.bounds);
                 let leaf = builder.leaf(range.items);
-                Ok(Part::Node(node, vec![Part::Subtree(leaf, builder.tree)]))
+                Ok(Part::Node(
+                    Box::new(node),
+                    vec![Part::Subtree(leaf, builder.tree)],
+                ))
             }
         }
     }
@@ -288,7 +239,7 @@ impl<'k> Parts<'k> {
         drop(builder);
         let parts = ranges.into_par_iter().with_max_len(1);
         let parts = parts.map(|range| self.part(range, depth + 1));
-        Ok(Part::Node(node, parts.collect::<Result<_, _>>()?))
+        Ok(Part::Node(Box::new(node), parts.collect::<Result<_, _>>()?))
     }
 }
 

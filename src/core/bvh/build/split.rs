@@ -1,6 +1,7 @@
 //! Splits a range of primitives in two, by bins along each axis and the surface-area heuristic.
 
 use super::super::{BLOCK_SIZE, LEAF_BLOCKS};
+use super::partition::Side;
 use super::{Bounds, Item, Range};
 use glam::Vec3A;
 use rayon::prelude::*;
@@ -8,9 +9,9 @@ use rayon::prelude::*;
 /// Largest number of bins per axis; a power of two.
 const BINS: usize = 32;
 /// Larger ranges are binned and partitioned by several threads together.
-const PARALLEL_FROM: usize = 1 << 15;
-/// Primitives per chunk that one thread bins.
-const CHUNK: usize = 1 << 13;
+pub(super) const PARALLEL_FROM: usize = 1 << 15;
+/// Primitives per chunk that one thread bins or partitions.
+pub(super) const CHUNK: usize = 1 << 13;
 
 /// Power-of-two factor of lengths that keeps areas from over- and underflowing.
 #[derive(Clone, Copy)]
@@ -44,7 +45,7 @@ impl Scale {
     }
 
     #[inline(always)]
-    fn centre(self, bounds: Bounds) -> Vec3A {
+    pub fn centre(self, bounds: Bounds) -> Vec3A {
         bounds.lower * self.centres + bounds.upper * self.centres
     }
 
@@ -79,26 +80,26 @@ pub(super) fn around(items: &[Item]) -> Bounds {
         .reduce(|| Bounds::EMPTY, union)
 }
 
-fn union(mut a: Bounds, b: Bounds) -> Bounds {
+pub(super) fn union(mut a: Bounds, b: Bounds) -> Bounds {
     a.grow(b);
     a
 }
 
 impl Bounds {
     #[inline(always)]
-    fn grow_to(&mut self, point: Vec3A) {
+    pub fn grow_to(&mut self, point: Vec3A) {
         self.lower = self.lower.min(point);
         self.upper = self.upper.max(point);
     }
 }
 
 /// Floats from here on are integers: a sum with this number rounds to one, and its low bits are the bin.
-const WHOLE: f32 = (1 << 23) as f32;
+pub(super) const WHOLE: f32 = (1 << 23) as f32;
 
 /// Maps centres to bins.
 #[derive(Clone, Copy)]
-struct Grid {
-    scale: Scale,
+pub(super) struct Grid {
+    pub scale: Scale,
     bins: usize,
     start: Vec3A,
     /// 0 along an axis in which all centres coincide.
@@ -106,7 +107,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(scale: Scale, centres: Bounds, count: usize) -> Self {
+    pub fn new(scale: Scale, centres: Bounds, count: usize) -> Self {
         let bins = BINS.min(4 + count / 20);
         let extent = centres.upper - centres.lower;
         let per_length = Vec3A::splat(0.99 * bins as f32) / extent;
@@ -120,14 +121,14 @@ impl Grid {
 
     /// The bin of a centre along each axis, plus [`WHOLE`].
     #[inline(always)]
-    fn shifted_bin(&self, centre: Vec3A) -> Vec3A {
+    pub fn shifted_bin(&self, centre: Vec3A) -> Vec3A {
         let place = (centre - self.start) * self.per_length;
         (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + Vec3A::splat(WHOLE)
     }
 
     /// The bin of a box along each axis.
     #[inline(always)]
-    fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
+    pub fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
         let low = |x: f32| x.to_bits() as usize % BINS;
         self.shifted_bin(self.scale.centre(bounds))
             .to_array()
@@ -221,7 +222,7 @@ impl Splitter {
                 return Err(range);
             }
         }
-        let (middle, centres) = Side::of(&cut, grid).partition(range.items);
+        let (middle, centres) = Side::new(grid, cut.axis, cut.bin).partition(range.items);
         let bounds = self.filled.sides(&cut, grid.bins);
         Ok(halves(range.items, middle, bounds, centres))
     }
@@ -308,115 +309,4 @@ fn halves<'a>(
         centres: centres[side],
     };
     [range(first, 0), range(second, 1)]
-}
-
-/// A test of the side of a cut on which a centre lies.
-#[derive(Clone, Copy)]
-struct Side {
-    grid: Grid,
-    axis: usize,
-    /// [`Grid::shifted_bins_of`] of the first bin above the cut.
-    first_above: f32,
-}
-
-impl Side {
-    fn of(cut: &Cut, grid: Grid) -> Self {
-        Self {
-            grid,
-            axis: cut.axis,
-            first_above: WHOLE + cut.bin as f32,
-        }
-    }
-
-    /// Moves the items below the cut to the front; returns their number and the boxes around both sides' centres.
-    /// Chunks of a large range are partitioned in parallel, then items in the wrong part swap places in parallel.
-    /// This depends on the count alone, so the order doesn't depend on the threads.
-    fn partition(&self, items: &mut [Item]) -> (usize, [Bounds; 2]) {
-        if items.len() < PARALLEL_FROM {
-            return self.partition_sequentially(items);
-        }
-        let chunks = items.par_chunks_mut(CHUNK);
-        let parts = chunks.map(|chunk| self.partition_sequentially(chunk));
-        let parts: Vec<(usize, [Bounds; 2])> = parts.collect();
-        let (mut middle, mut centres) = (0, [Bounds::EMPTY; 2]);
-        for &(below, [low, high]) in &parts {
-            middle += below;
-            centres = [union(centres[0], low), union(centres[1], high)];
-        }
-        let below = parts.into_iter().map(|(below, _)| below);
-        exchange(items, middle, below);
-        (middle, centres)
-    }
-
-    fn partition_sequentially(&self, items: &mut [Item]) -> (usize, [Bounds; 2]) {
-        match self.axis {
-            0 => self.partition_along::<0>(items),
-            1 => self.partition_along::<1>(items),
-            _ => self.partition_along::<2>(items),
-        }
-    }
-
-    /// Without branches that depend on the items: half of them would be mispredicted.
-    fn partition_along<const AXIS: usize>(&self, items: &mut [Item]) -> (usize, [Bounds; 2]) {
-        let first_above = Vec3A::splat(self.first_above);
-        let [mut low, mut high] = [Bounds::EMPTY; 2];
-        let mut middle = 0;
-        for at in 0..items.len() {
-            let centre = self.grid.scale.centre(items[at].bounds());
-            let bin = self.grid.shifted_bin(centre)[AXIS];
-            let is_below = Vec3A::splat(bin).cmplt(first_above);
-            low.lower = Vec3A::select(is_below, low.lower.min(centre), low.lower);
-            low.upper = Vec3A::select(is_below, low.upper.max(centre), low.upper);
-            high.lower = Vec3A::select(is_below, high.lower, high.lower.min(centre));
-            high.upper = Vec3A::select(is_below, high.upper, high.upper.max(centre));
-            items.swap(at, middle);
-            middle += (is_below.bitmask() & 1) as usize;
-        }
-        (middle, [low, high])
-    }
-}
-
-/// Completes a partition: `below` is the number of items at the front of each chunk that belong before `middle`.
-fn exchange(items: &mut [Item], middle: usize, below: impl Iterator<Item = usize>) {
-    let [mut high, mut low] = [Vec::new(), Vec::new()];
-    let mut start = 0;
-    for (chunk, below) in items.chunks_mut(CHUNK).zip(below) {
-        let count = chunk.len();
-        let (front, back) = chunk.split_at_mut(below);
-        let misplaced = middle.saturating_sub(start + below).min(back.len());
-        high.push(&mut back[..misplaced]);
-        let first = middle.saturating_sub(start).min(front.len());
-        low.push(&mut front[first..]);
-        start += count;
-    }
-    let pairs = pairs_of(high, low);
-    pairs
-        .into_par_iter()
-        .for_each(|(a, b)| a.swap_with_slice(b));
-}
-
-/// Cuts two lists of slices, whose total lengths are equal, into pairs of equal lengths.
-fn pairs_of<'a>(
-    a: Vec<&'a mut [Item]>,
-    b: Vec<&'a mut [Item]>,
-) -> Vec<(&'a mut [Item], &'a mut [Item])> {
-    let mut pairs = Vec::new();
-    let (mut a, mut b) = (a.into_iter(), b.into_iter());
-    let [mut left, mut right]: [&mut [Item]; 2] = [&mut [], &mut []];
-    loop {
-        if left.is_empty() {
-            let Some(next) = a.next() else { break };
-            left = next;
-        } else if right.is_empty() {
-            let Some(next) = b.next() else { break };
-            right = next;
-        } else {
-            let count = left.len().min(right.len());
-            let (x, more_left) = left.split_at_mut(count);
-            let (y, more_right) = right.split_at_mut(count);
-            pairs.push((x, y));
-            (left, right) = (more_left, more_right);
-        }
-    }
-    pairs
 }

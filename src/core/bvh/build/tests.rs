@@ -148,6 +148,13 @@ fn no_lane_that_the_builder_computes_with_is_subnormal() {
 }
 
 #[test]
+fn an_item_keeps_any_index() {
+    for index in [0, 0xffff, 0x1_0000, 0xdead_beef, NO_PRIMITIVE - 1] {
+        assert_eq!(Item::new(Aabb::around([Vec3::ONE]), index).index(), index);
+    }
+}
+
+#[test]
 fn a_cancelled_build_returns_an_error() {
     let unit = |_| Aabb::around([Vec3::ZERO, Vec3::ONE]);
     assert!(Bvh::build(2000, &unit, &|| Err(Cancelled)).is_err());
