@@ -3,67 +3,85 @@
 //! Source: Wald, "On fast Construction of SAH-based Bounding Volume Hierarchies", IRT 2007 (bins over the
 //!   centroids' box). Differs from it: a node's largest child is split until there are eight; costs count
 //!   blocks, as a SIMD test costs the same with full and with empty lanes; near the root several threads bin
-//!   and partition a range together; below it each thread builds separate subtrees.
+//!   and partition a range together; below it each thread builds separate subtrees, which are joined at the end.
 
+mod join;
+mod partition;
 mod quick;
 mod split;
 #[cfg(test)]
 mod tests;
+mod unbounded;
 
 use super::{BLOCK_SIZE, Bvh, Child, LEAF_BLOCKS, MAX_DEPTH, NO_PRIMITIVE, Node, WIDTH};
-use crate::aabb::{Aabb, Planes};
+use crate::aabb::Aabb;
 use crate::progress::Cancelled;
 use glam::{Vec3A, Vec4};
+use join::joined;
 use rayon::prelude::*;
 use split::{Scale, Splitter};
+use std::sync::atomic::{AtomicBool, Ordering::Relaxed};
 
 /// Subtrees with fewer primitives are built by one thread.
 const MIN_JOB_SIZE: usize = 4096;
 /// Smallest number of subtrees that the threads share.
-const MIN_JOB_COUNT: usize = 64;
+const MIN_JOB_COUNT: usize = 256;
 /// Ranges with fewer primitives are built without a check for cancellation.
 const CANCELLABLE_FROM: usize = 1024;
 
 /// A primitive during the build: its box and its index.
 ///
-/// The index is kept out of the vectors that the builder computes with: interpreted as an f32, a small
-/// integer is a subnormal number, on which an operation takes an Intel processor some 150 cycles. If the
-/// compiler loads four lanes from either corner, the fourth lane is a coordinate or zero.
+/// The fourth lane of each corner holds half of the index as the low bits of a number from 1 to 2. The index itself,
+/// interpreted as an f32, would be a subnormal number, on which an operation takes an Intel processor some 150 cycles.
 #[derive(Clone, Copy)]
-#[repr(C, align(32))]
+#[repr(align(32))]
 struct Item {
-    lower: [f32; 3],
-    /// The fourth component is 0.
-    upper: [f32; 4],
-    index: u32,
+    lower: Vec4,
+    upper: Vec4,
 }
 
 impl Item {
     fn new(bounds: Aabb, index: u32) -> Self {
+        let half = |bits: u32| f32::from_bits(1.0f32.to_bits() | bits & 0xffff);
         Self {
-            lower: bounds.min.to_array(),
-            upper: bounds.max.extend(0.0).to_array(),
-            index,
+            lower: bounds.min.extend(half(index)),
+            upper: bounds.max.extend(half(index >> 16)),
         }
+    }
+
+    fn index(&self) -> u32 {
+        let bits = |half: f32| half.to_bits() & 0xffff;
+        bits(self.lower.w) | bits(self.upper.w) << 16
     }
 
     #[inline(always)]
     fn bounds(&self) -> Bounds {
         Bounds {
-            lower: Vec3A::from_array(self.lower),
-            upper: Vec3A::from_vec4(Vec4::from_array(self.upper)),
+            lower: Vec3A::from_vec4(self.lower),
+            upper: Vec3A::from_vec4(self.upper),
         }
     }
 }
 
 /// The primitives that rays can hit: those whose boxes aren't empty and hold no NaN or infinity.
 fn items_of(count: usize, bounds_of: BoundsOf) -> Vec<Item> {
+    let has_invalid = AtomicBool::new(false);
     let item = |index| {
         let bounds = bounds_of(index);
         let is_valid = !bounds.is_empty() && bounds.min.is_finite() && bounds.max.is_finite();
-        is_valid.then(|| Item::new(bounds, index))
+        if is_valid {
+            return Item::new(bounds, index);
+        }
+        has_invalid.store(true, Relaxed);
+        Item::new(Aabb::EMPTY, index)
     };
-    (0..count as u32).into_par_iter().filter_map(item).collect()
+    // Written in place by several threads, which a filter couldn't do.
+    let indices = (0..count as u32).into_par_iter();
+    let mut items: Vec<Item> = indices.map(item).collect();
+    if has_invalid.into_inner() {
+        items.retain(|item| item.lower.x <= item.upper.x);
+    }
+    items
 }
 
 /// A box in registers.
@@ -109,66 +127,12 @@ struct Subtree {
     blocks: Vec<[u32; BLOCK_SIZE]>,
 }
 
-/// A subtree that is still to be built, and the node and slot that will hold it.
-struct Job<'a> {
-    range: Range<'a>,
-    depth: usize,
-    node: usize,
-    slot: usize,
-}
-
-/// Boxes that every ray meets.
-const EVERYWHERE: Planes<[f32; WIDTH]> = {
-    let (lower, upper) = ([f32::NEG_INFINITY; WIDTH], [f32::INFINITY; WIDTH]);
-    [lower, upper, lower, upper, lower, upper]
-};
-
-impl Bvh {
-    /// A tree of primitives without bounds: a ray visits all of them.
-    pub fn unbounded(count: usize) -> Self {
-        let mut tree = Self {
-            nodes: Vec::new(),
-            blocks: Vec::new(),
-            bounds: Aabb::EMPTY,
-        };
-        for first in (0..count).step_by(BLOCK_SIZE) {
-            let index = |lane: usize| (first + lane < count).then_some((first + lane) as u32);
-            tree.blocks.push(std::array::from_fn(|lane| {
-                index(lane).unwrap_or(NO_PRIMITIVE)
-            }));
-        }
-        // From the leaves up; the root is moved to the front.
-        let mut level: Vec<Child> = (0..tree.blocks.len())
-            .step_by(LEAF_BLOCKS)
-            .map(|first| Child::leaf(first, LEAF_BLOCKS.min(tree.blocks.len() - first)))
-            .collect();
-        if level.is_empty() {
-            return tree;
-        }
-        tree.nodes.push(Node::EMPTY);
-        loop {
-            let is_root = level.len() <= WIDTH;
-            let nodes = level.chunks(WIDTH).map(|children| {
-                let mut node = Node::EMPTY;
-                for (lane, child) in children.iter().enumerate() {
-                    node.child[lane] = *child;
-                    for (planes, everywhere) in node.planes.iter_mut().zip(&EVERYWHERE) {
-                        planes[lane] = everywhere[lane];
-                    }
-                }
-                node
-            });
-            let nodes: Vec<Node> = nodes.collect();
-            if is_root {
-                tree.nodes[0] = nodes[0].clone();
-                return tree;
-            }
-            level = (0..nodes.len())
-                .map(|k| Child::node(tree.nodes.len() + k))
-                .collect();
-            tree.nodes.extend(nodes);
-        }
-    }
+/// A part of the tree whose children are built by several threads.
+enum Part {
+    /// Built by one thread: the root and the tree below it.
+    Subtree(Child, Subtree),
+    /// A node and its children.
+    Node(Box<Node>, Vec<Part>),
 }
 
 /// A function that returns the box of a primitive.
@@ -206,79 +170,89 @@ impl Bvh {
             bounds,
             items: &mut items,
         };
-        let mut builder = Builder {
-            splitter: Splitter::new(scale),
+        let parts = Parts {
+            scale,
             keep_going,
             job_size: (count / MIN_JOB_COUNT).max(MIN_JOB_SIZE),
-            tree: Subtree::default(),
-            jobs: Vec::new(),
         };
-        builder.root(range)?;
-        let Builder { tree, jobs, .. } = builder;
+        let root = parts.root(range)?;
+        let (tree, ()) = rayon::join(|| joined(root), || drop(items));
         (bvh.nodes, bvh.blocks) = (tree.nodes, tree.blocks);
-        let places: Vec<(usize, usize)> = jobs.iter().map(|job| (job.node, job.slot)).collect();
-        let subtrees = jobs.into_par_iter().map(|job| {
-            let mut builder = Builder {
-                splitter: Splitter::new(scale),
-                keep_going,
-                job_size: 0,
-                tree: Subtree::default(),
-                jobs: Vec::new(),
-            };
-            let root = builder.child(job.range, job.depth)?;
-            Ok((root, builder.tree))
-        });
-        let subtrees = subtrees.collect::<Result<Vec<_>, Cancelled>>()?;
-        drop(items);
-        bvh.append(places, subtrees);
         Ok(bvh)
     }
+}
 
-    /// Appends subtrees and links each to its node.
-    fn append(&mut self, places: Vec<(usize, usize)>, subtrees: Vec<(Child, Subtree)>) {
-        let count = |of: fn(&Subtree) -> usize| subtrees.iter().map(|(_, tree)| of(tree)).sum();
-        self.nodes.reserve_exact(count(|tree| tree.nodes.len()));
-        self.blocks.reserve_exact(count(|tree| tree.blocks.len()));
-        for ((node, slot), (root, mut tree)) in places.into_iter().zip(subtrees) {
-            let (nodes, blocks) = (self.nodes.len(), self.blocks.len());
-            self.nodes[node].child[slot] = root.moved(nodes, blocks);
-            for node in &mut tree.nodes {
-                node.child = node.child.map(|child| child.moved(nodes, blocks));
-            }
-            self.nodes.append(&mut tree.nodes);
-            self.blocks.append(&mut tree.blocks);
+/// Builds the top of the tree, where several threads share the work.
+struct Parts<'k> {
+    scale: Scale,
+    keep_going: KeepGoing<'k>,
+    /// Ranges of at most this many primitives are built by one thread.
+    job_size: usize,
+}
+
+impl<'k> Parts<'k> {
+    fn builder(&self) -> Builder<'k> {
+        Builder {
+            splitter: Splitter::new(self.scale),
+            keep_going: self.keep_going,
+            tree: Subtree::default(),
         }
     }
-}
 
-/// Builds a subtree and leaves parts of it as jobs.
-struct Builder<'a, 'k> {
-    splitter: Splitter,
-    keep_going: KeepGoing<'k>,
-    /// Ranges of at most this many primitives become jobs.
-    job_size: usize,
-    tree: Subtree,
-    jobs: Vec<Job<'a>>,
-}
-
-impl<'a> Builder<'a, '_> {
     /// Builds the root. It is a node even if the tree has one leaf, so that its box is tested.
-    fn root(&mut self, range: Range<'a>) -> Result<(), Cancelled> {
-        match self.split(range, 0) {
-            Ok(halves) => self.node(halves, 0)?,
+    fn root(&self, range: Range) -> Result<Part, Cancelled> {
+        let mut builder = self.builder();
+        match builder.split(range, 0) {
+            Ok(halves) => self.node(builder, halves, 0),
             Err(range) => {
                 let mut node = Node::EMPTY;
                 node.set_bounds(0, range.bounds);
-                self.tree.nodes.push(node);
-                self.tree.nodes[0].child[0] = self.leaf(range.items);
-                return Ok(());
+                let leaf = builder.leaf(range.items);
+                Ok(Part::Node(
+                    Box::new(node),
+                    vec![Part::Subtree(leaf, builder.tree)],
+                ))
             }
-        };
-        Ok(())
+        }
     }
 
+    fn part(&self, range: Range, depth: usize) -> Result<Part, Cancelled> {
+        let mut builder = self.builder();
+        if range.items.len() <= self.job_size {
+            let root = builder.child(range, depth)?;
+            return Ok(Part::Subtree(root, builder.tree));
+        }
+        match builder.split(range, depth) {
+            Ok(halves) => self.node(builder, halves, depth),
+            Err(range) => Ok(Part::Subtree(builder.leaf(range.items), builder.tree)),
+        }
+    }
+
+    /// Builds a node above the two ranges.
+    fn node(
+        &self,
+        mut builder: Builder,
+        halves: [Range; 2],
+        depth: usize,
+    ) -> Result<Part, Cancelled> {
+        let (node, ranges) = builder.ranges(halves, depth)?;
+        drop(builder);
+        let parts = ranges.into_par_iter().with_max_len(1);
+        let parts = parts.map(|range| self.part(range, depth + 1));
+        Ok(Part::Node(Box::new(node), parts.collect::<Result<_, _>>()?))
+    }
+}
+
+/// Builds a subtree.
+struct Builder<'k> {
+    splitter: Splitter,
+    keep_going: KeepGoing<'k>,
+    tree: Subtree,
+}
+
+impl Builder<'_> {
     /// Builds a range as a node or a leaf.
-    fn child(&mut self, range: Range<'a>, depth: usize) -> Result<Child, Cancelled> {
+    fn child(&mut self, range: Range, depth: usize) -> Result<Child, Cancelled> {
         match self.split(range, depth) {
             Ok(halves) => self.node(halves, depth),
             Err(range) => Ok(self.leaf(range.items)),
@@ -286,7 +260,7 @@ impl<'a> Builder<'a, '_> {
     }
 
     /// Splits a range in two, or returns it if a leaf is cheaper.
-    fn split(&mut self, range: Range<'a>, depth: usize) -> Result<[Range<'a>; 2], Range<'a>> {
+    fn split<'a>(&mut self, range: Range<'a>, depth: usize) -> Result<[Range<'a>; 2], Range<'a>> {
         let count = range.items.len();
         if count <= BLOCK_SIZE {
             return Err(range);
@@ -299,7 +273,22 @@ impl<'a> Builder<'a, '_> {
     }
 
     /// Builds a node above the two ranges.
-    fn node(&mut self, [first, second]: [Range<'a>; 2], depth: usize) -> Result<Child, Cancelled> {
+    fn node(&mut self, halves: [Range; 2], depth: usize) -> Result<Child, Cancelled> {
+        let (node, ranges) = self.ranges(halves, depth)?;
+        let index = self.tree.nodes.len();
+        self.tree.nodes.push(node);
+        for (slot, range) in ranges.into_iter().enumerate() {
+            self.tree.nodes[index].child[slot] = self.child(range, depth + 1)?;
+        }
+        Ok(Child::node(index))
+    }
+
+    /// Splits two ranges further until there are eight; returns them and a node with their boxes.
+    fn ranges<'a>(
+        &mut self,
+        [first, second]: [Range<'a>; 2],
+        depth: usize,
+    ) -> Result<(Node, Vec<Range<'a>>), Cancelled> {
         if first.items.len() + second.items.len() >= CANCELLABLE_FROM {
             (self.keep_going)()?;
         }
@@ -320,28 +309,12 @@ impl<'a> Builder<'a, '_> {
                 Err(range) => ranges[slot] = Some(range),
             }
         }
-        let index = self.tree.nodes.len();
+        let ranges: Vec<Range<'a>> = ranges.into_iter().flatten().collect();
         let mut node = Node::EMPTY;
-        let ranges = ranges.into_iter().flatten();
-        let ranges: Vec<Range<'a>> = ranges.collect();
         for (slot, range) in ranges.iter().enumerate() {
             node.set_bounds(slot, range.bounds);
         }
-        self.tree.nodes.push(node);
-        for (slot, range) in ranges.into_iter().enumerate() {
-            let depth = depth + 1;
-            if range.items.len() <= self.job_size {
-                self.jobs.push(Job {
-                    range,
-                    depth,
-                    node: index,
-                    slot,
-                });
-            } else {
-                self.tree.nodes[index].child[slot] = self.child(range, depth)?;
-            }
-        }
-        Ok(Child::node(index))
+        Ok((node, ranges))
     }
 
     fn weight(&self, range: &Range) -> f32 {
@@ -359,7 +332,7 @@ impl<'a> Builder<'a, '_> {
         for part in items.chunks(BLOCK_SIZE) {
             let mut block = [NO_PRIMITIVE; BLOCK_SIZE];
             for (lane, item) in block.iter_mut().zip(part) {
-                *lane = item.index;
+                *lane = item.index();
             }
             self.tree.blocks.push(block);
         }

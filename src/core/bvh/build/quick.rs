@@ -41,7 +41,7 @@ impl Bvh {
             let mut bounds = Bounds::EMPTY;
             for (lane, &key) in primitives.iter_mut().zip(part) {
                 let item = &items[key as u32 as usize];
-                *lane = item.index;
+                *lane = item.index();
                 bounds.grow(item.bounds());
             }
             (primitives, bounds)

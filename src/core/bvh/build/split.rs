@@ -1,6 +1,7 @@
 //! Splits a range of primitives in two, by bins along each axis and the surface-area heuristic.
 
 use super::super::{BLOCK_SIZE, LEAF_BLOCKS};
+use super::partition::Side;
 use super::{Bounds, Item, Range};
 use glam::Vec3A;
 use rayon::prelude::*;
@@ -8,9 +9,9 @@ use rayon::prelude::*;
 /// Largest number of bins per axis; a power of two.
 const BINS: usize = 32;
 /// Larger ranges are binned and partitioned by several threads together.
-const PARALLEL_FROM: usize = 1 << 16;
-/// Primitives per chunk that one thread bins.
-const CHUNK: usize = 1 << 14;
+pub(super) const PARALLEL_FROM: usize = 1 << 15;
+/// Primitives per chunk that one thread bins or partitions.
+pub(super) const CHUNK: usize = 1 << 13;
 
 /// Power-of-two factor of lengths that keeps areas from over- and underflowing.
 #[derive(Clone, Copy)]
@@ -44,7 +45,7 @@ impl Scale {
     }
 
     #[inline(always)]
-    fn centre(self, bounds: Bounds) -> Vec3A {
+    pub fn centre(self, bounds: Bounds) -> Vec3A {
         bounds.lower * self.centres + bounds.upper * self.centres
     }
 
@@ -79,23 +80,26 @@ pub(super) fn around(items: &[Item]) -> Bounds {
         .reduce(|| Bounds::EMPTY, union)
 }
 
-fn union(mut a: Bounds, b: Bounds) -> Bounds {
+pub(super) fn union(mut a: Bounds, b: Bounds) -> Bounds {
     a.grow(b);
     a
 }
 
 impl Bounds {
     #[inline(always)]
-    fn grow_to(&mut self, point: Vec3A) {
+    pub fn grow_to(&mut self, point: Vec3A) {
         self.lower = self.lower.min(point);
         self.upper = self.upper.max(point);
     }
 }
 
+/// Floats from here on are integers: a sum with this number rounds to one, and its low bits are the bin.
+pub(super) const WHOLE: f32 = (1 << 23) as f32;
+
 /// Maps centres to bins.
 #[derive(Clone, Copy)]
-struct Grid {
-    scale: Scale,
+pub(super) struct Grid {
+    pub scale: Scale,
     bins: usize,
     start: Vec3A,
     /// 0 along an axis in which all centres coincide.
@@ -103,7 +107,7 @@ struct Grid {
 }
 
 impl Grid {
-    fn new(scale: Scale, centres: Bounds, count: usize) -> Self {
+    pub fn new(scale: Scale, centres: Bounds, count: usize) -> Self {
         let bins = BINS.min(4 + count / 20);
         let extent = centres.upper - centres.lower;
         let per_length = Vec3A::splat(0.99 * bins as f32) / extent;
@@ -115,16 +119,20 @@ impl Grid {
         }
     }
 
+    /// The bin of a centre along each axis, plus [`WHOLE`].
+    #[inline(always)]
+    pub fn shifted_bin(&self, centre: Vec3A) -> Vec3A {
+        let place = (centre - self.start) * self.per_length;
+        (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + Vec3A::splat(WHOLE)
+    }
+
     /// The bin of a box along each axis.
     #[inline(always)]
-    fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
-        // Floats from 2²³ on are integers: the sum rounds to one, and its low bits are the bin.
-        const WHOLE: Vec3A = Vec3A::splat((1 << 23) as f32);
-        let place = (self.scale.centre(bounds) - self.start) * self.per_length;
-        let whole = (place - Vec3A::splat(0.5)).max(Vec3A::ZERO) + WHOLE;
-        let [x, y, z] = whole.to_array();
+    pub fn bins_of(&self, bounds: Bounds) -> [usize; 3] {
         let low = |x: f32| x.to_bits() as usize % BINS;
-        [low(x), low(y), low(z)]
+        self.shifted_bin(self.scale.centre(bounds))
+            .to_array()
+            .map(low)
     }
 }
 
@@ -170,6 +178,14 @@ impl FilledBins {
     }
 }
 
+impl FilledBins {
+    /// The boxes of the primitives below and above a cut.
+    fn sides(&self, cut: &Cut, bins: usize) -> [Bounds; 2] {
+        let (below, above) = self.bounds[cut.axis][..bins].split_at(cut.bin);
+        [below, above].map(|bins| bins.iter().copied().fold(Bounds::EMPTY, union))
+    }
+}
+
 /// A plane between two bins.
 struct Cut {
     cost: f32,
@@ -206,21 +222,18 @@ impl Splitter {
                 return Err(range);
             }
         }
-        let is_below = |bounds: Bounds| grid.bins_of(bounds)[cut.axis] < cut.bin;
-        let (middle, sides) = partition(range.items, self.scale, &is_below);
-        Ok(halves(range.items, middle, sides))
+        let (middle, centres) = Side::new(grid, cut.axis, cut.bin).partition(range.items);
+        let bounds = self.filled.sides(&cut, grid.bins);
+        Ok(halves(range.items, middle, bounds, centres))
     }
 
     /// Splits a range in its present order into halves of equal count.
     pub fn halve<'a>(&self, range: Range<'a>) -> [Range<'a>; 2] {
         let middle = range.items.len() / 2;
         let (low, high) = range.items.split_at(middle);
-        let side = |items: &[Item]| SideBoxes {
-            bounds: around(items),
-            centres: self.scale.centres(items),
-        };
-        let sides = [side(low), side(high)];
-        halves(range.items, middle, sides)
+        let bounds = [around(low), around(high)];
+        let centres = [low, high].map(|items| self.scale.centres(items));
+        halves(range.items, middle, bounds, centres)
     }
 
     fn fill(&mut self, grid: &Grid, items: &[Item]) {
@@ -283,93 +296,17 @@ fn blocks(count: u32) -> f32 {
     count.div_ceil(BLOCK_SIZE as u32) as f32
 }
 
-/// The boxes of one side of a cut.
-#[derive(Clone, Copy)]
-struct SideBoxes {
-    bounds: Bounds,
-    centres: Bounds,
-}
-
-impl SideBoxes {
-    const EMPTY: Self = Self {
-        bounds: Bounds::EMPTY,
-        centres: Bounds::EMPTY,
-    };
-
-    #[inline(always)]
-    fn grow(&mut self, bounds: Bounds, scale: Scale) {
-        self.bounds.grow(bounds);
-        self.centres.grow_to(scale.centre(bounds));
-    }
-
-    fn union(mut self, other: Self) -> Self {
-        self.bounds.grow(other.bounds);
-        self.centres.grow(other.centres);
-        self
-    }
-}
-
-fn halves(items: &mut [Item], middle: usize, [low, high]: [SideBoxes; 2]) -> [Range<'_>; 2] {
+fn halves<'a>(
+    items: &'a mut [Item],
+    middle: usize,
+    bounds: [Bounds; 2],
+    centres: [Bounds; 2],
+) -> [Range<'a>; 2] {
     let (first, second) = items.split_at_mut(middle);
-    let range = |items, side: SideBoxes| Range {
+    let range = |items, side: usize| Range {
         items,
-        bounds: side.bounds,
-        centres: side.centres,
+        bounds: bounds[side],
+        centres: centres[side],
     };
-    [range(first, low), range(second, high)]
-}
-
-/// Moves the items for which `is_below` holds to the front, in place; returns their number and the boxes of
-/// both sides. The halves of a large range are partitioned in parallel, then their middle parts swap places.
-/// This depends on the count alone, so the order doesn't depend on the threads.
-fn partition(
-    items: &mut [Item],
-    scale: Scale,
-    is_below: &(impl Fn(Bounds) -> bool + Sync),
-) -> (usize, [SideBoxes; 2]) {
-    if items.len() < PARALLEL_FROM {
-        return partition_sequentially(items, scale, is_below);
-    }
-    let half = items.len() / 2;
-    let (first, second) = items.split_at_mut(half);
-    let ((low, [a, b]), (low_too, [c, d])) = rayon::join(
-        || partition(first, scale, is_below),
-        || partition(second, scale, is_below),
-    );
-    // Low, high, low, high: swap the second run with the third, as far as both go.
-    let moved = (half - low).min(low_too);
-    let (front, back) = items.split_at_mut(half);
-    front[low..low + moved].swap_with_slice(&mut back[low_too - moved..low_too]);
-    (low + low_too, [a.union(c), b.union(d)])
-}
-
-fn partition_sequentially(
-    items: &mut [Item],
-    scale: Scale,
-    is_below: &impl Fn(Bounds) -> bool,
-) -> (usize, [SideBoxes; 2]) {
-    let [mut low, mut high] = [SideBoxes::EMPTY; 2];
-    let (mut start, mut end) = (0, items.len());
-    loop {
-        while start < end {
-            let bounds = items[start].bounds();
-            if !is_below(bounds) {
-                break;
-            }
-            low.grow(bounds, scale);
-            start += 1;
-        }
-        while start < end {
-            let bounds = items[end - 1].bounds();
-            if is_below(bounds) {
-                break;
-            }
-            high.grow(bounds, scale);
-            end -= 1;
-        }
-        if start == end {
-            return (start, [low, high]);
-        }
-        items.swap(start, end - 1);
-    }
+    [range(first, 0), range(second, 1)]
 }

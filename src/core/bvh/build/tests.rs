@@ -139,11 +139,18 @@ fn no_lane_that_the_builder_computes_with_is_subnormal() {
     let items = items_of(boxes.len(), &|primitive| boxes[primitive as usize]);
     let far = Item::new(boxes[1], NO_PRIMITIVE - 1);
     for item in items.iter().chain([&far]) {
-        assert!(item.index < 1000 || item.index == NO_PRIMITIVE - 1);
+        assert!(item.index() < 1000 || item.index() == NO_PRIMITIVE - 1);
         let Bounds { lower, upper } = std::hint::black_box(item.bounds());
         for lane in lanes(lower).into_iter().chain(lanes(upper)) {
-            assert!(!lane.is_subnormal(), "{lane:e} of item {}", item.index);
+            assert!(!lane.is_subnormal(), "{lane:e} of item {}", item.index());
         }
+    }
+}
+
+#[test]
+fn an_item_keeps_any_index() {
+    for index in [0, 0xffff, 0x1_0000, 0xdead_beef, NO_PRIMITIVE - 1] {
+        assert_eq!(Item::new(Aabb::around([Vec3::ONE]), index).index(), index);
     }
 }
 
