@@ -85,6 +85,18 @@ impl Sampler {
         point
     }
 
+    /// A number if it is used; else 0, and none is drawn.
+    #[inline]
+    pub fn next_1d_if(&mut self, is_used: bool) -> f32 {
+        if is_used { self.next_1d() } else { 0.0 }
+    }
+
+    /// A point if it is used; else 0, and none is drawn.
+    #[inline]
+    pub fn next_2d_if(&mut self, is_used: bool) -> Vec2 {
+        if is_used { self.next_2d() } else { Vec2::ZERO }
+    }
+
     fn fill(&mut self) {
         let seed = mix(u64::from(self.seed) << 32 | u64::from(self.four)) as u32;
         self.numbers = point(self.index, seed);

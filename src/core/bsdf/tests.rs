@@ -43,16 +43,16 @@ fn models_use_only_the_random_numbers_that_their_row_names() {
     for (name, bsdf, outgoing) in cases() {
         let model = bsdf.model();
         for _ in 0..100 {
-            let numbers = [0, 1].map(|_| (Vec2::new(unit(), unit()), unit()));
-            let [(at, choice), (other_at, other_choice)] = numbers;
-            let other_at = if model.uses_point { at } else { other_at };
-            let other_choice = if model.uses_choice {
+            let [at, other_at] = [0; 2].map(|_| Vec2::new(unit(), unit()));
+            let [choice, other_choice] = [0; 2].map(|_| unit());
+            let one = bsdf.sample(outgoing, at, choice);
+            let at = if model.uses_point { at } else { other_at };
+            let choice = if model.uses_choice {
                 choice
             } else {
                 other_choice
             };
-            let one = bsdf.sample(outgoing, at, choice);
-            assert_eq!(one, bsdf.sample(outgoing, other_at, other_choice), "{name}");
+            assert_eq!(one, bsdf.sample(outgoing, at, choice), "{name}");
         }
     }
 }

@@ -141,21 +141,12 @@ impl<'a> ShadingPoint<'a> {
     pub fn scatter(&self, sampler: &mut Sampler) -> Option<Scattered> {
         // Numbers that the model doesn't use aren't drawn: those that are drawn together are spread together.
         let model = self.bsdf.model();
-        let at = if model.uses_point {
-            sampler.next_2d()
-        } else {
-            Vec2::ZERO
-        };
-        let choice = if model.uses_choice {
-            sampler.next_1d()
-        } else {
-            0.0
-        };
+        let at = sampler.next_2d_if(model.uses_point);
+        let choice = sampler.next_1d_if(model.uses_choice);
         self.in_world(self.bsdf.sample(self.outgoing, at, choice)?)
     }
 
     /// The part of light from a direction that the repair of the shadow terminator leaves. Single directions keep all.
-    #[inline]
     fn remaining_part(&self, dir: Vec3) -> f32 {
         let part = self.context.lighting.terminator.part;
         part.map_or(1.0, |part| part(self.normal, self.untilted, dir))
@@ -222,7 +213,6 @@ impl<'a> ShadingPoint<'a> {
     ///
     /// Source: Conty Estevez, Lecocq, Stein, "A Microfacet-Based Shadowing Function to Solve the Bump Terminator Problem",
     /// Ray Tracing Gems, 2019; with Mitsuba's factor.
-    #[inline]
     fn unshadowed(&self, dir: Vec3) -> f32 {
         if self.untilted == self.frame.z {
             return 1.0;
@@ -281,11 +271,7 @@ impl<'a> ShadingPoint<'a> {
             scene, lighting, ..
         } = self.context;
         let lights = &lighting.lights;
-        let choice = if lights.are_several() {
-            sampler.next_1d()
-        } else {
-            0.0
-        };
+        let choice = sampler.next_1d_if(lights.are_several());
         lights.sample(scene, self.position(), at, choice)
     }
 
@@ -396,7 +382,6 @@ pub(super) fn from_afar(context: &Context, ray: &Ray, scattered_with: Option<f32
 
 /// The light that a surface emits towards a ray's origin; `scattered_with` as in [`from_afar`]. `from` is the point where
 /// the ray left a surface, which differs from its origin behind surfaces with coverage.
-#[inline]
 pub(super) fn emitted(point: &ShadingPoint<'_>, from: Vec3, scattered_with: Option<f32>) -> Vec3 {
     if point.emission == Vec3::ZERO {
         return Vec3::ZERO;
