@@ -261,6 +261,9 @@ impl Session {
             ));
         }
         let mut session: Self = serde_json::from_str(text).map_err(said)?;
+        if session.file.as_deref().is_some_and(is_session) {
+            return Err("its file is a session, not a mesh or a scene".to_owned());
+        }
         let sight = &mut session.sight;
         sight.camera.check()?;
         for pick in &sight.picks {
