@@ -40,12 +40,8 @@ pub struct Session {
     #[serde(default)]
     pub shows_panel: bool,
     /// The tab of the side panel.
-    #[serde(default = "display_tab")]
+    #[serde(default)]
     pub tab: Tab,
-}
-
-fn display_tab() -> Tab {
-    Tab::Display
 }
 
 /// How a document is seen: the step of undo.
@@ -354,7 +350,6 @@ mod tests {
         let loaded = embedded_scene();
         for (at, expected) in [
             ("/a/x.hitscope", "\"b/mesh.obj\""),
-            ("/a/b/x.hitscope", "\"mesh.obj\""),
             ("/c/x.hitscope", "\"/a/b/mesh.obj\""),
         ] {
             let text = session(&loaded.scene).text_at(Path::new(at));
@@ -381,11 +376,24 @@ mod tests {
             ("\"distance\": ", "\"distance\": x", "line"),
             ("\"is_smooth\": false", "\"is_smooth\": 3", "line"),
             ("\"sight\"", "\"sights\"", "missing field `sight`"),
-            ("\"right\": [", "\"right\": [9,", "line"),
-            ("\"pixel\": [\n", "\"pixel\": [9000,\n", "line"),
         ] {
             let error = with(from, to);
             assert!(error.contains(reason), "{to}: {error}");
+        }
+        let changes: [(fn(&mut Session), &str); 3] = [
+            (
+                |bad| bad.sight.picks[0].pixel = [64, 4],
+                "outside the picture",
+            ),
+            (|bad| bad.sight.picks[0].up = [0.0; 3], "perpendicular"),
+            (|bad| bad.file = Some("x.hitscope".into()), "is a session"),
+        ];
+        for (change, reason) in changes {
+            let mut bad = session(&loaded.scene);
+            change(&mut bad);
+            let text = bad.text_at(Path::new("x")).expect("UTF-8");
+            let error = Session::of_text(&text).expect_err(reason);
+            assert!(error.contains(reason), "{error}");
         }
         assert!(Session::of_text("v 0 0 0\n").is_err());
     }
