@@ -10,6 +10,7 @@ use crate::man::ManArgs;
 use crate::offscreen;
 use crate::render;
 use crate::screenshot::{Outcome, ScreenshotOptions};
+use crate::session::is_session;
 use crate::storage::{APP_ID, Kept, stored};
 use crate::window;
 use clap::error::ErrorKind;
@@ -62,7 +63,7 @@ Limits: 1.4 billion triangles; lines of 128 MB; pictures of 16384 x 16384
 pixels; 1024 threads; the memory that --max-memory allows."
 )]
 struct Cli {
-    /// OBJ file, plain or gzipped, or scene file (.xml) to open [default: the built-in scene]
+    /// OBJ file, plain or gzipped, scene file (.xml) or session (.hitscope) to open [default: the built-in scene]
     file: Option<PathBuf>,
     /// Further files, which are refused: the window shows one file.
     #[arg(hide = true)]
@@ -319,6 +320,10 @@ fn no_window(error: &eframe::Error) -> String {
 /// Renders the file or the built-in scene to a picture in the current directory.
 fn render_instead(cli: &Cli) -> Result<(), CommandError> {
     const OUTPUT: &str = "hitscope.png";
+    if let Some(session) = cli.file.as_deref().filter(|file| is_session(file)) {
+        let message = format!("{}: a session needs the window", shown(session));
+        return Err(CommandError::Other(message));
+    }
     let built_in = Path::new("the built-in scene");
     let file = cli.file.as_deref().unwrap_or(built_in);
     // A file's name may begin with a hyphen.

@@ -18,6 +18,10 @@ pub enum Purpose {
     Save,
     /// Choose a picture of an environment to open.
     Environment,
+    /// Choose a session to open.
+    OpenSession,
+    /// Choose the name of a session file to write.
+    SaveSession,
 }
 
 impl Purpose {
@@ -26,6 +30,22 @@ impl Purpose {
             Self::Open => "Open a mesh",
             Self::Save => "Save as a scene file",
             Self::Environment => "Open an environment",
+            Self::OpenSession => "Open a session",
+            Self::SaveSession => "Save the session",
+        }
+    }
+
+    fn is_saving(self) -> bool {
+        matches!(self, Self::Save | Self::SaveSession)
+    }
+
+    /// An example of a path.
+    fn example(self) -> &'static str {
+        match self {
+            Self::Open => "/path/to/mesh.obj",
+            Self::Save => "/path/to/scene.xml",
+            Self::Environment => "/path/to/sky.hdr",
+            Self::OpenSession | Self::SaveSession => "/path/to/view.hitscope",
         }
     }
 }
@@ -78,7 +98,7 @@ impl FileDialog {
     /// Shows the system's dialog, or the path field if the dialog is already open and perhaps hidden. The dialog starts
     /// in the folder of the suggested path; one for saving also suggests its name.
     pub fn open(&mut self, ctx: &egui::Context, frame: &eframe::Frame, suggested: Option<&Path>) {
-        let is_saving = self.purpose == Purpose::Save;
+        let is_saving = self.purpose.is_saving();
         self.suggested = suggested.filter(|_| is_saving).map(Path::to_owned);
         if self.native.is_some() {
             let suggested = self.suggested.as_deref();
@@ -95,10 +115,13 @@ impl FileDialog {
             Purpose::Open => dialog
                 .add_filter(
                     "Meshes and scenes",
-                    &["obj", "OBJ", "obj.gz", "gz", "xml", "XML"],
+                    &["obj", "OBJ", "obj.gz", "gz", "xml", "XML", "hitscope"],
                 )
                 .add_filter("All files", &["*"]),
             Purpose::Save => dialog.add_filter("Scene files", &["xml"]),
+            Purpose::OpenSession | Purpose::SaveSession => {
+                dialog.add_filter("Sessions", &["hitscope"])
+            }
             Purpose::Environment => dialog
                 .add_filter("Environments", &["hdr", "HDR", "exr", "EXR"])
                 .add_filter("All files", &["*"]),
@@ -173,13 +196,8 @@ impl FileDialog {
                 ui.add_space(6.0);
                 ui.horizontal(|ui| {
                     let label = ui.label("Path");
-                    let hint = match purpose {
-                        Purpose::Open => "/path/to/mesh.obj",
-                        Purpose::Save => "/path/to/scene.xml",
-                        Purpose::Environment => "/path/to/sky.hdr",
-                    };
                     let edit = egui::TextEdit::singleline(&mut field.path)
-                        .hint_text(hint)
+                        .hint_text(purpose.example())
                         .desired_width(ui.available_width() - 80.0);
                     let edit = ui.add(edit).labelled_by(label.id);
                     if std::mem::take(&mut field.is_new) {
@@ -187,12 +205,11 @@ impl FileDialog {
                     }
                     let is_enter = ui.input(|input| input.key_pressed(egui::Key::Enter));
                     // A file is replaced only by a click on a button that says so.
-                    let replaces =
-                        purpose == Purpose::Save && Path::new(field.path.trim()).exists();
+                    let replaces = purpose.is_saving() && Path::new(field.path.trim()).exists();
                     let button = match purpose {
-                        Purpose::Open | Purpose::Environment => "Load",
-                        Purpose::Save if replaces => "Replace",
-                        Purpose::Save => "Save",
+                        Purpose::Open | Purpose::Environment | Purpose::OpenSession => "Load",
+                        Purpose::Save | Purpose::SaveSession if replaces => "Replace",
+                        Purpose::Save | Purpose::SaveSession => "Save",
                     };
                     let is_confirmed = edit.lost_focus() && is_enter && !replaces;
                     is_entered = ui.button(button).clicked() || is_confirmed;

@@ -11,6 +11,7 @@
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
 //! | [`recent`], [`folder`] | the files that were opened last; the files beside the open one |
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
+//! | [`session`], [`history`] | sessions as plain data; undo and redo |
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
@@ -36,6 +37,7 @@ pub mod face_lookup;
 pub mod flaw_place;
 pub mod folder;
 pub mod gpu;
+pub mod history;
 pub mod look;
 pub mod man;
 pub mod numbers;
@@ -48,6 +50,7 @@ pub mod recent;
 pub mod render;
 pub mod saving;
 pub mod screenshot;
+pub mod session;
 pub mod settings;
 pub mod storage;
 pub mod tab;

@@ -1,14 +1,15 @@
-//! Saving of the open document as a scene file, in the background.
+//! Saving of the open document as a scene file and of sessions, in the background.
 
 use crate::document::Document;
+use crate::session::{EXTENSION, Session};
 use crate::task::{Task, TaskPanicked};
 use hitscope_core::Camera;
-use hitscope_core::loading::{StartView, is_scene_file, scene_text};
+use hitscope_core::loading::{StartView, scene_text};
 use hitscope_core::obj::shown;
 use hitscope_lab::commands::Output;
 use std::path::{Path, PathBuf};
 
-/// A scene file that is being written.
+/// A file that is being written.
 pub struct Saving {
     path: PathBuf,
     task: Task<Result<(), String>>,
@@ -39,24 +40,34 @@ impl Saving {
         let Some(own) = document.path.clone() else {
             return Err(NotSaved::BuiltIn);
         };
-        let file = with_extension(path);
-        if file != path && file.exists() {
-            return Err(NotSaved::Exists(file));
-        }
+        let file = free_path(path, "xml")?;
         let loaded = &document.loaded;
         let view = StartView::of_camera(camera, loaded.scene.mesh().origin());
         let description = loaded.description.clone();
         let path = file.clone();
-        let write = move || {
+        let write_scene = move || {
             let folder = file.parent().unwrap_or(Path::new(""));
             let text = scene_text(description.as_deref(), &own, &view, folder);
             let text = text.map_err(|error| error.to_string())?;
-            let output = Output::create(&file);
-            output
-                .and_then(|output| output.write(|out| out.write_all(text.as_bytes())))
-                .map_err(|error| error.to_string())
+            write(&file, &text)
         };
-        let task = Task::spawn("save", ctx, write);
+        let task = Task::spawn("save", ctx, write_scene);
+        Ok(Self { path, task })
+    }
+
+    /// Starts to write a session to a path. A name without the extension `.hitscope` gets it.
+    ///
+    /// # Errors
+    /// [`NotSaved::Exists`].
+    pub fn start_session(
+        session: Session,
+        path: &Path,
+        ctx: &egui::Context,
+    ) -> Result<Self, NotSaved> {
+        let file = free_path(path, EXTENSION)?;
+        let path = file.clone();
+        let write_session = move || write(&file, &session.text_at(&file)?);
+        let task = Task::spawn("save", ctx, write_session);
         Ok(Self { path, task })
     }
 
@@ -82,14 +93,35 @@ pub fn suggested_path(document: &Document) -> Option<PathBuf> {
     Some(plain.with_extension("xml"))
 }
 
-/// The path with `.xml` at its end.
-fn with_extension(path: &Path) -> PathBuf {
-    if is_scene_file(path) {
+/// The path with the extension, which must not be that of a file unless it was asked for.
+fn free_path(path: &Path, extension: &str) -> Result<PathBuf, NotSaved> {
+    let file = with_extension(path, extension);
+    if file != path && file.exists() {
+        return Err(NotSaved::Exists(file));
+    }
+    Ok(file)
+}
+
+/// The path with the extension at its end.
+fn with_extension(path: &Path, extension: &str) -> PathBuf {
+    if path
+        .extension()
+        .is_some_and(|own| own.eq_ignore_ascii_case(extension))
+    {
         return path.to_owned();
     }
     let mut name = path.as_os_str().to_owned();
-    name.push(".xml");
+    name.push(".");
+    name.push(extension);
     name.into()
+}
+
+/// Writes a text to a file, which appears when it is whole.
+fn write(file: &Path, text: &str) -> Result<(), String> {
+    let output = Output::create(file);
+    output
+        .and_then(|output| output.write(|out| out.write_all(text.as_bytes())))
+        .map_err(|error| error.to_string())
 }
 
 #[cfg(test)]
@@ -104,7 +136,7 @@ mod tests {
             ("mesh.obj", "mesh.obj.xml"),
             ("scene", "scene.xml"),
         ] {
-            assert_eq!(with_extension(Path::new(given)), Path::new(expected));
+            assert_eq!(with_extension(Path::new(given), "xml"), Path::new(expected));
         }
     }
 }

@@ -3,11 +3,12 @@
 use serde::{Deserialize, Serialize};
 
 /// A tab of the side panel.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Tab {
     /// The picked pixel.
     Inspect,
     /// View, shading, kernel, overlay, camera.
+    #[default]
     #[serde(alias = "View")]
     Display,
     /// Contents and flaws of the mesh.

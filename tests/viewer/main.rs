@@ -46,6 +46,8 @@ mod program;
 mod render_lines;
 // Scene files: views, crossings, saving, kernels by shape.
 mod scene_files;
+// Sessions; undo and redo.
+mod sessions;
 // Validation of the shaders without a GPU.
 mod shaders;
 // `trace` on a pipe.

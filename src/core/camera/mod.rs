@@ -47,6 +47,9 @@ pub enum CameraError {
         "the field of view must be between 0 and 180 degrees, the orthographic height positive"
     )]
     BadProjection,
+    /// The axes aren't perpendicular unit vectors.
+    #[error("the camera's axes must be perpendicular and of length 1")]
+    BadAxes,
     /// The picture has no pixel.
     #[error("the picture has no pixels")]
     NoPixels,
@@ -99,7 +102,11 @@ impl Camera {
         )
     }
 
-    fn from_axes(
+    /// A camera with these axes as columns: right, up and back. They must be perpendicular unit vectors.
+    ///
+    /// # Errors
+    /// See [`CameraError`].
+    pub fn from_axes(
         eye: DVec3,
         world_from_camera: DMat3,
         projection: Projection,
@@ -113,6 +120,12 @@ impl Camera {
         };
         if !is_good {
             return Err(CameraError::BadProjection);
+        }
+        // Axes that were read from a file; the product of rounded ones is closer to the identity.
+        const AXES_BOUND: f64 = 1e-9;
+        let product = world_from_camera.transpose() * world_from_camera;
+        if !product.abs_diff_eq(DMat3::IDENTITY, AXES_BOUND) {
+            return Err(CameraError::BadAxes);
         }
         if resolution.min_element() == 0 {
             return Err(CameraError::NoPixels);

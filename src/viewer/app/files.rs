@@ -5,6 +5,7 @@ use crate::document::Document;
 use crate::folder::{self, Direction};
 use crate::opening::Loading;
 use crate::saving::{Saving, suggested_path};
+use crate::session::is_session;
 use crate::task::{Task, TaskPanicked};
 use crate::watch::Watch;
 use hitscope_core::obj::{LoadError, shown};
@@ -74,10 +75,14 @@ impl App {
         }
     }
 
-    /// Loads a file. The open one stays until it is loaded.
+    /// Loads a file, or opens a session. The open file stays until it is loaded.
     pub(crate) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
         self.cancel_loading();
         self.shown.notice = None;
+        if is_session(&path) {
+            self.read_session(path, ctx);
+            return;
+        }
         self.open.loading = Some(Loading::start(
             path,
             self.open.load_options,
@@ -89,6 +94,7 @@ impl App {
 
     /// Cancels loading without waiting for its thread.
     pub(super) fn cancel_loading(&mut self) {
+        (self.open.session, self.open.loading_session) = (None, None);
         if let Some(loading) = self.open.loading.take() {
             loading.cancel();
         }
@@ -109,7 +115,7 @@ impl App {
             Ok(None) => return,
             // Cancelled by the user.
             Ok(Some(Err(LoadError::Cancelled { .. }))) => {
-                self.open.loading = None;
+                (self.open.loading, self.open.loading_session) = (None, None);
                 return;
             }
             Ok(Some(result)) => result.map_err(|error| error.to_string()),
@@ -117,8 +123,14 @@ impl App {
         };
         let path = loading.path.clone();
         self.open.loading = None;
+        let session = self.open.loading_session.take();
         match result {
-            Ok(document) => self.show(document, ctx),
+            Ok(document) => {
+                self.show(document, ctx);
+                if let Some(session) = session {
+                    self.use_session(&session, ctx);
+                }
+            }
             Err(mut message) => {
                 if !path.exists() && self.preferences.recent.remove(&path) {
                     message += " (it is no longer listed under Open recent)";
@@ -131,7 +143,7 @@ impl App {
         }
     }
 
-    fn show(&mut self, document: Document, ctx: &egui::Context) {
+    pub(super) fn show(&mut self, document: Document, ctx: &egui::Context) {
         let is_same_file = self.open.document.path == document.path;
         let origin = |document: &Document| document.loaded.scene.mesh().origin();
         let shift = origin(&self.open.document) - origin(&document);
@@ -143,6 +155,11 @@ impl App {
         self.open.watch = None;
         self.prepare(ctx);
         self.open.document.improve(ctx);
+        if is_same_file {
+            self.history.absorb();
+        } else {
+            self.history.clear();
+        }
         let pick = self.picked.pick.take();
         (
             self.picked.picking,

@@ -56,6 +56,7 @@ impl App {
             self.use_first_camera();
         } else if let (true, Some(view)) = (is_files_view, self.view_of_file()) {
             self.use_view(view);
+            self.history.absorb();
         }
     }
 

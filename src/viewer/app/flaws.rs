@@ -24,6 +24,8 @@ impl App {
                 .frame(place.bounds, self.shown.resolution);
             // Shows some of the surface around it.
             self.seen.turntable.distance *= FLAW_DISTANCE;
+            let scene = &self.open.document.loaded.scene;
+            self.seen.turntable.set_scene(scene.bounds_with_elements());
         }
     }
 }

@@ -33,6 +33,8 @@ impl App {
         let is_closed = self.open.dialog.dismiss()
             || self.open.save_dialog.dismiss()
             || self.open.environment_dialog.dismiss()
+            || self.open.session_dialog.dismiss()
+            || self.open.save_session_dialog.dismiss()
             || self.shown.notice.take().is_some();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
@@ -46,6 +48,12 @@ impl App {
         }
         if let Some(path) = self.open.save_dialog.field_ui(ctx) {
             self.save_as(&path, ctx);
+        }
+        if let Some(path) = self.open.session_dialog.field_ui(ctx) {
+            self.load(path, ctx);
+        }
+        if let Some(path) = self.open.save_session_dialog.field_ui(ctx) {
+            self.save_session(&path, ctx);
         }
         if let Some(path) = self.open.environment_dialog.field_ui(ctx) {
             self.set_environment(&path);

@@ -10,6 +10,7 @@
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
+//! | `sessions` | sessions; undo and redo |
 //! | `first_view`, `view_text` | the view in which a document opens; the view as text |
 //! | `hints` | the message in the middle of an empty picture |
 //! | `side_panel`, `status_line` | the side panel and the status line |
@@ -30,6 +31,7 @@ mod path;
 mod pick;
 mod pointer;
 mod prepare;
+mod sessions;
 mod side_panel;
 mod state;
 mod status_line;
@@ -39,6 +41,7 @@ pub(crate) use messages::Sheet;
 
 use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
 use crate::document::Document;
+use crate::history::History;
 use crate::preferences::Preferences;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
@@ -112,6 +115,8 @@ pub struct App {
     pub(crate) shown: Shown,
     pub(crate) traced: Traced,
     pub(crate) preferences: Preferences,
+    /// Steps of undo.
+    history: History,
     /// Uncaught errors of the GPU, from any thread.
     gpu_errors: Arc<Mutex<Vec<String>>>,
     screenshot: Option<Screenshot>,
@@ -141,6 +146,7 @@ impl App {
             shown: Shown::new(&render_state),
             traced: Traced::new(tracer, &render_state),
             preferences: start.preferences,
+            history: History::default(),
             gpu_errors: catch_gpu_errors(&render_state, ctx),
             screenshot: start.screenshot.map(Screenshot::new),
         };
@@ -201,6 +207,7 @@ impl eframe::App for App {
             self.stop_work();
         }
         self.poll_neighbours(ctx);
+        self.poll_session(ctx);
         self.poll_loading(ctx);
         self.poll_saving(ctx);
         self.poll_environment(ctx);
@@ -245,6 +252,7 @@ impl eframe::App for App {
             entry.run(self, &ctx, frame);
         }
         self.prepare(&ctx);
+        self.note_step(&ctx);
     }
 
     fn save(&mut self, storage: &mut dyn eframe::Storage) {

@@ -11,7 +11,7 @@
 use super::files::Neighbours;
 use super::light::{EnvironmentFile, SceneLights};
 use super::path::PickedPath;
-use super::pick::Pick;
+use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
 use super::{Notice, Sheet};
 use crate::about_sheet::AboutSheet;
@@ -25,6 +25,7 @@ use crate::look::Development;
 use crate::opening::Loading;
 use crate::overlay::OverlayLayer;
 use crate::saving::Saving;
+use crate::session::Session;
 use crate::settings::Settings;
 use crate::task::Task;
 use crate::times::Times;
@@ -48,6 +49,12 @@ pub(crate) struct Open {
     pub dialog: FileDialog,
     pub save_dialog: FileDialog,
     pub environment_dialog: FileDialog,
+    pub session_dialog: FileDialog,
+    pub save_session_dialog: FileDialog,
+    /// The session file that is being read.
+    pub session: Option<Task<Result<Session, String>>>,
+    /// The session whose file is being loaded.
+    pub loading_session: Option<Session>,
     /// The search for the next or the previous file of the folder.
     pub neighbours: Neighbours,
     pub saving: Option<Saving>,
@@ -67,6 +74,10 @@ impl Open {
             dialog: FileDialog::new(Purpose::Open),
             save_dialog: FileDialog::new(Purpose::Save),
             environment_dialog: FileDialog::new(Purpose::Environment),
+            session_dialog: FileDialog::new(Purpose::OpenSession),
+            save_session_dialog: FileDialog::new(Purpose::SaveSession),
+            session: None,
+            loading_session: None,
             neighbours: Neighbours::default(),
             saving: None,
             trade: None,
@@ -114,7 +125,7 @@ pub(crate) struct Picked {
     pub clicks: Clicks,
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
-    pub picking: Option<Task<Pick>>,
+    pub picking: Option<Picking>,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
     pub face_lookup: Option<FaceLookup>,

@@ -28,6 +28,26 @@ pub(crate) struct Pick {
     basis: InspectionBasis,
 }
 
+/// A pixel that is being inspected.
+pub(crate) struct Picking {
+    pub camera: Camera,
+    pub pixel: UVec2,
+    /// The crossing to mark, unless the same pixel was already picked.
+    crossing: Option<usize>,
+    task: Task<Pick>,
+}
+
+impl Picking {
+    /// The crossing that will be marked. If the same ray is inspected again, that of the old pick.
+    pub fn crossing(&self, old: Option<&Pick>) -> Option<usize> {
+        let is_same = |old: &&Pick| {
+            old.inspection.pixel == self.pixel.to_array() && old.camera == self.camera
+        };
+        old.filter(is_same)
+            .map_or(self.crossing, |old| old.crossing)
+    }
+}
+
 /// The settings and state that an inspection depends on, besides mesh and ray.
 #[derive(Clone, Copy, PartialEq)]
 struct InspectionBasis {
@@ -57,6 +77,11 @@ impl Pick {
         };
         let selected = self.crossing.or_else(of_hit).unwrap_or(0);
         Some(selected.min(last))
+    }
+
+    /// The crossing that is marked instead of the hit.
+    pub fn crossing(&self) -> Option<usize> {
+        self.crossing
     }
 
     /// Marks a crossing.
@@ -187,14 +212,14 @@ impl App {
         if let Some(pick) = &mut self.picked.pick {
             pick.crossing = None;
         }
-        self.start_picking(camera, pixel, ctx);
+        self.start_picking(camera, pixel, None, ctx);
         self.preferences.tab = Tab::Inspect;
     }
 
     /// Inspects a picked pixel again, with its camera.
     pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
         let pixel = UVec2::from_array(pick.inspection.pixel);
-        self.start_picking(pick.camera, pixel, ctx);
+        self.start_picking(pick.camera, pixel, pick.crossing, ctx);
     }
 
     /// Inspects the picked pixel again if the kernel, the shading or the tree has changed.
@@ -207,7 +232,7 @@ impl App {
         };
         if pick.basis != self.inspection_basis() {
             let pixel = UVec2::from_array(pick.inspection.pixel);
-            self.start_picking(pick.camera, pixel, ctx);
+            self.start_picking(pick.camera, pixel, pick.crossing, ctx);
         }
     }
 
@@ -220,7 +245,14 @@ impl App {
         }
     }
 
-    fn start_picking(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
+    /// Inspects a pixel and marks a crossing of its ray.
+    pub(super) fn start_picking(
+        &mut self,
+        camera: Camera,
+        pixel: UVec2,
+        crossing: Option<usize>,
+        ctx: &egui::Context,
+    ) {
         let basis = self.inspection_basis();
         let scene = Arc::clone(&self.open.document.loaded.scene);
         let intersector = Arc::clone(self.open.document.intersector());
@@ -238,7 +270,12 @@ impl App {
                 basis,
             }
         };
-        self.picked.picking = Some(Task::spawn("inspect", ctx, inspect));
+        self.picked.picking = Some(Picking {
+            camera,
+            pixel,
+            crossing,
+            task: Task::spawn("inspect", ctx, inspect),
+        });
     }
 
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
@@ -268,23 +305,20 @@ impl App {
     /// Shows the result of the last inspection once it is ready.
     pub(super) fn poll_picking(&mut self, ctx: &egui::Context) {
         self.poll_face_lookup();
-        let result = match self.picked.picking.as_ref().map(Task::poll) {
-            None | Some(Ok(None)) => return,
-            Some(Ok(Some(pick))) => Ok(pick),
-            Some(Err(panicked)) => Err(panicked),
+        let Some(picking) = &self.picked.picking else {
+            return;
+        };
+        let crossing = picking.crossing(self.picked.pick.as_ref());
+        let result = match picking.task.poll() {
+            Ok(None) => return,
+            Ok(Some(pick)) => Ok(Pick { crossing, ..pick }),
+            Err(panicked) => Err(panicked),
         };
         self.picked.picking = None;
         match result {
             Ok(mut pick) => {
                 pick.inspection
                     .find_line(&self.open.document.loaded.report.face_lines);
-                // The same ray, inspected again.
-                if let Some(old) = &self.picked.pick
-                    && old.inspection.pixel == pick.inspection.pixel
-                    && old.camera == pick.camera
-                {
-                    pick.crossing = old.crossing;
-                }
                 let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);
                 let is_same = |old: &Pick| index(old) == index(&pick) && old.face.is_some();
                 match self.picked.pick.take().filter(is_same) {

@@ -26,6 +26,7 @@ impl App {
                 && request.shows_last_tree == self.shows_last_tree()
         };
         self.open.loading.is_none()
+            && self.open.session.is_none()
             && !self.is_loading_environment()
             && self.open.document.has_last_tree()
             && self.traced.tracer.posted().is_some_and(is_wanted)

@@ -1,16 +1,38 @@
-//! The menu *Edit*: the clipboard, and cancelling.
+//! The menu *Edit*: undo and redo, the clipboard, and cancelling.
 
 use super::keys::{ctrl, ctrl_shift, key};
 use super::{Command, Menu, Place, lacks_scene, none};
+use crate::app::App;
 use egui::Key;
 
-const VIEW_TEXT: Place = Place::new(Menu::Edit, 0);
-const CANCEL: Place = Place::new(Menu::Edit, 1);
+const STEPS: Place = Place::new(Menu::Edit, 0);
+const VIEW_TEXT: Place = Place::new(Menu::Edit, 1);
+const CANCEL: Place = Place::new(Menu::Edit, 2);
 
 /// The name of the command that an open drop-down takes the key of.
 pub(super) const DISMISS: &str = "dismiss";
 
 pub(super) const ROWS: &[Command] = &[
+    Command {
+        name: "undo",
+        keys: &[ctrl(Key::Z)],
+        title: "Undo",
+        tooltip: "Undoes the last change of the camera, of what is shown, or of the picked pixel",
+        place: STEPS,
+        is_on: None,
+        obstacle: App::lacks_undo,
+        run: |app, ctx, _| app.undo(ctx),
+    },
+    Command {
+        name: "redo",
+        keys: &[ctrl(Key::Y), ctrl_shift(Key::Z)],
+        title: "Redo",
+        tooltip: "Makes the change that was undone last again",
+        place: STEPS,
+        is_on: None,
+        obstacle: App::lacks_redo,
+        run: |app, ctx, _| app.redo(ctx),
+    },
     Command {
         name: "copy-view",
         keys: &[ctrl_shift(Key::C)],

@@ -1,7 +1,7 @@
-//! The menu *File*: opening, reloading and saving.
+//! The menu *File*: opening, reloading and saving; sessions.
 
 use super::keys::{ctrl, ctrl_shift, key};
-use super::{Command, Entry, Menu, Place, lacks_file, none};
+use super::{Command, Entry, Menu, Place, lacks_file, lacks_scene, none};
 use crate::app::App;
 use crate::folder::Direction;
 use egui::Key;
@@ -13,7 +13,8 @@ const RECENT: Place = Place::submenu(Menu::File, 0, "Open recent");
 const FOLDER: Place = Place::new(Menu::File, 1);
 const RELOAD: Place = Place::new(Menu::File, 2);
 const SAVE: Place = Place::new(Menu::File, 3);
-const QUIT: Place = Place::new(Menu::File, 4);
+const SESSION: Place = Place::new(Menu::File, 4);
+const QUIT: Place = Place::new(Menu::File, 5);
 
 pub(super) const ROWS: &[Command] = &[
     Command {
@@ -98,6 +99,26 @@ pub(super) const ROWS: &[Command] = &[
         is_on: None,
         obstacle: lacks_file,
         run: App::show_save_dialog,
+    },
+    Command {
+        name: "open-session",
+        keys: &[],
+        title: "Open session…",
+        tooltip: "Opens the file of a session and shows it as it was seen",
+        place: SESSION,
+        is_on: None,
+        obstacle: none,
+        run: App::show_open_session_dialog,
+    },
+    Command {
+        name: "save-session",
+        keys: &[ctrl(Key::S)],
+        title: "Save session…",
+        tooltip: "Saves the camera, what is shown and the picked pixel, with the name of the open file",
+        place: SESSION,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: App::show_save_session_dialog,
     },
     Command {
         name: "quit",

@@ -5,7 +5,7 @@
 pub enum Menu {
     /// Opening, reloading and saving files.
     File,
-    /// The clipboard; cancelling.
+    /// Undo and redo; the clipboard; cancelling.
     Edit,
     /// The picture and the lines over it.
     View,

@@ -1,0 +1,400 @@
+//! A session as plain data: what is open and how it is seen. A part of it is a step of undo.
+//!
+//! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
+//! defaults.
+
+use crate::settings::Settings;
+use crate::storage::usable;
+use crate::tab::Tab;
+use glam::{DMat3, DVec3, UVec2};
+use hitscope_core::camera::{Projection, Turntable, UpAxis};
+use hitscope_core::obj::shown;
+use hitscope_core::{Camera, Scene};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+use std::fs::File;
+use std::io::Read as _;
+use std::path::{Path, PathBuf};
+
+/// The extension of session files.
+pub const EXTENSION: &str = "hitscope";
+/// The version of the format that is written. Files of later versions are refused.
+const FORMAT: u32 = 1;
+/// Size limit of a session file, which usually has some thousand bytes.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// A session.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Session {
+    /// The version of the format.
+    hitscope: u32,
+    /// The open file; `None` for the built-in scene.
+    #[serde(default)]
+    pub file: Option<PathBuf>,
+    /// How it is seen.
+    pub sight: Sight,
+    /// Whether noise is shown instead of the picture.
+    #[serde(default)]
+    shows_noise: bool,
+    /// Whether the side panel is shown.
+    #[serde(default)]
+    pub shows_panel: bool,
+    /// The tab of the side panel.
+    #[serde(default)]
+    pub tab: Tab,
+}
+
+/// How a document is seen: the step of undo.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Sight {
+    /// The camera.
+    pub camera: Viewpoint,
+    /// How the scene is shown.
+    #[serde(default)]
+    pub settings: Settings,
+    /// The picked pixels.
+    #[serde(default)]
+    pub picks: Vec<PickedPixel>,
+}
+
+/// The window's camera in the file's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Viewpoint {
+    /// A point near the scene. It is stored beside the pivot because their sum would be rounded.
+    origin: [f64; 3],
+    /// Centre of rotation, relative to `origin`.
+    pivot: [f64; 3],
+    distance: f64,
+    yaw_radians: f64,
+    pitch_radians: f64,
+    roll_radians: f64,
+    fov_y_radians: f64,
+    is_orthographic: bool,
+    is_z_up: bool,
+}
+
+/// A picked pixel, with the camera of the picture that was clicked.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct PickedPixel {
+    /// A point near the scene, in the file's coordinates.
+    origin: [f64; 3],
+    /// Position of the camera, relative to `origin`.
+    eye: [f64; 3],
+    right: [f64; 3],
+    up: [f64; 3],
+    back: [f64; 3],
+    projection: PickProjection,
+    /// Width and height of the picture.
+    size: [u32; 2],
+    /// Column and row from the top left.
+    pixel: [u32; 2],
+    /// The crossing that is marked instead of the hit, counted from 0.
+    #[serde(default)]
+    pub crossing: Option<usize>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+enum PickProjection {
+    Perspective { fov_y_radians: f64 },
+    Orthographic { height: f64 },
+}
+
+impl Viewpoint {
+    /// A camera in a scene with this origin.
+    pub fn of(turntable: &Turntable, origin: DVec3) -> Self {
+        Self {
+            origin: origin.to_array(),
+            pivot: turntable.pivot.to_array(),
+            distance: turntable.distance,
+            yaw_radians: turntable.yaw_radians,
+            pitch_radians: turntable.pitch_radians,
+            roll_radians: turntable.roll_radians,
+            fov_y_radians: turntable.fov_y_radians,
+            is_orthographic: turntable.is_orthographic,
+            is_z_up: turntable.up_axis == UpAxis::Z,
+        }
+    }
+
+    /// The camera in a scene; exactly the same one if the scene's origin is the same.
+    pub fn turntable(&self, scene: &Scene) -> Turntable {
+        let mut turntable = Turntable::framing(scene.bounds_with_elements(), UVec2::ONE);
+        let shift = DVec3::from_array(self.origin) - scene.mesh().origin();
+        turntable.pivot = DVec3::from_array(self.pivot) + shift;
+        turntable.distance = self.distance;
+        turntable.yaw_radians = self.yaw_radians;
+        turntable.pitch_radians = self.pitch_radians;
+        turntable.roll_radians = self.roll_radians;
+        turntable.fov_y_radians = self.fov_y_radians;
+        turntable.is_orthographic = self.is_orthographic;
+        turntable.up_axis = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
+        turntable
+    }
+
+    fn check(&self) -> Result<(), &'static str> {
+        /// As on the command line, in radians.
+        const LEAST_FOV: f64 = 1e-8;
+        let limit = f64::from(f32::MAX);
+        let is_place = |v: [f64; 3]| v.iter().all(|x| x.abs() <= limit);
+        if !is_place(self.origin) || !is_place(self.pivot) {
+            return Err("the camera's origin or pivot is too far away");
+        }
+        if !(f64::from(f32::MIN_POSITIVE)..=limit).contains(&self.distance) {
+            return Err("the camera's distance must be positive, and not too large");
+        }
+        if !(self.fov_y_radians >= LEAST_FOV && self.fov_y_radians < PI) {
+            return Err("the camera's field of view must be between 0 and π");
+        }
+        Ok(())
+    }
+}
+
+impl PickedPixel {
+    /// A pixel of a camera's picture in a scene with this origin.
+    pub fn new(camera: &Camera, pixel: UVec2, crossing: Option<usize>, origin: DVec3) -> Self {
+        Self {
+            origin: origin.to_array(),
+            eye: camera.exact_eye().to_array(),
+            right: camera.right().to_array(),
+            up: camera.up().to_array(),
+            back: camera.back().to_array(),
+            projection: match camera.projection() {
+                Projection::Perspective { fov_y_radians } => {
+                    PickProjection::Perspective { fov_y_radians }
+                }
+                Projection::Orthographic { height } => PickProjection::Orthographic { height },
+            },
+            size: camera.resolution().to_array(),
+            pixel: pixel.to_array(),
+            crossing,
+        }
+    }
+
+    /// The pixel.
+    pub fn pixel(&self) -> UVec2 {
+        self.pixel.into()
+    }
+
+    /// The camera in a scene with this origin; exactly the same one if the origin is the same.
+    ///
+    /// # Errors
+    /// Why there is no such camera.
+    pub fn camera(&self, origin: DVec3) -> Result<Camera, String> {
+        let axes = [self.right, self.up, self.back].map(DVec3::from_array);
+        let projection = match self.projection {
+            PickProjection::Perspective { fov_y_radians } => {
+                Projection::Perspective { fov_y_radians }
+            }
+            PickProjection::Orthographic { height } => Projection::Orthographic { height },
+        };
+        let eye = DVec3::from_array(self.eye) + (DVec3::from_array(self.origin) - origin);
+        let axes = DMat3::from_cols_array_2d(&axes.map(DVec3::into));
+        let camera = Camera::from_axes(eye, axes, projection, self.size.into());
+        camera.map_err(|error| format!("a pick: {error}"))
+    }
+
+    fn check(&self) -> Result<(), String> {
+        self.camera(DVec3::from_array(self.origin))?;
+        if self.pixel().cmpge(self.size.into()).any() {
+            return Err("a pick: the pixel is outside the picture".to_owned());
+        }
+        Ok(())
+    }
+}
+
+impl Session {
+    /// A session. Its settings don't depend on what the file asks for.
+    pub fn new(file: Option<PathBuf>, sight: Sight, shows_panel: bool, tab: Tab) -> Self {
+        let mut sight = sight;
+        let settings = &mut sight.settings;
+        let (view, kernel, axis) = (settings.view(), settings.kernel(), settings.up_axis());
+        settings.keep_view(view.name);
+        settings.keep_kernel(kernel.info.name);
+        settings.keep_up_axis(axis);
+        Self {
+            hitscope: FORMAT,
+            file,
+            shows_noise: settings.shows_noise,
+            sight,
+            shows_panel,
+            tab,
+        }
+    }
+
+    /// Reads a session file. Its paths become absolute.
+    ///
+    /// # Errors
+    /// A message with the path and, for a syntax error, the line.
+    pub fn read(path: &Path) -> Result<Self, String> {
+        let named = |error: &dyn std::fmt::Display| format!("{}: {error}", shown(path));
+        let mut text = String::new();
+        let file = File::open(path).map_err(|error| named(&error))?;
+        let read = file.take(MAX_BYTES + 1).read_to_string(&mut text);
+        read.map_err(|error| named(&error))?;
+        if text.len() as u64 > MAX_BYTES {
+            return Err(named(&"too large for a session file"));
+        }
+        let mut session = Self::of_text(&text).map_err(|error| named(&error))?;
+        let folder = path.parent().unwrap_or(Path::new(""));
+        let folder = std::path::absolute(folder).unwrap_or_else(|_| folder.to_owned());
+        for path in session.paths() {
+            *path = folder.join(&*path);
+        }
+        Ok(session)
+    }
+
+    fn of_text(text: &str) -> Result<Self, String> {
+        /// The version alone: later versions may differ in all else.
+        #[derive(Deserialize)]
+        struct Version {
+            hitscope: u32,
+        }
+        let said = |error: serde_json::Error| format!("not a session file: {error}");
+        let Version { hitscope } = serde_json::from_str(text).map_err(said)?;
+        if hitscope > FORMAT {
+            return Err(format!(
+                "written by a later version of hitscope: format {hitscope}, not {FORMAT}"
+            ));
+        }
+        let mut session: Self = serde_json::from_str(text).map_err(said)?;
+        if session.file.as_deref().is_some_and(is_session) {
+            return Err("its file is a session, not a mesh or a scene".to_owned());
+        }
+        let sight = &mut session.sight;
+        sight.camera.check()?;
+        for pick in &sight.picks {
+            pick.check()?;
+        }
+        sight.settings = usable(sight.settings.clone());
+        sight.settings.shows_noise = session.shows_noise;
+        sight.settings.keep_up_axis(if sight.camera.is_z_up {
+            UpAxis::Z
+        } else {
+            UpAxis::Y
+        });
+        Ok(session)
+    }
+
+    /// The text of a session file at a path. Files in its folder and below are named relative to it.
+    ///
+    /// # Errors
+    /// If a path isn't UTF-8.
+    pub fn text_at(mut self, path: &Path) -> Result<String, String> {
+        let absolute = |path: &Path| std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+        let session_file = absolute(path);
+        let folder = session_file.parent().unwrap_or(Path::new(""));
+        for path in self.paths() {
+            let whole = absolute(path);
+            *path = whole.strip_prefix(folder).unwrap_or(&whole).to_owned();
+        }
+        let text = serde_json::to_string_pretty(&self).map_err(|error| error.to_string())?;
+        Ok(text + "\n")
+    }
+
+    /// All paths.
+    fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
+        let environment = &mut self.sight.settings.environment_file;
+        self.file.iter_mut().chain(environment)
+    }
+}
+
+/// Whether a file's name is that of a session.
+pub fn is_session(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|extension| extension.eq_ignore_ascii_case(EXTENSION))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::document::embedded_scene;
+
+    fn session(scene: &Scene) -> Session {
+        let mut turntable = Turntable::framing(scene.bounds(), UVec2::new(64, 48));
+        turntable.turn(0.1);
+        turntable.zoom(0.7, DVec3::new(0.1, 0.2, 0.3));
+        let origin = scene.mesh().origin();
+        let camera = turntable.camera(UVec2::new(64, 48));
+        let sight = Sight {
+            camera: Viewpoint::of(&turntable, origin),
+            settings: Settings {
+                file_view: Some("path"),
+                ..Settings::default()
+            },
+            picks: vec![PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin)],
+        };
+        Session::new(Some("/a/b/mesh.obj".into()), sight, true, Tab::Mesh)
+    }
+
+    #[test]
+    fn a_session_is_read_back_to_the_last_bit() {
+        let loaded = embedded_scene();
+        let session = session(&loaded.scene);
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("x.hitscope");
+        let text = session.clone().text_at(&path).expect("UTF-8");
+        std::fs::write(&path, &text).expect("written");
+        let read = Session::read(&path).expect("a session");
+        assert_eq!(read, session);
+        assert_eq!(read.sight.settings.view().name, "path");
+        let origin = loaded.scene.mesh().origin();
+        let turntable = read.sight.camera.turntable(&loaded.scene);
+        assert_eq!(Viewpoint::of(&turntable, origin), session.sight.camera);
+        let camera = read.sight.picks[0].camera(origin).expect("a camera");
+        let again = PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin);
+        assert_eq!(again, session.sight.picks[0]);
+    }
+
+    #[test]
+    fn files_below_the_sessions_folder_have_relative_paths() {
+        let loaded = embedded_scene();
+        for (at, expected) in [
+            ("/a/x.hitscope", "\"b/mesh.obj\""),
+            ("/c/x.hitscope", "\"/a/b/mesh.obj\""),
+        ] {
+            let text = session(&loaded.scene).text_at(Path::new(at));
+            assert!(text.expect("UTF-8").contains(expected), "{at}");
+        }
+    }
+
+    #[test]
+    fn broken_sessions_are_refused_with_a_reason() {
+        let loaded = embedded_scene();
+        let good = session(&loaded.scene).text_at(Path::new("x"));
+        let good = good.expect("UTF-8");
+        assert!(Session::of_text(&good).is_ok());
+        let unknown = good.replacen('{', "{\"of another version\": [1],", 1);
+        assert!(Session::of_text(&unknown).is_ok());
+        let with = |from: &str, to: &str| {
+            let text = good.replacen(from, to, 1);
+            assert_ne!(text, good, "{from}");
+            Session::of_text(&text).expect_err(to)
+        };
+        for (from, to, reason) in [
+            ("\"hitscope\": 1", "\"hitscope\": 2", "a later version"),
+            ("\"distance\": ", "\"distance\": -", "distance"),
+            ("\"distance\": ", "\"distance\": x", "line"),
+            ("\"is_smooth\": false", "\"is_smooth\": 3", "line"),
+            ("\"sight\"", "\"sights\"", "missing field `sight`"),
+        ] {
+            let error = with(from, to);
+            assert!(error.contains(reason), "{to}: {error}");
+        }
+        let changes: [(fn(&mut Session), &str); 3] = [
+            (
+                |bad| bad.sight.picks[0].pixel = [64, 4],
+                "outside the picture",
+            ),
+            (|bad| bad.sight.picks[0].up = [0.0; 3], "perpendicular"),
+            (|bad| bad.file = Some("x.hitscope".into()), "is a session"),
+        ];
+        for (change, reason) in changes {
+            let mut bad = session(&loaded.scene);
+            change(&mut bad);
+            let text = bad.text_at(Path::new("x")).expect("UTF-8");
+            let error = Session::of_text(&text).expect_err(reason);
+            assert!(error.contains(reason), "{error}");
+        }
+        assert!(Session::of_text("v 0 0 0\n").is_err());
+    }
+}
