@@ -12,6 +12,7 @@
 //! | [`recent`], [`folder`] | the files that were opened last; the files beside the open one |
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
+//! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
@@ -27,6 +28,8 @@ pub mod about;
 pub mod about_sheet;
 pub mod app;
 pub mod cli;
+pub mod clip_choice;
+pub mod colour_choice;
 pub mod command;
 pub mod completions;
 pub mod dialog;
@@ -43,6 +46,7 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
+pub mod parts;
 pub mod preferences;
 pub mod recent;
 pub mod render;

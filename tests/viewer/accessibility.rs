@@ -48,7 +48,7 @@ fn every_control_of_every_tab_has_a_name_and_a_role() {
             Tab::Trade => wait(&mut window, "the measurement", |app| {
                 app.trade().map(Trade::state) == Some(TradeState::Done)
             }),
-            Tab::Inspect | Tab::Display => {}
+            Tab::Inspect | Tab::Display | Tab::Parts => {}
         }
         window.run_steps(3);
         check(&window, tab.title());

@@ -48,6 +48,7 @@ mod render_lines;
 mod scene_files;
 // Validation of the shaders without a GPU.
 mod shaders;
+mod shown;
 // `trace` on a pipe.
 mod trace;
 // Comparison of rasterized and traced triangles.

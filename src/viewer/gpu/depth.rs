@@ -91,7 +91,11 @@ impl DepthPipeline {
         ranges: &[(usize, Range<u32>)],
         is_clipped: bool,
     ) {
-        pass.set_pipeline(if is_clipped { &self.clipped } else { &self.whole });
+        pass.set_pipeline(if is_clipped {
+            &self.clipped
+        } else {
+            &self.whole
+        });
         for (part, triangles) in ranges {
             let (indices, _) = &mesh.triangles[*part];
             pass.set_vertex_buffer(0, mesh.positions.slice(..));
