@@ -1,9 +1,10 @@
 //! Tests of the part of the scene that is shown, by clip and by parts, and of the legend in the picture.
 
-use crate::harness::{Window, app_with, click, in_picture, wait};
+use crate::harness::{Window, app_started, click, in_picture, wait};
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec3, UVec2};
-use hitscope::app::App;
+use hitscope::app::{App, StartOptions};
+use hitscope::preferences::Preferences;
 use hitscope::settings::Settings;
 use hitscope::tab::Tab;
 use hitscope_core::Hit;
@@ -11,13 +12,19 @@ use hitscope_core::plan::Plan;
 
 /// The built-in scene in a view with one sample per pixel, with a tab of the side panel.
 fn window(view: &str, tab: Tab) -> Option<Window> {
-    let settings = Settings {
-        view: view.to_owned(),
-        samples: 1,
-        tab,
-        ..Settings::default()
+    let start = StartOptions {
+        settings: Settings {
+            view: view.to_owned(),
+            samples: 1,
+            ..Settings::default()
+        },
+        preferences: Preferences {
+            tab,
+            ..Preferences::default()
+        },
+        ..StartOptions::default()
     };
-    let mut window = app_with(settings)?;
+    let mut window = app_started(start)?;
     settle(&mut window);
     Some(window)
 }
@@ -231,4 +238,20 @@ fn the_picked_part_is_hidden_by_a_command() {
         let hit = app.inspection().and_then(|pick| pick.hit.as_ref());
         hit.is_none_or(|hit| hit.group != picked)
     });
+}
+
+#[test]
+fn an_empty_picture_offers_to_show_what_was_hidden() {
+    let Some(mut window) = window("triangle", Tab::Parts) else {
+        return;
+    };
+    let whole = pixels(&window);
+    for part in ["floor", "knot", "gem", "shell"] {
+        press_button(&mut window, part);
+    }
+    assert_eq!(count(&hits(&window)), 0);
+    wait(&mut window, "the hint", App::shows_nothing);
+    window.run_steps(3);
+    press_button(&mut window, "Show everything");
+    assert!(pixels(&window) == whole);
 }

@@ -2,7 +2,7 @@
 
 use super::App;
 use super::pick::Pick;
-use crate::clip_choice::ClipChoice;
+use crate::clip_choice::{ClipChoice, ClipShape};
 use crate::parts::{Grouping, Parts};
 
 impl App {
@@ -81,6 +81,19 @@ impl App {
     pub(crate) fn lacks_hidden_part(&self) -> Option<&'static str> {
         let all = self.seen.parts.shown().0.is_none();
         all.then_some("No part is hidden")
+    }
+
+    /// Why nothing can be shown again; `None` if a clip or hidden parts remove something.
+    pub(crate) fn lacks_hidden_surface(&self) -> Option<&'static str> {
+        let is_clipped = self.seen.settings.clip.shape != ClipShape::None;
+        let is_whole = !is_clipped && self.lacks_hidden_part().is_some();
+        is_whole.then_some("Neither a clip nor hidden parts remove anything")
+    }
+
+    /// Turns the clip off and shows all parts.
+    pub(crate) fn show_everything(&mut self) {
+        self.seen.settings.clip.shape = ClipShape::None;
+        self.seen.parts.show_all();
     }
 
     /// Groups the parts in another way.

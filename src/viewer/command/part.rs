@@ -19,6 +19,16 @@ pub(super) const ROWS: &[Command] = &[
         run: |app, _, _| app.show_all_parts(),
     },
     Command {
+        name: "show-everything",
+        keys: &[],
+        title: "Show everything",
+        tooltip: "Turns the clip off and shows all parts",
+        place: PARTS,
+        is_on: None,
+        obstacle: App::lacks_hidden_surface,
+        run: |app, _, _| app.show_everything(),
+    },
+    Command {
         name: "invert-parts",
         keys: &[],
         title: "Invert shown parts",

@@ -58,12 +58,20 @@ impl Packed {
 }
 
 /// The building of a scene of which other primitives are shown.
-#[derive(Default)]
 pub(super) struct Showing {
     /// What is to be shown.
     wanted: ShownPrimitives,
     /// The scene, packed for a kernel.
     next: Pending<(Scene, KernelChoice, Packed)>,
+}
+
+impl Default for Showing {
+    fn default() -> Self {
+        Self {
+            wanted: ShownPrimitives::default(),
+            next: Pending::Unasked,
+        }
+    }
 }
 
 impl Document {
