@@ -133,6 +133,14 @@ fn part(scene: &Scene, grouping: Grouping, primitive: u32) -> Part {
 }
 
 impl Parts {
+    /// The parts of a scene that isn't known yet, all of them shown.
+    pub fn by(grouping: Grouping) -> Self {
+        Self {
+            grouping,
+            ..Self::default()
+        }
+    }
+
     /// The parts of a scene by the chosen grouping. The first call lists them.
     pub fn list(&mut self, scene: &Scene) -> Arc<PartList> {
         if let Some(list) = &self.list {

@@ -28,10 +28,7 @@ impl App {
     /// Shows everything of a new document, which is of the same file if that was loaded again: then the clip stays. The
     /// choice of the grouping stays.
     pub(super) fn forget_shown_part(&mut self, is_same_file: bool) {
-        self.seen.parts = Parts {
-            grouping: self.seen.parts.grouping,
-            ..Parts::default()
-        };
+        self.seen.parts = Parts::by(self.seen.parts.grouping);
         if !is_same_file {
             self.seen.settings.clip = ClipChoice::default();
             self.seen.settings.colours.scales.clear();

@@ -23,7 +23,7 @@ const MOST_TICKS: usize = 5;
 
 /// The search for the range of the numbers in the picture, and the view that it is for.
 #[derive(Default)]
-pub(super) struct RangeFit(Option<(String, Task<Option<[f64; 2]>>)>);
+pub(crate) struct RangeFit(Option<(String, Task<Option<[f64; 2]>>)>);
 
 impl App {
     /// The scale of the picture; `None` if it shows no numbers.

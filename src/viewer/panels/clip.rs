@@ -55,7 +55,7 @@ fn plane_ui(
         let mut normal = clip.normal;
         for (axis, name) in AXES.into_iter().enumerate() {
             let number = DragValue::new(&mut normal[axis]).speed(0.01);
-            ui.add(number).accessible_name(&format!("Normal: {name}"));
+            ui.add(number).accessible_name(format!("Normal: {name}"));
         }
         if normal != clip.normal && normal != DVec3::ZERO {
             clip.turn(normal, extent);
@@ -73,7 +73,7 @@ fn box_ui(ui: &mut egui::Ui, clip: &mut ClipChoice, size: f64, commands: &Comman
                 let number = DragValue::new(&mut corner[axis])
                     .speed(0.002 * size)
                     .prefix(format!("{name} "));
-                ui.add(number).accessible_name(&format!("{title}: {name}"));
+                ui.add(number).accessible_name(format!("{title}: {name}"));
             }
             ui.end_row();
         }

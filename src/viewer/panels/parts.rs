@@ -77,7 +77,7 @@ fn row_ui(ui: &mut egui::Ui, parts: &mut Parts, list: &PartList, number: usize, 
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             let only = ui.small_button("Only");
-            let only = only.accessible_name(&format!("Show only {}", part.name));
+            let only = only.accessible_name(format!("Show only {}", part.name));
             if only.on_hover_text("Shows the part alone").clicked() {
                 parts.show_only(number);
             }
