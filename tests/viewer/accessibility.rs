@@ -73,6 +73,27 @@ fn every_option_of_views_with_light_has_a_name_and_a_role() {
 }
 
 #[test]
+fn every_control_of_clips_and_scales_has_a_name_and_a_role() {
+    for button in ["By a plane", "By a box"] {
+        let mut settings = Settings {
+            view: "depth".to_owned(),
+            samples: 1,
+            ..Settings::default()
+        };
+        let view = settings.view();
+        settings.colours.scale_mut(view).range = Some([1.0, 2.0]);
+        let Some(mut window) = app_with(settings) else {
+            return;
+        };
+        window.get_by_label(button).scroll_to_me();
+        window.run_steps(10);
+        window.get_by_label(button).click();
+        window.run_steps(3);
+        check(&window, button);
+    }
+}
+
+#[test]
 fn every_menu_and_every_window_over_the_picture_has_named_controls() {
     let Some(mut window) = app(None) else { return };
     for menu in ["File", "Edit", "View", "Camera", "Pick", "Window", "Help"] {

@@ -36,7 +36,8 @@ pub fn parts_ui(
     let is_listed = |number: &usize| list.parts[*number].name.to_lowercase().contains(&filter);
     let listed: Vec<usize> = (0..list.parts.len()).filter(is_listed).collect();
     ui.label(RichText::new(counted(listed.len(), "part")).weak());
-    let height = ui.clip_rect().bottom() - ui.cursor().top();
+    // With a margin, so that the tab itself doesn't scroll.
+    let height = ui.clip_rect().bottom() - ui.cursor().top() - 2.0 * ui.spacing().item_spacing.y;
     let row_height = ui.spacing().interact_size.y;
     ScrollArea::vertical()
         .id_salt("parts")
