@@ -50,6 +50,7 @@ impl Scene {
         Ok(Self {
             mesh: Arc::clone(&self.mesh),
             groups,
+            ends: self.ends.clone(),
             vertex_normals: Arc::clone(&self.vertex_normals),
             clip: self.clip.clone(),
             hidden: shown.map(|shown| Hidden { shown, whole }),
