@@ -10,6 +10,8 @@ struct Style {
     // 1: lines fade where they or the gap between them would be less than a few pixels long. 2: the gap alone counts, as
     // lines are pieces of curves. 0: they don't fade.
     fade: f32,
+    // 1: the clip cuts lines. 0: it doesn't.
+    is_cut: f32,
 };
 
 @group(1) @binding(0) var<uniform> style: Style;
@@ -45,13 +47,39 @@ fn visible_part(gap_px: f32) -> f32 {
     return mix(veil, 1.0, smoothstep(MERGED_PX, ALONE_PX, gap_px));
 }
 
+// The part of a line that the clip keeps, as two factors from 0 to 1; the first is the larger one if nothing is kept.
+fn kept_part(start: vec3f, end: vec3f) -> vec2f {
+    var part = vec2f(0.0, 1.0);
+    for (var k = 0u; k < view.plane_count; k += 1u) {
+        let plane = view.planes[k];
+        let before = dot(plane.xyz, start) - plane.w;
+        let after = dot(plane.xyz, end) - plane.w;
+        if before > 0.0 && after > 0.0 {
+            return vec2f(1.0, 0.0);
+        } else if before > 0.0 {
+            part.x = max(part.x, before / (before - after));
+        } else if after > 0.0 {
+            part.y = min(part.y, before / (before - after));
+        }
+    }
+    return part;
+}
+
 // A quad around the line, as two triangles:   1───3
 //                                             │ ╲ │
 //                                             0───2
 @vertex
 fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
-    var start = clip_from_position(line.start);
-    var end = clip_from_position(mix(line.start, line.end, style.stretch));
+    let far = mix(line.start, line.end, style.stretch);
+    var part = vec2f(0.0, 1.0);
+    if style.is_cut > 0.0 {
+        part = kept_part(line.start, far);
+        if part.x > part.y {
+            return NOWHERE;
+        }
+    }
+    var start = clip_from_position(mix(line.start, far, part.x));
+    var end = clip_from_position(mix(line.start, far, part.y));
 
     // Clip at the near plane: behind the eye a projection is undefined.
     if start.w < view.near_w && end.w < view.near_w {

@@ -9,6 +9,10 @@ struct View {
     near_w: f32,
     // Width and height of the picture in pixels.
     viewport: vec2f,
+    // The number of the clip's planes.
+    plane_count: u32,
+    // Normal and offset of each plane; a point p is kept if dot(normal, p) is at most the offset.
+    planes: array<vec4f, 16>,
 };
 
 @group(0) @binding(0) var<uniform> view: View;
@@ -17,4 +21,14 @@ struct View {
 // the origin doesn't jitter.
 fn clip_from_position(position: vec3f) -> vec4f {
     return view.clip_from_eye * vec4f(position - view.eye, 1.0);
+}
+
+// Whether the clip keeps a point.
+fn is_kept(position: vec3f) -> bool {
+    for (var k = 0u; k < view.plane_count; k += 1u) {
+        if dot(view.planes[k].xyz, position) > view.planes[k].w {
+            return false;
+        }
+    }
+    return true;
 }

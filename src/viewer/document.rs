@@ -1,5 +1,9 @@
 //! The open document: a scene, its file, and the intersectors that trace it.
 
+mod shown_part;
+
+pub use shown_part::ShownPrimitives;
+
 use crate::task::{Pending, Task, TaskPanicked};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::light::{Environment, EnvironmentMap, Light, MapPlacement, PlacedMap};
@@ -8,8 +12,9 @@ use hitscope_core::mesh::{Crease, Health, TriangleMesh, bytes_as};
 use hitscope_core::obj::{self, LoadError, LoadOptions, LoadReport};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::scene::SceneOptions;
-use hitscope_core::{Intersector, Scene};
+use hitscope_core::{Clip, Intersector, Scene};
 use hitscope_lab::requirement::{Requirement, required_tier};
+use shown_part::{Packed, Showing};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
@@ -41,6 +46,11 @@ pub struct Document {
     pub loaded: LoadedScene,
     /// Time when loading began; the document doesn't contain later changes of the file.
     pub began: SystemTime,
+    /// The part of the scene that is shown, in the file's coordinates.
+    clip: Option<Clip>,
+    showing: Showing,
+    /// The number of changes of the part that is shown.
+    part_changes: u64,
     packing: Packing,
     /// The second intersector of comparing views.
     second: Option<Packing>,
@@ -56,18 +66,18 @@ pub struct Document {
 struct Packing {
     /// The kernel that was chosen. A shape whose table lacks it uses another one.
     kernel: KernelChoice,
-    intersector: Arc<dyn Intersector>,
+    packed: Packed,
     /// The kernel that is wanted.
     wanted: KernelChoice,
-    /// The intersector of the wanted kernel.
-    next: Pending<Box<dyn Intersector>>,
+    /// The scene packed for the wanted kernel.
+    next: Pending<Packed>,
 }
 
 impl Packing {
-    fn new(kernel: KernelChoice, intersector: Arc<dyn Intersector>) -> Self {
+    fn new(kernel: KernelChoice, packed: Packed) -> Self {
         Self {
             kernel,
-            intersector,
+            packed,
             wanted: kernel,
             next: Pending::Unasked,
         }
@@ -82,17 +92,18 @@ impl Packing {
         self.next = Pending::Unasked;
         if self.kernel != kernel {
             let scene = Arc::clone(scene);
-            let pack = move || scene.intersector(kernel);
+            let pack = move || Packed::of(&scene, kernel);
             self.next = Pending::Running(Task::spawn("pack", ctx, pack));
         }
     }
 
     /// Switches to the wanted kernel once the scene is packed for it. If packing failed, the previous kernel stays.
-    fn poll(&mut self) -> Result<(), TaskPanicked> {
+    fn poll(&mut self, scene: &Scene) -> Result<(), TaskPanicked> {
         match self.next.take() {
             Ok(None) => {}
             Ok(Some(packed)) => {
-                (self.intersector, self.kernel) = (Arc::from(packed), self.wanted);
+                // The clip may have changed meanwhile.
+                (self.packed, self.kernel) = (packed.with_clip_of(scene), self.wanted);
             }
             Err(panicked) => {
                 self.wanted = self.kernel;
@@ -153,7 +164,10 @@ impl Document {
         Self {
             path,
             is_blank: false,
-            packing: Packing::new(kernel, Arc::from(loaded.scene.intersector(kernel))),
+            clip: None,
+            showing: Showing::default(),
+            part_changes: 0,
+            packing: Packing::new(kernel, Packed::of(&loaded.scene, kernel)),
             loaded,
             began: SystemTime::now(),
             second: None,
@@ -211,9 +225,9 @@ impl Document {
         is_new
     }
 
-    /// The intersector of the kernel that was packed last.
+    /// The intersector of the kernel that was packed last, cut by the clip.
     pub fn intersector(&self) -> &Arc<dyn Intersector> {
-        &self.packing.intersector
+        self.packing.packed.intersector()
     }
 
     /// The kernel that was chosen for the intersector.
@@ -231,13 +245,13 @@ impl Document {
     /// # Errors
     /// [`TaskPanicked`], once, if packing failed; the previous kernel stays.
     pub fn poll_kernel(&mut self) -> Result<(), TaskPanicked> {
-        self.packing.poll()
+        self.packing.poll(&self.loaded.scene)
     }
 
     /// The intersector to compare with; the first one if there is no second, or until it is ready.
     pub fn second(&self) -> &Arc<dyn Intersector> {
         let second = self.second.as_ref().unwrap_or(&self.packing);
-        &second.intersector
+        second.packed.intersector()
     }
 
     /// Starts to pack the scene for a second kernel unless that is done or under way; `None` drops the second
@@ -247,14 +261,10 @@ impl Document {
             self.second = None;
             return;
         };
-        let Packing {
-            kernel: first,
-            intersector,
-            ..
-        } = &self.packing;
+        let (first, packed) = (self.packing.kernel, &self.packing.packed);
         let second = self
             .second
-            .get_or_insert_with(|| Packing::new(*first, Arc::clone(intersector)));
+            .get_or_insert_with(|| Packing::new(first, packed.clone()));
         second.want(kernel, &self.loaded.scene, ctx);
     }
 
@@ -263,7 +273,10 @@ impl Document {
     /// # Errors
     /// [`TaskPanicked`], once, if packing failed.
     pub fn poll_second(&mut self) -> Result<(), TaskPanicked> {
-        self.second.as_mut().map_or(Ok(()), Packing::poll)
+        let scene = &self.loaded.scene;
+        self.second
+            .as_mut()
+            .map_or(Ok(()), |second| second.poll(scene))
     }
 
     /// The mesh's health and required tier. The first call starts the check; `None` until it is done.

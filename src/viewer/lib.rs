@@ -13,6 +13,7 @@
 //! | [`saving`], [`dialog`] | saving it as a scene file; file dialogs |
 //! | [`session`], [`history`] | sessions as plain data; undo and redo |
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
+//! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
@@ -28,6 +29,8 @@ pub mod about;
 pub mod about_sheet;
 pub mod app;
 pub mod cli;
+pub mod clip_choice;
+pub mod colour_choice;
 pub mod command;
 pub mod completions;
 pub mod dialog;
@@ -45,6 +48,7 @@ pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
+pub mod parts;
 pub mod preferences;
 pub mod recent;
 pub mod render;

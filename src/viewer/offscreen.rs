@@ -112,7 +112,7 @@ pub fn drawn(
         view,
         traced,
         outline,
-        mesh: Arc::new(DepthMesh::new(device, queue, scene.mesh())?),
+        mesh: Arc::new(DepthMesh::new(device, queue, scene)?),
         sets,
     };
     let canvas = Canvas {

@@ -1,5 +1,7 @@
 //! The settings of the picture: how the scene is shown. They are kept between runs, in sessions and in undo steps.
 
+use crate::clip_choice::ClipChoice;
+use crate::colour_choice::ColourChoice;
 use crate::overlay::Overlays;
 use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::vertex_normals::VERTEX_NORMALS;
@@ -47,6 +49,11 @@ pub struct Settings {
     pub is_spherical: bool,
     /// Which overlays are drawn, and how.
     pub overlays: Overlays,
+    /// The clip. Not kept, as it belongs to a scene.
+    #[serde(skip)]
+    pub clip: ClipChoice,
+    /// Colour map, legend, tint and background.
+    pub colours: ColourChoice,
     /// Samples per pixel of the finished picture; a power of two.
     pub samples: u32,
     /// Whether refinement of views that need lights ends after a time.
@@ -111,6 +118,8 @@ impl Default for Settings {
             is_smooth: false,
             is_spherical: false,
             overlays: Overlays::default(),
+            clip: ClipChoice::default(),
+            colours: ColourChoice::default(),
             samples: 64,
             has_time_limit: false,
             time_limit_s: 60.0,

@@ -11,6 +11,8 @@ pub enum Tab {
     #[default]
     #[serde(alias = "View")]
     Display,
+    /// The parts of the scene, which can be hidden.
+    Parts,
     /// Contents and flaws of the mesh.
     Mesh,
     /// Speed and accuracy of the kernels in this scene.
@@ -19,13 +21,20 @@ pub enum Tab {
 
 impl Tab {
     /// All tabs, from left to right.
-    pub const ALL: [Self; 4] = [Self::Inspect, Self::Display, Self::Mesh, Self::Trade];
+    pub const ALL: [Self; 5] = [
+        Self::Inspect,
+        Self::Display,
+        Self::Parts,
+        Self::Mesh,
+        Self::Trade,
+    ];
 
     /// The title.
     pub fn title(self) -> &'static str {
         match self {
             Self::Inspect => "Inspect",
             Self::Display => "Display",
+            Self::Parts => "Parts",
             Self::Mesh => "Mesh",
             Self::Trade => "Trade",
         }
@@ -35,7 +44,8 @@ impl Tab {
     pub fn about(self) -> &'static str {
         match self {
             Self::Inspect => "The ray of the picked pixel, its hit, and the answers of all kernels",
-            Self::Display => "View, shading, kernel, overlay, camera, theme",
+            Self::Display => "View, colours, kernel, overlay, clip, camera, theme",
+            Self::Parts => "Groups, materials and shapes of the scene, which can be hidden",
             Self::Mesh => "Contents, flaws and memory of the open file",
             Self::Trade => "Speed and accuracy of each kernel in this scene",
         }

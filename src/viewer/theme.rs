@@ -2,6 +2,7 @@
 //!
 //! Source: WCAG 2.2, success criteria 1.4.3 and 1.4.11, level AA.
 
+use crate::colour_choice::Background;
 use egui::{Color32, Stroke, Theme, Visuals};
 use glam::Vec3;
 use hitscope_core::integrator::{Comparison, Integrator};
@@ -56,12 +57,17 @@ fn light() -> Visuals {
 }
 
 /// The background of a view's picture, in linear RGB. It is always dark for views that compare kernels.
-pub fn background(view: &Integrator, theme: Theme) -> Vec3 {
-    let is_dark = theme == Theme::Dark || view.needs.second != Comparison::Nothing;
-    from_display(if is_dark {
-        DARK_BACKGROUND
+pub fn background(view: &Integrator, chosen: Background, theme: Theme) -> Vec3 {
+    let chosen = if view.needs.second == Comparison::Nothing {
+        chosen
     } else {
-        LIGHT_BACKGROUND
+        Background::Dark
+    };
+    from_display(match (chosen, theme) {
+        (Background::Dark, _) | (Background::Theme, Theme::Dark) => DARK_BACKGROUND,
+        (Background::Theme, Theme::Light) => LIGHT_BACKGROUND,
+        (Background::Grey, _) => Vec3::splat(0.5),
+        (Background::White, _) => Vec3::ONE,
     })
 }
 
@@ -181,7 +187,7 @@ mod tests {
                 continue;
             }
             for theme in [Theme::Dark, Theme::Light] {
-                let background = background(view, theme);
+                let background = background(view, Background::White, theme);
                 for (colour, meaning) in (view.legend)().into_iter().flatten() {
                     let contrast = contrast(colour, background);
                     assert!(

@@ -206,7 +206,7 @@ impl Tracer {
             .posted
             .as_ref()
             .is_none_or(|posted| posted.request != request);
-        // A request for another scene doesn't wait: the old picture is useless.
+        // A request for another mesh doesn't wait: the old picture is useless.
         let is_same_scene = self.is_shown_scene(&request.context.scene);
         // A view that needs lights is previewed, unless its camera's picture is already on the screen.
         let is_preview = request.is_lit() && !self.is_shown(&request.context);
@@ -222,7 +222,7 @@ impl Tracer {
         let samples = if is_preview { 1 } else { request.samples };
         let plan = Plan::new(size, self.first_step(size, is_lit), samples);
         let background = request.context.background;
-        // A picture of the same scene stays until the first pass of the new picture is done.
+        // A picture of the same mesh stays until the first pass of the new picture is done.
         if self.film.size() == size && is_same_scene {
             self.film.restart(plan, background);
         } else {
@@ -297,10 +297,11 @@ impl Tracer {
         self.shown.as_ref().is_some_and(is_same)
     }
 
+    /// Whether the picture that is shown is of the same mesh, perhaps with another clip or other hidden parts.
     fn is_shown_scene(&self, scene: &Arc<Scene>) -> bool {
         self.shown
             .as_ref()
-            .is_some_and(|(shown, _)| Arc::ptr_eq(shown, scene))
+            .is_some_and(|(shown, _)| std::ptr::eq(shown.mesh(), scene.mesh()))
     }
 
     /// Whether the picture changed so recently that the camera may be moving.

@@ -108,14 +108,16 @@ fn options_without_effect_and_outputs_that_replace_each_other_are_refused() {
             "-o a.exr --view depth --legend",
             "legends are drawn beside PNG pictures only",
         ),
-        (
-            "-o a.png --wireframe --clip-plane 1,0,0,0",
-            "overlays aren't clipped",
-        ),
     ] {
         let found = usage_error(&format!("@cube.obj {options}"));
         assert!(found.starts_with(message), "{options}: {found}");
     }
+    let planes = " --clip-plane 1,0,0,0".repeat(17);
+    let found = usage_error(&format!("@cube.obj -o a.png --wireframe{planes}"));
+    assert!(
+        found.starts_with("overlays are clipped by at most 16 planes"),
+        "{found}"
+    );
     // An option that one of the views needs.
     let folder = Folder::new();
     let line =

@@ -48,7 +48,7 @@ fn every_control_of_every_tab_has_a_name_and_a_role() {
             Tab::Trade => wait(&mut window, "the measurement", |app| {
                 app.trade().map(Trade::state) == Some(TradeState::Done)
             }),
-            Tab::Inspect | Tab::Display => {}
+            Tab::Inspect | Tab::Display | Tab::Parts => {}
         }
         window.run_steps(3);
         check(&window, tab.title());
@@ -69,6 +69,27 @@ fn every_option_of_views_with_light_has_a_name_and_a_role() {
         };
         window.run_steps(3);
         check(&window, view);
+    }
+}
+
+#[test]
+fn every_control_of_clips_and_scales_has_a_name_and_a_role() {
+    for button in ["By a plane", "By a box"] {
+        let mut settings = Settings {
+            view: "depth".to_owned(),
+            samples: 1,
+            ..Settings::default()
+        };
+        let view = settings.view();
+        settings.colours.scale_mut(view).range = Some([1.0, 2.0]);
+        let Some(mut window) = app_with(settings) else {
+            return;
+        };
+        window.get_by_label(button).scroll_to_me();
+        window.run_steps(10);
+        window.get_by_label(button).click();
+        window.run_steps(3);
+        check(&window, button);
     }
 }
 

@@ -27,7 +27,7 @@ const STYLE: StyleUniform = StyleUniform {
     half_width_px: 0.8,
     stretch: 1.0,
     fade: 1.0,
-    padding: 0.0,
+    is_cut: 1.0,
 };
 
 /// A device of the shared adapter with this limit on buffer sizes. It is never closed.
@@ -66,7 +66,7 @@ fn drawing(
         traced: None,
         outline: None,
         view: ViewUniform::new(&camera, &scene.bounds()),
-        mesh: Arc::new(DepthMesh::new(device, queue, scene.mesh())?),
+        mesh: Arc::new(DepthMesh::new(device, queue, scene)?),
         sets: vec![set(LineOcclusion::Hidden), set(LineOcclusion::Through)],
     })
 }
@@ -111,7 +111,7 @@ fn an_overlay_in_slices_is_identical_to_one_drawn_at_once() {
     let Some(gpu) = gpu() else { return };
     let (device, queue) = (&gpu.device, &gpu.queue);
     let scene = scene(sphere(24, Placement::UNIT));
-    let lines = wireframe::lines(scene.mesh(), WireframeEdges::Triangles);
+    let lines = wireframe::lines(&scene, WireframeEdges::Triangles);
     let drawing = drawing(device, queue, &scene, &lines).expect("small");
     let (at_once, one) = draw(device, queue, &drawing, Paces::UNLIMITED);
     let (in_slices, many) = draw(device, queue, &drawing, slowest());
@@ -127,7 +127,7 @@ fn a_cancelled_drawing_ends_after_its_slice() {
     let Some(gpu) = gpu() else { return };
     let (device, queue) = (&gpu.device, &gpu.queue);
     let scene = scene(sphere(24, Placement::UNIT));
-    let lines = wireframe::lines(scene.mesh(), WireframeEdges::Triangles);
+    let lines = wireframe::lines(&scene, WireframeEdges::Triangles);
     let drawing = drawing(device, queue, &scene, &lines).expect("small");
     let overlay = Overlay::new(device, queue);
     let state = DrawingState::default();
@@ -149,7 +149,7 @@ fn lines_are_split_across_buffers_and_a_mesh_that_needs_a_larger_buffer_is_refus
     };
     // The vertices fit into one buffer, the lines don't.
     let small = scene(sphere(24, Placement::UNIT));
-    let lines = wireframe::lines(small.mesh(), WireframeEdges::Triangles);
+    let lines = wireframe::lines(&small, WireframeEdges::Triangles);
     assert!(size_of_val(lines.as_slice()) as u64 > 2 * GRANTED);
     let cut = drawing(&device, &queue, &small, &lines).expect("in several buffers");
     let shared = gpu().expect("there is one");
@@ -160,7 +160,7 @@ fn lines_are_split_across_buffers_and_a_mesh_that_needs_a_larger_buffer_is_refus
 
     let large = scene(flat_grid(110, Placement::UNIT));
     let needed = size_of_val(large.mesh().positions()) as u64;
-    let refused = DepthMesh::new(&device, &queue, large.mesh()).err();
+    let refused = DepthMesh::new(&device, &queue, &large).err();
     assert!(
         matches!(refused, Some(GpuError::TooLarge { needed: n, granted: GRANTED }) if n == needed),
         "{refused:?}"

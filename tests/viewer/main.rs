@@ -50,6 +50,7 @@ mod scene_files;
 mod sessions;
 // Validation of the shaders without a GPU.
 mod shaders;
+mod shown;
 // `trace` on a pipe.
 mod trace;
 // Comparison of rasterized and traced triangles.

@@ -231,3 +231,47 @@ fn normals_of_shapes_point_outwards() {
         .filter(|p| (**p - DVec2::splat(100.0)).length() > 50.5);
     assert!(beyond.count() > 20);
 }
+
+#[test]
+fn a_clip_cuts_lines() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    std::fs::write(folder.path().join("mesh.obj"), mesh()).expect("written");
+    let clip = ["--clip-plane", "1,0,0,0"];
+    let plain = render(&folder, "mesh.obj", ON_Z, &clip);
+    let with_lines = [&clip[..], &["--wireframe"]].concat();
+    let drawn = render(&folder, "mesh.obj", ON_Z, &with_lines);
+    let pixels = plain.enumerate_pixels().zip(drawn.pixels());
+    let changed = pixels.filter(|((.., before), after)| before != after);
+    let columns: Vec<u32> = changed.map(|((x, ..), _)| x).collect();
+    assert!(columns.iter().any(|&x| x < 60));
+    // The plane lies between the columns 99 and 100.
+    assert!(columns.iter().all(|&x| x <= 100), "{columns:?}");
+}
+
+#[test]
+fn a_surface_that_the_clip_removes_hides_no_line() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut text = String::new();
+    // A square before another one, whose edges run through the centres of pixels.
+    for (half, z) in [(0.49, 0), (1.5, 1)] {
+        for (x, y) in [(-half, -half), (half, -half), (half, half), (-half, half)] {
+            writeln!(text, "v {x} {y} {z}").expect("to a string");
+        }
+    }
+    text += "f 1 2 3 4\nf 5 6 7 8\n";
+    std::fs::write(folder.path().join("mesh.obj"), text).expect("written");
+    let has_edge = |clip: &[&str]| {
+        let plain = render(&folder, "mesh.obj", ON_Z, clip);
+        let with_lines = [clip, &["--wireframe"]].concat();
+        let drawn = render(&folder, "mesh.obj", ON_Z, &with_lines);
+        plain.get_pixel(75, 100) != drawn.get_pixel(75, 100)
+    };
+    assert!(!has_edge(&[]));
+    assert!(has_edge(&["--clip-plane", "0,0,1,0.5"]));
+}

@@ -3,6 +3,7 @@
 mod appearance;
 mod csg;
 mod placement;
+mod shown;
 mod table;
 mod tree;
 
@@ -12,6 +13,7 @@ pub use csg::{
     CSG_KERNELS, CsgOperation, INFO as SOLID_INFO, LineIntervals, Solid, SolidNode, SolidOperand,
 };
 pub use placement::{Placement, UnitShape};
+pub use shown::Shown;
 pub use table::{Grouped, ShapeKernels, all_kernels, kernel_named};
 pub use tree::{FirstTree, SceneOptions};
 
@@ -120,6 +122,13 @@ pub trait Group: Debug + Send + Sync {
     /// A group of some of the primitives.
     fn subset(&self, indices: &[u32]) -> Arc<dyn Group>;
 
+    /// The same group with a tree over the primitives that are shown. They keep their numbers. A large group starts with a
+    /// quick tree.
+    ///
+    /// # Errors
+    /// [`Cancelled`] if `progress` was cancelled.
+    fn showing(&self, shown: Shown, progress: &Progress) -> Result<Arc<dyn Group>, Cancelled>;
+
     /// Packs the primitives for a kernel. Primitives are numbered from 0.
     fn intersector(&self, kernel: KernelChoice, level: SimdLevel) -> Box<dyn GroupIntersector>;
 }
@@ -139,7 +148,7 @@ impl<S: KernelList> ShapeGroup<S> {
         options: SceneOptions,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
-        let tree = Tree::build(&*primitives, options, progress)?;
+        let tree = Tree::build(&*primitives, options, Shown::default(), progress)?;
         Ok(Self {
             bounds: tree.bvh().bounds(),
             tree,
@@ -267,6 +276,16 @@ impl<S: Grouped> Group for ShapeGroup<S> {
             &Progress::default(),
         );
         group.expect("nobody cancels")
+    }
+
+    fn showing(&self, shown: Shown, progress: &Progress) -> Result<Arc<dyn Group>, Cancelled> {
+        let tree = self.tree.showing(&*self.primitives, shown, progress)?;
+        Ok(Arc::new(Self {
+            tree,
+            primitives: Arc::clone(&self.primitives),
+            bounds: self.bounds,
+            appearance: self.appearance.clone(),
+        }))
     }
 
     fn intersector(&self, kernel: KernelChoice, level: SimdLevel) -> Box<dyn GroupIntersector> {

@@ -1,5 +1,7 @@
 //! The tree over a group's primitives, and its replacement by a better one.
 
+use super::Shown;
+use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::improving::{Current, Improving, WeakCurrent};
 use crate::intersector::{GroupIntersector, Packing, intersector};
@@ -43,6 +45,7 @@ struct Built {
 #[derive(Debug)]
 pub(super) struct Tree<S: 'static> {
     built: RwLock<Built>,
+    shown: Shown,
     packing: Packing,
     /// Held while the better tree is built.
     turn: Mutex<()>,
@@ -66,6 +69,7 @@ impl<S: KernelList> Tree<S> {
     pub fn build(
         primitives: &dyn Primitives<S>,
         options: SceneOptions,
+        shown: Shown,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
         let is_large = primitives.count() >= LARGE;
@@ -75,11 +79,26 @@ impl<S: KernelList> Tree<S> {
             FirstTree::Best
         };
         Ok(Self {
-            built: RwLock::new(built(primitives, first, progress)?),
+            built: RwLock::new(built(primitives, first, &shown, progress)?),
+            shown,
             packing: options.packing,
             turn: Mutex::default(),
             waiting: Mutex::default(),
         })
+    }
+
+    /// A tree over some of the same primitives; if there are many, a quick one.
+    pub fn showing(
+        &self,
+        primitives: &dyn Primitives<S>,
+        shown: Shown,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
+        let options = SceneOptions {
+            first_tree: FirstTree::Quick,
+            packing: self.packing,
+        };
+        Self::build(primitives, options, shown, progress)
     }
 
     pub fn bvh(&self) -> Arc<Bvh> {
@@ -137,7 +156,7 @@ impl<S: KernelList> Tree<S> {
         // One thread builds, the others wait.
         let _turn = locked(&self.turn);
         if !self.is_best() {
-            let better = built(primitives, FirstTree::Best, progress)?;
+            let better = built(primitives, FirstTree::Best, &self.shown, progress)?;
             *self.built.write().unwrap_or_else(PoisonError::into_inner) = better;
         }
         loop {
@@ -164,13 +183,21 @@ fn locked<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
 fn built<S: Shape>(
     primitives: &dyn Primitives<S>,
     tree: FirstTree,
+    shown: &Shown,
     progress: &Progress,
 ) -> Result<Built, Cancelled> {
     let (start, count) = (Instant::now(), primitives.count());
-    let bounds_of = &|index| primitives.primitive(index).bounds();
+    // A tree leaves out primitives with an empty box.
+    let bounds_of = &|index| {
+        if shown.contains(index) {
+            primitives.primitive(index).bounds()
+        } else {
+            Aabb::EMPTY
+        }
+    };
     let keep_going = || progress.check();
     let bvh = match tree {
-        _ if !S::IS_BOUNDED => Bvh::unbounded(count),
+        _ if !S::IS_BOUNDED => Bvh::unbounded(&shown.indices(count)),
         FirstTree::Best => Bvh::build(count, bounds_of, &keep_going)?,
         FirstTree::Quick => Bvh::build_quickly(count, bounds_of, &keep_going)?,
     };

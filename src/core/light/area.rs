@@ -35,7 +35,7 @@ fn emitting(scene: &Scene) -> impl Iterator<Item = (u32, &Material)> {
     let count = if any { scene.primitive_count() } else { 0 };
     (0..count as u32).filter_map(move |primitive| {
         let material = materials.get(scene.material(primitive))?;
-        emits(material).then_some((primitive, material))
+        (emits(material) && scene.is_shown(primitive)).then_some((primitive, material))
     })
 }
 

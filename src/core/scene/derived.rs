@@ -20,6 +20,7 @@ impl Scene {
             ends: self.ends.clone(),
             vertex_normals: Arc::clone(&self.vertex_normals),
             clip,
+            hidden: self.hidden.clone(),
             ..*self
         }
     }
@@ -68,6 +69,7 @@ impl Scene {
             crease,
             vertex_normals: Arc::default(),
             clip: self.clip.clone(),
+            hidden: self.hidden.clone(),
             ..*self
         }
     }
@@ -103,7 +105,7 @@ impl Scene {
         scene
     }
 
-    /// The same triangles and clip with the origin at (0, 0, 0), without normals, materials and faces; `None` if that would
+    /// The same triangles, hidden ones and clip with the origin at (0, 0, 0), without normals, materials and faces; `None` if that would
     /// round a position.
     pub fn in_file_frame(&self) -> Option<Self> {
         let is_mesh = self.groups.len() == 1 && !self.mesh.triangles().is_empty();
@@ -119,6 +121,10 @@ impl Scene {
         };
         let scene =
             Self::with_options(mesh, options, &Progress::default()).expect("nobody cancels");
+        let shown = self.shown().cloned();
+        let scene = scene
+            .showing(shown, &Progress::default())
+            .expect("nobody cancels");
         let clip = self
             .clip
             .as_ref()

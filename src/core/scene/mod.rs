@@ -1,6 +1,7 @@
 //! The scene: groups of primitives, and their bounds.
 
 mod derived;
+mod hidden;
 
 pub use crate::group::{FirstTree, SceneOptions};
 
@@ -15,6 +16,7 @@ use crate::ray::{Hit, Ray};
 use crate::shape::{SampledSurface, SurfacePoint};
 use crate::simd::SimdLevel;
 use glam::{DVec2, Vec3};
+use hidden::Hidden;
 use std::sync::{Arc, OnceLock};
 use std::time::Duration;
 
@@ -51,6 +53,8 @@ pub struct Scene {
     vertex_normals: Arc<OnceLock<VertexNormals>>,
     /// The part that rays see.
     clip: Option<Clip>,
+    /// Which primitives are hidden, if any.
+    hidden: Option<Hidden>,
 }
 
 impl Scene {
@@ -85,6 +89,7 @@ impl Scene {
             crease: Crease::default(),
             vertex_normals: Arc::default(),
             clip: None,
+            hidden: None,
         })
     }
 

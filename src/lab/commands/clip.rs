@@ -7,6 +7,9 @@ use glam::DVec3;
 use hitscope_core::{Clip, Scene};
 use std::sync::Arc;
 
+/// The most planes of a clip that overlays obey; a box is six of them.
+pub const MAX_OVERLAY_PLANES: usize = 16;
+
 /// The part of the scene that is shown
 #[derive(Args, Clone, Debug)]
 pub struct ClipArgs {
@@ -24,6 +27,12 @@ impl ClipArgs {
     pub fn clip(&self) -> Option<Clip> {
         let parts = self.clip_plane.iter().chain(&self.clip_box);
         parts.cloned().reduce(Clip::and)
+    }
+
+    /// Whether the clip has more planes than overlays obey.
+    pub(super) fn has_too_many_for_overlays(&self) -> bool {
+        let clip = self.clip();
+        clip.is_some_and(|clip| clip.half_spaces().len() > MAX_OVERLAY_PLANES)
     }
 
     /// The scene with the clip.

@@ -37,7 +37,7 @@ pub use aim::{AimArg, Aimed};
 pub use args::MemoryArg;
 pub use bench::BenchArgs;
 pub use camera::CameraArgs;
-pub use clip::ClipArgs;
+pub use clip::{ClipArgs, MAX_OVERLAY_PLANES};
 pub use colours::{ColourArgs, RangeArg, SpacingArg};
 pub use compare::CompareArgs;
 pub use converge::ConvergeArgs;

@@ -8,7 +8,7 @@ use crate::theme;
 use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::integrator::{Context, ViewOptions};
+use hitscope_core::integrator::Context;
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 
@@ -107,7 +107,9 @@ impl App {
 
     /// The request for the current camera and settings.
     fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
-        let background = theme::background(self.seen.settings.view(), ctx.theme());
+        let (settings, theme) = (&self.seen.settings, ctx.theme());
+        let background = theme::background(settings.view(), settings.colours.background, theme);
+        let options = settings.colours.options(settings.view());
         Request {
             context: Context {
                 scene: Arc::clone(&self.open.document.loaded.scene),
@@ -117,7 +119,7 @@ impl App {
                 shading: self.seen.settings.shading(),
                 background,
                 lighting: self.lighting(),
-                options: ViewOptions::default(),
+                options,
             },
             integrator: self.seen.settings.view(),
             samples: self.seen.settings.samples,
@@ -162,6 +164,7 @@ impl App {
             self.error(error);
         }
         labels_ui(ui, canvas, &camera, &labels);
+        self.scale_legend_ui(ui, canvas);
         let marks = [
             (self.marked_point(), theme::PICK),
             (
@@ -182,7 +185,7 @@ impl App {
         camera: Camera,
         pixels_per_point: f32,
     ) -> OverlayInput {
-        let is_current = Arc::ptr_eq(scene, &self.open.document.loaded.scene);
+        let is_current = std::ptr::eq(scene.mesh(), self.open.document.loaded.scene.mesh());
         let flaw = self.picked.flaw.as_ref().map(|place| place.flaw);
         let findings = self.open.document.known_findings();
         let marks = Marks {

@@ -153,6 +153,7 @@ impl App {
         }
         self.open.neighbours.last = None;
         self.open.watch = None;
+        self.forget_shown_part(is_same_file);
         self.prepare(ctx);
         self.open.document.improve(ctx);
         if is_same_file {

@@ -49,6 +49,9 @@ impl App {
                     _ => {
                         ui.label("The mesh isn't visible.");
                         commands.button_ui(ui, "frame");
+                        if commands.named("show-everything").is_enabled() {
+                            commands.button_ui(ui, "show-everything");
+                        }
                     }
                 });
             });

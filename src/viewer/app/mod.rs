@@ -8,6 +8,8 @@
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
+//! | `clipping`, `hiding` | the part of the scene that is shown |
+//! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
 //! | `sessions` | sessions; undo and redo |
@@ -19,11 +21,14 @@
 //! What keys, buttons and menus do is in [`command`](crate::command).
 
 mod canvas;
+mod clipping;
 mod files;
 mod first_view;
 pub(crate) mod flaws;
+mod hiding;
 mod hints;
 mod labels;
+mod legend;
 mod light;
 mod messages;
 mod parts;
@@ -214,7 +219,8 @@ impl eframe::App for App {
         self.poll_watch(ctx);
         self.poll_gpu_errors();
         self.poll_picking(ctx);
-        self.poll_document();
+        self.poll_document(ctx);
+        self.poll_range_fit();
         self.refresh_pick(ctx);
         self.traced.tracer.set_limits(self.limits());
         if let Some(panic) = self.traced.tracer.collect(ctx).first() {

@@ -9,6 +9,7 @@
 //! | [`Traced`] | what traces and draws the picture |
 
 use super::files::Neighbours;
+use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
 use super::path::PickedPath;
 use super::pick::{Pick, Picking};
@@ -24,6 +25,7 @@ use crate::gpu::picture::Picture;
 use crate::look::Development;
 use crate::opening::Loading;
 use crate::overlay::OverlayLayer;
+use crate::parts::Parts;
 use crate::saving::Saving;
 use crate::session::Session;
 use crate::settings::Settings;
@@ -89,6 +91,8 @@ impl Open {
 /// How the document is seen.
 pub(crate) struct Seen {
     pub settings: Settings,
+    /// The parts of the scene, which can be hidden.
+    pub parts: Parts,
     /// The camera.
     pub turntable: Turntable,
     /// Field of view and projection before a file's view replaced them; the next file gets them back.
@@ -105,6 +109,7 @@ impl Seen {
         turntable.up_axis = settings.up_axis();
         Self {
             settings,
+            parts: Parts::default(),
             turntable,
             own_projection: None,
             is_unframed: true,
@@ -186,6 +191,8 @@ pub(crate) struct Traced {
     pub lights: Option<SceneLights>,
     pub environment_file: EnvironmentFile,
     pub overlay: OverlayLayer,
+    /// The search for the range of the numbers in the picture.
+    pub range_fit: RangeFit,
     /// Scene and camera of the picture that is on the screen.
     pub on_screen: Option<(Arc<Scene>, Camera)>,
 }
@@ -199,6 +206,7 @@ impl Traced {
             lights: None,
             environment_file: EnvironmentFile::default(),
             overlay: OverlayLayer::new(render_state),
+            range_fit: RangeFit::default(),
             on_screen: None,
         }
     }

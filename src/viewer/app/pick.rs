@@ -10,7 +10,7 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::loading::is_scene_file;
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
-use hitscope_core::{Camera, TriangleMesh};
+use hitscope_core::{Camera, Ray, TriangleMesh};
 use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
 
@@ -54,6 +54,8 @@ struct InspectionBasis {
     kernel: &'static str,
     shading: Shading,
     crease: Crease,
+    /// The number of changes of the part of the scene that is shown.
+    part_changes: u64,
     /// Whether the tree is final; the number of tests depends on the tree.
     has_last_tree: bool,
 }
@@ -119,6 +121,12 @@ impl Pick {
             Some(crossing) if self.crossing.is_some() => Some(crossing.primitive),
             _ => self.inspection.hit.as_ref().map(|hit| hit.primitive),
         }
+    }
+
+    /// The picked ray.
+    pub fn ray(&self) -> Ray {
+        let pixel = UVec2::from_array(self.inspection.pixel);
+        self.camera.ray_through(pixel.as_dvec2() + 0.5)
     }
 
     /// The contents of the Inspect tab.
@@ -241,6 +249,7 @@ impl App {
             kernel: self.open.document.intersector().kernel().name,
             shading: self.seen.settings.shading(),
             crease: self.open.document.loaded.scene.crease(),
+            part_changes: self.open.document.part_changes(),
             has_last_tree: self.open.document.has_last_tree(),
         }
     }

@@ -1,4 +1,5 @@
-//! Preparing the open document for the settings: its packing for kernels, its creases and its tree.
+//! Preparing the open document for the settings: its part that is shown, its packing for kernels, its creases and its
+//! tree.
 
 use super::App;
 use crate::settings::Settings;
@@ -12,12 +13,17 @@ impl App {
         if !ctx.egui_is_using_pointer() && document.use_crease(settings.crease()) {
             ctx.request_repaint();
         }
+        if self.use_clip() | self.use_parts(ctx) {
+            ctx.request_repaint();
+        }
+        let (settings, document) = (&self.seen.settings, &mut self.open.document);
         document.use_kernel(settings.kernel(), ctx);
         document.use_second(settings.second_kernel(), ctx);
     }
 
     /// Collects finished work on the document. If packing failed, the settings are those of what is packed again.
-    pub(super) fn poll_document(&mut self) {
+    pub(super) fn poll_document(&mut self, ctx: &egui::Context) {
+        self.poll_parts(ctx);
         if let Err(broken) = self.open.document.poll_kernel() {
             self.error(broken);
             let packed = self.open.document.kernel().info.name;

@@ -43,7 +43,7 @@ impl App {
     /// The contents of the selected tab.
     fn tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         match self.preferences.tab {
-            Tab::Inspect | Tab::Mesh | Tab::Trade if self.open.document.is_blank => {
+            Tab::Inspect | Tab::Parts | Tab::Mesh | Tab::Trade if self.open.document.is_blank => {
                 ui.label("No file is open.");
             }
             Tab::Inspect => {
@@ -62,14 +62,20 @@ impl App {
                 }
             }
             Tab::Display => {
+                let shown = panels::view::Shown {
+                    shapes: self.open.document.loaded.scene.kernels(),
+                    scale: self.colour_scale(),
+                    extent: self.extent(),
+                };
                 panels::view::view_ui(
                     ui,
                     &mut self.seen.settings,
                     &mut self.seen.turntable,
-                    &self.open.document.loaded.scene.kernels(),
+                    &shown,
                     commands,
                 );
             }
+            Tab::Parts => self.parts_ui(ui, commands),
             Tab::Mesh => {
                 let flaw = self.picked.flaw.as_ref();
                 let shown = panels::mesh::mesh_ui(ui, &mut self.open.document, flaw, commands);

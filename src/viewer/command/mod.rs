@@ -4,6 +4,7 @@
 //! |---|---|
 //! | this file | the type of a row, and the list of all rows |
 //! | `file`, `edit`, `view`, `camera`, `pick`, `window`, `help` | the rows, one file per menu |
+//! | `clip`, `colours`, `part` | further rows of the menus *View* and *Pick* |
 //! | `place` | menus, and the places of commands in them |
 //! | `entry` | the commands of a frame: rows of the table, and rows made from other tables |
 //! | [`keys`] | the keys of commands |
@@ -16,6 +17,8 @@
 //! its line in the help sheet. [`tool_bar`] and the panels name the commands that they also show.
 
 mod camera;
+mod clip;
+mod colours;
 mod edit;
 mod entry;
 mod file;
@@ -24,6 +27,7 @@ pub mod help_sheet;
 pub mod keys;
 pub mod menu_bar;
 pub mod palette;
+mod part;
 mod pick;
 mod place;
 mod search;
@@ -65,8 +69,13 @@ pub static COMMANDS: &[&[Command]] = &[
     file::ROWS,
     edit::ROWS,
     view::ROWS,
+    clip::ROWS,
+    colours::ROWS,
+    part::ROWS,
     camera::ROWS,
     pick::ROWS,
+    clip::PICK_ROWS,
+    part::PICK_ROWS,
     window::ROWS,
     help::ROWS,
 ];
@@ -77,6 +86,7 @@ static OTHER_TABLES: &[fn(&App) -> Vec<Entry>] = &[
     view::views,
     view::overlays,
     view::kernels,
+    part::groupings,
     window::tabs,
     window::themes,
 ];

@@ -221,7 +221,9 @@ impl Overlay {
                 if let Some(group) = traced.as_ref().filter(|_| is_first(load)) {
                     self.traced.draw_depth(&mut pass, group);
                 }
-                self.depth.draw(&mut pass, &drawing.mesh, &slice);
+                let is_clipped = drawing.view.is_clipped();
+                self.depth
+                    .draw(&mut pass, &drawing.mesh, &slice, is_clipped);
             }
             self.submit(encoder, pace);
             load = wgpu::LoadOp::Load;

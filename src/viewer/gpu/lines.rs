@@ -50,18 +50,19 @@ pub struct StyleUniform {
     pub stretch: f32,
     /// 1 if lines fade where they are short or dense, 2 if only where they are dense, else 0.
     pub fade: f32,
-    /// Pads the struct to the size that WGSL requires.
-    pub padding: f32,
+    /// 1 if the clip cuts lines, else 0.
+    pub is_cut: f32,
 }
 
 impl StyleUniform {
     /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
-    pub(super) const OFFSETS: [usize; 4] = [
+    pub(super) const OFFSETS: [usize; 5] = [
         std::mem::offset_of!(Self, colour),
         std::mem::offset_of!(Self, half_width_px),
         std::mem::offset_of!(Self, stretch),
         std::mem::offset_of!(Self, fade),
+        std::mem::offset_of!(Self, is_cut),
     ];
 }
 

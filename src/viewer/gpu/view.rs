@@ -4,7 +4,8 @@ use super::{uniform_group, uniform_layout};
 use bytemuck::{Pod, Zeroable};
 use glam::{DVec3, DVec4, Mat4, UVec2, Vec3};
 use hitscope_core::camera::Projection;
-use hitscope_core::{Aabb, Camera};
+use hitscope_core::{Aabb, Camera, Clip};
+use hitscope_lab::commands::MAX_OVERLAY_PLANES;
 
 /// The part that all shaders share.
 pub const SHADER: &str = include_str!("../../../shaders/view.wgsl");
@@ -17,17 +18,22 @@ pub struct ViewUniform {
     eye: [f32; 3],
     near_w: f32,
     viewport: [f32; 2],
-    padding: [f32; 2],
+    plane_count: u32,
+    padding: f32,
+    /// Normal and offset of each half-space of the clip.
+    planes: [[f32; 4]; MAX_OVERLAY_PLANES],
 }
 
 impl ViewUniform {
     /// Offsets of the members, for the test that compares them with WGSL's.
     #[cfg(test)]
-    pub(super) const OFFSETS: [usize; 4] = [
+    pub(super) const OFFSETS: [usize; 6] = [
         std::mem::offset_of!(Self, clip_from_eye),
         std::mem::offset_of!(Self, eye),
         std::mem::offset_of!(Self, near_w),
         std::mem::offset_of!(Self, viewport),
+        std::mem::offset_of!(Self, plane_count),
+        std::mem::offset_of!(Self, planes),
     ];
 
     /// The uniform for a camera and a scene with these bounds.
@@ -58,8 +64,27 @@ impl ViewUniform {
             eye: camera.eye().to_array(),
             near_w: near_w as f32,
             viewport: camera.resolution().as_vec2().to_array(),
-            padding: [0.0; 2],
+            plane_count: 0,
+            padding: 0.0,
+            planes: [[0.0; 4]; MAX_OVERLAY_PLANES],
         }
+    }
+
+    /// The same uniform with a clip in the scene's coordinates, of which the first [`MAX_OVERLAY_PLANES`] planes count.
+    #[must_use]
+    pub fn clipped(mut self, clip: Option<&Clip>) -> Self {
+        let half_spaces = clip.map_or(&[][..], Clip::half_spaces);
+        self.plane_count = half_spaces.len().min(MAX_OVERLAY_PLANES) as u32;
+        for (plane, half_space) in self.planes.iter_mut().zip(half_spaces) {
+            let normal = half_space.normal().as_vec3();
+            *plane = normal.extend(half_space.offset() as f32).to_array();
+        }
+        self
+    }
+
+    /// Whether there is a clip.
+    pub fn is_clipped(&self) -> bool {
+        self.plane_count > 0
     }
 
     /// The reversed depth of a point.

@@ -22,16 +22,19 @@ pub static AXES: OverlaySpec = OverlaySpec {
         LineSpec {
             colour: Some([230, 60, 70]),
             behind: Behind::Faint,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, 0))
         },
         LineSpec {
             colour: Some([90, 180, 50]),
             behind: Behind::Faint,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, 1))
         },
         LineSpec {
             colour: Some([60, 120, 240]),
             behind: Behind::Faint,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, 2))
         },
     ],

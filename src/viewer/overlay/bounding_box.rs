@@ -21,6 +21,7 @@ pub static BOUNDING_BOX: OverlaySpec = OverlaySpec {
     },
     lines: &[LineSpec {
         behind: Behind::Faint,
+        is_cut: false,
         ..LineSpec::new(|input, _| {
             let is_empty = input.scene.bounds_with_elements().is_empty();
             (!is_empty).then(|| Gather::new((), |scene, ()| lines(scene)))

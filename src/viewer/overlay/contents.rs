@@ -58,7 +58,8 @@ impl Contents {
         let reach = reach.fold(Aabb::EMPTY, Aabb::union);
         let bounds = input.scene.bounds_with_elements();
         Self {
-            view: ViewUniform::with_lines(&input.camera, &bounds, &reach),
+            view: ViewUniform::with_lines(&input.camera, &bounds, &reach)
+                .clipped(input.scene.clip()),
             lines,
             outline,
         }

@@ -26,7 +26,7 @@ pub static FACE_NORMALS: OverlaySpec = OverlaySpec {
     ..OverlaySpec::SWITCH
 };
 
-/// One line per triangle, and those of other shapes.
+/// One line per triangle that is shown, and those of other shapes.
 pub fn lines(scene: &Scene) -> Vec<Line> {
     let mesh = scene.mesh();
     let of_triangle = |triangle: u32| {
@@ -40,6 +40,7 @@ pub fn lines(scene: &Scene) -> Vec<Line> {
         )
     };
     let mut lines: Vec<Line> = (0..mesh.triangles().len() as u32)
+        .filter(|&triangle| scene.is_shown(triangle))
         .map(of_triangle)
         .collect();
     lines.extend(shapes::normals(scene));

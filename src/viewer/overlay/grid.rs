@@ -27,10 +27,12 @@ pub static GRID: OverlaySpec = OverlaySpec {
         LineSpec {
             opacity: 0.5,
             fade: Fade::Dense,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, GridLines::Minor))
         },
         LineSpec {
             fade: Fade::Dense,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, GridLines::Major))
         },
     ],

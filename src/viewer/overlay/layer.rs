@@ -93,7 +93,7 @@ impl OverlayLayer {
             return Ok(None);
         }
         let shared = Arc::clone(&input.scene);
-        let upload = move |device: &_, queue: &_| DepthMesh::new(device, queue, shared.mesh());
+        let upload = move |device: &_, queue: &_| DepthMesh::new(device, queue, &shared);
         let mesh = match self.mesh.get((), &self.overlay, ctx, upload)? {
             Readiness::Ready(mesh) => mesh,
             Readiness::Failed => return Ok(None),
@@ -199,8 +199,8 @@ impl OverlayLayer {
     /// Discards the old scene's lines if the scene has other shapes.
     fn use_scene(&mut self, scene: &Arc<Scene>) {
         let old = self.scene.replace(Arc::clone(scene));
-        // If the mesh is the same, only the creases of smooth shading or the tree have changed.
-        if old.is_none_or(|old| !std::ptr::eq(old.mesh(), scene.mesh())) {
+        // If the shapes are the same, only the clip, the creases of smooth shading or the tree have changed.
+        if old.is_none_or(|old| !old.has_shapes_of(scene)) {
             self.mesh = Uploaded::default();
             self.shapes = Shapes::default();
             self.traced = Uploaded::default();

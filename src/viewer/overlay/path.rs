@@ -19,18 +19,21 @@ pub static PATH: OverlaySpec = OverlaySpec {
             colour: Some([115, 230, 128]),
             width: 1.4,
             behind: Behind::Faint,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, PathLines::Visible))
         },
         LineSpec {
             colour: Some([242, 77, 77]),
             width: 1.4,
             behind: Behind::Faint,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, PathLines::Blocked))
         },
         LineSpec {
             colour: Some([255, 217, 51]),
             width: 2.4,
             behind: Behind::Faint,
+            is_cut: false,
             ..LineSpec::new(|input, _| gather(input, PathLines::Segments))
         },
     ],

@@ -52,18 +52,21 @@ pub fn normals(scene: &Scene) -> Vec<Line> {
     lines
 }
 
-/// Passes the lines of all primitives, each with the expected distance to the next line.
+/// Passes the lines of all primitives that are shown, each with the expected distance to the next line.
 fn each_line(scene: &Scene, line: &mut dyn FnMut(&[LinePoint], f64)) {
+    let mut first = scene.mesh().triangles().len();
     for group in scene.other_groups() {
+        let is_shown = |index: &u32| scene.is_shown(first as u32 + index);
         let count = group.count().min(MAX_SHAPES);
         let detail = detail(scene, count);
-        for index in 0..count as u32 {
+        for index in (0..count as u32).filter(is_shown) {
             let mut lines: Vec<Vec<LinePoint>> = Vec::new();
             group.lines(index, &detail, &mut |points| lines.push(points.to_vec()));
             // Roughly eight lines cross a shape.
             let gap = extent(&lines) / 8.0;
             lines.iter().for_each(|points| line(points, gap));
         }
+        first += group.count();
     }
 }
 

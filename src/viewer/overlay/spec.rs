@@ -88,6 +88,8 @@ pub struct LineSpec {
     pub behind: Behind,
     /// Whether the outlines of shapes other than meshes are drawn in this style, too.
     pub has_outlines: bool,
+    /// Whether the clip cuts the lines, as it cuts the surfaces that they are on.
+    pub is_cut: bool,
 }
 
 /// When lines fade.
@@ -170,6 +172,7 @@ impl LineSpec {
             length: None,
             behind: Behind::Hidden,
             has_outlines: false,
+            is_cut: true,
         }
     }
 
@@ -188,7 +191,7 @@ impl LineSpec {
                 Fade::ShortOrDense => 1.0,
                 Fade::Dense => 2.0,
             },
-            padding: 0.0,
+            is_cut: f32::from(u8::from(self.is_cut)),
         }
     }
 

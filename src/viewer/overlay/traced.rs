@@ -12,9 +12,9 @@ use std::sync::{Arc, OnceLock};
 /// edge, and a margin, so that it doesn't hide the lines on it.
 const REACH_PX: usize = 2;
 
-/// The shapes of a scene other than triangles, packed on first use.
+/// The shapes of a scene other than triangles, packed without the clip on first use.
 #[derive(Clone, Default)]
-pub struct Shapes(Arc<OnceLock<Box<dyn Intersector>>>);
+pub struct Shapes(Arc<OnceLock<Arc<dyn Intersector>>>);
 
 /// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss.
 #[derive(Clone, Copy, PartialEq)]
@@ -33,15 +33,15 @@ impl VisibleSurface {
 impl Shapes {
     /// Traces one ray through the centre of each pixel. Takes as long as a picture of one sample per pixel.
     pub fn trace(&self, scene: &Scene, camera: &Camera, view: &ViewUniform) -> Vec<TracedPixel> {
-        let intersector = self.0.get_or_init(|| {
-            scene
-                .without_triangles()
-                .intersector(default_triangle_kernel())
+        let whole = self.0.get_or_init(|| {
+            let shapes = scene.without_triangles().with_clip(None);
+            Arc::from(shapes.intersector(default_triangle_kernel()))
         });
+        let intersector = scene.clipped(Arc::clone(whole));
         let size = camera.resolution();
         let mut visible = vec![VisibleSurface::NONE; (size.x * size.y) as usize];
         let rows = visible.par_chunks_mut(size.x as usize).enumerate();
-        rows.for_each(|(y, row)| trace_row(&**intersector, camera, view, y as u32, row));
+        rows.for_each(|(y, row)| trace_row(&*intersector, camera, view, y as u32, row));
         let hides = farthest_around(&visible, size);
         let outline = |(index, hides)| TracedPixel {
             hides,

@@ -28,11 +28,12 @@ pub static VERTEX_NORMALS: OverlaySpec = OverlaySpec {
     ..OverlaySpec::SWITCH
 };
 
-/// One line per distinct normal of a vertex, and those of other shapes.
+/// One line per distinct normal of a vertex of the triangles that are shown, and those of other shapes.
 pub fn lines(scene: &Scene) -> Vec<Line> {
     let (mesh, normals) = (scene.mesh(), scene.vertex_normals());
     let mut corners: Vec<(u32, [u32; 3], u32, usize)> = Vec::new();
-    for (triangle, vertices) in (0..).zip(mesh.triangles()) {
+    let triangles = (0..).zip(mesh.triangles());
+    for (triangle, vertices) in triangles.filter(|(triangle, _)| scene.is_shown(*triangle)) {
         let normal = normals.of_triangle(mesh, triangle);
         for k in 0..3 {
             let bits = normal[k].to_array().map(f32::to_bits);

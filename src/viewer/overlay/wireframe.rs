@@ -27,7 +27,7 @@ pub static WIREFRAME: OverlaySpec = OverlaySpec {
                 } else {
                     WireframeEdges::Polygons
                 };
-                let gather = Gather::new(edges, |scene, edges| lines(scene.mesh(), *edges));
+                let gather = Gather::new(edges, |scene, edges| lines(scene, *edges));
                 Some(gather)
             })
         },
@@ -60,19 +60,23 @@ pub enum WireframeEdges {
     Triangles,
 }
 
-/// Lines for all edges, each once, with the smaller height of its triangles as the gap to the next line.
-pub fn lines(mesh: &TriangleMesh, edges: WireframeEdges) -> Vec<Line> {
+/// Lines for all edges of triangles that are shown, each once, with the smaller height of its triangles as the gap to the next line.
+pub fn lines(scene: &Scene, edges: WireframeEdges) -> Vec<Line> {
+    let mesh = scene.mesh();
     let mut uses: Vec<(u64, u32, u8)> = Vec::with_capacity(3 * mesh.triangles().len());
-    for (triangle, corners) in mesh.triangles().iter().enumerate() {
+    for (triangle, corners) in (0..).zip(mesh.triangles()) {
+        if !scene.is_shown(triangle) {
+            continue;
+        }
         for k in 0..3u8 {
             if edges == WireframeEdges::Polygons
-                && mesh.attributes().faces.outline(triangle as u32) & (1 << k) == 0
+                && mesh.attributes().faces.outline(triangle) & (1 << k) == 0
             {
                 continue;
             }
             let (a, b) = (corners[usize::from(k)], corners[(usize::from(k) + 1) % 3]);
             let key = u64::from(a.min(b)) << 32 | u64::from(a.max(b));
-            uses.push((key, triangle as u32, k));
+            uses.push((key, triangle, k));
         }
     }
     uses.sort_unstable();
@@ -120,6 +124,9 @@ fn edge(mesh: &TriangleMesh, triangle: u32, k: usize) -> Line {
 mod tests {
     use super::*;
     use hitscope_core::mesh::{Attributes, Faces};
+    use hitscope_core::progress::Progress;
+    use hitscope_core::scene::scene;
+    use std::sync::Arc;
 
     /// A unit square of two triangles that share the diagonal from 0 to 2.
     fn square() -> TriangleMesh {
@@ -135,8 +142,8 @@ mod tests {
 
     #[test]
     fn diagonals_are_hidden_and_shared_edges_drawn_once() {
-        assert_eq!(lines(&square(), WireframeEdges::Polygons).len(), 4);
-        let all = lines(&square(), WireframeEdges::Triangles);
+        assert_eq!(lines(&scene(square()), WireframeEdges::Polygons).len(), 4);
+        let all = lines(&scene(square()), WireframeEdges::Triangles);
         assert_eq!(all.len(), 5);
         let diagonal = all
             .iter()
@@ -150,5 +157,14 @@ mod tests {
         let gaps = triangle_lines(&square(), 0).map(|line| line.gap);
         assert_eq!(gaps[0], Vec3::Y);
         assert_eq!(gaps[1], Vec3::NEG_X);
+    }
+
+    #[test]
+    fn hidden_triangles_have_no_edges_of_their_own() {
+        let flags = Arc::new(vec![true, false]);
+        let part = scene(square()).showing(Some(flags), &Progress::default());
+        let part = part.expect("nobody cancels");
+        assert_eq!(lines(&part, WireframeEdges::Polygons).len(), 2);
+        assert_eq!(lines(&part, WireframeEdges::Triangles).len(), 3);
     }
 }

@@ -1,11 +1,14 @@
 //! The tabs of the side panel.
 
+mod clip;
+mod colours;
 mod flaws;
 pub mod inspect;
 mod labels;
 pub mod light;
 pub mod mesh;
 mod overlay;
+pub mod parts;
 pub mod path;
 pub mod progress;
 mod table;

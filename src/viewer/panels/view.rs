@@ -1,30 +1,49 @@
-//! The Display tab: view with its options, shading, kernel, overlay, camera, theme.
+//! The Display tab: view with its options, shading, colours, kernel, overlay, clip, camera, theme.
 
+use super::clip::clip_ui;
+use super::colours::colours_ui;
 use super::light::light_ui;
 use super::overlay::overlay_ui;
+use crate::clip_choice::Extent;
 use crate::command::{Commands, THEMES, VIEWS};
 use crate::settings::Settings;
 use egui::RichText;
 use hitscope_core::camera::Turntable;
+use hitscope_core::colour::{ColourScale, ScaleError};
 use hitscope_core::group::ShapeKernels;
 use hitscope_core::integrator::{Comparison, Legend};
 use hitscope_core::kernel::{KernelChoice, KernelInfo};
 use hitscope_core::plan::MAX_SAMPLES;
 use hitscope_core::srgb::to_display;
 
-/// Shows the tab; `shapes` are the kernels of the scene's shapes.
+/// What is shown of the scene.
+pub struct Shown {
+    /// The kernels of the scene's shapes.
+    pub shapes: Vec<ShapeKernels>,
+    /// The scale of the picture, if it shows numbers.
+    pub scale: Option<Result<ColourScale, ScaleError>>,
+    /// The box around the scene in the file's coordinates.
+    pub extent: Extent,
+}
+
+/// Shows the tab.
 pub fn view_ui(
     ui: &mut egui::Ui,
     settings: &mut Settings,
     turntable: &mut Turntable,
-    shapes: &[ShapeKernels],
+    shown: &Shown,
     commands: &Commands,
 ) {
+    let shapes = &shown.shapes[..];
     chosen_view_ui(ui, settings, shapes, commands);
+    ui.separator();
+    colours_ui(ui, settings, shown.scale.as_ref(), commands);
     ui.separator();
     kernel_ui(ui, settings, shapes);
     ui.separator();
     overlay_ui(ui, &mut settings.overlays, commands);
+    ui.separator();
+    clip_ui(ui, &mut settings.clip, &shown.extent, commands);
     ui.separator();
     camera_ui(ui, turntable, commands);
     ui.separator();
@@ -49,11 +68,7 @@ fn chosen_view_ui(
         }
     });
     ui.label(RichText::new(settings.view().about).weak());
-    let mut legend = (settings.view().legend)();
-    if let Some(scale) = settings.view().default_scale() {
-        legend.insert(0, scale.entries(7));
-    }
-    legend_ui(ui, &legend);
+    legend_ui(ui, &(settings.view().legend)());
     if settings.view().needs.second == Comparison::Second {
         ui.horizontal(|ui| {
             let label = ui.label("compared with");

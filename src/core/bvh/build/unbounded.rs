@@ -11,17 +11,15 @@ const EVERYWHERE: Planes<[f32; WIDTH]> = {
 
 impl Bvh {
     /// A tree of primitives without bounds: a ray visits all of them.
-    pub fn unbounded(count: usize) -> Self {
+    pub fn unbounded(primitives: &[u32]) -> Self {
         let mut tree = Self {
             nodes: Vec::new(),
             blocks: Vec::new(),
             bounds: Aabb::EMPTY,
         };
-        for first in (0..count).step_by(BLOCK_SIZE) {
-            let index = |lane: usize| (first + lane < count).then_some((first + lane) as u32);
-            tree.blocks.push(std::array::from_fn(|lane| {
-                index(lane).unwrap_or(NO_PRIMITIVE)
-            }));
+        for part in primitives.chunks(BLOCK_SIZE) {
+            let lane = |lane: usize| part.get(lane).copied().unwrap_or(NO_PRIMITIVE);
+            tree.blocks.push(std::array::from_fn(lane));
         }
         // From the leaves up; the root is moved to the front.
         let mut level: Vec<Child> = (0..tree.blocks.len())

@@ -22,7 +22,7 @@ pub use along_line::LineIntervals;
 pub use kernels::CSG_KERNELS;
 pub use solid::{CsgOperation, Solid, SolidNode, SolidOperand};
 
-use super::{Appearance, Group};
+use super::{Appearance, Group, Shown};
 use crate::aabb::Aabb;
 use crate::bvh::Bvh;
 use crate::intersector::GroupIntersector;
@@ -65,13 +65,31 @@ impl CsgGroup {
         appearance: Appearance,
         progress: &Progress,
     ) -> Result<Self, Cancelled> {
+        Self::with_shown(Arc::new(solids), appearance, &Shown::default(), progress)
+    }
+
+    /// A group with a tree over the solids that are shown.
+    fn with_shown(
+        solids: Arc<Vec<Solid>>,
+        appearance: Appearance,
+        shown: &Shown,
+        progress: &Progress,
+    ) -> Result<Self, Cancelled> {
         let start = Instant::now();
         let (count, are_bounded) = (solids.len(), solids.iter().all(|s| s.bounds().is_some()));
         let bounds_of = |index: u32| solids[index as usize].bounds().unwrap_or(Aabb::EMPTY);
+        // A tree leaves out solids with an empty box.
+        let shown_bounds = |index: u32| {
+            if shown.contains(index) {
+                bounds_of(index)
+            } else {
+                Aabb::EMPTY
+            }
+        };
         let bvh = if are_bounded {
-            Bvh::build(count, &bounds_of, &|| progress.check())?
+            Bvh::build(count, &shown_bounds, &|| progress.check())?
         } else {
-            Bvh::unbounded(count)
+            Bvh::unbounded(&shown.indices(count))
         };
         let boxes = (0..count as u32).map(bounds_of);
         Ok(Self {
@@ -79,7 +97,7 @@ impl CsgGroup {
             bvh: Arc::new(bvh),
             build_time: start.elapsed(),
             exact: solids.iter().map(|_| OnceLock::new()).collect(),
-            solids: Arc::new(solids),
+            solids,
             appearance,
         })
     }
@@ -174,6 +192,12 @@ impl Group for CsgGroup {
         let sides = self.appearance.sides_of(indices);
         let group = Self::new(solids.collect(), sides, &Progress::default());
         Arc::new(group.expect("nobody cancels"))
+    }
+
+    fn showing(&self, shown: Shown, progress: &Progress) -> Result<Arc<dyn Group>, Cancelled> {
+        let (solids, appearance) = (Arc::clone(&self.solids), self.appearance.clone());
+        let group = Self::with_shown(solids, appearance, &shown, progress)?;
+        Ok(Arc::new(group))
     }
 
     fn intersector(&self, kernel: KernelChoice, level: SimdLevel) -> Box<dyn GroupIntersector> {

@@ -205,8 +205,8 @@ impl RenderArgs {
         if is_exr && self.has_overlay() {
             return refuse("overlays are drawn over PNG pictures only");
         }
-        if self.has_overlay() && self.picture.clip.clip().is_some() {
-            return refuse("overlays aren't clipped: they need the whole scene");
+        if self.has_overlay() && self.picture.clip.has_too_many_for_overlays() {
+            return refuse("overlays are clipped by at most 16 planes; a box is six of them");
         }
         if is_exr && self.legend {
             return refuse("legends are drawn beside PNG pictures only");

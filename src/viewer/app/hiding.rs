@@ -1,0 +1,100 @@
+//! Hidden parts: their commands, and their use in the document.
+
+use super::App;
+use super::pick::Pick;
+use crate::clip_choice::{ClipChoice, ClipShape};
+use crate::parts::{Grouping, Parts};
+
+impl App {
+    /// Shows only the chosen parts, as soon as a tree over them is built. Returns whether that begins now.
+    pub(super) fn use_parts(&mut self, ctx: &egui::Context) -> bool {
+        let shown = self.seen.parts.shown();
+        self.open.document.use_primitives(shown, ctx)
+    }
+
+    /// Collects the tree over the chosen parts. If building it failed, everything is shown.
+    pub(super) fn poll_parts(&mut self, ctx: &egui::Context) {
+        if let Err(panicked) = self.open.document.poll_primitives(ctx) {
+            self.seen.parts.show_all();
+            self.error(panicked);
+        }
+    }
+
+    /// The parts of the scene.
+    pub fn parts(&self) -> &Parts {
+        &self.seen.parts
+    }
+
+    /// Shows everything of a new document, which is of the same file if that was loaded again: then the clip stays. The
+    /// choice of the grouping stays.
+    pub(super) fn forget_shown_part(&mut self, is_same_file: bool) {
+        self.seen.parts = Parts::by(self.seen.parts.grouping);
+        if !is_same_file {
+            self.seen.settings.clip = ClipChoice::default();
+            self.seen.settings.colours.scales.clear();
+        }
+    }
+
+    /// Shows the tab *Parts*.
+    pub(super) fn parts_ui(&mut self, ui: &mut egui::Ui, commands: &crate::command::Commands) {
+        let list = self.seen.parts.list(&self.open.document.loaded.scene);
+        let picked = self.picked.pick.as_ref().and_then(Pick::marked_primitive);
+        let picked = picked.map(|primitive| list.part_of(primitive));
+        crate::panels::parts::parts_ui(ui, &mut self.seen.parts, &list, picked, commands);
+    }
+
+    fn picked_part(&mut self) -> Option<usize> {
+        let picked = self.picked.pick.as_ref().and_then(Pick::marked_primitive)?;
+        let list = self.seen.parts.list(&self.open.document.loaded.scene);
+        Some(list.part_of(picked))
+    }
+
+    /// Hides the part of the picked primitive.
+    pub(crate) fn hide_picked_part(&mut self) {
+        if let Some(part) = self.picked_part() {
+            self.seen.parts.show(part, false);
+        }
+    }
+
+    /// Shows the part of the picked primitive alone.
+    pub(crate) fn show_only_picked_part(&mut self) {
+        if let Some(part) = self.picked_part() {
+            self.seen.parts.show_only(part);
+        }
+    }
+
+    /// Shows all parts.
+    pub(crate) fn show_all_parts(&mut self) {
+        self.seen.parts.show_all();
+    }
+
+    /// Shows the hidden parts and hides the others.
+    pub(crate) fn invert_parts(&mut self) {
+        self.seen.parts.list(&self.open.document.loaded.scene);
+        self.seen.parts.invert();
+    }
+
+    /// Why no part can be shown; `None` if some are hidden.
+    pub(crate) fn lacks_hidden_part(&self) -> Option<&'static str> {
+        let all = self.seen.parts.shown().0.is_none();
+        all.then_some("No part is hidden")
+    }
+
+    /// Why nothing can be shown again; `None` if a clip or hidden parts remove something.
+    pub(crate) fn lacks_hidden_surface(&self) -> Option<&'static str> {
+        let is_clipped = self.seen.settings.clip.shape != ClipShape::None;
+        let is_whole = !is_clipped && self.lacks_hidden_part().is_some();
+        is_whole.then_some("Neither a clip nor hidden parts remove anything")
+    }
+
+    /// Turns the clip off and shows all parts.
+    pub(crate) fn show_everything(&mut self) {
+        self.seen.settings.clip.shape = ClipShape::None;
+        self.seen.parts.show_all();
+    }
+
+    /// Groups the parts in another way.
+    pub(crate) fn group_parts_by(&mut self, grouping: Grouping) {
+        self.seen.parts.group_by(grouping);
+    }
+}
