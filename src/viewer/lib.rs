@@ -6,6 +6,7 @@
 //! | [`cli`], [`about`] | the command line; the program's name and version |
 //! | [`man`], [`completions`] | man pages and shell completions of the command line |
 //! | [`app`] | the app: its state and the order of work in a frame |
+//! | [`bindings`] | what drags and the wheel do on the picture |
 //! | [`command`] | the commands of keys, buttons and menus, as one table |
 //! | [`display`] | the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
@@ -14,11 +15,13 @@
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
+//! | [`toasts`], [`log`] | short messages about results; all messages |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
 //! | [`panels`], [`tab`] | the contents and names of the side panel's tabs |
 //! | [`settings`], [`preferences`] | how the scene is shown; preferences of the window |
+//! | [`quality`] | sets of settings from a draft to exact |
 //! | [`storage`], [`window`] | storage of settings and preferences; the window's size and end |
 //! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
 //! | [`render`], [`offscreen`], [`screenshot`] | the command `render`; the overlay without a window; `--screenshot` |
@@ -26,6 +29,7 @@
 pub mod about;
 pub mod about_sheet;
 pub mod app;
+pub mod bindings;
 pub mod cli;
 pub mod command;
 pub mod completions;
@@ -36,6 +40,7 @@ pub mod face_lookup;
 pub mod flaw_place;
 pub mod folder;
 pub mod gpu;
+pub mod log;
 pub mod look;
 pub mod man;
 pub mod numbers;
@@ -44,6 +49,7 @@ pub mod opening;
 pub mod overlay;
 pub mod panels;
 pub mod preferences;
+pub mod quality;
 pub mod recent;
 pub mod render;
 pub mod saving;
@@ -54,6 +60,7 @@ pub mod tab;
 pub mod task;
 pub mod theme;
 mod times;
+pub mod toasts;
 pub mod tracer;
 pub mod trade;
 pub mod watch;

@@ -1,7 +1,8 @@
 //! What is shown over the picture: path fields, messages, sheets and the command palette.
 
+use super::App;
+use super::feedback::NoticeKind;
 use super::light::is_environment;
-use super::{App, NoticeKind};
 use crate::command::{Commands, help_sheet};
 use egui::{Align, Layout, RichText};
 
@@ -12,6 +13,8 @@ pub(crate) enum Sheet {
     Help,
     /// The version, and facts about the machine.
     About,
+    /// All messages since the start.
+    Log,
 }
 
 impl App {
@@ -33,7 +36,7 @@ impl App {
         let is_closed = self.open.dialog.dismiss()
             || self.open.save_dialog.dismiss()
             || self.open.environment_dialog.dismiss()
-            || self.shown.notice.take().is_some();
+            || self.feedback.notice.take().is_some();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
         }
@@ -61,6 +64,7 @@ impl App {
         }
         self.drop_hint_ui(ctx);
         self.notices_ui(ctx);
+        self.feedback.toasts.toasts_ui(ctx, self.shown.canvas_rect);
         self.sheet_ui(ctx);
         self.shown.palette.palette_ui(ctx, commands);
     }
@@ -84,7 +88,7 @@ impl App {
             .loading
             .as_ref()
             .filter(|_| !self.open.document.is_blank);
-        if loading.is_none() && self.shown.notice.is_none() {
+        if loading.is_none() && self.feedback.notice.is_none() {
             return;
         }
         let (mut is_closed, mut is_cancelled) = (false, false);
@@ -99,13 +103,12 @@ impl App {
                         is_cancelled = loading.progress_ui(ui);
                     });
                 }
-                if let Some(notice) = &self.shown.notice {
+                if let Some(notice) = &self.feedback.notice {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         let visuals = ui.visuals();
                         let (title, colour) = match notice.kind {
                             NoticeKind::Error => ("Error", visuals.error_fg_color),
                             NoticeKind::Warning => ("Warning", visuals.warn_fg_color),
-                            NoticeKind::Saved => ("Saved", visuals.strong_text_color()),
                         };
                         ui.horizontal(|ui| {
                             ui.label(RichText::new(title).color(colour).strong());
@@ -118,7 +121,7 @@ impl App {
                 }
             });
         if is_closed {
-            self.shown.notice = None;
+            self.feedback.notice = None;
         }
         if is_cancelled {
             self.cancel_loading();
@@ -128,7 +131,8 @@ impl App {
     fn sheet_ui(&mut self, ctx: &egui::Context) {
         let is_closed = match self.shown.sheet {
             None => return,
-            Some(Sheet::Help) => help_sheet::help_ui(ctx),
+            Some(Sheet::Help) => help_sheet::help_ui(ctx, &self.preferences.navigation),
+            Some(Sheet::Log) => self.feedback.log.log_ui(ctx),
             Some(Sheet::About) => self.shown.about.about_ui(ctx),
         };
         if is_closed {

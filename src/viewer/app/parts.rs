@@ -8,12 +8,12 @@
 //! | [`Shown`] | what the window shows over and beside the picture |
 //! | [`Traced`] | what traces and draws the picture |
 
+use super::Sheet;
 use super::files::Neighbours;
 use super::light::{EnvironmentFile, SceneLights};
 use super::path::PickedPath;
 use super::pick::Pick;
 use super::pointer::Clicks;
-use super::{Notice, Sheet};
 use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
 use crate::dialog::{FileDialog, Purpose};
@@ -132,7 +132,6 @@ impl Picked {
 
 /// What the window shows over and beside the picture.
 pub(crate) struct Shown {
-    pub notice: Option<Notice>,
     pub palette: Palette,
     /// The sheet over the window.
     pub sheet: Option<Sheet>,
@@ -152,7 +151,6 @@ pub(crate) struct Shown {
 impl Shown {
     pub fn new(render_state: &RenderState) -> Self {
         Self {
-            notice: None,
             palette: Palette::default(),
             sheet: None,
             about: AboutSheet::new(render_state),

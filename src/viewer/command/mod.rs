@@ -34,7 +34,7 @@ mod window;
 
 pub use entry::{Commands, Entry};
 pub use place::{Menu, Place};
-pub use view::VIEWS;
+pub use view::{QUALITIES, VIEWS};
 pub use window::{TABS, THEMES};
 
 use crate::app::App;
@@ -77,6 +77,8 @@ static OTHER_TABLES: &[fn(&App) -> Vec<Entry>] = &[
     view::views,
     view::overlays,
     view::kernels,
+    view::qualities,
+    camera::presets,
     window::tabs,
     window::themes,
 ];

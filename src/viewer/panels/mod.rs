@@ -8,6 +8,7 @@ pub mod mesh;
 mod overlay;
 pub mod path;
 pub mod progress;
+pub mod quality;
 mod table;
 pub mod trade;
 pub mod view;
