@@ -46,6 +46,51 @@ fn f12_saves_the_picture_beside_the_file_and_a_toast_says_so_for_some_seconds() 
 }
 
 #[test]
+fn a_picture_of_any_size_is_rendered_in_the_background() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = folder.path().join("mesh.obj");
+    std::fs::write(&mesh, MESH).expect("written");
+    let Some(mut window) = app(Some(mesh)) else {
+        return;
+    };
+    window.get_by_label("Draft").click();
+    window.run_steps(2);
+    wait(&mut window, "the picture", App::is_settled);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F12);
+    window.run_steps(4);
+    let use_size = window.get_by_label("Size of the window's picture");
+    use_size.click();
+    window.run_steps(2);
+    let width = window.state().film().size().x;
+    for (format, extension, magic) in [
+        ("PNG", "png", &[0x89, b'P', b'N', b'G']),
+        ("EXR", "exr", &[0x76, 0x2f, 0x31, 0x01]),
+    ] {
+        window.get_by_label(format).click();
+        window.run_steps(2);
+        window.get_by_label("Render").click();
+        window.run_steps(2);
+        let path = folder.path().join(format!("mesh-1.{extension}"));
+        let text = format!("Saved {}", path.display());
+        wait(&mut window, "the file", |app| {
+            app.toasts().contains(&text.as_str())
+        });
+        let bytes = std::fs::read(&path).expect("saved");
+        assert_eq!(&bytes[..4], magic, "{format}");
+        if format == "PNG" {
+            assert_eq!(bytes[16..20], width.to_be_bytes());
+        }
+        window.run_steps(2);
+    }
+    press(&mut window, Key::Escape);
+    assert!(
+        window
+            .query_by_label("Size of the window's picture")
+            .is_none()
+    );
+}
+
+#[test]
 fn the_picture_can_be_copied() {
     let Some(mut window) = bare() else { return };
     wait(&mut window, "the picture", App::is_settled);

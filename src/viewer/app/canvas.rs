@@ -108,7 +108,7 @@ impl App {
     }
 
     /// The request for the current camera and settings.
-    fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
+    pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let background = theme::background(self.seen.settings.view(), ctx.theme());
         Request {
             context: Context {

@@ -50,7 +50,7 @@ impl App {
         if let Some(end) = clicked {
             let up_axis = self.seen.turntable.up_axis;
             let view = StandardView::from_end(end.axis, end.is_positive, up_axis);
-            self.animated(ui.ctx(), |app| app.seen.turntable.look_from(view));
+            self.look_from(view, ui.ctx());
         }
     }
 

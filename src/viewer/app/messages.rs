@@ -36,6 +36,7 @@ impl App {
         let is_closed = self.open.dialog.dismiss()
             || self.open.save_dialog.dismiss()
             || self.open.environment_dialog.dismiss()
+            || self.pictures.dialog.dismiss()
             || self.feedback.notice.take().is_some();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();

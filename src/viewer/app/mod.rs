@@ -8,7 +8,7 @@
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | clicks on the picture; the picked pixel |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
-//! | `pictures` | pictures of what is on the screen |
+//! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
 //! | `feedback` | messages: the notice, toasts and the log |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `light` | lights, environment, exposure |
@@ -34,6 +34,7 @@ mod navigation;
 mod parts;
 mod path;
 mod pick;
+mod picture_dialog;
 mod pictures;
 mod pointer;
 mod prepare;
@@ -190,6 +191,7 @@ impl eframe::App for App {
         self.poll_loading(ctx);
         self.poll_saving(ctx);
         self.poll_pictures(ctx);
+        self.poll_rendering();
         self.poll_environment(ctx);
         self.poll_watch(ctx);
         self.poll_gpu_errors();
@@ -228,6 +230,7 @@ impl eframe::App for App {
         self.panel_ui(ui, &commands);
         self.canvas_ui(ui);
         self.windows_ui(&ctx, &commands);
+        self.picture_dialog_ui(&ctx, frame);
         self.hints_ui(&ctx, &commands);
         for entry in commands.into_chosen() {
             entry.run(self, &ctx, frame);

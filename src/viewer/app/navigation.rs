@@ -5,7 +5,7 @@ use super::canvas::Canvas;
 use crate::bindings::Verb;
 use egui::{Event, Key, MouseWheelUnit, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
-use hitscope_core::camera::Turntable;
+use hitscope_core::camera::{StandardView, Turntable};
 
 /// Time that a change of the view takes.
 const TRANSITION_SECS: f64 = 0.25;
@@ -114,6 +114,11 @@ impl App {
         } else {
             ctx.request_repaint();
         }
+    }
+
+    /// Looks along an axis.
+    pub(crate) fn look_from(&mut self, view: StandardView, ctx: &egui::Context) {
+        self.animated(ctx, |app| app.seen.turntable.look_from(view));
     }
 
     /// Switches between a turntable and a trackball. A turntable has a level horizon.

@@ -1,6 +1,7 @@
 //! Pictures of what is on the screen, saved to a file or copied, in the background.
 
 use super::App;
+use super::picture_dialog::PictureDialog;
 use crate::offscreen;
 use crate::task::{Task, TaskPanicked};
 use hitscope_core::obj::shown;
@@ -19,9 +20,13 @@ enum Taken {
     Copied(egui::ColorImage),
 }
 
-/// The picture that is being taken.
+/// The picture that is being taken, and the dialog.
 #[derive(Default)]
-pub(super) struct Pictures(Option<Task<Result<Taken, String>>>);
+pub(super) struct Pictures {
+    task: Option<Task<Result<Taken, String>>>,
+    /// The dialog for pictures of any size.
+    pub dialog: PictureDialog,
+}
 
 impl App {
     /// Saves the picture on the screen beside the open file, with or without the lines over it.
@@ -32,7 +37,7 @@ impl App {
         frame: &eframe::Frame,
     ) {
         let open = self.open.document.path.as_deref();
-        let target = Target::File(free_path(open.unwrap_or(Path::new("hitscope"))));
+        let target = Target::File(free_path(open.unwrap_or(Path::new("hitscope")), "png"));
         self.take_picture(target, has_overlay, ctx, frame);
     }
 
@@ -78,17 +83,17 @@ impl App {
                 }
             }
         };
-        self.pictures.0 = Some(Task::spawn("picture", ctx, work));
+        self.pictures.task = Some(Task::spawn("picture", ctx, work));
     }
 
     /// Tells when a picture is saved or copied.
     pub(super) fn poll_pictures(&mut self, ctx: &egui::Context) {
-        let result = match self.pictures.0.as_ref().map(Task::poll) {
+        let result = match self.pictures.task.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(result))) => result,
             Some(Err(broken @ TaskPanicked)) => Err(broken.to_string()),
         };
-        self.pictures.0 = None;
+        self.pictures.task = None;
         match result {
             Ok(Taken::Saved(path)) => self.tell(format!("Saved {}", shown(&path))),
             Ok(Taken::Copied(image)) => {
@@ -101,11 +106,11 @@ impl App {
 }
 
 /// The first path of `mesh-1.png`, `mesh-2.png` and so on beside `mesh.obj` that has no file.
-fn free_path(open: &Path) -> PathBuf {
+pub(super) fn free_path(open: &Path, extension: &str) -> PathBuf {
     let stem = open.file_stem().unwrap_or(open.as_os_str()).to_owned();
     let numbered = |k: u32| {
         let mut name = stem.clone();
-        name.push(format!("-{k}.png"));
+        name.push(format!("-{k}.{extension}"));
         open.with_file_name(name)
     };
     let free = (1..u32::MAX).map(numbered).find(|path| !path.exists());
@@ -120,11 +125,11 @@ mod tests {
     fn a_picture_is_saved_beside_the_file_under_a_free_name() {
         let folder = tempfile::tempdir().expect("a folder");
         let mesh = folder.path().join("mesh.obj");
-        assert_eq!(free_path(&mesh), folder.path().join("mesh-1.png"));
+        assert_eq!(free_path(&mesh, "png"), folder.path().join("mesh-1.png"));
         std::fs::write(folder.path().join("mesh-1.png"), "").expect("written");
-        assert_eq!(free_path(&mesh), folder.path().join("mesh-2.png"));
+        assert_eq!(free_path(&mesh, "png"), folder.path().join("mesh-2.png"));
         assert_eq!(
-            free_path(Path::new("hitscope")),
+            free_path(Path::new("hitscope"), "png"),
             Path::new("hitscope-1.png")
         );
     }

@@ -61,46 +61,42 @@ pub(super) const ROWS: &[Command] = &[
         &[key(Key::Num1)],
         "Front",
         "Looks from the front",
-        |app, ctx, _| app.animated(ctx, |app| app.seen.turntable.look_from(StandardView::Front)),
+        |app, ctx, _| app.look_from(StandardView::Front, ctx),
     ),
     look_from(
         "back",
         &[ctrl(Key::Num1)],
         "Back",
         "Looks from behind",
-        |app, ctx, _| app.animated(ctx, |app| app.seen.turntable.look_from(StandardView::Back)),
+        |app, ctx, _| app.look_from(StandardView::Back, ctx),
     ),
     look_from(
         "right",
         &[key(Key::Num3)],
         "Right",
         "Looks from the right",
-        |app, ctx, _| app.animated(ctx, |app| app.seen.turntable.look_from(StandardView::Right)),
+        |app, ctx, _| app.look_from(StandardView::Right, ctx),
     ),
     look_from(
         "left",
         &[ctrl(Key::Num3)],
         "Left",
         "Looks from the left",
-        |app, ctx, _| app.animated(ctx, |app| app.seen.turntable.look_from(StandardView::Left)),
+        |app, ctx, _| app.look_from(StandardView::Left, ctx),
     ),
     look_from(
         "top",
         &[key(Key::Num7)],
         "Top",
         "Looks from above",
-        |app, ctx, _| app.animated(ctx, |app| app.seen.turntable.look_from(StandardView::Top)),
+        |app, ctx, _| app.look_from(StandardView::Top, ctx),
     ),
     look_from(
         "bottom",
         &[ctrl(Key::Num7)],
         "Bottom",
         "Looks from below",
-        |app, ctx, _| {
-            app.animated(ctx, |app| {
-                app.seen.turntable.look_from(StandardView::Bottom);
-            })
-        },
+        |app, ctx, _| app.look_from(StandardView::Bottom, ctx),
     ),
     Command {
         name: "orthographic",

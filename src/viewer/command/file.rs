@@ -120,6 +120,16 @@ pub(super) const ROWS: &[Command] = &[
         run: |app, ctx, frame| app.save_picture(false, ctx, frame),
     },
     Command {
+        name: "render-picture",
+        keys: &[ctrl(Key::F12)],
+        title: "Render picture…",
+        tooltip: "Renders a picture of any size and saves it beside the open file",
+        place: SAVE,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, _, _| app.toggle_picture_dialog(),
+    },
+    Command {
         name: "quit",
         keys: &[ctrl(Key::Q)],
         title: "Quit",
