@@ -224,7 +224,7 @@ fn the_wheel_passes_through_the_mesh_and_home_comes_back() {
     let centre = start.pivot;
     let before = (eye(&window) - centre).length();
     let forward = -start.camera(size).back();
-    for _ in 0..300 {
+    for _ in 0..600 {
         window.event(Event::Zoom(1.5));
         window.step();
     }

@@ -14,18 +14,17 @@ pub fn quality_ui(
     trade: Option<&Trade>,
     commands: &Commands,
 ) -> bool {
-    ui.label(RichText::new("Quality").strong());
     let chosen = Quality::of(settings);
     ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("Quality").strong());
         for quality in commands.at(QUALITIES) {
             commands.choice_ui(ui, quality);
         }
         if chosen.is_none() {
-            ui.label("Custom");
+            ui.label("Custom")
+                .on_hover_text("The settings match none of these");
         }
     });
-    let own = "The settings below match none of these";
-    ui.label(RichText::new(chosen.map_or(own, |quality| quality.about)).weak());
     match trade.and_then(|trade| figures(settings, trade)) {
         Some(figures) => {
             ui.label(figures);
