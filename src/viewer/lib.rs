@@ -6,6 +6,7 @@
 //! | [`cli`], [`about`] | the command line; the program's name and version |
 //! | [`man`], [`completions`] | man pages and shell completions of the command line |
 //! | [`app`] | the app: its state and the order of work in a frame |
+//! | [`bindings`] | what drags and the wheel do on the picture |
 //! | [`command`] | the commands of keys, buttons and menus, as one table |
 //! | [`display`] | the choice of the display server |
 //! | [`document`], [`opening`], [`watch`] | the open file, opening it, and watching it for changes |
@@ -16,11 +17,13 @@
 //! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
+//! | [`toasts`], [`log`] | short messages about results; all messages |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
 //! | [`panels`], [`tab`] | the contents and names of the side panel's tabs |
 //! | [`settings`], [`preferences`] | how the scene is shown; preferences of the window |
+//! | [`quality`] | sets of settings from a draft to exact |
 //! | [`storage`], [`window`] | storage of settings and preferences; the window's size and end |
 //! | [`about_sheet`] | the version, the graphics adapter and the machine, for the window |
 //! | [`render`], [`offscreen`], [`screenshot`] | the command `render`; the overlay without a window; `--screenshot` |
@@ -28,6 +31,7 @@
 pub mod about;
 pub mod about_sheet;
 pub mod app;
+pub mod bindings;
 pub mod cli;
 pub mod clip_choice;
 pub mod colour_choice;
@@ -41,6 +45,7 @@ pub mod flaw_place;
 pub mod folder;
 pub mod gpu;
 pub mod history;
+pub mod log;
 pub mod look;
 pub mod man;
 pub mod numbers;
@@ -50,6 +55,7 @@ pub mod overlay;
 pub mod panels;
 pub mod parts;
 pub mod preferences;
+pub mod quality;
 pub mod recent;
 pub mod render;
 pub mod saving;
@@ -61,6 +67,7 @@ pub mod tab;
 pub mod task;
 pub mod theme;
 mod times;
+pub mod toasts;
 pub mod tracer;
 pub mod trade;
 pub mod watch;

@@ -66,6 +66,15 @@ impl Default for Development {
 }
 
 impl Development {
+    /// The pixels of a film as they were last shown: all of them, row by row from the top.
+    pub fn pixels<'a>(&'a self, film: &'a Film) -> &'a [[u8; 4]] {
+        if self.pixels.len() == film.pixels().len() {
+            &self.pixels
+        } else {
+            film.pixels()
+        }
+    }
+
     /// Updates the pixels of a film that changed; all of them if the look or the size changed. Returns all pixels, row by
     /// row from the top, and the rectangle to upload; `None` if nothing changed, also for a film of another size.
     pub fn update<'a>(

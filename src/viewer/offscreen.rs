@@ -38,7 +38,25 @@ pub fn draw_over(
     rendered: &Rendered,
 ) -> Result<(), GpuError> {
     let overlays = chosen(args, rendered.shading);
-    let drawn = drawn(gpu, &input(rendered), &overlays)?;
+    draw_onto(
+        pixels,
+        (&gpu.device, &gpu.queue),
+        &input(rendered),
+        &overlays,
+    )
+}
+
+/// Draws the overlays that are on over a picture.
+///
+/// # Errors
+/// See [`GpuError`].
+pub fn draw_onto(
+    pixels: &mut [[u8; 4]],
+    gpu: (&wgpu::Device, &wgpu::Queue),
+    input: &OverlayInput,
+    overlays: &Overlays,
+) -> Result<(), GpuError> {
+    let drawn = drawn_by(gpu, input, overlays)?;
     for (under, over) in pixels.iter_mut().zip(drawn) {
         *under = blend(*under, over);
     }
@@ -84,7 +102,15 @@ fn input(rendered: &Rendered) -> OverlayInput {
 /// # Errors
 /// See [`GpuError`].
 pub fn drawn(
-    Gpu { device, queue, .. }: &Gpu,
+    gpu: &Gpu,
+    input: &OverlayInput,
+    overlays: &Overlays,
+) -> Result<Vec<[u8; 4]>, GpuError> {
+    drawn_by((&gpu.device, &gpu.queue), input, overlays)
+}
+
+fn drawn_by(
+    (device, queue): (&wgpu::Device, &wgpu::Queue),
     input: &OverlayInput,
     overlays: &Overlays,
 ) -> Result<Vec<[u8; 4]>, GpuError> {

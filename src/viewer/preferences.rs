@@ -1,5 +1,6 @@
 //! The preferences of the window, kept between runs: all that doesn't change what the picture shows.
 
+use crate::bindings::NavigationSettings;
 use crate::recent::RecentFiles;
 use crate::tab::Tab;
 use egui::ThemePreference;
@@ -29,6 +30,8 @@ pub struct Preferences {
     pub zoom: f32,
     /// Dark, light, or the system's theme.
     pub theme: ThemePreference,
+    /// What the pointer does, and how the camera moves.
+    pub navigation: NavigationSettings,
     /// The files that were opened last.
     pub recent: RecentFiles,
 }
@@ -43,6 +46,7 @@ impl Default for Preferences {
             panel_width: 385.0,
             zoom: 1.0,
             theme: ThemePreference::Dark,
+            navigation: NavigationSettings::default(),
             recent: RecentFiles::default(),
         }
     }

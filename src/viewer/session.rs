@@ -380,7 +380,8 @@ mod tests {
             let error = with(from, to);
             assert!(error.contains(reason), "{to}: {error}");
         }
-        let changes: [(fn(&mut Session), &str); 3] = [
+        type Change = (fn(&mut Session), &'static str);
+        let changes: [Change; 3] = [
             (
                 |bad| bad.sight.picks[0].pixel = [64, 4],
                 "outside the picture",

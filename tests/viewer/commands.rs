@@ -8,7 +8,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use glam::UVec2;
 use hitscope::about;
 use hitscope::app::App;
-use hitscope::command::{self, Command, help_sheet, keys, tool_bar};
+use hitscope::command::{self, Command, keys, tool_bar};
 use hitscope::overlay::grid::GRID;
 use hitscope::overlay::wireframe::WIREFRAME;
 use hitscope_core::camera::{StandardView, Turntable, UpAxis};
@@ -192,8 +192,8 @@ fn help_lists_every_key_and_every_use_of_the_mouse() {
         let keys = keys::key_text(command.keys, &ctx);
         window.get_by_label(&keys);
     }
-    for (pointer, about) in help_sheet::POINTER {
-        window.get_by_label(pointer);
+    for (pointer, about) in window.state().preferences().navigation.help() {
+        window.get_by_label(&pointer);
         window.get_by_label(about);
     }
     let open = titled("Open…").tooltip;

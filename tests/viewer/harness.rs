@@ -112,10 +112,12 @@ pub fn app_started(start: StartOptions) -> Option<Window> {
 
 fn started(
     setup: WgpuSetup,
-    start: StartOptions,
+    mut start: StartOptions,
     size: egui::Vec2,
     pixels_per_point: f32,
 ) -> Window {
+    // Tests of animated changes of the view turn them on.
+    start.preferences.navigation.reduces_motion = true;
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(pixels_per_point)

@@ -14,6 +14,8 @@ mod desktop;
 mod gpu;
 // Unusable graphics backends and display servers in the environment.
 mod environment;
+// Toasts, the log, pictures of the screen and the quality.
+mod feedback;
 // Recent files, and the files beside the open one.
 mod files;
 // The app in a test harness, and the gate for tests that need a GPU.
@@ -61,5 +63,7 @@ mod usage;
 mod window;
 // Views that compare kernels, and the Trade tab.
 mod trade;
+// Navigation with the pointer, and animated views.
+mod navigation;
 // The view as text, copied and pasted.
 mod view_text;

@@ -206,9 +206,8 @@ fn save(window: &mut Window, button: &str) -> Option<()> {
 fn wait_for_file(window: &mut Window, path: &Path) {
     let text = path.to_str().expect("UTF-8").to_owned();
     wait(window, "the file", |app| {
-        app.notice().is_some_and(|notice| notice.contains(&text))
+        app.toasts().iter().any(|toast| toast.contains(&text))
     });
-    press(window, Key::Escape);
 }
 
 fn opens_the_same_again(window: &mut Window, path: PathBuf) {

@@ -1,4 +1,15 @@
-//! Turntable navigation: orbit, pan and zoom.
+//! The turntable: a pivot, a distance and three angles.
+//!
+//! | file | part |
+//! |---|---|
+//! | this file | the state, framing, orbiting and panning, and its camera |
+//! | `freely` | free rotation, rotation about other points, flying |
+//! | `zoom` | zooming, and the limits of pivot and distance |
+//! | `transition` | the states between two turntables |
+
+mod freely;
+mod transition;
+mod zoom;
 
 use super::{Camera, CameraError, Projection};
 use crate::aabb::Aabb;
@@ -69,15 +80,28 @@ pub struct Turntable {
     radius: f64,
 }
 
+impl StandardView {
+    /// The view from the positive or the negative end of an axis: 0 for x, 1 for y, 2 for z.
+    pub fn from_end(axis: usize, is_positive: bool, up_axis: UpAxis) -> Self {
+        let [from_positive, from_negative] = match (axis, up_axis) {
+            (0, _) => [Self::Right, Self::Left],
+            (1, UpAxis::Y) | (2, UpAxis::Z) => [Self::Top, Self::Bottom],
+            (2, UpAxis::Y) => [Self::Front, Self::Back],
+            _ => [Self::Back, Self::Front],
+        };
+        if is_positive {
+            from_positive
+        } else {
+            from_negative
+        }
+    }
+}
+
 impl Turntable {
     /// Default vertical field of view.
     pub const FOV_Y_RADIANS: f64 = 40.0 * PI / 180.0;
     /// Rotation in radians by a drag across the height of the picture.
     const RADIANS_PER_HEIGHT: f64 = PI;
-    /// Minimum distance from the pivot, relative to the scene: f32 still resolves a hundredth of it.
-    const NEAREST: f64 = 1e-5;
-    /// Maximum distance from the pivot, in radii of the scene.
-    const FARTHEST: f64 = 1e4;
 
     /// The default view: the whole scene, from slightly above and to the right.
     pub fn framing(bounds: Aabb, resolution: UVec2) -> Self {
@@ -113,16 +137,7 @@ impl Turntable {
         let camera = Camera::look_at(eye, eye + forward, up, projection, UVec2::ONE)?;
         let mut turntable = Self::framing(bounds, UVec2::ONE);
         turntable.up_axis = up_axis;
-        let level = |v: DVec3| match up_axis {
-            UpAxis::Y => v,
-            UpAxis::Z => DVec3::new(v.x, v.z, -v.y),
-        };
-        let back = level(camera.back());
-        turntable.yaw_radians = back.x.atan2(back.z).rem_euclid(TAU);
-        turntable.pitch_radians = back.y.atan2(back.x.hypot(back.z));
-        let axes = turntable.level_axes();
-        let right = camera.right();
-        turntable.roll_radians = right.dot(axes.y_axis).atan2(right.dot(axes.x_axis));
+        turntable.set_axes(camera.right(), camera.back());
         let depth = camera.depth_of(turntable.centre);
         let ahead = if depth > 0.0 { depth } else { turntable.radius };
         turntable.distance = match projection {
@@ -192,7 +207,7 @@ impl Turntable {
         (self.centre, self.radius) = sphere(bounds);
     }
 
-    /// Rotates by a drag, in pixels to the right and down.
+    /// Rotates by a drag, in pixels to the right and down. The horizon stays as level as it is.
     pub fn orbit(&mut self, drag_px: DVec2, resolution: UVec2) {
         // The drag relative to the level horizon.
         let (sin, cos) = self.roll_radians.sin_cos();
@@ -201,8 +216,10 @@ impl Turntable {
             cos * drag_px.y - sin * drag_px.x,
         );
         let angle = drag_px * Self::RADIANS_PER_HEIGHT / f64::from(resolution.y.max(1));
-        self.turn(-angle.x);
-        self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
+        if angle.is_finite() {
+            self.turn(-angle.x);
+            self.pitch_radians = (self.pitch_radians + angle.y).clamp(-FRAC_PI_2, FRAC_PI_2);
+        }
     }
 
     /// Rotates about the pivot, counterclockwise as seen from above.
@@ -215,18 +232,7 @@ impl Turntable {
         let axes = self.world_from_camera();
         let per_pixel = self.height_at_pivot() / f64::from(resolution.y.max(1));
         self.pivot += (axes.y_axis * drag_px.y - axes.x_axis * drag_px.x) * per_pixel;
-    }
-
-    /// Scales the distance by `factor`, within the limits, and keeps `anchor` at its position in the picture.
-    /// Ignores a factor or an anchor that isn't finite.
-    pub fn zoom(&mut self, factor: f64, anchor: DVec3) {
-        let nearest = Self::NEAREST * (self.radius + (self.pivot - self.centre).length());
-        let distance = (self.distance * factor).clamp(nearest, Self::FARTHEST * self.radius);
-        if distance.is_finite() && anchor.is_finite() {
-            let scale = distance / self.distance;
-            self.pivot = anchor + (self.pivot - anchor) * scale;
-            self.distance = distance;
-        }
+        self.keep_in_reach();
     }
 
     /// Turns about a point from now on and shows it in the middle of the picture. The eye moves across the
@@ -239,6 +245,7 @@ impl Turntable {
         } else if distance > 0.0 && distance.is_finite() {
             (self.pivot, self.distance) = (point, distance);
         }
+        self.keep_in_reach();
     }
 
     /// Looks along an axis.
@@ -332,5 +339,7 @@ fn corners(bounds: Aabb) -> Vec<DVec3> {
     (0..count).map(corner).collect()
 }
 
+#[cfg(test)]
+mod navigation_tests;
 #[cfg(test)]
 mod tests;

@@ -189,6 +189,9 @@ pub enum RenderError {
         /// Width and height in pixels.
         size: UVec2,
     },
+    /// The caller has cancelled it.
+    #[error("cancelled")]
+    Cancelled,
     /// No thread could be started.
     #[error("the system grants no thread to render with: {0}")]
     NoThread(io::Error),
@@ -211,6 +214,21 @@ pub fn render_with_progress(
     threads: usize,
     mut advanced: impl FnMut(f64),
 ) -> Result<Film, RenderError> {
+    render_while(job, threads, |part| {
+        advanced(part);
+        true
+    })
+}
+
+/// The same as [`render_with_progress`], until `goes_on` returns false.
+///
+/// # Errors
+/// See [`RenderError`]; of panics the first.
+pub fn render_while(
+    job: Job,
+    threads: usize,
+    mut goes_on: impl FnMut(f64) -> bool,
+) -> Result<Film, RenderError> {
     let size = job.plan.size();
     let samples = job.plan.samples_after(job.plan.pass_count());
     let all = f64::from(size.x) * f64::from(size.y) * f64::from(samples);
@@ -224,7 +242,9 @@ pub fn render_with_progress(
             Message::Tile(tile) => {
                 film.add(&tile.samples);
                 traced += f64::from(tile.rays);
-                advanced(traced / all);
+                if !goes_on(traced / all) {
+                    return Err(RenderError::Cancelled);
+                }
             }
             Message::Panicked(_, panic) => return Err(panic.into()),
         }

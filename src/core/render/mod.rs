@@ -7,5 +7,7 @@
 mod job;
 mod worker;
 
-pub use job::{Job, RenderError, RenderPanic, TileResult, render, render_with_progress};
+pub use job::{
+    Job, RenderError, RenderPanic, TileResult, render, render_while, render_with_progress,
+};
 pub use worker::{Message, Renderer};

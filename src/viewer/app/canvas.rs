@@ -87,7 +87,9 @@ impl App {
             self.use_resolution(canvas.resolution);
             self.pointer(ui, &response, canvas);
             self.rotate(ui);
+            self.step_transition(ui.ctx());
             self.paint(ui, canvas, response.dragged());
+            self.gizmo_ui(ui, canvas);
             let wanted = self.wanted(ui.ctx(), canvas.resolution);
             self.traced.tracer.request(wanted);
         });
@@ -98,7 +100,7 @@ impl App {
         /// One turn per twelve seconds; a frame longer than [`LONGEST_S`] counts as that long.
         const RADIANS_PER_S: f64 = std::f64::consts::TAU / 12.0;
         const LONGEST_S: f64 = 0.2;
-        if self.seen.is_rotating {
+        if self.seen.is_rotating && !self.navigation.is_changing_view() {
             let secs = f64::from(ui.input(|input| input.unstable_dt)).min(LONGEST_S);
             self.seen.turntable.turn(secs * RADIANS_PER_S);
             ui.ctx().request_repaint();
@@ -106,7 +108,7 @@ impl App {
     }
 
     /// The request for the current camera and settings.
-    fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
+    pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let (settings, theme) = (&self.seen.settings, ctx.theme());
         let background = theme::background(settings.view(), settings.colours.background, theme);
         let options = settings.colours.options(settings.view());
@@ -179,7 +181,7 @@ impl App {
         }
     }
 
-    fn overlay_input(
+    pub(super) fn overlay_input(
         &self,
         scene: &Arc<Scene>,
         camera: Camera,

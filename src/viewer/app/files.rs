@@ -1,6 +1,6 @@
 //! Loading files, showing the result, reloading changed files, finding the files beside them, and saving scene files.
 
-use super::{App, Notice, NoticeKind};
+use super::App;
 use crate::document::Document;
 use crate::folder::{self, Direction};
 use crate::opening::Loading;
@@ -78,7 +78,7 @@ impl App {
     /// Loads a file, or opens a session. The open file stays until it is loaded.
     pub(crate) fn load(&mut self, path: PathBuf, ctx: &egui::Context) {
         self.cancel_loading();
-        self.shown.notice = None;
+        self.feedback.notice = None;
         if is_session(&path) {
             self.read_session(path, ctx);
             return;
@@ -195,10 +195,8 @@ impl App {
                 0 => String::new(),
                 n => format!(" (and {n} more; see the Mesh tab)"),
             };
-            self.shown.notice = Some(Notice {
-                text: format!("{}: {first}{more}", self.open.document.name()),
-                kind: NoticeKind::Warning,
-            });
+            let text = format!("{}: {first}{more}", self.open.document.name());
+            self.warn(&text);
         }
     }
 
@@ -222,10 +220,7 @@ impl App {
         let result = result.map(shown);
         self.open.saving = None;
         match result {
-            Ok(text) => {
-                let kind = NoticeKind::Saved;
-                self.shown.notice = Some(Notice { text, kind });
-            }
+            Ok(path) => self.tell(format!("Saved {path}")),
             Err(error) => self.error(error),
         }
     }

@@ -1,6 +1,6 @@
 //! Light in the picture: the lights of a scene, the environment, and how the film is shown.
 
-use super::{App, Notice, NoticeKind};
+use super::App;
 use crate::look::Look;
 use crate::settings::EnvironmentSource;
 use crate::task::{Task, TaskPanicked};
@@ -157,10 +157,7 @@ impl App {
         match result {
             Ok(loaded) => {
                 if let Some(warning) = loaded.warnings.first() {
-                    self.shown.notice = Some(Notice {
-                        text: format!("{}: {warning}", path.display()),
-                        kind: NoticeKind::Warning,
-                    });
+                    self.warn(&format!("{}: {warning}", path.display()));
                 }
                 self.traced.environment_file = EnvironmentFile::Loaded(path, loaded.map);
             }

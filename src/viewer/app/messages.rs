@@ -1,7 +1,8 @@
 //! What is shown over the picture: path fields, messages, sheets and the command palette.
 
+use super::App;
+use super::feedback::NoticeKind;
 use super::light::is_environment;
-use super::{App, NoticeKind};
 use crate::command::{Commands, help_sheet};
 use egui::{Align, Layout, RichText};
 
@@ -12,6 +13,8 @@ pub(crate) enum Sheet {
     Help,
     /// The version, and facts about the machine.
     About,
+    /// All messages since the start.
+    Log,
 }
 
 impl App {
@@ -35,7 +38,8 @@ impl App {
             || self.open.environment_dialog.dismiss()
             || self.open.session_dialog.dismiss()
             || self.open.save_session_dialog.dismiss()
-            || self.shown.notice.take().is_some();
+            || self.pictures.dialog.dismiss()
+            || self.feedback.notice.take().is_some();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
         }
@@ -69,6 +73,7 @@ impl App {
         }
         self.drop_hint_ui(ctx);
         self.notices_ui(ctx);
+        self.feedback.toasts.toasts_ui(ctx, self.shown.canvas_rect);
         self.sheet_ui(ctx);
         self.shown.palette.palette_ui(ctx, commands);
     }
@@ -92,7 +97,7 @@ impl App {
             .loading
             .as_ref()
             .filter(|_| !self.open.document.is_blank);
-        if loading.is_none() && self.shown.notice.is_none() {
+        if loading.is_none() && self.feedback.notice.is_none() {
             return;
         }
         let (mut is_closed, mut is_cancelled) = (false, false);
@@ -107,13 +112,12 @@ impl App {
                         is_cancelled = loading.progress_ui(ui);
                     });
                 }
-                if let Some(notice) = &self.shown.notice {
+                if let Some(notice) = &self.feedback.notice {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         let visuals = ui.visuals();
                         let (title, colour) = match notice.kind {
                             NoticeKind::Error => ("Error", visuals.error_fg_color),
                             NoticeKind::Warning => ("Warning", visuals.warn_fg_color),
-                            NoticeKind::Saved => ("Saved", visuals.strong_text_color()),
                         };
                         ui.horizontal(|ui| {
                             ui.label(RichText::new(title).color(colour).strong());
@@ -126,7 +130,7 @@ impl App {
                 }
             });
         if is_closed {
-            self.shown.notice = None;
+            self.feedback.notice = None;
         }
         if is_cancelled {
             self.cancel_loading();
@@ -136,7 +140,8 @@ impl App {
     fn sheet_ui(&mut self, ctx: &egui::Context) {
         let is_closed = match self.shown.sheet {
             None => return,
-            Some(Sheet::Help) => help_sheet::help_ui(ctx),
+            Some(Sheet::Help) => help_sheet::help_ui(ctx, &self.preferences.navigation),
+            Some(Sheet::Log) => self.feedback.log.log_ui(ctx),
             Some(Sheet::About) => self.shown.about.about_ui(ctx),
         };
         if is_closed {

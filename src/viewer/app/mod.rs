@@ -6,7 +6,10 @@
 //! | `state` | what others may read of the parts |
 //! | `prepare` | preparing the document for the settings |
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
-//! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
+//! | `pointer`, `pick` | clicks on the picture; the picked pixel |
+//! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
+//! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
+//! | `feedback` | messages: the notice, toasts and the log |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `clipping`, `hiding` | the part of the scene that is shown |
 //! | `legend` | the legend in the picture, and its range |
@@ -22,18 +25,23 @@
 
 mod canvas;
 mod clipping;
+mod feedback;
 mod files;
 mod first_view;
 pub(crate) mod flaws;
+mod gizmo;
 mod hiding;
 mod hints;
 mod labels;
 mod legend;
 mod light;
 mod messages;
+mod navigation;
 mod parts;
 mod path;
 mod pick;
+mod picture_dialog;
+mod pictures;
 mod pointer;
 mod prepare;
 mod sessions;
@@ -54,9 +62,12 @@ use crate::storage;
 use crate::tracer::Tracer;
 use eframe::egui_wgpu;
 use egui_wgpu::RenderState;
+use feedback::Feedback;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_lab::commands::{default_thread_count, print_line};
+use navigation::Navigation;
 use parts::{Open, Picked, Seen, Shown, Traced};
+use pictures::Pictures;
 use std::path::PathBuf;
 use std::sync::{Arc, Mutex};
 use std::time::Duration;
@@ -97,21 +108,6 @@ impl Default for StartOptions {
 #[error("the window needs wgpu, but eframe runs without it")]
 pub struct NoWgpu;
 
-/// A message that stays until the user closes it.
-pub(crate) struct Notice {
-    text: String,
-    kind: NoticeKind,
-}
-
-/// The kind of a message.
-#[derive(Clone, Copy, PartialEq, Eq)]
-enum NoticeKind {
-    Error,
-    Warning,
-    /// A file was written.
-    Saved,
-}
-
 /// The viewer.
 pub struct App {
     pub(crate) open: Open,
@@ -122,6 +118,9 @@ pub struct App {
     pub(crate) preferences: Preferences,
     /// Steps of undo.
     history: History,
+    navigation: Navigation,
+    feedback: Feedback,
+    pictures: Pictures,
     /// Uncaught errors of the GPU, from any thread.
     gpu_errors: Arc<Mutex<Vec<String>>>,
     screenshot: Option<Screenshot>,
@@ -152,6 +151,9 @@ impl App {
             traced: Traced::new(tracer, &render_state),
             preferences: start.preferences,
             history: History::default(),
+            navigation: Navigation::default(),
+            feedback: Feedback::default(),
+            pictures: Pictures::default(),
             gpu_errors: catch_gpu_errors(&render_state, ctx),
             screenshot: start.screenshot.map(Screenshot::new),
         };
@@ -161,21 +163,6 @@ impl App {
             app.load(file, ctx);
         }
         Ok(app)
-    }
-
-    fn error(&mut self, text: impl ToString) {
-        self.shown.notice = Some(Notice {
-            text: text.to_string(),
-            kind: NoticeKind::Error,
-        });
-    }
-
-    /// Shows why a command can't be run.
-    pub(crate) fn refuse(&mut self, obstacle: &str) {
-        self.shown.notice = Some(Notice {
-            text: obstacle.to_owned(),
-            kind: NoticeKind::Warning,
-        });
     }
 
     /// Stops all background work, so that the window closes without delay.
@@ -215,6 +202,8 @@ impl eframe::App for App {
         self.poll_session(ctx);
         self.poll_loading(ctx);
         self.poll_saving(ctx);
+        self.poll_pictures(ctx);
+        self.poll_rendering();
         self.poll_environment(ctx);
         self.poll_watch(ctx);
         self.poll_gpu_errors();
@@ -240,6 +229,7 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        self.take_flight_keys(&ctx);
         for command in keys::pressed(&ctx) {
             Entry::of(command, self).run(self, &ctx, frame);
         }
@@ -253,6 +243,7 @@ impl eframe::App for App {
         self.panel_ui(ui, &commands);
         self.canvas_ui(ui);
         self.windows_ui(&ctx, &commands);
+        self.picture_dialog_ui(&ctx, frame);
         self.hints_ui(&ctx, &commands);
         for entry in commands.into_chosen() {
             entry.run(self, &ctx, frame);

@@ -8,13 +8,13 @@
 //! | [`Shown`] | what the window shows over and beside the picture |
 //! | [`Traced`] | what traces and draws the picture |
 
+use super::Sheet;
 use super::files::Neighbours;
 use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
 use super::path::PickedPath;
 use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
-use super::{Notice, Sheet};
 use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
 use crate::dialog::{FileDialog, Purpose};
@@ -148,7 +148,6 @@ impl Picked {
 
 /// What the window shows over and beside the picture.
 pub(crate) struct Shown {
-    pub notice: Option<Notice>,
     pub palette: Palette,
     /// The sheet over the window.
     pub sheet: Option<Sheet>,
@@ -168,7 +167,6 @@ pub(crate) struct Shown {
 impl Shown {
     pub fn new(render_state: &RenderState) -> Self {
         Self {
-            notice: None,
             palette: Palette::default(),
             sheet: None,
             about: AboutSheet::new(render_state),

@@ -1,4 +1,4 @@
-//! Pointer input on the picture: drags, wheel and clicks.
+//! Pointer input on the picture: clicks, and the surface under the pointer. Drags and scrolling are in `navigation`.
 //!
 //! The camera of the picture on the screen determines the point under the pointer. While the camera moves, that
 //! picture lags behind the newest camera.
@@ -30,40 +30,11 @@ pub(crate) struct PendingClick {
 impl App {
     /// Handles drags, wheel and clicks.
     pub(super) fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
-        let drag = response.drag_delta() * canvas.pixels_per_point;
-        let drag = DVec2::new(drag.x.into(), drag.y.into());
-        let modifiers = ui.input(|input| input.modifiers);
-        let is_primary = response.dragged_by(PointerButton::Primary);
-        if is_primary && modifiers.command && self.seen.settings.has_map() {
-            self.rotate_environment(response.drag_delta().x);
-        } else if is_primary && !modifiers.shift {
-            self.seen.turntable.orbit(drag, canvas.resolution);
-        } else if response.dragged() {
-            self.seen.turntable.pan(drag, canvas.resolution);
-        }
-        if let Some(pos) = response.hover_pos() {
-            self.wheel(ui, pos, canvas);
-        }
+        self.navigate(ui, response, canvas);
         if let Some(pos) = response.interact_pointer_pos() {
             self.click(ui, response, pos, canvas);
         }
         self.end_click(ui.ctx());
-    }
-
-    /// Zooms to the point under the pointer.
-    fn wheel(&mut self, ui: &egui::Ui, pos: Pos2, canvas: Canvas) {
-        /// Scrolling by this zooms by a factor of e. A notch of the wheel, about 50 points, zooms by a fifth.
-        const POINTS_PER_E: f32 = 220.0;
-        let (scroll, pinch) = ui.input(|input| (input.smooth_scroll_delta(), input.zoom_delta()));
-        let factor = (-(scroll.y + scroll.x) / POINTS_PER_E).exp() / pinch;
-        if factor != 1.0 {
-            let newest = || self.seen.turntable.camera(canvas.resolution);
-            let camera = self.shown_camera().unwrap_or_else(newest);
-            let at = canvas.pixel_of(pos, &camera);
-            let on_pivots_plane = || camera.on_plane_through(self.seen.turntable.pivot, at);
-            let anchor = self.surface_at(&camera, at).unwrap_or_else(on_pivots_plane);
-            self.seen.turntable.zoom(factor.into(), anchor);
-        }
     }
 
     /// Sets the pivot on a double click; holds back a single click until it can't become a double click. At a low
@@ -140,7 +111,7 @@ impl App {
     }
 
     /// The point of the mesh at a pixel, in the scene's coordinates.
-    fn surface_at(&self, camera: &Camera, at_px: DVec2) -> Option<DVec3> {
+    pub(super) fn surface_at(&self, camera: &Camera, at_px: DVec2) -> Option<DVec3> {
         let ray = camera.ray_through(at_px);
         let hit = self.open.document.intersector().closest_hit(&ray)?;
         Some(ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3())

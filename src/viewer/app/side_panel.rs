@@ -67,6 +67,13 @@ impl App {
                     scale: self.colour_scale(),
                     extent: self.extent(),
                 };
+                let trade = self.open.trade.as_ref();
+                let is_measuring =
+                    panels::quality::quality_ui(ui, &self.seen.settings, trade, commands);
+                if is_measuring {
+                    self.preferences.tab = Tab::Trade;
+                }
+                ui.separator();
                 panels::view::view_ui(
                     ui,
                     &mut self.seen.settings,

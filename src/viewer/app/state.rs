@@ -108,9 +108,14 @@ impl App {
 
     /// The text of the message that is shown.
     pub fn notice(&self) -> Option<&str> {
-        self.shown
+        self.feedback
             .notice
             .as_ref()
             .map(|notice| notice.text.as_str())
+    }
+
+    /// The texts of the toasts that are shown.
+    pub fn toasts(&self) -> Vec<&str> {
+        self.feedback.toasts.texts()
     }
 }

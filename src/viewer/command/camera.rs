@@ -1,8 +1,9 @@
 //! The menu *Camera*.
 
 use super::keys::{ctrl, key, shift};
-use super::{Command, Menu, Place, none};
+use super::{Command, Entry, Menu, Place, none};
 use crate::app::App;
+use crate::bindings::{PRESETS, Preset};
 use egui::Key;
 use hitscope_core::camera::{StandardView, UpAxis};
 
@@ -10,6 +11,9 @@ const FRAME: Place = Place::new(Menu::Camera, 0);
 const DIRECTION: Place = Place::new(Menu::Camera, 1);
 const PROJECTION: Place = Place::new(Menu::Camera, 2);
 const UP_AXIS: Place = Place::new(Menu::Camera, 3);
+const NAVIGATION: Place = Place::new(Menu::Camera, 4);
+/// The sets of pointer bindings.
+pub const BINDINGS: Place = Place::submenu(Menu::Camera, 4, "Mouse");
 
 pub(super) const ROWS: &[Command] = &[
     Command {
@@ -20,7 +24,7 @@ pub(super) const ROWS: &[Command] = &[
         place: FRAME,
         is_on: None,
         obstacle: none,
-        run: |app, _, _| app.frame(),
+        run: |app, ctx, _| app.animated(ctx, App::frame),
     },
     Command {
         name: "frame-pick",
@@ -30,7 +34,17 @@ pub(super) const ROWS: &[Command] = &[
         place: FRAME,
         is_on: None,
         obstacle: App::lacks_hit,
-        run: |app, _, _| app.frame_pick(),
+        run: |app, ctx, _| app.animated(ctx, App::frame_pick),
+    },
+    Command {
+        name: "frame-part",
+        keys: &[shift(Key::Period)],
+        title: "Frame part",
+        tooltip: "Frames the group or object of the triangle that is picked",
+        place: FRAME,
+        is_on: None,
+        obstacle: App::lacks_hit,
+        run: |app, ctx, _| app.animated(ctx, App::frame_part),
     },
     Command {
         name: "first-view",
@@ -40,49 +54,49 @@ pub(super) const ROWS: &[Command] = &[
         place: FRAME,
         is_on: None,
         obstacle: none,
-        run: |app, _, _| app.use_first_camera(),
+        run: |app, ctx, _| app.animated(ctx, App::use_first_camera),
     },
     look_from(
         "front",
         &[key(Key::Num1)],
         "Front",
         "Looks from the front",
-        |app, _, _| app.seen.turntable.look_from(StandardView::Front),
+        |app, ctx, _| app.look_from(StandardView::Front, ctx),
     ),
     look_from(
         "back",
         &[ctrl(Key::Num1)],
         "Back",
         "Looks from behind",
-        |app, _, _| app.seen.turntable.look_from(StandardView::Back),
+        |app, ctx, _| app.look_from(StandardView::Back, ctx),
     ),
     look_from(
         "right",
         &[key(Key::Num3)],
         "Right",
         "Looks from the right",
-        |app, _, _| app.seen.turntable.look_from(StandardView::Right),
+        |app, ctx, _| app.look_from(StandardView::Right, ctx),
     ),
     look_from(
         "left",
         &[ctrl(Key::Num3)],
         "Left",
         "Looks from the left",
-        |app, _, _| app.seen.turntable.look_from(StandardView::Left),
+        |app, ctx, _| app.look_from(StandardView::Left, ctx),
     ),
     look_from(
         "top",
         &[key(Key::Num7)],
         "Top",
         "Looks from above",
-        |app, _, _| app.seen.turntable.look_from(StandardView::Top),
+        |app, ctx, _| app.look_from(StandardView::Top, ctx),
     ),
     look_from(
         "bottom",
         &[ctrl(Key::Num7)],
         "Bottom",
         "Looks from below",
-        |app, _, _| app.seen.turntable.look_from(StandardView::Bottom),
+        |app, ctx, _| app.look_from(StandardView::Bottom, ctx),
     ),
     Command {
         name: "orthographic",
@@ -124,7 +138,77 @@ pub(super) const ROWS: &[Command] = &[
         obstacle: none,
         run: |app, _, _| app.seen.turn_up(UpAxis::Z),
     },
+    switch(
+        "trackball",
+        "Trackball",
+        "Orbits freely over the poles; otherwise the horizon stays level",
+        |app| app.preferences.navigation.is_trackball,
+        |app, ctx, _| app.toggle_trackball(ctx),
+    ),
+    switch(
+        "orbit-about-cursor",
+        "Orbit about the cursor",
+        "Orbits about the surface where the drag starts instead of the pivot",
+        |app| app.preferences.navigation.orbits_about_cursor,
+        |app, _, _| app.preferences.navigation.orbits_about_cursor ^= true,
+    ),
+    switch(
+        "trackpad",
+        "Trackpad",
+        "Two fingers orbit, with Shift they pan, with Ctrl they zoom",
+        |app| app.preferences.navigation.is_trackpad,
+        |app, _, _| app.preferences.navigation.is_trackpad ^= true,
+    ),
+    switch(
+        "reduced-motion",
+        "Reduced motion",
+        "Changes the view at once instead of moving the camera there",
+        |app| app.preferences.navigation.reduces_motion,
+        |app, _, _| app.preferences.navigation.reduces_motion ^= true,
+    ),
+    switch(
+        "gizmo",
+        "Axis gizmo",
+        "Shows the axes in a corner of the picture; a click on an end looks from there",
+        |app| app.preferences.navigation.shows_gizmo,
+        |app, _, _| app.preferences.navigation.shows_gizmo ^= true,
+    ),
 ];
+
+/// The sets of pointer bindings.
+pub(super) fn presets(app: &App) -> Vec<Entry> {
+    let current = app.preferences.navigation.preset().name;
+    let entry = |preset: &'static Preset| {
+        let choose = move |app: &mut App, _: &egui::Context| {
+            preset
+                .name
+                .clone_into(&mut app.preferences.navigation.preset);
+        };
+        let is_chosen = preset.name == current;
+        Entry::choice(BINDINGS, preset.title, preset.about, is_chosen, choose)
+    };
+    PRESETS.iter().map(entry).collect()
+}
+
+/// A command that turns an option of navigation on and off.
+const fn switch(
+    name: &'static str,
+    title: &'static str,
+    tooltip: &'static str,
+    is_on: fn(&App) -> bool,
+    run: fn(&mut App, &egui::Context, &eframe::Frame),
+) -> Command {
+    Command {
+        name,
+        keys: &[],
+        title,
+        tooltip,
+        place: NAVIGATION,
+        is_on: Some(is_on),
+        obstacle: none,
+        run,
+    }
+}
 
 /// A command that looks along an axis.
 const fn look_from(

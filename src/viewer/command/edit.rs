@@ -41,7 +41,10 @@ pub(super) const ROWS: &[Command] = &[
         place: VIEW_TEXT,
         is_on: None,
         obstacle: lacks_scene,
-        run: |app, ctx, _| ctx.copy_text(app.view_text()),
+        run: |app, ctx, _| {
+            ctx.copy_text(app.view_text());
+            app.tell("Copied the view");
+        },
     },
     Command {
         name: "paste-view",
@@ -53,6 +56,16 @@ pub(super) const ROWS: &[Command] = &[
         obstacle: lacks_scene,
         // The text arrives as an event; see `keys::pasted`.
         run: |_, ctx, _| ctx.send_viewport_cmd(egui::ViewportCommand::RequestPaste),
+    },
+    Command {
+        name: "copy-picture",
+        keys: &[],
+        title: "Copy picture",
+        tooltip: "Copies the picture with the lines over it",
+        place: VIEW_TEXT,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: App::copy_picture,
     },
     Command {
         name: DISMISS,

@@ -1,6 +1,6 @@
 //! The menu *File*: opening, reloading and saving; sessions.
 
-use super::keys::{ctrl, ctrl_shift, key};
+use super::keys::{ctrl, ctrl_shift, key, shift};
 use super::{Command, Entry, Menu, Place, lacks_file, lacks_scene, none};
 use crate::app::App;
 use crate::folder::Direction;
@@ -119,6 +119,36 @@ pub(super) const ROWS: &[Command] = &[
         is_on: None,
         obstacle: lacks_scene,
         run: App::show_save_session_dialog,
+    },
+    Command {
+        name: "save-picture",
+        keys: &[key(Key::F12)],
+        title: "Save picture",
+        tooltip: "Saves the picture with the lines over it as PNG beside the open file",
+        place: SAVE,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, ctx, frame| app.save_picture(true, ctx, frame),
+    },
+    Command {
+        name: "save-plain-picture",
+        keys: &[shift(Key::F12)],
+        title: "Save picture without lines",
+        tooltip: "Saves the picture without the lines over it as PNG beside the open file",
+        place: SAVE,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, ctx, frame| app.save_picture(false, ctx, frame),
+    },
+    Command {
+        name: "render-picture",
+        keys: &[ctrl(Key::F12)],
+        title: "Render picture…",
+        tooltip: "Renders a picture of any size and saves it beside the open file",
+        place: SAVE,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, _, _| app.toggle_picture_dialog(),
     },
     Command {
         name: "quit",

@@ -2,27 +2,11 @@
 
 use super::keys::key_text;
 use super::{Menu, all};
+use crate::bindings::NavigationSettings;
 use egui::{Grid, Modal, RichText, ScrollArea, vec2};
 
-/// Pointer bindings in the picture.
-pub static POINTER: &[(&str, &str)] = &[
-    ("Drag", "Orbit"),
-    ("Shift+drag, middle drag or right drag", "Pan"),
-    (
-        "Ctrl+drag",
-        "Rotate the environment, if it is a picture and the view shows its light",
-    ),
-    ("Scroll or pinch", "Zoom to the cursor"),
-    ("Click", "Inspect the pixel"),
-    ("Double-click", "Set the pivot"),
-    (
-        "Drop a file",
-        "Open it, or light the scene by a picture in HDR or EXR",
-    ),
-];
-
 /// Shows the sheet over the window. Returns whether the user closes it.
-pub fn help_ui(ctx: &egui::Context) -> bool {
+pub fn help_ui(ctx: &egui::Context, navigation: &NavigationSettings) -> bool {
     let response = Modal::new(egui::Id::unique("help")).show(ctx, |ui| {
         ui.heading("Keyboard and mouse");
         ui.add_space(4.0);
@@ -31,20 +15,20 @@ pub fn help_ui(ctx: &egui::Context) -> bool {
             .max_width(size.x)
             .max_height(size.y)
             .min_scrolled_height(size.y)
-            .show(ui, rows_ui);
+            .show(ui, |ui| rows_ui(ui, navigation));
         ui.add_space(6.0);
         ui.button("Close").clicked()
     });
     response.inner || response.backdrop_response.clicked()
 }
 
-fn rows_ui(ui: &mut egui::Ui) {
+fn rows_ui(ui: &mut egui::Ui, navigation: &NavigationSettings) {
     let grid = Grid::new("keys").num_columns(3).spacing([16.0, 3.0]);
     grid.show(ui, |ui| {
         heading_ui(ui, "Mouse");
-        for (pointer, about) in POINTER {
-            ui.label(RichText::new(*pointer).strong());
-            ui.label(*about);
+        for (pointer, about) in navigation.help() {
+            ui.label(RichText::new(pointer).strong());
+            ui.label(about);
             ui.end_row();
         }
         for menu in Menu::ALL {

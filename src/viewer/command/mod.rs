@@ -38,7 +38,7 @@ mod window;
 
 pub use entry::{Commands, Entry};
 pub use place::{Menu, Place};
-pub use view::VIEWS;
+pub use view::{QUALITIES, VIEWS};
 pub use window::{TABS, THEMES};
 
 use crate::app::App;
@@ -87,6 +87,8 @@ static OTHER_TABLES: &[fn(&App) -> Vec<Entry>] = &[
     view::overlays,
     view::kernels,
     part::groupings,
+    view::qualities,
+    camera::presets,
     window::tabs,
     window::themes,
 ];

@@ -5,6 +5,7 @@ use super::{Command, Commands, Entry, Menu, Place, all, none};
 use crate::app::App;
 use crate::overlay::wireframe::WIREFRAME;
 use crate::overlay::{OverlaySpec, switches};
+use crate::quality::{QUALITY, Quality};
 use egui::Key;
 use hitscope_core::integrator::{INTEGRATORS, Integrator};
 use hitscope_core::kernel::{KernelInfo, TRIANGLE_KERNELS};
@@ -15,6 +16,8 @@ const SHADING: Place = Place::new(Menu::View, 1);
 const LINES: Place = Place::new(Menu::View, 2);
 const OVERLAYS: Place = Place::submenu(Menu::View, 2, "Overlay");
 const REFINEMENT: Place = Place::new(Menu::View, 3);
+/// The sets of settings from a draft to exact.
+pub const QUALITIES: Place = Place::submenu(Menu::View, 4, "Quality");
 const KERNELS: Place = Place::submenu(Menu::View, 4, "Kernel");
 
 pub(super) const ROWS: &[Command] = &[
@@ -107,6 +110,17 @@ impl Commands {
         };
         self.entries().iter().find(is_of_overlay)
     }
+}
+
+/// The sets of settings from a draft to exact.
+pub(super) fn qualities(app: &App) -> Vec<Entry> {
+    let current = Quality::of(&app.seen.settings).map(|quality| quality.title);
+    let entry = |quality: &'static Quality| {
+        let choose = move |app: &mut App, _: &egui::Context| quality.apply(&mut app.seen.settings);
+        let is_chosen = current == Some(quality.title);
+        Entry::choice(QUALITIES, quality.title, quality.about, is_chosen, choose)
+    };
+    QUALITY.iter().map(entry).collect()
 }
 
 /// The kernels that serve a tier, by the name of the tier.

@@ -1,8 +1,8 @@
 //! The menu *Window*: its parts, colours and size of text.
 
-use super::keys::{ctrl, key};
+use super::keys::{ctrl, ctrl_shift, key};
 use super::{Command, Entry, Menu, Place, none};
-use crate::app::App;
+use crate::app::{App, Sheet};
 use crate::tab::Tab;
 use egui::{Key, ThemePreference, gui_zoom};
 
@@ -23,6 +23,16 @@ pub(super) const ROWS: &[Command] = &[
         is_on: Some(|app| app.preferences.shows_panel),
         obstacle: none,
         run: |app, _, _| app.preferences.shows_panel ^= true,
+    },
+    Command {
+        name: "log",
+        keys: &[ctrl_shift(Key::L)],
+        title: "Log",
+        tooltip: "Lists all messages since the start",
+        place: PANEL,
+        is_on: None,
+        obstacle: none,
+        run: |app, _, _| app.toggle_sheet(Sheet::Log),
     },
     Command {
         name: "larger",

@@ -11,6 +11,7 @@ mod overlay;
 pub mod parts;
 pub mod path;
 pub mod progress;
+pub mod quality;
 mod table;
 pub mod trade;
 pub mod view;

@@ -3,10 +3,10 @@
 use super::*;
 use glam::Vec3;
 
-const SIZE: UVec2 = UVec2::new(800, 600);
+pub(super) const SIZE: UVec2 = UVec2::new(800, 600);
 
 /// Scenes of very different size, and one far from the mesh's origin.
-fn scenes() -> [Aabb; 5] {
+pub(super) fn scenes() -> [Aabb; 5] {
     let cube = |size: f32, at: Vec3| Aabb::around([at, at + size]);
     [
         cube(1e-6, Vec3::ZERO),
@@ -17,12 +17,12 @@ fn scenes() -> [Aabb; 5] {
     ]
 }
 
-fn pixel_of(turntable: &Turntable, point: DVec3) -> DVec2 {
+pub(super) fn pixel_of(turntable: &Turntable, point: DVec3) -> DVec2 {
     turntable.camera(SIZE).pixel_of(point).expect("in front")
 }
 
 /// A hundredth of a pixel, or what rounding the eye to f32 moves it by.
-fn tolerance(turntable: &Turntable) -> f64 {
+pub(super) fn tolerance(turntable: &Turntable) -> f64 {
     let place = turntable.camera(SIZE).eye().as_dvec3().abs().max_element();
     let pixel = turntable.height_at_pivot() / f64::from(SIZE.y);
     0.01 + place * f64::from(f32::EPSILON) / pixel

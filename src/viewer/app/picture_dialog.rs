@@ -1,0 +1,257 @@
+//! The dialog for pictures of any size: they are rendered in the background and saved beside the open file.
+
+use super::App;
+use super::pictures::free_path;
+use crate::offscreen;
+use crate::overlay::{OverlayInput, Overlays};
+use crate::task::{Task, TaskPanicked};
+use egui::{DragValue, ProgressBar};
+use glam::UVec2;
+use hitscope_core::Film;
+use hitscope_core::camera::MAX_SIDE;
+use hitscope_core::obj::shown;
+use hitscope_core::plan::{MAX_SAMPLES, Plan};
+use hitscope_core::render::{Job, RenderError, render_while};
+use hitscope_core::tone::Display;
+use hitscope_lab::commands::{Output, default_thread_count};
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+use std::sync::atomic::{AtomicBool, AtomicU32, Ordering};
+use std::time::Duration;
+
+/// The file format of a picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Format {
+    /// 8 bits per channel, as on the screen.
+    Png,
+    /// Light as numbers, without lines.
+    Exr,
+}
+
+/// The options of the picture, and the one that is being rendered.
+pub(super) struct PictureDialog {
+    is_open: bool,
+    size: UVec2,
+    samples: u32,
+    has_overlay: bool,
+    format: Format,
+    rendering: Option<Rendering>,
+}
+
+impl Default for PictureDialog {
+    fn default() -> Self {
+        Self {
+            is_open: false,
+            size: UVec2::new(1920, 1080),
+            samples: 64,
+            has_overlay: true,
+            format: Format::Png,
+            rendering: None,
+        }
+    }
+}
+
+/// A picture that is being rendered.
+struct Rendering {
+    state: Arc<RenderingState>,
+    /// `None` if it was cancelled.
+    task: Task<Result<Option<PathBuf>, String>>,
+}
+
+/// What the window and the thread share.
+#[derive(Default)]
+struct RenderingState {
+    /// The traced part in thousandths.
+    thousandths: AtomicU32,
+    is_cancelled: AtomicBool,
+}
+
+impl Drop for Rendering {
+    fn drop(&mut self) {
+        self.state.is_cancelled.store(true, Ordering::Relaxed);
+    }
+}
+
+/// What the user clicks in the dialog.
+#[derive(PartialEq, Eq)]
+enum Choice {
+    Render,
+    Cancel,
+    UseWindowSize,
+}
+
+impl PictureDialog {
+    /// Closes the dialog. Returns whether it was open.
+    pub fn dismiss(&mut self) -> bool {
+        std::mem::take(&mut self.is_open)
+    }
+
+    fn dialog_ui(&mut self, ctx: &egui::Context) -> Option<Choice> {
+        let mut is_open = self.is_open;
+        let shown = egui::Window::new("Render a picture")
+            .open(&mut is_open)
+            .collapsible(false)
+            .resizable(false)
+            .show(ctx, |ui| match &self.rendering {
+                Some(rendering) => {
+                    ui.ctx().request_repaint_after(Duration::from_millis(100));
+                    let part = rendering.state.thousandths.load(Ordering::Relaxed);
+                    let bar = ProgressBar::new(part as f32 / 1000.0).show_percentage();
+                    ui.add(bar.desired_width(240.0));
+                    ui.button("Cancel").clicked().then_some(Choice::Cancel)
+                }
+                None => self.options_ui(ui),
+            });
+        self.is_open = is_open;
+        shown.and_then(|shown| shown.inner).flatten()
+    }
+
+    fn options_ui(&mut self, ui: &mut egui::Ui) -> Option<Choice> {
+        let mut choice = None;
+        ui.horizontal(|ui| {
+            for (name, side) in [("Width", &mut self.size.x), ("Height", &mut self.size.y)] {
+                let label = ui.label(name);
+                let value = DragValue::new(side).range(1..=MAX_SIDE);
+                ui.add(value).labelled_by(label.id);
+            }
+            let button = ui.button("Size of the window's picture");
+            if button.clicked() {
+                choice = Some(Choice::UseWindowSize);
+            }
+        });
+        ui.horizontal(|ui| {
+            let label = ui.label("Samples");
+            let samples = DragValue::new(&mut self.samples).range(1..=MAX_SAMPLES);
+            ui.add(samples).labelled_by(label.id);
+        });
+        ui.horizontal(|ui| {
+            ui.radio_value(&mut self.format, Format::Png, "PNG")
+                .on_hover_text("As on the screen, 8 bits per channel");
+            ui.radio_value(&mut self.format, Format::Exr, "EXR")
+                .on_hover_text("Light as numbers, without exposure and without lines");
+        });
+        let lines = egui::Checkbox::new(&mut self.has_overlay, "With the lines over it");
+        ui.add_enabled(self.format == Format::Png, lines);
+        let render = ui.button("Render");
+        let render = render.on_hover_text("Renders the picture and saves it beside the open file");
+        if render.clicked() {
+            choice = Some(Choice::Render);
+        }
+        choice
+    }
+}
+
+/// A picture to render and save.
+struct Order {
+    job: Job,
+    display: Display,
+    overlay: Option<(OverlayInput, Overlays, wgpu::Device, wgpu::Queue)>,
+    format: Format,
+    path: PathBuf,
+}
+
+impl Order {
+    /// Renders and saves the picture; `None` if it was cancelled.
+    fn carry_out(self, state: &RenderingState) -> Result<Option<PathBuf>, String> {
+        let advanced = |part: f64| {
+            let thousandths = (1000.0 * part) as u32;
+            state.thousandths.store(thousandths, Ordering::Relaxed);
+            !state.is_cancelled.load(Ordering::Relaxed)
+        };
+        let mut film = match render_while(self.job, default_thread_count(), advanced) {
+            Ok(film) => film,
+            Err(RenderError::Cancelled) => return Ok(None),
+            Err(error) => return Err(error.to_string()),
+        };
+        film.set_display(self.display);
+        let output = Output::create(&self.path).map_err(|error| error.to_string())?;
+        match self.format {
+            Format::Exr => output.write_exr(&film, None),
+            Format::Png => output.write_png(film.size(), &with_lines(&film, self.overlay)?),
+        }
+        .map_err(|error| error.to_string())?;
+        Ok(Some(self.path))
+    }
+}
+
+fn with_lines(
+    film: &Film,
+    overlay: Option<(OverlayInput, Overlays, wgpu::Device, wgpu::Queue)>,
+) -> Result<Vec<[u8; 4]>, String> {
+    let mut pixels = film.pixels().to_vec();
+    if let Some((input, overlays, device, queue)) = overlay {
+        offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
+            .map_err(|error| error.to_string())?;
+    }
+    Ok(pixels)
+}
+
+impl App {
+    /// Shows the dialog, or closes it.
+    pub(crate) fn toggle_picture_dialog(&mut self) {
+        let dialog = &mut self.pictures.dialog;
+        dialog.is_open ^= true;
+        dialog.samples = self.seen.settings.samples;
+    }
+
+    /// Shows the dialog if it is open.
+    pub(super) fn picture_dialog_ui(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        match self.pictures.dialog.dialog_ui(ctx) {
+            None => (),
+            Some(Choice::UseWindowSize) => self.pictures.dialog.size = self.shown.resolution,
+            Some(Choice::Cancel) => self.pictures.dialog.rendering = None,
+            Some(Choice::Render) => self.render_picture(ctx, frame),
+        }
+    }
+
+    fn render_picture(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        let dialog = &self.pictures.dialog;
+        let (size, samples, format) = (dialog.size, dialog.samples, dialog.format);
+        let has_lines = dialog.has_overlay && format == Format::Png;
+        let request = self.wanted(ctx, size);
+        let (scene, camera) = (Arc::clone(&request.context.scene), request.context.camera);
+        let enlarged = size.y as f32 / self.shown.resolution.y.max(1) as f32;
+        let scale = ctx.pixels_per_point() * enlarged;
+        let overlay = frame.wgpu_render_state().filter(|_| has_lines).map(|gpu| {
+            let input = self.overlay_input(&scene, camera, scale);
+            let overlays = self.seen.settings.overlays.clone();
+            (input, overlays, gpu.device.clone(), gpu.queue.clone())
+        });
+        let extension = match format {
+            Format::Png => "png",
+            Format::Exr => "exr",
+        };
+        let open = self.open.document.path.as_deref();
+        let order = Order {
+            job: Job {
+                context: request.context,
+                integrator: request.integrator,
+                plan: Plan::new(size, 1, samples.next_power_of_two()),
+            },
+            display: self.seen.settings.display(),
+            overlay,
+            format,
+            path: free_path(open.unwrap_or(Path::new("hitscope")), extension),
+        };
+        let state = Arc::new(RenderingState::default());
+        let shared = Arc::clone(&state);
+        let task = Task::spawn("render", ctx, move || order.carry_out(&shared));
+        self.pictures.dialog.rendering = Some(Rendering { state, task });
+    }
+
+    /// Tells when the picture is saved.
+    pub(super) fn poll_rendering(&mut self) {
+        let rendering = self.pictures.dialog.rendering.as_ref();
+        let result = match rendering.map(|rendering| rendering.task.poll()) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(result))) => result,
+            Some(Err(broken @ TaskPanicked)) => Err(broken.to_string()),
+        };
+        self.pictures.dialog.rendering = None;
+        match result {
+            Ok(Some(path)) => self.tell(format!("Saved {}", shown(&path))),
+            Ok(None) => (),
+            Err(error) => self.error(error),
+        }
+    }
+}

@@ -1,0 +1,136 @@
+//! Pictures of what is on the screen, saved to a file or copied, in the background.
+
+use super::App;
+use super::picture_dialog::PictureDialog;
+use crate::offscreen;
+use crate::task::{Task, TaskPanicked};
+use hitscope_core::obj::shown;
+use hitscope_lab::commands::Output;
+use std::path::{Path, PathBuf};
+
+/// Where a picture goes.
+enum Target {
+    File(PathBuf),
+    Clipboard,
+}
+
+/// A picture that was taken.
+enum Taken {
+    Saved(PathBuf),
+    Copied(egui::ColorImage),
+}
+
+/// The picture that is being taken, and the dialog.
+#[derive(Default)]
+pub(super) struct Pictures {
+    task: Option<Task<Result<Taken, String>>>,
+    /// The dialog for pictures of any size.
+    pub dialog: PictureDialog,
+}
+
+impl App {
+    /// Saves the picture on the screen beside the open file, with or without the lines over it.
+    pub(crate) fn save_picture(
+        &mut self,
+        has_overlay: bool,
+        ctx: &egui::Context,
+        frame: &eframe::Frame,
+    ) {
+        let open = self.open.document.path.as_deref();
+        let target = Target::File(free_path(open.unwrap_or(Path::new("hitscope")), "png"));
+        self.take_picture(target, has_overlay, ctx, frame);
+    }
+
+    /// Copies the picture on the screen with the lines over it.
+    pub(crate) fn copy_picture(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        self.take_picture(Target::Clipboard, true, ctx, frame);
+    }
+
+    fn take_picture(
+        &mut self,
+        target: Target,
+        has_overlay: bool,
+        ctx: &egui::Context,
+        frame: &eframe::Frame,
+    ) {
+        let film = self.traced.tracer.film();
+        let size = film.size();
+        let on_screen = self.traced.on_screen.clone();
+        let matching = on_screen.filter(|(_, camera)| camera.resolution() == size);
+        let (Some((scene, camera)), Some(gpu)) = (matching, frame.wgpu_render_state()) else {
+            return self.refuse("The picture isn't ready yet");
+        };
+        let mut pixels = self.traced.development.pixels(film).to_vec();
+        let scale = ctx.pixels_per_point();
+        let input = has_overlay.then(|| self.overlay_input(&scene, camera, scale));
+        let overlays = self.seen.settings.overlays.clone();
+        let (device, queue) = (gpu.device.clone(), gpu.queue.clone());
+        let work = move || {
+            if let Some(input) = input {
+                offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
+                    .map_err(|error| error.to_string())?;
+            }
+            match target {
+                Target::File(path) => Output::create(&path)
+                    .and_then(|output| output.write_png(size, &pixels))
+                    .map(|()| Taken::Saved(path))
+                    .map_err(|error| error.to_string()),
+                Target::Clipboard => {
+                    let size = size.to_array().map(|side| side as usize);
+                    let bytes = pixels.as_flattened();
+                    let image = egui::ColorImage::from_rgba_unmultiplied(size, bytes);
+                    Ok(Taken::Copied(image))
+                }
+            }
+        };
+        self.pictures.task = Some(Task::spawn("picture", ctx, work));
+    }
+
+    /// Tells when a picture is saved or copied.
+    pub(super) fn poll_pictures(&mut self, ctx: &egui::Context) {
+        let result = match self.pictures.task.as_ref().map(Task::poll) {
+            None | Some(Ok(None)) => return,
+            Some(Ok(Some(result))) => result,
+            Some(Err(broken @ TaskPanicked)) => Err(broken.to_string()),
+        };
+        self.pictures.task = None;
+        match result {
+            Ok(Taken::Saved(path)) => self.tell(format!("Saved {}", shown(&path))),
+            Ok(Taken::Copied(image)) => {
+                ctx.copy_image(image);
+                self.tell("Copied the picture");
+            }
+            Err(error) => self.error(error),
+        }
+    }
+}
+
+/// The first path of `mesh-1.png`, `mesh-2.png` and so on beside `mesh.obj` that has no file.
+pub(super) fn free_path(open: &Path, extension: &str) -> PathBuf {
+    let stem = open.file_stem().unwrap_or(open.as_os_str()).to_owned();
+    let numbered = |k: u32| {
+        let mut name = stem.clone();
+        name.push(format!("-{k}.{extension}"));
+        open.with_file_name(name)
+    };
+    let free = (1..u32::MAX).map(numbered).find(|path| !path.exists());
+    free.unwrap_or_else(|| numbered(u32::MAX))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_picture_is_saved_beside_the_file_under_a_free_name() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mesh = folder.path().join("mesh.obj");
+        assert_eq!(free_path(&mesh, "png"), folder.path().join("mesh-1.png"));
+        std::fs::write(folder.path().join("mesh-1.png"), "").expect("written");
+        assert_eq!(free_path(&mesh, "png"), folder.path().join("mesh-2.png"));
+        assert_eq!(
+            free_path(Path::new("hitscope"), "png"),
+            Path::new("hitscope-1.png")
+        );
+    }
+}

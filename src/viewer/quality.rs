@@ -1,0 +1,119 @@
+//! Quality: sets of settings from a draft to exact arithmetic.
+
+use crate::settings::Settings;
+use hitscope_core::group::kernel_named;
+use hitscope_core::spawn::default_spawn_policy;
+
+/// A set of settings.
+pub struct Quality {
+    /// The title.
+    pub title: &'static str,
+    /// What it is for, and what it sets.
+    pub about: &'static str,
+    /// The tier of the kernel.
+    kernel: &'static str,
+    /// Samples per pixel; a power of two.
+    samples: u32,
+    /// Name of the rule for rays that leave surfaces; `None` for the default one.
+    spawn: Option<&'static str>,
+    /// The most surfaces on a path.
+    depth_limit: Option<u32>,
+}
+
+/// All sets, from fast to exact.
+pub static QUALITY: &[Quality] = &[
+    Quality {
+        title: "Draft",
+        about: "For looking around: the fast kernel, 4 samples, offsets by a scaled epsilon, paths of 3 surfaces",
+        kernel: "fast",
+        samples: 4,
+        spawn: Some("scaled-epsilon"),
+        depth_limit: Some(3),
+    },
+    Quality {
+        title: "Fast",
+        about: "For quick pictures: the fast kernel, 16 samples, the default offsets, paths of 8 surfaces",
+        kernel: "fast",
+        samples: 16,
+        spawn: None,
+        depth_limit: Some(8),
+    },
+    Quality {
+        title: "Balanced",
+        about: "For most uses: the watertight kernel, 64 samples, the default offsets, paths of any length",
+        kernel: "watertight",
+        samples: 64,
+        spawn: None,
+        depth_limit: None,
+    },
+    Quality {
+        title: "Precise",
+        about: "For final pictures: the precise kernel, 256 samples, the default offsets, paths of any length",
+        kernel: "precise",
+        samples: 256,
+        spawn: None,
+        depth_limit: None,
+    },
+    Quality {
+        title: "Exact",
+        about: "For references: the exact kernel, 1024 samples, the default offsets, paths of any length",
+        kernel: "exact",
+        samples: 1024,
+        spawn: None,
+        depth_limit: None,
+    },
+];
+
+impl Quality {
+    /// The set that the settings match; `None` if they are the user's own.
+    pub fn of(settings: &Settings) -> Option<&'static Self> {
+        QUALITY.iter().find(|quality| quality.matches(settings))
+    }
+
+    fn matches(&self, settings: &Settings) -> bool {
+        settings.kernel().info.short_name() == self.kernel
+            && settings.samples == self.samples
+            && settings.spawn().name == self.spawn_name()
+            && settings.depth_limit() == self.depth_limit
+    }
+
+    fn spawn_name(&self) -> &'static str {
+        self.spawn.unwrap_or(default_spawn_policy().name)
+    }
+
+    /// Changes the settings to these.
+    pub fn apply(&self, settings: &mut Settings) {
+        let kernel = kernel_named(self.kernel);
+        settings.keep_kernel(kernel.map_or(self.kernel, |kernel| kernel.info.name));
+        settings.samples = self.samples;
+        self.spawn_name().clone_into(&mut settings.spawn);
+        settings.has_depth_limit = self.depth_limit.is_some();
+        if let Some(limit) = self.depth_limit {
+            settings.depth_limit = limit;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_defaults_are_balanced_and_each_quality_is_recognized_until_a_setting_changes() {
+        let title = |settings: &Settings| Quality::of(settings).map(|quality| quality.title);
+        let mut settings = Settings::default();
+        assert_eq!(title(&settings), Some("Balanced"));
+        for quality in QUALITY {
+            quality.apply(&mut settings);
+            assert_eq!(title(&settings), Some(quality.title));
+            let about = quality.about;
+            assert!(about.contains(quality.kernel), "{about}");
+            assert!(
+                about.contains(&format!("{} samples", quality.samples)),
+                "{about}"
+            );
+        }
+        settings.samples = 8;
+        assert_eq!(title(&settings), None);
+    }
+}
