@@ -18,6 +18,8 @@ pub enum Purpose {
     Save,
     /// Choose a picture of an environment to open.
     Environment,
+    /// Choose the name of a file to write picks to.
+    Picks,
 }
 
 impl Purpose {
@@ -26,7 +28,13 @@ impl Purpose {
             Self::Open => "Open a mesh",
             Self::Save => "Save as a scene file",
             Self::Environment => "Open an environment",
+            Self::Picks => "Export picks",
         }
+    }
+
+    /// Whether it chooses a file to write.
+    fn is_saving(self) -> bool {
+        matches!(self, Self::Save | Self::Picks)
     }
 }
 
@@ -78,7 +86,7 @@ impl FileDialog {
     /// Shows the system's dialog, or the path field if the dialog is already open and perhaps hidden. The dialog starts
     /// in the folder of the suggested path; one for saving also suggests its name.
     pub fn open(&mut self, ctx: &egui::Context, frame: &eframe::Frame, suggested: Option<&Path>) {
-        let is_saving = self.purpose == Purpose::Save;
+        let is_saving = self.purpose.is_saving();
         self.suggested = suggested.filter(|_| is_saving).map(Path::to_owned);
         if self.native.is_some() {
             let suggested = self.suggested.as_deref();
@@ -99,6 +107,9 @@ impl FileDialog {
                 )
                 .add_filter("All files", &["*"]),
             Purpose::Save => dialog.add_filter("Scene files", &["xml"]),
+            Purpose::Picks => dialog
+                .add_filter("JSON", &["json"])
+                .add_filter("Comma-separated values", &["csv"]),
             Purpose::Environment => dialog
                 .add_filter("Environments", &["hdr", "HDR", "exr", "EXR"])
                 .add_filter("All files", &["*"]),
@@ -177,6 +188,7 @@ impl FileDialog {
                         Purpose::Open => "/path/to/mesh.obj",
                         Purpose::Save => "/path/to/scene.xml",
                         Purpose::Environment => "/path/to/sky.hdr",
+                        Purpose::Picks => "/path/to/picks.csv or .json",
                     };
                     let edit = egui::TextEdit::singleline(&mut field.path)
                         .hint_text(hint)
@@ -187,12 +199,11 @@ impl FileDialog {
                     }
                     let is_enter = ui.input(|input| input.key_pressed(egui::Key::Enter));
                     // A file is replaced only by a click on a button that says so.
-                    let replaces =
-                        purpose == Purpose::Save && Path::new(field.path.trim()).exists();
+                    let replaces = purpose.is_saving() && Path::new(field.path.trim()).exists();
                     let button = match purpose {
                         Purpose::Open | Purpose::Environment => "Load",
-                        Purpose::Save if replaces => "Replace",
-                        Purpose::Save => "Save",
+                        Purpose::Save | Purpose::Picks if replaces => "Replace",
+                        Purpose::Save | Purpose::Picks => "Save",
                     };
                     let is_confirmed = edit.lost_focus() && is_enter && !replaces;
                     is_entered = ui.button(button).clicked() || is_confirmed;

@@ -33,7 +33,7 @@ fn the_record_has_the_tests_that_the_cost_counts_and_the_primitive_that_is_hit()
     let scene = torus_and_spheres();
     let mut random = Random::new(11);
     let mut hits = 0;
-    for kernel in TRIANGLE_KERNELS {
+    for kernel in TRIANGLE_KERNELS.iter() {
         let intersector = scene.intersector(kernel);
         for _ in 0..100 {
             let origin = 4.0 * random.direction().as_vec3();

@@ -7,6 +7,7 @@
 //! | `prepare` | preparing the document for the settings |
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | drags, wheel and clicks on the picture; the picked pixel |
+//! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
@@ -22,6 +23,7 @@ mod files;
 mod first_view;
 pub(crate) mod flaws;
 mod hints;
+mod inspecting;
 mod labels;
 mod light;
 mod messages;
@@ -209,6 +211,7 @@ impl eframe::App for App {
         self.poll_picking(ctx);
         self.poll_document();
         self.refresh_pick(ctx);
+        self.poll_inspecting(ctx);
         self.traced.tracer.set_limits(self.limits());
         if let Some(panic) = self.traced.tracer.collect(ctx).first() {
             self.error(panic);

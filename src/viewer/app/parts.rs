@@ -9,6 +9,7 @@
 //! | [`Traced`] | what traces and draws the picture |
 
 use super::files::Neighbours;
+use super::inspecting::Inspecting;
 use super::light::{EnvironmentFile, SceneLights};
 use super::path::PickedPath;
 use super::pick::Pick;
@@ -115,6 +116,7 @@ pub(crate) struct Picked {
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     pub picking: Option<Task<Pick>>,
+    pub inspecting: Inspecting,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
     pub face_lookup: Option<FaceLookup>,

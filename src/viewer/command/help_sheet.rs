@@ -14,6 +14,7 @@ pub static POINTER: &[(&str, &str)] = &[
     ),
     ("Scroll or pinch", "Zoom to the cursor"),
     ("Click", "Inspect the pixel"),
+    ("Ctrl+click", "Inspect the pixel and keep the other picks"),
     ("Double-click", "Set the pivot"),
     (
         "Drop a file",

@@ -33,6 +33,7 @@ mod widget;
 mod window;
 
 pub use entry::{Commands, Entry};
+pub use pick::SNAPPING;
 pub use place::{Menu, Place};
 pub use view::VIEWS;
 pub use window::{TABS, THEMES};
@@ -77,6 +78,7 @@ static OTHER_TABLES: &[fn(&App) -> Vec<Entry>] = &[
     view::views,
     view::overlays,
     view::kernels,
+    pick::snapping,
     window::tabs,
     window::themes,
 ];

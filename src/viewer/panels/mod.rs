@@ -7,6 +7,7 @@ pub mod light;
 pub mod mesh;
 mod overlay;
 pub mod path;
+pub mod picks;
 pub mod progress;
 mod table;
 pub mod trade;
