@@ -190,7 +190,7 @@ impl Plan {
                 (0..BLOCK * BLOCK).map(move |k| block + UVec2::new(k % BLOCK, k / BLOCK) * step)
             })
             .filter(move |p| p.cmplt(rect.max).all())
-            .map(move |p| self.representative(p, step))
+            .map(move |p| Self::representative(self.size, p, step))
             .filter(move |&pixel| !coarser.iter().any(|&pass| self.lattice_holds(pass, pixel)))
     }
 
@@ -199,14 +199,14 @@ impl Plan {
         sample_position(pixel, sample)
     }
 
-    /// The pixel that represents the block around `pixel`: its centre, clamped to the picture.
-    pub(crate) fn representative(&self, pixel: UVec2, step: u32) -> UVec2 {
-        (pixel / step * step + step / 2).min(self.size - 1)
+    /// The pixel that represents the block around `pixel` in a picture of this size: its centre, clamped to the picture.
+    pub(crate) fn representative(size: UVec2, pixel: UVec2, step: u32) -> UVec2 {
+        (pixel / step * step + step / 2).min(size - 1)
     }
 
     fn lattice_holds(&self, pass: Pass, pixel: UVec2) -> bool {
         match pass {
-            Pass::Lattice { step } => self.representative(pixel, step) == pixel,
+            Pass::Lattice { step } => Self::representative(self.size, pixel, step) == pixel,
             Pass::Samples { .. } => false,
         }
     }

@@ -200,6 +200,7 @@ impl NavigationSettings {
                 "Fly: ahead, left, back, right, down, up; the drag looks around, scrolling sets the speed",
             ),
             ("Click", "Inspect the pixel"),
+            ("Ctrl+click", "Inspect the pixel and keep the other picks"),
             ("Double-click", "Set the pivot"),
             (
                 "Drop a file",

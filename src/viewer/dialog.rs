@@ -22,6 +22,8 @@ pub enum Purpose {
     OpenSession,
     /// Choose the name of a session file to write.
     SaveSession,
+    /// Choose the name of a file to write picks to.
+    Picks,
 }
 
 impl Purpose {
@@ -32,11 +34,8 @@ impl Purpose {
             Self::Environment => "Open an environment",
             Self::OpenSession => "Open a session",
             Self::SaveSession => "Save the session",
+            Self::Picks => "Export picks",
         }
-    }
-
-    fn is_saving(self) -> bool {
-        matches!(self, Self::Save | Self::SaveSession)
     }
 
     /// An example of a path.
@@ -46,7 +45,13 @@ impl Purpose {
             Self::Save => "/path/to/scene.xml",
             Self::Environment => "/path/to/sky.hdr",
             Self::OpenSession | Self::SaveSession => "/path/to/view.hitscope",
+            Self::Picks => "/path/to/picks.csv or .json",
         }
+    }
+
+    /// Whether it chooses a file to write.
+    fn is_saving(self) -> bool {
+        matches!(self, Self::Save | Self::SaveSession | Self::Picks)
     }
 }
 
@@ -122,6 +127,9 @@ impl FileDialog {
             Purpose::OpenSession | Purpose::SaveSession => {
                 dialog.add_filter("Sessions", &["hitscope"])
             }
+            Purpose::Picks => dialog
+                .add_filter("JSON", &["json"])
+                .add_filter("Comma-separated values", &["csv"]),
             Purpose::Environment => dialog
                 .add_filter("Environments", &["hdr", "HDR", "exr", "EXR"])
                 .add_filter("All files", &["*"]),
@@ -208,8 +216,8 @@ impl FileDialog {
                     let replaces = purpose.is_saving() && Path::new(field.path.trim()).exists();
                     let button = match purpose {
                         Purpose::Open | Purpose::Environment | Purpose::OpenSession => "Load",
-                        Purpose::Save | Purpose::SaveSession if replaces => "Replace",
-                        Purpose::Save | Purpose::SaveSession => "Save",
+                        _ if replaces => "Replace",
+                        Purpose::Save | Purpose::SaveSession | Purpose::Picks => "Save",
                     };
                     let is_confirmed = edit.lost_focus() && is_enter && !replaces;
                     is_entered = ui.button(button).clicked() || is_confirmed;

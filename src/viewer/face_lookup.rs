@@ -33,7 +33,7 @@ impl FaceInFile {
         progress: &Progress,
     ) -> Self {
         let shown = path.unwrap_or(Path::new("the built-in scene"));
-        match face_source(|| open(path), shown, line, progress) {
+        match face_source(|| open_again(path), shown, line, progress) {
             Ok(source) => source
                 .and_then(|source| Self::matched(source, mesh, triangle))
                 .unwrap_or_else(|| {
@@ -83,7 +83,7 @@ impl FaceInFile {
 }
 
 /// Opens a regular file, which can be read twice, or the built-in scene.
-fn open(path: Option<&Path>) -> io::Result<Box<dyn Read>> {
+pub(crate) fn open_again(path: Option<&Path>) -> io::Result<Box<dyn Read>> {
     let Some(path) = path else {
         return Ok(Box::new(crate::document::DEFAULT_OBJ.as_bytes()));
     };

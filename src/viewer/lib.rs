@@ -19,6 +19,7 @@
 //! | [`task`] | background tasks |
 //! | [`toasts`], [`log`] | short messages about results; all messages |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
+//! | [`picks`], [`measuring`], [`go_to`] | the list of picks; measurements between them; going to an element |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
 //! | [`numbers`], [`theme`] | number formatting; colours |
 //! | [`panels`], [`tab`] | the contents and names of the side panel's tabs |
@@ -43,17 +44,20 @@ pub mod document;
 pub mod face_lookup;
 pub mod flaw_place;
 pub mod folder;
+pub mod go_to;
 pub mod gpu;
 pub mod history;
 pub mod log;
 pub mod look;
 pub mod man;
+pub mod measuring;
 pub mod numbers;
 pub mod offscreen;
 pub mod opening;
 pub mod overlay;
 pub mod panels;
 pub mod parts;
+pub mod picks;
 pub mod preferences;
 pub mod quality;
 pub mod recent;

@@ -4,6 +4,7 @@
 
 use crate::golden::job;
 use glam::UVec2;
+use hitscope_core::bvh::OpenedBox;
 use hitscope_core::camera::Projection;
 use hitscope_core::intersector::{Cost, Crossing};
 use hitscope_core::kernel::KernelInfo;
@@ -67,6 +68,9 @@ impl<F: Fn(&Ray) + Send + Sync> Intersector for Before<F> {
     }
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         self.inner.candidates(ray)
+    }
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox> {
+        self.inner.opened_boxes(ray)
     }
     fn count_hits(&self, ray: &Ray) -> usize {
         self.inner.count_hits(ray)

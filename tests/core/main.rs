@@ -21,6 +21,9 @@ mod packets;
 // Every tree: bit-identical results.
 mod trees;
 
+// The record of the boxes that a ray opens.
+mod opened_boxes;
+
 // Clipped scenes against crossings filtered one by one.
 mod clip;
 

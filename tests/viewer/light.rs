@@ -112,10 +112,10 @@ fn at_the_wanted_noise_nothing_is_traced_and_no_frame_is_drawn() {
     window.get_by_label_contains(", stopped by noise");
 }
 
-/// The pixels of the picture on the screen, with the pointer where it shows no tooltip.
+/// The pixels of the picture on the screen, with the pointer elsewhere: it would show a tooltip or a read-out.
 fn on_screen(window: &mut Window) -> Vec<[u8; 4]> {
     let rect = window.get_by_label("Rendered picture").rect();
-    window.event(Event::PointerMoved(rect.center()));
+    window.event(Event::PointerGone);
     window.run_steps(60);
     let image = window.render().expect("an image");
     let is_inside = |x: u32, y: u32| rect.contains(egui::pos2(x as f32 + 0.5, y as f32 + 0.5));

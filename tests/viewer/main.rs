@@ -40,6 +40,8 @@ mod outputs;
 mod overlay;
 // Every row of the overlay table, in the window and without one.
 mod overlay_table;
+// The list of picks, measuring, the read-out, going to elements.
+mod inspecting;
 // The pointer on the picture.
 mod pointer;
 // The program, run in a folder.

@@ -7,6 +7,7 @@ use egui::accesskit::Role;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec3, UVec2, Vec3};
 use hitscope::app::App;
+use hitscope::measuring::Measurements;
 use hitscope::offscreen;
 use hitscope::overlay::axes::AXES;
 use hitscope::overlay::bounding_box::BOUNDING_BOX;
@@ -36,6 +37,12 @@ fn marks(scene: &Scene) -> Marks {
         flaw: Some((Flaw::OpenEdge, Arc::new(Health::of(scene.mesh())))),
         picked: Some(0),
         path: Some(Arc::new(path)),
+        picks: Vec::new(),
+        measurements: Measurements {
+            lines: vec![[DVec3::NEG_ONE, DVec3::ONE]],
+            ..Measurements::default()
+        },
+        opened: Some(scene.bounds()),
     }
 }
 
@@ -46,6 +53,13 @@ fn marks_of(overlay: &OverlaySpec, scene: &Scene) -> Marks {
         flaw: all.flaw.filter(|_| overlay.name == "flaws"),
         picked: all.picked.filter(|_| overlay.name == "picked"),
         path: all.path.filter(|_| overlay.name == "path"),
+        picks: Vec::new(),
+        measurements: if overlay.name == "measure" {
+            all.measurements
+        } else {
+            Measurements::default()
+        },
+        opened: all.opened.filter(|_| overlay.name == "walk"),
     }
 }
 

@@ -106,6 +106,11 @@ fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
         let Some(mut window) = app_scaled(None, scale) else {
             return;
         };
+        // A coarse picture shows the pixels of others.
+        wait(&mut window, "a sample in each pixel", |app| {
+            app.film().samples() > 0
+        });
+        window.step();
         let (x, y) = on_the_mesh(&window);
         let place = in_picture(&window, x, y);
         click(&mut window, place);

@@ -2,11 +2,13 @@
 //! primitives in the boxes.
 //!
 //! [`Bvh::build`] builds it. `walk` passes the blocks of primitives that a ray meets to a visitor, nearest
-//! first; `packet` passes the blocks that any of sixteen rays meets. `nearest` passes the blocks near a point.
+//! first; `packet` passes the blocks that any of sixteen rays meets. `nearest` passes the blocks near a point. `record`
+//! turns the steps of a walk into boxes.
 
 mod build;
 mod nearest;
 mod packet;
+mod record;
 mod slab;
 mod walk;
 
@@ -14,6 +16,8 @@ use crate::aabb::{Aabb, Planes};
 use crate::simd::prefetch;
 use fearless_simd::Simd;
 pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
+pub(crate) use record::Step;
+pub use record::{BoxContents, OpenedBox};
 pub(crate) use slab::{BoxRay, SlabRay};
 pub(crate) use walk::{LentStack, Stack, Visitor, end_slackened, rank, rank_floor};
 
@@ -25,7 +29,7 @@ pub const BLOCK_SIZE: usize = 8;
 pub(crate) const BYTES_WHILE_BUILDING: usize = 64;
 
 /// Children per node.
-const WIDTH: usize = 8;
+pub(crate) const WIDTH: usize = 8;
 
 /// Largest depth of a leaf. It keeps the stack of a walk from overflowing: on each level a node pushes at
 /// most seven of its children.

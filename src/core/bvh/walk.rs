@@ -80,8 +80,8 @@ pub(crate) trait Visitor<S: Simd> {
     /// Announces a block that will be visited soon, unless a hit makes that unnecessary.
     fn announce(&self, block: usize);
 
-    /// Counts boxes that were tested.
-    fn count_boxes(&mut self, count: u32);
+    /// Notes that a node is opened: its [`WIDTH`] boxes are tested.
+    fn open(&mut self, node: usize);
 }
 
 /// Lower bound of a hit's rank in a box entered at `entry`.
@@ -117,8 +117,9 @@ impl Bvh {
         let mut current = key(ray.t_min, Child::node(0));
         loop {
             while !child_of(current).is_leaf() {
-                let node = &self.nodes[child_of(current).node_index()];
-                visitor.count_boxes(WIDTH as u32);
+                let index = child_of(current).node_index();
+                let node = &self.nodes[index];
+                visitor.open(index);
                 let (entries, mut met) = if V::IS_BEHIND {
                     slabs.enter::<true>(token, &node.planes, far)
                 } else {

@@ -3,6 +3,10 @@
 //! Sums are integers of 128 bits, so the picture doesn't depend on the order in which tiles arrive, and bright samples
 //! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass.
 
+mod shown;
+
+pub use shown::ShownPixels;
+
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
 use crate::srgb::luminance;
 use crate::tone::Display;
@@ -209,7 +213,7 @@ impl Film {
         }
         let width = self.plan.size().x;
         let pixel = UVec2::new(i as u32 % width, i as u32 / width);
-        self.index(self.plan.representative(pixel, step))
+        self.index(Plan::representative(self.plan.size(), pixel, step))
     }
 
     /// Exposure and tone curve.

@@ -292,7 +292,7 @@ pub(crate) fn candidates(bvh: &Bvh, ray: &Ray) -> Vec<u32> {
             ControlFlow::Continue(self.t_max)
         }
         fn announce(&self, _: usize) {}
-        fn count_boxes(&mut self, _: u32) {}
+        fn open(&mut self, _: usize) {}
     }
     let mut gathered = Gathered {
         bvh,

@@ -7,6 +7,7 @@
 //! end: by more than 16 ulp, which kernels in f32 may do with needles and at flat angles.
 
 use super::{Cost, Crossing, Intersector};
+use crate::bvh::OpenedBox;
 use crate::clip::{Clip, CutRay, KeptInterval};
 use crate::kernel::KernelInfo;
 use crate::lane::PACKET;
@@ -140,6 +141,11 @@ impl Intersector for Clipped {
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         let cut = self.clip.cut(ray);
         cut.map_or_else(Vec::new, |cut| self.whole.candidates(&cut.ray))
+    }
+
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox> {
+        let cut = self.clip.cut(ray);
+        cut.map_or_else(Vec::new, |cut| self.whole.opened_boxes(&cut.ray))
     }
 
     fn count_hits(&self, ray: &Ray) -> usize {

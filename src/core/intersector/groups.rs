@@ -4,7 +4,7 @@ use super::order::{Comparison, precedes};
 use super::{Cost, Crossing, Intersector, is_behind};
 use crate::aabb::Aabb;
 use crate::algebra::{Algebraic, is_between};
-use crate::bvh::BoxRay;
+use crate::bvh::{BoxRay, OpenedBox};
 use crate::kernel::{KernelInfo, Precision};
 use crate::ray::{Hit, Ray};
 use std::cell::OnceCell;
@@ -231,6 +231,15 @@ fn box_ray(ray: &Ray) -> Option<BoxRay> {
 
 impl SceneIntersector {
     fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
+        self.each_group(ray, |_, _| ())
+    }
+
+    /// Finds the nearest hit. Passes each group with the ray that is traced in it to `visit` first.
+    fn each_group(
+        &self,
+        ray: &Ray,
+        mut visit: impl FnMut(&Numbered, &Ray),
+    ) -> (Option<RankedHit>, Cost) {
         let mut nearest: Option<RankedHit> = None;
         let mut sum = Cost::default();
         for group in &self.groups {
@@ -238,7 +247,9 @@ impl SceneIntersector {
             let t_max = nearest
                 .as_ref()
                 .map_or(ray.t_max, |nearest| nearest.t_bound(ray));
-            let (found, cost) = group.intersector.nearest_with_cost(&group.ray(ray, t_max));
+            let ray = group.ray(ray, t_max);
+            visit(group, &ray);
+            let (found, cost) = group.intersector.nearest_with_cost(&ray);
             sum += cost;
             let found = found.map(|found| group.ranked(found));
             if let Some(found) = found
@@ -388,6 +399,15 @@ impl Intersector for SceneIntersector {
                 .collect::<Vec<_>>()
         };
         self.groups.iter().flat_map(of_group).collect()
+    }
+
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox> {
+        let mut opened = Vec::new();
+        self.each_group(ray, |group, ray| {
+            let of_group = group.intersector.opened_boxes(ray).into_iter();
+            opened.extend(of_group.map(|opened| opened.numbered_from(group.first)));
+        });
+        opened
     }
 
     fn count_hits(&self, ray: &Ray) -> usize {

@@ -2,6 +2,7 @@
 
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit};
 use crate::aabb::Aabb;
+use crate::bvh::OpenedBox;
 use crate::kernel::KernelInfo;
 use crate::ray::{Hit, Ray};
 use std::sync::{Arc, PoisonError, RwLock, Weak};
@@ -83,6 +84,10 @@ impl Intersector for Improving {
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         self.current.get().candidates(ray)
+    }
+
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox> {
+        self.current.get().opened_boxes(ray)
     }
 
     fn count_hits(&self, ray: &Ray) -> usize {

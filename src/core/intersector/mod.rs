@@ -29,7 +29,7 @@ pub use groups::{GroupIntersector, RankedHit};
 pub(crate) use groups::{crossings_of, scene_intersector};
 
 use crate::algebra::Pieces;
-use crate::bvh::Bvh;
+use crate::bvh::{Bvh, OpenedBox};
 use crate::kernel::{
     self, Kernel, KernelInfo, KernelList, KernelRow, KernelVisitor, TriangleKernel,
 };
@@ -232,6 +232,9 @@ pub trait Intersector: Send + Sync {
     /// The primitives in the leaves whose boxes the ray meets, in no particular order: all that it could hit,
     /// with any kernel.
     fn candidates(&self, ray: &Ray) -> Vec<u32>;
+
+    /// The boxes that the search for the nearest hit opens, in order; it opens them again for this record.
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox>;
 
     /// Counts the hits among all primitives, without tree and boxes, for measurements. The ray's `exclude` is
     /// ignored, and hits at an end of its interval may count.

@@ -8,7 +8,7 @@ use super::packet::Packets;
 use super::visitors::{Any, Each, Kept, Nearest};
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
 use crate::aabb::Aabb;
-use crate::bvh::{Bvh, LentStack, Stack};
+use crate::bvh::{Bvh, LentStack, OpenedBox, Stack, Step};
 use crate::kernel::{KernelInfo, MAX_VALUES};
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
@@ -102,9 +102,15 @@ impl<M: Method> TreeIntersector<M> {
         }
     }
 
-    /// Finds the nearest hit or all hits of one ray, and passes them to `finish`.
+    /// Finds the nearest hit or all hits of one ray, and passes them to `finish`. Appends the steps of the walk to `steps`.
     // One function for all queries and callers, so that each kernel's code is compiled once for them.
-    fn each(&self, ray: &Ray, query: Query, finish: Finish<'_, M>) -> Cost {
+    fn each(
+        &self,
+        ray: &Ray,
+        query: Query,
+        steps: Option<&mut Vec<Step>>,
+        finish: Finish<'_, M>,
+    ) -> Cost {
         let (mut lent, mut scratch) = (LentStack::new(), Scratch::new());
         let tester = M::tester(&self.blocks, baseline(), ray, &mut scratch);
         let mut visitor = Each {
@@ -115,6 +121,7 @@ impl<M: Method> TreeIntersector<M> {
             tester,
             t_max: ray.t_max,
             cost: Cost::default(),
+            steps,
             count: &|block| self.blocks.bvh.block(block).len(),
             token: PhantomData,
         };
@@ -197,7 +204,7 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
         let mut hit = None;
-        let cost = self.each(ray, Query::Nearest, &mut |tester, mut found| {
+        let cost = self.each(ray, Query::Nearest, None, &mut |tester, mut found| {
             hit = found.pop().map(|found| tester.hit(found));
         });
         (hit, cost)
@@ -212,7 +219,7 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
     fn all_hits(&self, ray: &Ray) -> Vec<Crossing> {
         let mut all = Vec::new();
-        self.each(ray, Query::All, &mut |tester, found| {
+        self.each(ray, Query::All, None, &mut |tester, found| {
             all = crossings(tester, found);
         });
         all
@@ -220,6 +227,12 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
     fn candidates(&self, ray: &Ray) -> Vec<u32> {
         candidates(&self.blocks.bvh, ray)
+    }
+
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox> {
+        let mut steps = Vec::new();
+        self.each(ray, Query::Nearest, Some(&mut steps), &mut |_, _| ());
+        self.blocks.bvh.opened(&steps)
     }
 
     fn count_hits(&self, ray: &Ray) -> usize {
@@ -234,7 +247,7 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 impl<M: Method> GroupIntersector for TreeIntersector<M> {
     fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
         let mut hit = None;
-        let cost = self.each(ray, Query::Nearest, &mut |tester, mut found| {
+        let cost = self.each(ray, Query::Nearest, None, &mut |tester, mut found| {
             hit = found.pop().map(|found| tester.ranked(found));
         });
         (hit, cost)
@@ -246,7 +259,7 @@ impl<M: Method> GroupIntersector for TreeIntersector<M> {
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
         let mut all = Vec::new();
-        self.each(ray, Query::All, &mut |tester, found| {
+        self.each(ray, Query::All, None, &mut |tester, found| {
             all.extend(found.into_iter().map(|found| tester.ranked(found)));
         });
         all

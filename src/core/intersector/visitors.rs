@@ -2,7 +2,7 @@
 
 use super::Cost;
 use super::method::Tester;
-use crate::bvh::{SlabRay, Visitor};
+use crate::bvh::{SlabRay, Step, Visitor, WIDTH};
 use fearless_simd::Simd;
 use std::marker::PhantomData;
 use std::ops::ControlFlow;
@@ -29,7 +29,7 @@ impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Nearest<S,
     }
 
     #[inline(always)]
-    fn count_boxes(&mut self, _: u32) {}
+    fn open(&mut self, _: usize) {}
 }
 
 /// Finds any hit. Visits the nearest child first, too: in any other order random rays take a twentieth longer
@@ -59,7 +59,7 @@ impl<S: Simd, T: Tester<S>, const MAYBE_COMPACT: bool> Visitor<S> for Any<T, MAY
     }
 
     #[inline(always)]
-    fn count_boxes(&mut self, _: u32) {}
+    fn open(&mut self, _: usize) {}
 }
 
 /// The hits that [`Each`] keeps.
@@ -74,6 +74,8 @@ pub(super) struct Each<'b, S: Simd, T: Tester<S>> {
     pub kept: Kept<T::Nearest, T::Found>,
     pub t_max: f32,
     pub cost: Cost,
+    /// The steps of the walk, if they are recorded.
+    pub steps: Option<&'b mut Vec<Step>>,
     /// Returns the number of primitives in a block.
     pub count: &'b dyn Fn(usize) -> usize,
     pub token: PhantomData<S>,
@@ -84,6 +86,9 @@ impl<S: Simd, T: Tester<S>> Visitor<S> for Each<'_, S, T> {
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<S>) -> ControlFlow<(), f32> {
         self.cost.primitives += (self.count)(block) as u32;
+        if let Some(steps) = &mut self.steps {
+            steps.push(Step::Block(block));
+        }
         ControlFlow::Continue(match &mut self.kept {
             Kept::Nearest(nearest) => {
                 self.tester.nearest::<true, true>(block, slabs, nearest);
@@ -98,7 +103,10 @@ impl<S: Simd, T: Tester<S>> Visitor<S> for Each<'_, S, T> {
 
     fn announce(&self, _: usize) {}
 
-    fn count_boxes(&mut self, count: u32) {
-        self.cost.boxes += count;
+    fn open(&mut self, node: usize) {
+        self.cost.boxes += WIDTH as u32;
+        if let Some(steps) = &mut self.steps {
+            steps.push(Step::Node(node));
+        }
     }
 }

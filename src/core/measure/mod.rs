@@ -19,5 +19,5 @@ mod thickness;
 pub use angle::{angle_at, angle_between};
 pub use circle::Circle;
 pub use separation::Separation;
-pub use snapping::{SnapTarget, Snapped, snap};
+pub use snapping::{SnapReach, SnapTarget, Snapped, snap};
 pub use thickness::{Thickness, WallPoint, thickness};

@@ -42,14 +42,49 @@ impl Snapped {
     }
 }
 
+/// The distances in the picture, in pixels, within which a click snaps. Nothing is within a negative distance.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct SnapReach {
+    /// To a vertex.
+    pub vertex_px: f64,
+    /// To an edge.
+    pub edge_px: f64,
+}
+
+impl SnapReach {
+    /// Every click means the face.
+    pub const NONE: Self = Self {
+        vertex_px: -1.0,
+        edge_px: -1.0,
+    };
+    /// Every click means a vertex.
+    pub const VERTEX: Self = Self {
+        vertex_px: f64::INFINITY,
+        ..Self::NONE
+    };
+    /// Every click means an edge.
+    pub const EDGE: Self = Self {
+        edge_px: f64::INFINITY,
+        ..Self::NONE
+    };
+
+    /// The same distance to both.
+    pub const fn within(px: f64) -> Self {
+        Self {
+            vertex_px: px,
+            edge_px: px,
+        }
+    }
+}
+
 /// What a click at `at`, in pixels from the top left corner of the picture, snaps to: the nearest corner of the triangle
-/// that its ray hits, if the picture shows one within `tolerance_px`, else the nearest edge, else the face.
+/// that its ray hits, if the picture shows one within reach, else the nearest edge, else the face.
 pub fn snap(
     scene: &Scene,
     camera: &Camera,
     at: DVec2,
     (ray, hit): (&Ray, &Hit),
-    tolerance_px: f64,
+    reach: SnapReach,
 ) -> Snapped {
     let face = Snapped {
         target: SnapTarget::Face,
@@ -62,7 +97,6 @@ pub fn snap(
     };
     let (mesh, corners) = (scene.mesh(), corners.map(Vec3::as_dvec3));
     let vertices = mesh.triangles()[hit.primitive as usize];
-    let near = |snapped: &Snapped| snapped.distance_px <= tolerance_px;
     let nearest = |a: &Snapped, b: &Snapped| a.distance_px.total_cmp(&b.distance_px);
     let vertex = (0..3).filter_map(|k| {
         Some(Snapped {
@@ -72,7 +106,10 @@ pub fn snap(
             ..face
         })
     });
-    if let Some(vertex) = vertex.filter(near).min_by(nearest) {
+    if let Some(vertex) = vertex
+        .filter(|vertex| vertex.distance_px <= reach.vertex_px)
+        .min_by(nearest)
+    {
         return vertex;
     }
     let outline = mesh.attributes().faces.outline(hit.primitive);
@@ -88,7 +125,9 @@ pub fn snap(
             ..face
         })
     });
-    edge.filter(near).min_by(nearest).unwrap_or(face)
+    edge.filter(|edge| edge.distance_px <= reach.edge_px)
+        .min_by(nearest)
+        .unwrap_or(face)
 }
 
 /// The part of an edge that is nearer to the eye than this part of the hit's distance isn't snapped to, nor is the part
@@ -161,7 +200,7 @@ mod tests {
         let ray = camera.ray_through(at);
         let intersector = scene.intersector(exact_triangle_kernel());
         let hit = intersector.closest_hit(&ray).expect("a hit");
-        snap(scene, camera, at, (&ray, &hit), 6.0)
+        snap(scene, camera, at, (&ray, &hit), SnapReach::within(6.0))
     }
 
     fn cameras() -> [Camera; 2] {
@@ -205,6 +244,21 @@ mod tests {
             assert_eq!(at_face.target, SnapTarget::Face);
             assert!((at_face.position - middle).length() < 1e-5);
         }
+    }
+
+    #[test]
+    fn a_reach_can_be_for_one_kind_only() {
+        let scene = square();
+        let camera = cameras()[0];
+        let pixel = |p: DVec3| camera.pixel_of(p).expect("in front");
+        let at = pixel(DVec3::new(3.9, 3.5, 0.0));
+        let ray = camera.ray_through(at);
+        let intersector = scene.intersector(exact_triangle_kernel());
+        let hit = intersector.closest_hit(&ray).expect("a hit");
+        let target = |reach| snap(&scene, &camera, at, (&ray, &hit), reach).target;
+        assert_eq!(target(SnapReach::NONE), SnapTarget::Face);
+        assert_eq!(target(SnapReach::VERTEX), SnapTarget::Vertex(2));
+        assert_eq!(target(SnapReach::EDGE), SnapTarget::Edge([1, 2]));
     }
 
     #[test]

@@ -86,6 +86,7 @@ impl App {
             self.shown.canvas_rect = canvas.rect;
             self.use_resolution(canvas.resolution);
             self.pointer(ui, &response, canvas);
+            self.hover(&response, canvas);
             self.rotate(ui);
             self.step_transition(ui.ctx());
             self.paint(ui, canvas, response.dragged());
@@ -139,6 +140,7 @@ impl App {
         let (look, film) = (self.look(), self.traced.tracer.film());
         if let Some((pixels, changed)) = self.traced.development.update(film, changed, look) {
             self.traced.picture.upload(film.size(), pixels, changed);
+            self.picked.inspecting.shown.update(film, changed);
         }
         // Overlay and marks match the scene and the camera of the picture on the screen.
         let Some((scene, camera)) = self.traced.tracer.shown().cloned() else {
@@ -147,7 +149,9 @@ impl App {
         let input = self.overlay_input(&scene, camera, canvas.pixels_per_point);
         let is_moving = is_dragging || self.traced.tracer.is_moving();
         let overlays = &self.seen.settings.overlays;
-        let labels = overlay::labels(&input, overlays);
+        let mut labels = overlay::labels(&input, overlays);
+        // Above the others in its corner, which stay in place.
+        labels.splice(0..0, self.picked.inspecting.hover.label());
         let drawn = if is_moving && self.traced.overlay.omits_lines_while_moving(&scene) {
             self.traced.overlay.pause();
             Ok(None)
@@ -174,6 +178,11 @@ impl App {
                 theme::FLAW,
             ),
         ];
+        for (point, _) in &input.marks.picks {
+            if let Some(pixel) = camera.pixel_of(*point) {
+                ring(&painter, canvas.pos_of(pixel, &camera));
+            }
+        }
         for (point, colour) in marks {
             if let Some(pixel) = point.and_then(|point| camera.pixel_of(point)) {
                 cross_hair(&painter, canvas.pos_of(pixel, &camera), colour);
@@ -198,6 +207,9 @@ impl App {
                 .path
                 .followed()
                 .map(|path| Arc::clone(&path.record)),
+            picks: self.picked.inspecting.picks.points(),
+            measurements: self.picked.inspecting.picks.measurements(),
+            opened: self.picked.inspecting.picks.opened(),
         };
         OverlayInput {
             scene: Arc::clone(scene),
@@ -207,6 +219,13 @@ impl App {
             marks: if is_current { marks } else { Marks::default() },
             scale: pixels_per_point.max(1.0),
         }
+    }
+}
+
+/// Draws a ring around a picked point.
+fn ring(painter: &egui::Painter, at: Pos2) {
+    for (colour, width) in [(Color32::BLACK, 3.0), (theme::PICK, 1.3)] {
+        painter.circle_stroke(at, 3.5, egui::Stroke::new(width, colour));
     }
 }
 

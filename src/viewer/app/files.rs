@@ -175,11 +175,13 @@ impl App {
                 .set_scene(self.open.document.loaded.scene.bounds_with_elements());
             // Keep the camera's place in the file's coordinates.
             self.seen.turntable.pivot += shift;
+            self.picked.inspecting.picks.shift(shift);
             if let Some(mut pick) = pick {
                 pick.camera = pick.camera.moved(shift);
                 self.inspect_again(&pick, ctx);
             }
         } else {
+            self.picked.inspecting.picks.clear();
             self.use_first_view();
         }
         // The next frame drops the old scene's picture without waiting for the first rays in the new scene.

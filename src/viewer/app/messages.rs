@@ -26,7 +26,8 @@ impl App {
     /// Closes the topmost window or message, cancels loading, clears the marked flaw, or clears the pick: the first
     /// of these that applies.
     pub(crate) fn dismiss(&mut self) {
-        if self.shown.palette.dismiss() || self.shown.sheet.take().is_some() {
+        let is_box_closed = self.shown.palette.dismiss() || self.picked.inspecting.go_to.dismiss();
+        if is_box_closed || self.shown.sheet.take().is_some() {
             return;
         }
         if let Some(loading) = &self.open.loading {
@@ -39,9 +40,11 @@ impl App {
             || self.open.session_dialog.dismiss()
             || self.open.save_session_dialog.dismiss()
             || self.pictures.dialog.dismiss()
+            || self.picked.inspecting.dialog.dismiss()
             || self.feedback.notice.take().is_some();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
+            self.picked.inspecting.picks.clear_unpinned();
         }
     }
 
@@ -62,6 +65,10 @@ impl App {
         if let Some(path) = self.open.environment_dialog.field_ui(ctx) {
             self.set_environment(&path);
         }
+        if let Some(path) = self.picked.inspecting.dialog.field_ui(ctx) {
+            self.export_picks(&path, ctx);
+        }
+        self.go_to_ui(ctx);
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
             let path = file.path();

@@ -10,6 +10,7 @@
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
 //! | `feedback` | messages: the notice, toasts and the log |
+//! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `clipping`, `hiding` | the part of the scene that is shown |
 //! | `legend` | the legend in the picture, and its range |
@@ -32,6 +33,7 @@ pub(crate) mod flaws;
 mod gizmo;
 mod hiding;
 mod hints;
+mod inspecting;
 mod labels;
 mod legend;
 mod light;
@@ -211,6 +213,7 @@ impl eframe::App for App {
         self.poll_document(ctx);
         self.poll_range_fit();
         self.refresh_pick(ctx);
+        self.poll_inspecting(ctx);
         self.traced.tracer.set_limits(self.limits());
         if let Some(panic) = self.traced.tracer.collect(ctx).first() {
             self.error(panic);

@@ -10,6 +10,7 @@
 
 use super::Sheet;
 use super::files::Neighbours;
+use super::inspecting::Inspecting;
 use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
 use super::path::PickedPath;
@@ -131,6 +132,7 @@ pub(crate) struct Picked {
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     pub picking: Option<Picking>,
+    pub inspecting: Inspecting,
     pub path: PickedPath,
     /// The lookup of the pick's face in the file, while it runs.
     pub face_lookup: Option<FaceLookup>,

@@ -59,6 +59,11 @@ impl App {
             (input.time, releases.count())
         });
         let at = canvas.pixel_of(pos, &camera);
+        let pixel = self.clicked_pixel(at, &camera);
+        if ui.input(|input| input.modifiers.command) {
+            self.pick_pixel(camera, pixel, true, ui.ctx());
+            return;
+        }
         let first = self.picked.clicks.pending.take();
         let is_second = first.is_some_and(|first| first.pos.distance(pos) <= distance);
         if is_second || clicks > 1 {
@@ -73,10 +78,9 @@ impl App {
             .is_none_or(|last| now - last > delay)
         {
             // The third click of three is ignored.
-            let last_pixel = camera.resolution() - 1;
             self.picked.clicks.pending = Some(PendingClick {
                 camera,
-                pixel: at.max(DVec2::ZERO).as_uvec2().min(last_pixel),
+                pixel,
                 pos,
                 due_secs: now + delay,
             });
@@ -100,7 +104,7 @@ impl App {
         }
         let (camera, pixel) = (click.camera, click.pixel);
         self.picked.clicks.pending = None;
-        self.inspect(camera, pixel, ctx);
+        self.pick_pixel(camera, pixel, false, ctx);
     }
 
     /// The camera of the picture on the screen; `None` while the screen shows another mesh or nothing.

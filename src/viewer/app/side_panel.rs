@@ -47,6 +47,10 @@ impl App {
                 ui.label("No file is open.");
             }
             Tab::Inspect => {
+                let view = self.picks_view();
+                if let Some(change) = panels::picks::picks_ui(ui, &view, commands) {
+                    self.change_picks(change, ui.ctx());
+                }
                 let is_busy = self.picked.picking.is_some() || self.picked.clicks.pending.is_some();
                 let pick = self.picked.pick.as_ref();
                 let is_reading = self.picked.face_lookup.is_some();

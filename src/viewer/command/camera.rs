@@ -1,7 +1,7 @@
 //! The menu *Camera*.
 
 use super::keys::{ctrl, key, shift};
-use super::{Command, Entry, Menu, Place, none};
+use super::{Command, Entry, Menu, Place, lacks_scene, none};
 use crate::app::App;
 use crate::bindings::{PRESETS, Preset};
 use egui::Key;
@@ -45,6 +45,16 @@ pub(super) const ROWS: &[Command] = &[
         is_on: None,
         obstacle: App::lacks_hit,
         run: |app, ctx, _| app.animated(ctx, App::frame_part),
+    },
+    Command {
+        name: "go-to",
+        keys: &[ctrl(Key::G)],
+        title: "Go to element",
+        tooltip: "Frames and picks a triangle, a face, a vertex, a line of the file or a point by its number or coordinates",
+        place: FRAME,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, _, _| app.show_go_to(),
     },
     Command {
         name: "first-view",

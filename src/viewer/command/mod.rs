@@ -37,6 +37,7 @@ mod widget;
 mod window;
 
 pub use entry::{Commands, Entry};
+pub use pick::SNAPPING;
 pub use place::{Menu, Place};
 pub use view::{QUALITIES, VIEWS};
 pub use window::{TABS, THEMES};
@@ -89,6 +90,7 @@ static OTHER_TABLES: &[fn(&App) -> Vec<Entry>] = &[
     part::groupings,
     view::qualities,
     camera::presets,
+    pick::snapping,
     window::tabs,
     window::themes,
 ];

@@ -31,10 +31,14 @@ pub static BOUNDING_BOX: OverlaySpec = OverlaySpec {
     ..OverlaySpec::SWITCH
 };
 
-/// The twelve edges.
+/// The twelve edges of the box around the scene.
 pub fn lines(scene: &Scene) -> Vec<Line> {
-    let bounds = scene.bounds_with_elements();
-    let of_axis = |axis| edges(&bounds, axis);
+    edges_of(&scene.bounds_with_elements())
+}
+
+/// The twelve edges of a box.
+pub(super) fn edges_of(bounds: &Aabb) -> Vec<Line> {
+    let of_axis = |axis| edges(bounds, axis);
     let all = (0..3).flat_map(of_axis);
     all.map(|[start, end]| Line::between(start.as_vec3(), end.as_vec3()))
         .collect()

@@ -1,10 +1,11 @@
 //! What overlays are drawn from.
 
+use crate::measuring::Measurements;
 use glam::DVec3;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::PathRecord;
 use hitscope_core::mesh::{Flaw, Health};
-use hitscope_core::{Camera, Scene};
+use hitscope_core::{Aabb, Camera, Scene};
 use std::sync::Arc;
 
 /// The scene and the view that overlays are drawn from.
@@ -33,6 +34,12 @@ pub struct Marks {
     pub picked: Option<u32>,
     /// The path of the picked pixel.
     pub path: Option<Arc<PathRecord>>,
+    /// The picked points in the scene's coordinates, with their numbers and names.
+    pub picks: Vec<(DVec3, String)>,
+    /// Measurements between them.
+    pub measurements: Measurements,
+    /// The selected box of the picked ray's walk.
+    pub opened: Option<Aabb>,
 }
 
 impl OverlayInput {

@@ -10,7 +10,7 @@
 //! | [`state`], `older` | the states of all overlays, which settings keep; those of older versions |
 //! | [`wireframe`], [`elements`], [`bounding_box`], [`grid`], [`axes`] | overlays with a switch |
 //! | [`face_normals`], [`vertex_normals`] | two more, and [`normals`], which they share |
-//! | [`flaws`], [`picked`], [`path`] | marks of what is selected |
+//! | [`flaws`], [`picked`], [`path`], [`walk`], [`measure`] | marks of what is selected |
 //! | [`shapes`], [`traced`] | lines of shapes other than meshes; their depth and outlines |
 //! | [`step`] | round numbers |
 //! | [`contents`] | the lines of all overlays that are on |
@@ -29,6 +29,7 @@ pub mod grid;
 pub mod input;
 pub mod label;
 pub mod layer;
+pub mod measure;
 pub mod normals;
 pub(crate) mod older;
 mod painter;
@@ -41,6 +42,7 @@ pub mod step;
 pub mod traced;
 mod uploaded;
 pub mod vertex_normals;
+pub mod walk;
 pub mod wireframe;
 
 pub use contents::{Contents, labels};
@@ -62,6 +64,8 @@ pub static OVERLAYS: &[&OverlaySpec] = &[
     &flaws::FLAWS,
     &picked::PICKED,
     &path::PATH,
+    &walk::WALK,
+    &measure::MEASURE,
 ];
 
 /// The overlay of this name.

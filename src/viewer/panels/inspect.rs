@@ -227,8 +227,7 @@ fn crossings_ui(
 fn triangle_ui(ui: &mut egui::Ui, pick: &PickView<'_>, hit: &TriangleReport) {
     section_ui(ui, "Triangle", |ui| {
         row_ui(ui, "triangle", format!("{} (0-based)", hit.index));
-        let face = u64::from(hit.face) + 1;
-        row_ui(ui, "face", format!("{face} (1-based)"));
+        row_ui(ui, "face", format!("{} (0-based)", hit.face));
         if let Some(line) = hit.line {
             row_ui(ui, "line", line);
         }

@@ -10,6 +10,7 @@ pub mod mesh;
 mod overlay;
 pub mod parts;
 pub mod path;
+pub mod picks;
 pub mod progress;
 pub mod quality;
 mod table;

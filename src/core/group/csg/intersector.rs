@@ -2,7 +2,9 @@
 
 use super::crossings::PackedSolid;
 use crate::aabb::Planes;
-use crate::bvh::{BLOCK_SIZE, Bvh, LentStack, NO_PRIMITIVE, SlabRay, Visitor};
+use crate::bvh::{
+    BLOCK_SIZE, Bvh, LentStack, NO_PRIMITIVE, OpenedBox, SlabRay, Step, Visitor, WIDTH,
+};
 use crate::intersector::{
     Cost, Crossing, GroupIntersector, Intersector, RankedHit, candidates, crossings_of,
 };
@@ -29,12 +31,17 @@ struct CrossingVisitor<'a, F> {
     found: F,
     t_max: f32,
     cost: Cost,
+    /// The steps of the walk, if they are recorded.
+    steps: Option<&'a mut Vec<Step>>,
 }
 
 impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for CrossingVisitor<'_, F> {
     const IS_BEHIND: bool = true;
 
     fn visit(&mut self, block: usize, slabs: &SlabRay<Baseline>) -> ControlFlow<(), f32> {
+        if let Some(steps) = &mut self.steps {
+            steps.push(Step::Block(block));
+        }
         let all = f32x8::splat(baseline(), f32::INFINITY);
         let boxes = &self.intersector.boxes[block];
         let (_, met) = slabs.enter::<true>(baseline(), boxes, all);
@@ -51,8 +58,11 @@ impl<F: FnMut(u32, Vec<RankedHit>) -> f32> Visitor<Baseline> for CrossingVisitor
 
     fn announce(&self, _: usize) {}
 
-    fn count_boxes(&mut self, count: u32) {
-        self.cost.boxes += count;
+    fn open(&mut self, node: usize) {
+        self.cost.boxes += WIDTH as u32;
+        if let Some(steps) = &mut self.steps {
+            steps.push(Step::Node(node));
+        }
     }
 }
 
@@ -77,17 +87,44 @@ impl CsgIntersector {
     }
 
     /// Passes the crossings of each solid that the ray may hit to `found`, which returns the farthest t of interest.
-    fn each(&self, ray: &Ray, found: impl FnMut(u32, Vec<RankedHit>) -> f32) -> Cost {
+    /// Appends the steps of the walk to `steps`.
+    fn each(
+        &self,
+        ray: &Ray,
+        steps: Option<&mut Vec<Step>>,
+        found: impl FnMut(u32, Vec<RankedHit>) -> f32,
+    ) -> Cost {
         let mut visitor = CrossingVisitor {
             intersector: self,
             ray,
             found,
             t_max: ray.t_max,
             cost: Cost::default(),
+            steps,
         };
         let mut stack = LentStack::new();
         self.bvh.walk(baseline(), ray, stack.get(), &mut visitor);
         visitor.cost
+    }
+
+    /// The nearest hit and its cost. Appends the steps of the walk to `steps`.
+    fn nearest(&self, ray: &Ray, steps: Option<&mut Vec<Step>>) -> (Option<RankedHit>, Cost) {
+        let mut nearest: Option<RankedHit> = None;
+        let cost = self.each(ray, steps, |primitive, crossings| {
+            if let Some(first) = crossings.into_iter().next() {
+                let first = first.with_hit(|hit| Hit { primitive, ..hit });
+                if nearest
+                    .as_ref()
+                    .is_none_or(|nearest| first.is_before(nearest))
+                {
+                    nearest = Some(first);
+                }
+            }
+            nearest
+                .as_ref()
+                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
+        });
+        (nearest, cost)
     }
 }
 
@@ -121,6 +158,12 @@ impl Intersector for CsgIntersector {
         candidates(&self.bvh, ray)
     }
 
+    fn opened_boxes(&self, ray: &Ray) -> Vec<OpenedBox> {
+        let mut steps = Vec::new();
+        self.nearest(ray, Some(&mut steps));
+        self.bvh.opened(&steps)
+    }
+
     fn count_hits(&self, ray: &Ray) -> usize {
         let is_hit = |solid: &&PackedSolid| !solid.crossings(ray).is_empty();
         self.solids.iter().filter(is_hit).count()
@@ -134,27 +177,12 @@ impl Intersector for CsgIntersector {
 
 impl GroupIntersector for CsgIntersector {
     fn nearest_with_cost(&self, ray: &Ray) -> (Option<RankedHit>, Cost) {
-        let mut nearest: Option<RankedHit> = None;
-        let cost = self.each(ray, |primitive, crossings| {
-            if let Some(first) = crossings.into_iter().next() {
-                let first = first.with_hit(|hit| Hit { primitive, ..hit });
-                if nearest
-                    .as_ref()
-                    .is_none_or(|nearest| first.is_before(nearest))
-                {
-                    nearest = Some(first);
-                }
-            }
-            nearest
-                .as_ref()
-                .map_or(ray.t_max, |nearest| nearest.t_bound(ray))
-        });
-        (nearest, cost)
+        self.nearest(ray, None)
     }
 
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit> {
         let mut hits = Vec::new();
-        self.each(ray, |primitive, crossings| {
+        self.each(ray, None, |primitive, crossings| {
             let numbered = |ranked: RankedHit| ranked.with_hit(|hit| Hit { primitive, ..hit });
             hits.extend(crossings.into_iter().map(numbered));
             ray.t_max

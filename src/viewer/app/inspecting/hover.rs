@@ -1,0 +1,143 @@
+//! The read-out under the pointer: t, element, part, and the number that the view shows.
+//!
+//! Each move of the pointer traces one ray, on the thread of the window.
+
+use crate::app::App;
+use crate::app::canvas::Canvas;
+use crate::numbers::significant;
+use crate::overlay::{Label, Place};
+use crate::tracer::Request;
+use egui::Response;
+use glam::{DVec2, UVec2};
+use hitscope_core::sampler::Sampler;
+use hitscope_core::{Camera, Hit, Scene};
+
+/// The read-out.
+pub(crate) struct Hover {
+    pub is_on: bool,
+    /// What the last ray depended on, and its text.
+    last: Option<(HoverKey, String)>,
+}
+
+impl Default for Hover {
+    fn default() -> Self {
+        Self {
+            is_on: true,
+            last: None,
+        }
+    }
+}
+
+/// What the text depends on.
+struct HoverKey {
+    /// The request, with the camera of the picture on the screen.
+    request: Request,
+    pixel: UVec2,
+}
+
+impl Hover {
+    /// The text, in the lower left corner of the picture.
+    pub fn label(&self) -> Option<Label> {
+        let (_, text) = self.last.as_ref()?;
+        Some(Label {
+            place: Place::Corner { bar_px: None },
+            text: text.clone(),
+        })
+    }
+}
+
+impl App {
+    /// Reads out what is under the pointer, unless it drags.
+    pub(in crate::app) fn hover(&mut self, response: &Response, canvas: Canvas) {
+        let pos = response.hover_pos().filter(|_| !response.dragged());
+        let key = pos
+            .filter(|_| self.picked.inspecting.hover.is_on)
+            .and_then(|pos| {
+                let camera = self.shown_camera()?;
+                let mut request = self.traced.tracer.posted()?.clone();
+                let scene = &self.open.document.loaded.scene;
+                if self.open.document.is_blank
+                    || !std::sync::Arc::ptr_eq(scene, &request.context.scene)
+                {
+                    return None;
+                }
+                let at = canvas.pixel_of(pos, &camera);
+                let pixel = self.clicked_pixel(at, &camera);
+                request.context.camera = camera;
+                Some(HoverKey { request, pixel })
+            });
+        let Some(key) = key else {
+            self.picked.inspecting.hover.last = None;
+            return;
+        };
+        let is_known = |(known, _): &(HoverKey, String)| {
+            known.pixel == key.pixel && known.request == key.request
+        };
+        if !self
+            .picked
+            .inspecting
+            .hover
+            .last
+            .as_ref()
+            .is_some_and(is_known)
+        {
+            let text = read_out(&key);
+            self.picked.inspecting.hover.last = Some((key, text));
+        }
+    }
+
+    /// The pixel whose sample the picture on the screen shows at a place.
+    pub(in crate::app) fn clicked_pixel(&self, at: DVec2, camera: &Camera) -> UVec2 {
+        let last = camera.resolution() - 1;
+        let pixel = at.max(DVec2::ZERO).as_uvec2().min(last);
+        self.picked.inspecting.shown.pixel(pixel).min(last)
+    }
+
+    /// Whether the read-out under the pointer is on.
+    pub fn reads_out(&self) -> bool {
+        self.picked.inspecting.hover.is_on
+    }
+
+    /// Turns the read-out under the pointer on or off.
+    pub(crate) fn toggle_read_out(&mut self) {
+        self.picked.inspecting.hover.is_on ^= true;
+    }
+}
+
+/// The text for a pixel.
+fn read_out(key: &HoverKey) -> String {
+    let (context, view) = (&key.request.context, key.request.integrator);
+    let ray = context.camera.ray_through(key.pixel.as_dvec2() + 0.5);
+    let hit = context.intersector.closest_hit(&ray);
+    let mut parts = vec![match hit {
+        Some(hit) => format!("t {}", significant(hit.t.into(), 6)),
+        None => "no hit".to_owned(),
+    }];
+    if let Some(hit) = hit {
+        parts.extend(element(&context.scene, &hit));
+    }
+    let mut sampler = Sampler::new(key.pixel, 0);
+    if let Some(number) = view.number(context, &ray, hit, &mut sampler) {
+        let unit = match view.scale(context) {
+            Ok(Some(scale)) => scale.unit().to_owned(),
+            _ => String::new(),
+        };
+        let text = format!("{} {} {unit}", view.title, significant(number, 6));
+        parts.push(text.trim_end().to_owned());
+    }
+    parts.join("  ·  ")
+}
+
+/// The primitive that was hit, and the names of its group and its material.
+fn element(scene: &Scene, hit: &Hit) -> Vec<String> {
+    let (group, _) = scene.group_of(hit.primitive);
+    let mut parts = vec![format!("{} {}", group.shape().name, hit.primitive)];
+    let attributes = scene.mesh().attributes();
+    if scene.is_triangle(hit.primitive) {
+        parts.extend(attributes.groups.of(hit.primitive).cloned());
+    }
+    let material = attributes.materials.get(scene.material(hit.primitive));
+    let name = material.map(|material| material.name.clone());
+    parts.extend(name.filter(|name| !name.is_empty()));
+    parts
+}

@@ -1,0 +1,336 @@
+//! The list of picks: what the user changes, and what their rays hit, which is traced in the background.
+
+use super::pick_list::{Basis, Detail, DetailBasis};
+use crate::app::App;
+use crate::panels::picks::{PickRow, PicksChange, PicksView, WalkView};
+use crate::picks::{PickedPixel, PickedPoint, Snapping, to_csv, to_json};
+use crate::task::{Task, TaskPanicked};
+use glam::UVec2;
+use hitscope_core::Camera;
+use hitscope_core::obj::shown;
+use hitscope_lab::commands::Output;
+use hitscope_lab::inspection::ThicknessReport;
+use std::path::Path;
+use std::sync::Arc;
+
+impl App {
+    /// Picks a pixel of a picture, and inspects it.
+    pub(in crate::app) fn pick_pixel(
+        &mut self,
+        camera: Camera,
+        pixel: UVec2,
+        keeps_others: bool,
+        ctx: &egui::Context,
+    ) {
+        self.picked
+            .inspecting
+            .picks
+            .add(camera, pixel, keeps_others);
+        self.inspect(camera, pixel, ctx);
+    }
+
+    /// Traces the rays of the picks if they or what their hits depend on have changed, and ends the export.
+    pub(in crate::app) fn poll_picks(&mut self, ctx: &egui::Context) {
+        let broken = [self.poll_hits(ctx).err(), self.poll_detail(ctx).err()];
+        if let Some(broken) = broken.into_iter().flatten().next() {
+            self.error(broken);
+        }
+        if let Some(path) = self.picked.inspecting.dialog.poll() {
+            self.export_picks(&path, ctx);
+        }
+        self.poll_export();
+    }
+
+    fn poll_hits(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
+        let document = &self.open.document;
+        let basis = Basis {
+            scene: Arc::clone(&document.loaded.scene),
+            kernel: document.intersector().kernel().name,
+            shading: self.seen.settings.shading(),
+            crease: document.loaded.scene.crease(),
+            snapping: self.picked.inspecting.picks.snapping,
+            picks: (self.picked.inspecting.picks.list.iter())
+                .map(|pick| (pick.number, pick.camera, pick.pixel))
+                .collect(),
+        };
+        let is_known = |(known, _): &(Basis, _)| *known == basis;
+        if self
+            .picked
+            .inspecting
+            .picks
+            .found
+            .as_ref()
+            .is_some_and(is_known)
+        {
+            return Ok(());
+        }
+        let (wanted, intersector) = (basis.clone(), Arc::clone(document.intersector()));
+        let trace = move || {
+            let hit = |&(number, camera, pixel): &(u32, Camera, UVec2)| {
+                let Basis {
+                    scene,
+                    shading,
+                    snapping,
+                    ..
+                } = &wanted;
+                let place = (&camera, pixel);
+                let hit = PickedPoint::of_pixel(scene, &*intersector, *shading, place, *snapping);
+                (number, hit)
+            };
+            wanted.picks.iter().map(hit).collect()
+        };
+        let start = || Task::spawn("picks", ctx, trace);
+        if let Some(mut found) = self
+            .picked
+            .inspecting
+            .picks
+            .task
+            .get(basis.clone(), start)?
+        {
+            let lines = &self.open.document.loaded.report.face_lines;
+            let hits = found.iter_mut().filter_map(|(_, hit)| hit.as_mut());
+            hits.for_each(|hit| hit.find_line(lines));
+            self.picked.inspecting.picks.found = Some((basis, found));
+        }
+        Ok(())
+    }
+
+    fn poll_detail(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
+        let wants = [
+            self.picked.inspecting.picks.measures_thickness,
+            self.picked.inspecting.picks.shows_walk,
+        ];
+        let selected = self
+            .picked
+            .inspecting
+            .picks
+            .selected()
+            .filter(|_| wants.contains(&true));
+        let Some(pick) = selected else {
+            self.picked.inspecting.picks.detail = None;
+            return Ok(());
+        };
+        let document = &self.open.document;
+        let basis = DetailBasis {
+            scene: Arc::clone(&document.loaded.scene),
+            kernel: document.intersector().kernel().name,
+            has_last_tree: document.has_last_tree(),
+            place: (pick.camera, pick.pixel),
+            wants,
+        };
+        let is_known = |(known, _): &(DetailBasis, _)| *known == basis;
+        if self
+            .picked
+            .inspecting
+            .picks
+            .detail
+            .as_ref()
+            .is_some_and(is_known)
+        {
+            return Ok(());
+        }
+        let (scene, intersector) = (Arc::clone(&basis.scene), Arc::clone(document.intersector()));
+        let (camera, pixel) = basis.place;
+        let find = move || Detail {
+            thickness: wants[0]
+                .then(|| ThicknessReport::of_pixel(&scene, &camera, pixel))
+                .flatten(),
+            walk: if wants[1] {
+                intersector.opened_boxes(&camera.ray_through(pixel.as_dvec2() + 0.5))
+            } else {
+                Vec::new()
+            },
+        };
+        let start = || Task::spawn("pick detail", ctx, find);
+        if let Some(detail) = self
+            .picked
+            .inspecting
+            .picks
+            .detail_task
+            .get(basis.clone(), start)?
+        {
+            self.picked.inspecting.picks.detail = Some((basis, detail));
+        }
+        Ok(())
+    }
+
+    /// The picks and their measurements, for the panel.
+    pub(in crate::app) fn picks_view(&self) -> PicksView {
+        let row = |(pick, hit): (&PickedPixel, Option<&PickedPoint>)| PickRow {
+            number: pick.number,
+            name: pick.name.clone(),
+            is_pinned: pick.is_pinned,
+            is_selected: self.picked.inspecting.picks.selected == Some(pick.number),
+            hit: hit.map(|hit| format!("{} {}, {}", hit.shape, hit.primitive, hit.snapped_to)),
+        };
+        let walk = self.picked.inspecting.picks.walk();
+        let step = self
+            .picked
+            .inspecting
+            .picks
+            .step
+            .min(walk.len().saturating_sub(1));
+        PicksView {
+            picks: self
+                .picked
+                .inspecting
+                .picks
+                .with_hits()
+                .into_iter()
+                .map(row)
+                .collect(),
+            measurements: self.picked.inspecting.picks.measurements().rows,
+            walk: WalkView::of(walk, step),
+        }
+    }
+
+    /// Makes a change that the user made in the panel.
+    pub(in crate::app) fn change_picks(&mut self, change: PicksChange, ctx: &egui::Context) {
+        let picks = &mut self.picked.inspecting.picks;
+        let found = |number: u32| move |pick: &&mut PickedPixel| pick.number == number;
+        match change {
+            PicksChange::Rename(number, name) => {
+                if let Some(pick) = picks.list.iter_mut().find(found(number)) {
+                    pick.name = name;
+                }
+            }
+            PicksChange::Pin(number) => {
+                if let Some(pick) = picks.list.iter_mut().find(found(number)) {
+                    pick.is_pinned ^= true;
+                }
+            }
+            PicksChange::Remove(number) => {
+                picks.list.retain(|pick| pick.number != number);
+                if picks.selected == Some(number) {
+                    picks.selected = None;
+                    self.picked.clear_pick();
+                }
+            }
+            PicksChange::Select(number) => {
+                picks.selected = Some(number);
+                picks.step = 0;
+                if let Some(pick) = picks.selected() {
+                    let (camera, pixel) = (pick.camera, pick.pixel);
+                    self.inspect(camera, pixel, ctx);
+                }
+            }
+            PicksChange::Walk(step) => picks.step = step,
+        }
+    }
+
+    /// Removes all picks.
+    pub(crate) fn remove_picks(&mut self) {
+        self.picked.inspecting.picks.clear();
+        self.picked.clear_pick();
+    }
+
+    /// Why nothing can be done with the list of picks; `None` if there are some.
+    pub(crate) fn lacks_picks(&self) -> Option<&'static str> {
+        let is_empty = self.picked.inspecting.picks.list.is_empty();
+        is_empty.then_some("No pixel is picked: click one")
+    }
+
+    /// Why no measurement can be copied; `None` if there is one.
+    pub(crate) fn lacks_measurements(&self) -> Option<&'static str> {
+        let is_empty = self.picked.inspecting.picks.measurements().rows.is_empty();
+        is_empty.then_some("Nothing is measured: Ctrl+click a second point")
+    }
+
+    /// Copies the measurements as lines of a name and a value.
+    pub(crate) fn copy_measurements(&self, ctx: &egui::Context) {
+        ctx.copy_text(self.picked.inspecting.picks.measurements().to_text());
+    }
+
+    /// The picks as JSON.
+    pub fn picks_as_json(&self) -> String {
+        to_json(
+            &self.open.document.name(),
+            &self.picked.inspecting.picks.with_hits(),
+        )
+    }
+
+    /// The picks as comma-separated values.
+    pub fn picks_as_csv(&self) -> String {
+        to_csv(
+            &self.open.document.name(),
+            &self.picked.inspecting.picks.with_hits(),
+        )
+    }
+
+    /// The mode of snapping.
+    pub fn snapping(&self) -> Snapping {
+        self.picked.inspecting.picks.snapping
+    }
+
+    /// Snaps all picks in this mode.
+    pub(crate) fn snap_picks(&mut self, snapping: Snapping) {
+        self.picked.inspecting.picks.snapping = snapping;
+    }
+
+    /// Whether wall thickness and clearance are measured.
+    pub fn measures_thickness(&self) -> bool {
+        self.picked.inspecting.picks.measures_thickness
+    }
+
+    /// Turns the measurement of wall thickness and clearance on or off.
+    pub(crate) fn toggle_thickness(&mut self) {
+        self.picked.inspecting.picks.measures_thickness ^= true;
+    }
+
+    /// Whether the picked ray's walk is shown.
+    pub fn shows_walk(&self) -> bool {
+        self.picked.inspecting.picks.shows_walk
+    }
+
+    /// Shows the picked ray's walk, or hides it.
+    pub(crate) fn toggle_walk(&mut self) {
+        self.picked.inspecting.picks.shows_walk ^= true;
+    }
+
+    /// Shows the dialog that exports the picks.
+    pub(crate) fn show_picks_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
+        let path = self.open.document.path.as_deref();
+        let suggested = path.map(|path| path.with_extension("picks.json"));
+        self.picked
+            .inspecting
+            .dialog
+            .open(ctx, frame, suggested.as_deref());
+    }
+
+    /// Writes the picks to a file: a table if its name ends in `.csv`, else JSON.
+    pub(in crate::app) fn export_picks(&mut self, path: &Path, ctx: &egui::Context) {
+        let is_table = path
+            .extension()
+            .is_some_and(|extension| extension.eq_ignore_ascii_case("csv"));
+        let text = if is_table {
+            self.picks_as_csv()
+        } else {
+            self.picks_as_json()
+        };
+        let file = path.to_owned();
+        let write = move || {
+            let written = Output::create(&file)
+                .and_then(|output| output.write(|out| out.write_all(text.as_bytes())));
+            written.map_err(|error| error.to_string())
+        };
+        let task = Task::spawn("export", ctx, write);
+        self.picked.inspecting.picks.writing = Some((path.to_owned(), task));
+    }
+
+    fn poll_export(&mut self) {
+        let Some((path, task)) = &self.picked.inspecting.picks.writing else {
+            return;
+        };
+        let result = match task.poll() {
+            Ok(None) => return,
+            Ok(Some(result)) => result,
+            Err(broken @ TaskPanicked) => Err(broken.to_string()),
+        };
+        let text = shown(path);
+        self.picked.inspecting.picks.writing = None;
+        match result {
+            Ok(()) => self.tell(format!("Saved {text}")),
+            Err(error) => self.error(error),
+        }
+    }
+}
