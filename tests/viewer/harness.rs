@@ -116,8 +116,9 @@ fn started(
     size: egui::Vec2,
     pixels_per_point: f32,
 ) -> Window {
-    // Tests of animated changes of the view turn them on.
+    // Tests of animated changes of the view and of the axis gizmo, which covers pixels, turn them on.
     start.preferences.navigation.reduces_motion = true;
+    start.preferences.navigation.shows_gizmo = false;
     let mut harness = Harness::builder()
         .with_size(size)
         .with_pixels_per_point(pixels_per_point)

@@ -75,6 +75,8 @@ fn a_view_is_reached_in_a_quarter_of_a_second_and_input_ends_the_way() {
 #[test]
 fn the_ends_of_the_gizmo_look_along_the_axes_and_can_be_hidden() {
     let Some(mut window) = bare() else { return };
+    assert!(window.query_by_label("Look from X").is_none());
+    choose(&mut window, "Axis gizmo");
     for (label, view) in [
         ("Look from X", StandardView::Right),
         ("Look from −Z", StandardView::Back),

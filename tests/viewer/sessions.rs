@@ -75,9 +75,8 @@ fn save(window: &mut Window, path: &Path) -> Option<()> {
             button.expect("in the dialog").click();
             let text = path.to_str().expect("UTF-8").to_owned();
             wait(window, "the file", |app| {
-                app.notice().is_some_and(|notice| notice.contains(&text))
+                app.toasts().iter().any(|toast| toast.contains(&text))
             });
-            press(window, Key::Escape);
             return Some(());
         }
         std::thread::sleep(std::time::Duration::from_millis(5));
