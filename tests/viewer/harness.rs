@@ -124,6 +124,7 @@ fn started(
         .with_pixels_per_point(pixels_per_point)
         // At screen frame rates, so that a double click is two clicks within 0.3 s.
         .with_step_dt(1.0 / 60.0)
+        .with_render_cursor(false)
         .wgpu_setup(setup)
         .build_eframe(move |cc| App::new(cc, start).expect("the harness has wgpu"));
     wait(&mut harness, "the first picture", |app| {

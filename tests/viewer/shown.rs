@@ -1,6 +1,7 @@
 //! Tests of the part of the scene that is shown, by clip and by parts, and of the legend in the picture.
 
 use crate::harness::{Window, app_started, click, in_picture, wait};
+use crate::pointer::on_the_knot;
 use egui_kittest::kittest::Queryable as _;
 use glam::{DVec3, UVec2};
 use hitscope::app::{App, StartOptions};
@@ -111,7 +112,8 @@ fn the_plane_at_a_pick_removes_the_side_of_the_camera() {
     let Some(mut window) = window("triangle", Tab::Display) else {
         return;
     };
-    let at = in_picture(&window, 0.5, 0.5);
+    let (x, y) = on_the_knot(&window);
+    let at = in_picture(&window, x, y);
     click(&mut window, at);
     wait(&mut window, "the pick", |app| app.inspection().is_some());
     let inspection = window.state().inspection().expect("a pick").clone();
@@ -211,6 +213,8 @@ fn a_part_is_shown_alone_and_a_search_shortens_the_list() {
     assert_eq!(groups(&window), [Some("gem".to_owned())]);
     press_button(&mut window, "Invert shown parts");
     assert!(!groups(&window).contains(&Some("gem".to_owned())));
+    window.get_by_label("Search for a part").focus();
+    window.run_steps(2);
     window.get_by_label("Search for a part").type_text("KNO");
     window.run_steps(3);
     assert!(window.query_by_label("knot").is_some());
@@ -222,7 +226,8 @@ fn the_picked_part_is_hidden_by_a_command() {
     let Some(mut window) = window("triangle", Tab::Parts) else {
         return;
     };
-    let at = in_picture(&window, 0.5, 0.5);
+    let (x, y) = on_the_knot(&window);
+    let at = in_picture(&window, x, y);
     click(&mut window, at);
     wait(&mut window, "the pick", |app| app.inspection().is_some());
     let group = |window: &Window| {

@@ -37,7 +37,8 @@ impl App {
     pub(super) fn gizmo_ui(&mut self, ui: &egui::Ui, canvas: Canvas) {
         let rect = canvas.rect;
         let is_small = rect.size().min_elem() < SMALLEST_PICTURE;
-        if !self.preferences.navigation.shows_gizmo || is_small || self.document().is_blank {
+        let is_hidden = !self.preferences.navigation.shows_gizmo || self.screenshot.is_some();
+        if is_hidden || is_small || self.document().is_blank {
             return;
         }
         let centre = Pos2::new(rect.max.x - INSET, rect.min.y + INSET);

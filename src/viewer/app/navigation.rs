@@ -5,6 +5,7 @@ use super::canvas::Canvas;
 use crate::bindings::Verb;
 use egui::{Event, Key, MouseWheelUnit, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
+use hitscope_core::Camera;
 use hitscope_core::camera::{StandardView, Turntable};
 
 /// Time that a change of the view takes.
@@ -254,11 +255,17 @@ impl App {
         if factor == 1.0 {
             return;
         }
-        let newest = || self.seen.turntable.camera(canvas.resolution);
-        let camera = self.shown_camera().unwrap_or_else(newest);
-        let at = canvas.pixel_of(pos, &camera);
-        let on_pivots_plane = || camera.on_plane_through(self.seen.turntable.pivot, at);
-        let anchor = self.surface_at(&camera, at).unwrap_or_else(on_pivots_plane);
+        let newest = self.seen.turntable.camera(canvas.resolution);
+        let point_in = |camera: &Camera| self.surface_at(camera, canvas.pixel_of(pos, camera));
+        // The view may have passed what the picture on the screen shows.
+        let is_ahead = |point: &DVec3| newest.depth_of(*point) > 0.0;
+        let shown = self.shown_camera().and_then(|shown| point_in(&shown));
+        let on_pivots_plane =
+            || newest.on_plane_through(self.seen.turntable.pivot, canvas.pixel_of(pos, &newest));
+        let anchor = shown
+            .filter(is_ahead)
+            .or_else(|| point_in(&newest))
+            .unwrap_or_else(on_pivots_plane);
         self.seen.turntable.zoom(factor.into(), anchor);
     }
 

@@ -6,7 +6,7 @@ use crate::clip_choice::ClipShape;
 use glam::DVec3;
 
 const CLIP: Place = Place::submenu(Menu::View, 5, "Clip");
-const AT_PICK: Place = Place::new(Menu::Pick, 2);
+const AT_PICK: Place = Place::new(Menu::Pick, 4);
 
 pub(super) const ROWS: &[Command] = &[
     Command {

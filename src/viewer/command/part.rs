@@ -5,7 +5,7 @@ use crate::app::App;
 use crate::parts::Grouping;
 
 const PARTS: Place = Place::submenu(Menu::View, 7, "Parts");
-const PICKED: Place = Place::new(Menu::Pick, 3);
+const PICKED: Place = Place::new(Menu::Pick, 5);
 
 pub(super) const ROWS: &[Command] = &[
     Command {

@@ -48,12 +48,12 @@ impl Turntable {
         let back = self.world_from_camera().z_axis;
         let eye = self.pivot + self.distance * back;
         let to_anchor = anchor - eye;
-        let reach = to_anchor.length();
-        let is_at_limit = self.distance <= nearest;
-        if reach <= nearest {
-            // Past the anchor, in its direction if it has one.
-            let forward = to_anchor.try_normalize().unwrap_or(-back);
-            let eye = eye + 2.0 * nearest * forward;
+        // Half of it more, as the anchor may be on the pivot's plane, which is that far away up to rounding. An anchor in a
+        // picture that is older than the view may even be behind the eye.
+        let close = 1.5 * nearest;
+        let is_at_limit = self.distance <= close;
+        if -to_anchor.dot(back) <= close {
+            let eye = eye - 2.0 * nearest * back;
             if is_at_limit {
                 self.distance = self.radius.max(nearest);
             }

@@ -47,11 +47,11 @@ impl Hover {
 }
 
 impl App {
-    /// Reads out what is under the pointer, unless it drags.
+    /// Reads out what is under the pointer, unless it drags or a screenshot is being taken.
     pub(in crate::app) fn hover(&mut self, response: &Response, canvas: Canvas) {
         let pos = response.hover_pos().filter(|_| !response.dragged());
         let key = pos
-            .filter(|_| self.picked.inspecting.hover.is_on)
+            .filter(|_| self.picked.inspecting.hover.is_on && self.screenshot.is_none())
             .and_then(|pos| {
                 let camera = self.shown_camera()?;
                 let mut request = self.traced.tracer.posted()?.clone();
