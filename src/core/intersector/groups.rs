@@ -49,7 +49,7 @@ pub trait GroupIntersector: Intersector {
     /// All hits of one ray, in any order.
     fn every_hit(&self, ray: &Ray) -> Vec<RankedHit>;
 
-    /// The box that rays which start at their origin or ahead of it must meet to hit anything, as tested by [`BoxRay`];
+    /// The box that rays which start at their origin or ahead of it must meet to hit anything, as tested by `BoxRay`;
     /// `None` if there is none.
     fn box_to_meet(&self) -> Option<Aabb> {
         None
