@@ -15,4 +15,4 @@ mod ticks;
 pub use map::{COLOUR_MAPS, ColourMap, MapKind, NO_NUMBER, colour_map};
 pub(crate) use map::{DUSK, GREY, VIRIDIS};
 pub use scale::{ColourScale, ScaleError};
-pub use ticks::Tick;
+pub use ticks::{Tick, decimal, exponent_of};

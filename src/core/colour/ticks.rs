@@ -27,14 +27,17 @@ pub(super) fn ticks(range: [f64; 2], is_logarithmic: bool, most: usize) -> Vec<(
 }
 
 /// The exact decimal `digits`·10^`exponent`, rounded once.
-fn decimal(digits: f64, exponent: i32) -> f64 {
+///
+/// # Panics
+/// If `digits` isn't finite.
+pub fn decimal(digits: f64, exponent: i32) -> f64 {
     // Quicker ways round twice.
     let text = format!("{digits}e{exponent}");
     text.parse().expect("a number")
 }
 
-/// The exponent of the largest power of ten that isn't above a positive number.
-fn exponent_of(x: f64) -> i32 {
+/// The exponent of the largest power of ten that isn't above a positive, finite number.
+pub fn exponent_of(x: f64) -> i32 {
     let exponent = x.log10().floor() as i32;
     // The logarithm is rounded.
     if decimal(1.0, exponent + 1) <= x {

@@ -1,6 +1,7 @@
 //! Round numbers for the spacing of a grid and the length of a scale bar.
 
 use crate::numbers::number;
+use hitscope_core::colour::{decimal, exponent_of};
 
 /// 1, 2 or 5 times a power of ten.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -21,10 +22,9 @@ impl Step {
         steps.rev().find(|step| step.value() <= x)
     }
 
-    /// The number nearest to the step in f64: parsing rounds once, a product with a power of ten twice.
+    /// The number nearest to the step in f64.
     pub fn value(self) -> f64 {
-        let text = format!("{}e{}", self.digit, self.exponent);
-        text.parse().expect("digits with an exponent are a number")
+        decimal(self.digit.into(), self.exponent)
     }
 
     /// The step with its unit, such as `0.5 units`.
@@ -39,9 +39,8 @@ impl Step {
         if !(x > 0.0 && x.is_finite()) {
             return None;
         }
-        // The logarithm of a power of ten may be rounded to the wrong side.
-        let exponent = x.log10().floor() as i32;
-        let exponents = exponent - 1..=exponent + 1;
+        let exponent = exponent_of(x);
+        let exponents = exponent..=exponent + 1;
         let steps = exponents.flat_map(|exponent| [1, 2, 5].map(|digit| Self { digit, exponent }));
         let is_usable = |step: &Self| step.value() > 0.0 && step.value().is_finite();
         Some(steps.filter(is_usable).collect())
