@@ -2,6 +2,7 @@
 
 use super::App;
 use glam::UVec2;
+use hitscope_core::Aabb;
 use hitscope_core::camera::{Turntable, UpAxis};
 
 impl App {
@@ -43,6 +44,14 @@ impl App {
                 self.seen.turntable.frame(bounds, self.shown.resolution);
             }
         }
+    }
+
+    /// Frames a part of the scene from a multiple of the distance that fits it. Zooming still reaches the whole scene.
+    pub(super) fn frame_bounds(&mut self, bounds: Aabb, distances: f64) {
+        let turntable = &mut self.seen.turntable;
+        turntable.frame(bounds, self.shown.resolution);
+        turntable.distance *= distances;
+        turntable.set_scene(self.open.document.loaded.scene.bounds_with_elements());
     }
 
     /// Sets the picture's size. The file's view, while it is shown, keeps the whole film in the picture.

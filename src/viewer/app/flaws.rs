@@ -19,13 +19,8 @@ impl App {
             FlawPlace::find(scene.mesh(), &findings.health, flaw, index)
         });
         if let Some(place) = &self.picked.flaw {
-            self.seen
-                .turntable
-                .frame(place.bounds, self.shown.resolution);
             // Shows some of the surface around it.
-            self.seen.turntable.distance *= FLAW_DISTANCE;
-            let scene = &self.open.document.loaded.scene;
-            self.seen.turntable.set_scene(scene.bounds_with_elements());
+            self.frame_bounds(place.bounds, FLAW_DISTANCE);
         }
     }
 }

@@ -207,9 +207,7 @@ impl App {
         };
         let bounds = scene.subset(&[primitive]).bounds();
         if !bounds.is_empty() {
-            self.seen.turntable.frame(bounds, self.shown.resolution);
-            self.seen.turntable.distance *= DISTANCE;
-            self.seen.turntable.set_scene(scene.bounds_with_elements());
+            self.frame_bounds(bounds, DISTANCE);
         } else if let Some(point) = self.marked_point() {
             self.seen.turntable.centre_on(point);
         }
@@ -230,9 +228,7 @@ impl App {
         let corners = (0..count).filter(is_member);
         let corners = corners.filter_map(|triangle| scene.corners(triangle));
         let bounds = Aabb::around(corners.flatten());
-        let all = scene.bounds_with_elements();
-        self.seen.turntable.frame(bounds, self.shown.resolution);
-        self.seen.turntable.set_scene(all);
+        self.frame_bounds(bounds, 1.0);
     }
 
     /// Inspects a pixel and opens the Inspect tab.
