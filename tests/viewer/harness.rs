@@ -147,6 +147,14 @@ pub fn wait(harness: &mut Harness<'_, App>, what: &str, is_so: impl Fn(&App) -> 
     }
 }
 
+/// Draws frames until the document of this name is open and its picture is complete.
+pub fn settle(window: &mut Window, name: &str) {
+    wait(window, name, |app| {
+        app.document().name() == name && app.is_settled()
+    });
+    window.run_steps(2);
+}
+
 /// A point of the picture, from its top left (0, 0) to its bottom right (1, 1).
 pub fn in_picture(harness: &Harness<'_, App>, x: f32, y: f32) -> Pos2 {
     let rect = harness.get_by_label("Rendered picture").rect();

@@ -1,6 +1,6 @@
 //! The window with scene files: the sensor's view, crossings of the picked ray, saving, and kernels by shape.
 
-use crate::harness::{Window, app, click, in_picture, press, say, wait};
+use crate::harness::{Window, app, click, in_picture, press, say, settle, wait};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use glam::DVec3;
@@ -29,13 +29,6 @@ fn opened(name: &'static str, text: &str) -> Option<(Window, TempDir)> {
     let mut window = app(Some(path))?;
     settle(&mut window, name);
     Some((window, folder))
-}
-
-fn settle(window: &mut Window, name: &str) {
-    wait(window, name, |app| {
-        app.document().name() == name && app.is_settled()
-    });
-    window.run_steps(2);
 }
 
 fn camera(window: &Window) -> Camera {

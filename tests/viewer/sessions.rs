@@ -1,7 +1,7 @@
 //! Sessions, and undo and redo, as a user meets them.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, bare, click, in_picture, pointer, press, say, wait};
+use crate::harness::{Window, app, bare, click, in_picture, pointer, press, say, settle, wait};
 use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
@@ -26,13 +26,6 @@ fn write(folder: &TempDir, name: &str, text: &str) -> PathBuf {
     let path = folder.path().join(name);
     std::fs::write(&path, text).expect("written");
     path
-}
-
-fn settle(window: &mut Window, name: &str) {
-    wait(window, name, |app| {
-        app.document().name() == name && app.is_settled()
-    });
-    window.run_steps(2);
 }
 
 fn ctrl(window: &mut Window, key: Key) {
