@@ -20,6 +20,7 @@ mod packets;
 
 // Every tree: bit-identical results.
 mod trees;
+mod turns;
 
 // The record of the boxes that a ray opens.
 mod opened_boxes;

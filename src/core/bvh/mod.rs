@@ -19,7 +19,9 @@ pub(crate) use packet::{PacketVisitor, RayPacket, Slabs};
 pub(crate) use record::Step;
 pub use record::{BoxContents, OpenedBox};
 pub(crate) use slab::{BoxRay, SlabRay};
-pub(crate) use walk::{LentStack, Stack, Visitor, end_slackened, rank, rank_floor};
+pub(crate) use walk::{
+    LentStack, Stack, Stacks, Visitor, WALKS, Walk, end_slackened, rank, rank_floor,
+};
 
 /// Primitives per block; a SIMD test takes a whole block.
 pub const BLOCK_SIZE: usize = 8;

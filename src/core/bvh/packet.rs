@@ -11,15 +11,16 @@
 //! the triangle's own box, in a packet or alone.
 
 use super::slab::{AHEAD, MAX_INVERSE, at_least, at_most};
-use super::walk::{
-    NOTHING, Stack, child_of, end_slackened, entry_of, insert, key, start_slackened,
-};
+use super::walk::{Stack, child_of, end_slackened, entry_of, insert, key, start_slackened};
 use super::{Bvh, Child, Node, WIDTH};
 use crate::aabb::Planes;
 use crate::lane::PACKET;
 use crate::ray::Ray;
 use crate::simd::prefetch;
 use fearless_simd::{Simd, f32x4, f32x8, f32x16, mask32x16, prelude::*};
+
+/// Key of no child; compares greater than all others.
+const NOTHING: u64 = u64::MAX;
 
 /// Handler of the blocks that rays meet.
 pub(crate) trait PacketVisitor<S: Simd> {

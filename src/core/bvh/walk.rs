@@ -44,21 +44,33 @@ pub(crate) type Stack = [u64; 256];
 
 const _: () = assert!(MAX_DEPTH * (WIDTH - 1) < 256);
 
+/// The number of walks in turns, a stack each; see [`in_turns`](crate::intersector::in_turns).
+pub(crate) const WALKS: usize = 8;
+
+/// The stacks of walks in turns.
+pub(crate) type Stacks = [Stack; WALKS];
+
 thread_local! {
-    static SPARE: Cell<Option<Box<Stack>>> = const { Cell::new(None) };
+    static SPARE: Cell<Option<Box<Stacks>>> = const { Cell::new(None) };
 }
 
-/// A stack that returns to its thread when dropped. Zeroing a stack for each ray costs 10 to 25 % (2026-11).
-pub(crate) struct LentStack(Option<Box<Stack>>);
+/// Stacks that return to their thread when dropped. Zeroing one for each ray costs 10 to 25 % (2026-11).
+pub(crate) struct LentStack(Option<Box<Stacks>>);
 
 impl LentStack {
-    /// The thread's stack, or a new one if that is lent.
+    /// The thread's stacks, or new ones if those are lent.
     pub fn new() -> Self {
         Self(SPARE.take())
     }
 
+    /// The stack of one walk.
     pub fn get(&mut self) -> &mut Stack {
-        self.0.get_or_insert_with(|| Box::new([0; 256]))
+        &mut self.all()[0]
+    }
+
+    /// The stacks of walks in turns.
+    pub fn all(&mut self) -> &mut Stacks {
+        self.0.get_or_insert_with(|| Box::new([[0; 256]; WALKS]))
     }
 }
 
@@ -96,9 +108,120 @@ pub(crate) fn rank<L: Lane>(t: L, floor: L) -> L {
     L::select(t.lt(floor), floor, t)
 }
 
+/// A walk, which is at a node or a leaf.
+pub(crate) struct Walk<S: Simd> {
+    slabs: SlabRay<S>,
+    /// The distance up to which boxes are visited.
+    limit: f32,
+    /// The number of deferred children.
+    depth: u8,
+    /// The key of the node or leaf.
+    current: u64,
+}
+
+impl<S: Simd> Walk<S> {
+    /// A walk at the root of a tree, which must not be empty.
+    #[inline(always)]
+    pub fn start(token: S, ray: &Ray) -> Self {
+        Self {
+            slabs: SlabRay::new(token, ray, start_slackened(ray.t_min)),
+            limit: end_slackened(ray.t_max),
+            depth: 0,
+            current: key(ray.t_min, Child::node(0)),
+        }
+    }
+
+    /// Opens the node, or passes the leaf's blocks to the visitor, and goes on to the next node or leaf. Returns whether
+    /// the walk is at its end.
+    #[inline(always)]
+    pub fn step<V: Visitor<S>>(
+        &mut self,
+        bvh: &Bvh,
+        token: S,
+        stack: &mut Stack,
+        visitor: &mut V,
+    ) -> bool {
+        let child = child_of(self.current);
+        if child.is_leaf() {
+            let (start, count) = (child.first_block(), child.block_count());
+            for block in start..start + count {
+                match visitor.visit(block, &self.slabs) {
+                    ControlFlow::Continue(t) => self.limit = end_slackened(t),
+                    ControlFlow::Break(()) => return true,
+                }
+            }
+        } else if self.open(bvh, token, child.node_index(), stack, visitor) {
+            return false;
+        }
+        self.pop(stack)
+    }
+
+    /// Goes to the nearest child of a node that the ray meets, and defers the others. Returns whether it meets any.
+    #[inline(always)]
+    fn open<V: Visitor<S>>(
+        &mut self,
+        bvh: &Bvh,
+        token: S,
+        index: usize,
+        stack: &mut Stack,
+        visitor: &mut V,
+    ) -> bool {
+        let node = &bvh.nodes[index];
+        visitor.open(index);
+        let far: f32x8<S> = Lane::splat(token, self.limit);
+        let (entries, mut met) = if V::IS_BEHIND {
+            self.slabs.enter::<true>(token, &node.planes, far)
+        } else {
+            self.slabs.enter::<false>(token, &node.planes, far)
+        };
+        if met == 0 {
+            return false;
+        }
+        self.current = bvh.next(token, &mut met, &node.child, &entries, visitor);
+        if met == 0 {
+            return true;
+        }
+        let (first, mut depth) = (self.depth, self.depth);
+        let b = bvh.next(token, &mut met, &node.child, &entries, visitor);
+        let (mut nearest, mut farther) = (self.current.min(b), self.current.max(b));
+        // Sort two and three children without unpredictable branches.
+        if met != 0 {
+            let c = bvh.next(token, &mut met, &node.child, &entries, visitor);
+            stack[usize::from(depth)] = farther.max(c);
+            depth = depth.wrapping_add(1);
+            let middle = farther.min(c);
+            (nearest, farther) = (nearest.min(middle), nearest.max(middle));
+        }
+        stack[usize::from(depth)] = farther;
+        depth = depth.wrapping_add(1);
+        while met != 0 {
+            let next = bvh.next(token, &mut met, &node.child, &entries, visitor);
+            insert(stack, first, depth, nearest.max(next));
+            nearest = nearest.min(next);
+            depth = depth.wrapping_add(1);
+        }
+        (self.current, self.depth) = (nearest, depth);
+        true
+    }
+
+    /// Goes to the last deferred child that doesn't lie behind the hit. Returns whether there is none.
+    #[inline(always)]
+    fn pop(&mut self, stack: &Stack) -> bool {
+        let mut depth = self.depth;
+        while depth != 0 {
+            depth -= 1;
+            self.current = stack[usize::from(depth)];
+            if entry_of(self.current) <= self.limit {
+                self.depth = depth;
+                return false;
+            }
+        }
+        true
+    }
+}
+
 impl Bvh {
-    /// Passes each block that the ray meets to the visitor. In one piece, because a part of its own that changed the
-    /// depth of the stack cost 3 % (bunny, 2026-11).
+    /// Passes each block that the ray meets to the visitor.
     #[inline(always)]
     pub(crate) fn walk<S: Simd, V: Visitor<S>>(
         &self,
@@ -107,76 +230,9 @@ impl Bvh {
         stack: &mut Stack,
         visitor: &mut V,
     ) {
-        if self.nodes.is_empty() {
-            return;
-        }
-        let slabs = SlabRay::new(token, ray, start_slackened(ray.t_min));
-        let mut limit = end_slackened(ray.t_max);
-        let mut far: f32x8<S> = Lane::splat(token, limit);
-        let mut depth = 0u8;
-        let mut current = key(ray.t_min, Child::node(0));
-        loop {
-            while !child_of(current).is_leaf() {
-                let index = child_of(current).node_index();
-                let node = &self.nodes[index];
-                visitor.open(index);
-                let (entries, mut met) = if V::IS_BEHIND {
-                    slabs.enter::<true>(token, &node.planes, far)
-                } else {
-                    slabs.enter::<false>(token, &node.planes, far)
-                };
-                if met == 0 {
-                    current = NOTHING;
-                    break;
-                }
-                let a = self.next(token, &mut met, &node.child, &entries, visitor);
-                if met == 0 {
-                    current = a;
-                    continue;
-                }
-                let first = depth;
-                let b = self.next(token, &mut met, &node.child, &entries, visitor);
-                let (mut nearest, mut farther) = (a.min(b), a.max(b));
-                // Sort two and three children without unpredictable branches.
-                if met != 0 {
-                    let c = self.next(token, &mut met, &node.child, &entries, visitor);
-                    stack[usize::from(depth)] = farther.max(c);
-                    depth = depth.wrapping_add(1);
-                    let middle = farther.min(c);
-                    (nearest, farther) = (nearest.min(middle), nearest.max(middle));
-                }
-                stack[usize::from(depth)] = farther;
-                depth = depth.wrapping_add(1);
-                while met != 0 {
-                    let next = self.next(token, &mut met, &node.child, &entries, visitor);
-                    insert(stack, first, depth, nearest.max(next));
-                    nearest = nearest.min(next);
-                    depth = depth.wrapping_add(1);
-                }
-                current = nearest;
-            }
-            if current != NOTHING {
-                let leaf = child_of(current);
-                let (start, count) = (leaf.first_block(), leaf.block_count());
-                for block in start..start + count {
-                    match visitor.visit(block, &slabs) {
-                        ControlFlow::Continue(t) => limit = end_slackened(t),
-                        ControlFlow::Break(()) => return,
-                    }
-                }
-                far = Lane::splat(token, limit);
-            }
-            // Pop a deferred child, skipping those that now lie behind the hit.
-            loop {
-                if depth == 0 {
-                    return;
-                }
-                depth -= 1;
-                current = stack[usize::from(depth)];
-                if entry_of(current) <= limit {
-                    break;
-                }
-            }
+        if !self.nodes.is_empty() {
+            let mut walk = Walk::start(token, ray);
+            while !walk.step(self, token, stack, visitor) {}
         }
     }
 
@@ -212,9 +268,6 @@ pub(super) fn insert(stack: &mut Stack, first: u8, depth: u8, key: u64) {
     }
     stack[usize::from(at)] = key;
 }
-
-/// Key of no child; compares greater than all others.
-pub(super) const NOTHING: u64 = u64::MAX;
 
 #[inline(always)]
 pub(super) fn key(entry: f32, child: Child) -> u64 {

@@ -1,6 +1,6 @@
 //! Method for shapes that state their crossings as polynomials: hits are decided and ordered as in exact arithmetic.
 
-use super::blocks::{BlockValues, Blocks, LaneOf, Row, Scratch, can_be_hit, may_meet, stored};
+use super::blocks::{BlockValues, Blocks, LaneOf, Row, can_be_hit, may_meet, stored};
 use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::precedes;
@@ -44,7 +44,7 @@ impl<T: Shape + Pieces, V: Levels> Method for Algebraic<T, V> {
         blocks: &'a BlocksOf<Self>,
         token: S,
         ray: &'a Ray,
-        scratch: &'a mut Scratch<f32>,
+        scratch: &'a mut [Row<f32>],
     ) -> AlgebraicTester<'a, T, S> {
         AlgebraicTester {
             blocks,
@@ -85,7 +85,7 @@ fn compared<T: Pieces>(
 pub(super) struct AlgebraicTester<'a, T: Shape + Pieces, S: Simd> {
     blocks: &'a Blocks<T, f32>,
     token: S,
-    scratch: &'a mut Scratch<f32>,
+    scratch: &'a mut [Row<f32>],
     ray: &'a Ray,
     solver: CrossingSolver<'a>,
 }

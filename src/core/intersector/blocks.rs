@@ -46,19 +46,25 @@ impl<T: Copy + Default> Scratch<T> {
         Self([Row([T::default(); BLOCK_SIZE]); MAX_VALUES])
     }
 
-    fn fill<S: Shape>(
-        &mut self,
-        compact: &S::Compact,
-        block: usize,
-        count: usize,
-        pack: impl Fn(&S, &mut [T]),
-    ) {
-        let mut one = [T::default(); MAX_VALUES];
-        for lane in 0..BLOCK_SIZE {
-            pack(&compact.primitive(block, lane), &mut one[..count]);
-            for (row, value) in self.0[..count].iter_mut().zip(one) {
-                row.0[lane] = value;
-            }
+    /// The rows.
+    #[inline(always)]
+    pub fn rows(&mut self) -> &mut [Row<T>] {
+        &mut self.0
+    }
+}
+
+/// Packs the primitives of a block.
+fn fill<S: Shape, T: Copy + Default>(
+    rows: &mut [Row<T>],
+    compact: &S::Compact,
+    block: usize,
+    pack: impl Fn(&S, &mut [T]),
+) {
+    let mut one = [T::default(); MAX_VALUES];
+    for lane in 0..BLOCK_SIZE {
+        pack(&compact.primitive(block, lane), &mut one[..rows.len()]);
+        for (row, value) in rows.iter_mut().zip(one) {
+            row.0[lane] = value;
         }
     }
 }
@@ -165,13 +171,14 @@ impl<S: Shape, T: Copy + Default + Send + Sync> Blocks<S, T> {
         &'a self,
         block: usize,
         count: usize,
-        scratch: &'a mut Scratch<T>,
+        scratch: &'a mut [Row<T>],
         pack: impl Fn(&S, &mut [T]),
     ) -> &'a [Row<T>] {
         match &self.compact {
             Some(compact) if MAYBE_COMPACT => {
-                scratch.fill(compact, block, count, pack);
-                &scratch.0[..count]
+                let rows = &mut scratch[..count];
+                fill::<S, T>(rows, compact, block, pack);
+                rows
             }
             _ => self.packed(block, count),
         }

@@ -1,7 +1,7 @@
 //! The methods by which an intersector finds hits in blocks, orders them, and rounds them.
 
 use super::RankedHit;
-use super::blocks::{Blocks, Scratch};
+use super::blocks::{Blocks, Row};
 use super::levels::Levels;
 use crate::bvh::SlabRay;
 use crate::ray::{Hit, Ray};
@@ -43,7 +43,7 @@ pub(super) trait Method: Send + Sync + Sized + 'static {
         blocks: &'a BlocksOf<Self>,
         token: S,
         ray: &'a Ray,
-        scratch: &'a mut Scratch<Self::Stored>,
+        scratch: &'a mut [Row<Self::Stored>],
     ) -> Self::Tester<'a, S>;
 
     /// An empty batch.

@@ -3,7 +3,8 @@
 //! Kernel and CPU level are chosen when an intersector is made. A batch of rays then costs one virtual call,
 //! or two while a better tree is being built. `tree` is the intersector of primitives of one shape. It is
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
-//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces several rays at once.
+//! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces coherent rays together, and
+//! `in_turns` any rays in turns, so that none waits for memory; `several` joins both.
 //! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` orders the hits of
 //! a scene's groups. `clipped` cuts rays with a clip.
 
@@ -13,11 +14,13 @@ mod clipped;
 mod exact;
 mod groups;
 pub(crate) mod improving;
+mod in_turns;
 mod levels;
 mod method;
 mod order;
 mod packet;
 mod ranked;
+mod several;
 mod tree;
 mod visitors;
 
@@ -42,8 +45,8 @@ use algebraic::Algebraic;
 use exact::Exact;
 use levels::{BaselineLevel, EveryLevel};
 use method::Method;
-use packet::Packets;
 use ranked::Ranked;
+use several::Several;
 use std::ops::AddAssign;
 use std::slice::from_ref;
 use std::sync::Arc;
@@ -122,7 +125,7 @@ struct Packer<'a, S> {
 }
 
 impl<S: Shape> Packer<'_, S> {
-    fn pack<M: Method<Shape = S>>(&mut self, kernel: &KernelInfo, packets: Option<Packets<M>>) {
+    fn pack<M: Method<Shape = S>>(&mut self, kernel: &KernelInfo, several: Option<Several<M>>) {
         if kernel.name == self.kernel.name {
             self.packed = Some(Box::new(TreeIntersector::new(
                 self.kernel,
@@ -130,7 +133,7 @@ impl<S: Shape> Packer<'_, S> {
                 Arc::clone(&self.bvh),
                 self.level,
                 self.packing,
-                packets,
+                several,
             )));
         }
     }
@@ -146,14 +149,14 @@ impl<S: Shape> KernelVisitor<S> for Packer<'_, S> {
     }
 
     fn visit_with_packets<K: Kernel<Shape = S>>(&mut self) {
-        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(Packets::NEW));
+        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(Several::NEW));
     }
 
     fn visit_exact_triangle(&mut self)
     where
         S: From<Triangle> + Into<Triangle>,
     {
-        self.pack::<Exact<S>>(&kernel::exact::INFO, Some(Packets::NEW));
+        self.pack::<Exact<S>>(&kernel::exact::INFO, Some(Several::NEW));
     }
 
     fn visit_algebraic(&mut self)

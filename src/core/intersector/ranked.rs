@@ -1,7 +1,7 @@
 //! Method for kernels that decide about each primitive separately. Hits are ranked by their computed t.
 
 use super::RankedHit;
-use super::blocks::{BlockValues, Blocks, LaneOf, Row, Scratch, boxes, can_be_hit, may_meet};
+use super::blocks::{BlockValues, Blocks, LaneOf, Row, boxes, can_be_hit, may_meet};
 use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::{Comparison, precedes};
@@ -89,7 +89,7 @@ impl<K: Kernel, N: Number, V: Levels> Method for Ranked<K, N, V> {
         blocks: &'a BlocksOf<Self>,
         token: S,
         ray: &'a Ray,
-        scratch: &'a mut Scratch<K::Stored<N>>,
+        scratch: &'a mut [Row<K::Stored<N>>],
     ) -> RankedTester<'a, K, N, S> {
         RankedTester {
             token,
@@ -120,7 +120,7 @@ impl<K: Kernel, N: Number, V: Levels> Method for Ranked<K, N, V> {
 pub(super) struct RankedTester<'a, K: Kernel, N: Number, S: Simd> {
     token: S,
     blocks: &'a Blocks<K::Shape, K::Stored<N>>,
-    scratch: &'a mut Scratch<K::Stored<N>>,
+    scratch: &'a mut [Row<K::Stored<N>>],
     prepared: K::Prepared<N::Lanes<S>>,
     t_min: N::Lanes<S>,
     end: N,

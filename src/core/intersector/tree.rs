@@ -1,10 +1,11 @@
 //! Intersector of primitives of one shape: a tree and packed primitives, traced by any method.
 
 use super::blocks::{Blocks, Packing, Scratch, candidates};
+use super::in_turns;
 use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::crossings;
-use super::packet::Packets;
+use super::several::Several;
 use super::visitors::{Any, Each, Kept, Nearest};
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
 use crate::aabb::Aabb;
@@ -23,8 +24,8 @@ pub(super) struct TreeIntersector<M: Method> {
     pub blocks: BlocksOf<M>,
     pub level: SimdLevel,
     kernel: &'static KernelInfo,
-    /// Traces packets of coherent rays.
-    packets: Option<Packets<M>>,
+    /// Traces several rays at once.
+    several: Option<Several<M>>,
 }
 
 impl<M: Method> TreeIntersector<M> {
@@ -34,20 +35,25 @@ impl<M: Method> TreeIntersector<M> {
         bvh: Arc<Bvh>,
         level: SimdLevel,
         packing: Packing,
-        packets: Option<Packets<M>>,
+        several: Option<Several<M>>,
     ) -> Self {
         const { assert!(M::VALUES <= MAX_VALUES) };
         Self {
             blocks: Blocks::new(primitives, bvh, packing, M::VALUES, M::EMPTY, M::pack),
             level,
             kernel,
-            packets,
+            several,
         }
     }
 
-    /// The searches of packets, which need packed rows.
-    fn packets(&self) -> Option<&Packets<M>> {
-        self.packets.as_ref().filter(|_| !self.blocks.are_compact())
+    /// The searches of several rays at once, which need packed rows.
+    fn several(&self) -> Option<&Several<M>> {
+        self.several.as_ref().filter(|_| !self.blocks.are_compact())
+    }
+
+    /// These searches, if the tree is so large that walks wait for memory.
+    fn in_turns(&self) -> Option<&Several<M>> {
+        self.several().filter(|_| in_turns::pays(&self.blocks))
     }
 
     /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
@@ -64,7 +70,7 @@ impl<M: Method> TreeIntersector<M> {
         let mut i = 0;
         while i < rays.len() {
             if !is_behind(&rays[i]) {
-                let tester = M::tester(&self.blocks, token, &rays[i], &mut scratch);
+                let tester = M::tester(&self.blocks, token, &rays[i], scratch.rows());
                 let mut visitor = Nearest::<S, _, MAYBE_COMPACT> {
                     nearest: tester.nothing(),
                     tester,
@@ -92,7 +98,7 @@ impl<M: Method> TreeIntersector<M> {
         for (ray, is_hit) in rays.iter().zip(are_hits) {
             if !is_behind(ray) {
                 let mut visitor = Any::<_, MAYBE_COMPACT> {
-                    tester: M::tester(&self.blocks, token, ray, &mut scratch),
+                    tester: M::tester(&self.blocks, token, ray, scratch.rows()),
                     t_max: ray.t_max,
                     is_hit: false,
                 };
@@ -112,7 +118,7 @@ impl<M: Method> TreeIntersector<M> {
         finish: Finish<'_, M>,
     ) -> Cost {
         let (mut lent, mut scratch) = (LentStack::new(), Scratch::new());
-        let tester = M::tester(&self.blocks, baseline(), ray, &mut scratch);
+        let tester = M::tester(&self.blocks, baseline(), ray, scratch.rows());
         let mut visitor = Each {
             kept: match query {
                 Query::Nearest => Kept::Nearest(tester.nothing()),
@@ -144,7 +150,7 @@ impl<M: Method> TreeIntersector<M> {
     #[inline(always)]
     pub(super) fn count<S: Simd>(&self, token: S, ray: &Ray) -> usize {
         let mut scratch = Scratch::new();
-        let mut tester = M::tester(&self.blocks, token, ray, &mut scratch);
+        let mut tester = M::tester(&self.blocks, token, ray, scratch.rows());
         let mut count = 0;
         // A plain loop: functions called by an iterator may be compiled without the CPU's features.
         for block in 0..self.blocks.bvh.block_count() {
@@ -176,7 +182,12 @@ impl<M: Method> Intersector for TreeIntersector<M> {
             .zip(hits.chunks_mut(M::BATCH_SIZE));
         for (rays, hits) in batches {
             let mut batch = M::batch();
-            M::Levels::find(self, rays, hits, &mut batch, lent.get());
+            match self.in_turns() {
+                Some(several) => {
+                    (several.nearest_in_turns)(self, rays, hits, &mut batch, lent.all());
+                }
+                None => M::Levels::find(self, rays, hits, &mut batch, lent.get()),
+            }
             // Separate from the search, which otherwise becomes a tenth slower (exact kernel, bunny, primary
             // rays, 2026-11).
             M::round(&self.blocks, self.level, rays, &batch, hits);
@@ -185,21 +196,21 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        match self.packets() {
-            Some(packets) => (packets.nearest)(self, rays, hits),
+        match self.several() {
+            Some(several) => (several.nearest_of_packets)(self, rays, hits),
             None => self.closest_hits(rays, hits),
         }
     }
 
     fn coherent_any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        match self.packets() {
-            Some(packets) => (packets.any)(self, rays, are_hits),
+        match self.several() {
+            Some(several) => (several.any_of_packets)(self, rays, are_hits),
             None => self.any_hits(rays, are_hits),
         }
     }
 
     fn rays_together(&self) -> usize {
-        self.packets().map_or(1, |_| PACKET)
+        self.several().map_or(1, |_| PACKET)
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
@@ -211,7 +222,11 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        M::Levels::find_any(self, rays, are_hits, LentStack::new().get());
+        let mut lent = LentStack::new();
+        match self.in_turns() {
+            Some(several) => (several.any_in_turns)(self, rays, are_hits, lent.all()),
+            None => M::Levels::find_any(self, rays, are_hits, lent.get()),
+        }
         answer_behind(rays, are_hits, &|ray| {
             self.closest_hit_with_cost(ray).0.is_some()
         });

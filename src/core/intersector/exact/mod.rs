@@ -5,7 +5,7 @@ mod batch;
 pub(super) use batch::rounded_alone;
 
 use crate::bvh::{BLOCK_SIZE, NO_PRIMITIVE, SlabRay};
-use crate::intersector::blocks::{BlockValues, LaneOf, Scratch, can_be_hit};
+use crate::intersector::blocks::{BlockValues, LaneOf, Row, can_be_hit};
 use crate::intersector::levels::EveryLevel;
 use crate::intersector::method::{BlocksOf, Method, Tester};
 use crate::intersector::order::precedes;
@@ -80,7 +80,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
         blocks: &'a BlocksOf<Self>,
         token: S,
         ray: &'a Ray,
-        scratch: &'a mut Scratch<f32>,
+        scratch: &'a mut [Row<f32>],
     ) -> ExactTester<'a, T, S> {
         let judge = Judge::new(ray, SlotCorners(blocks));
         ExactTester {
@@ -126,7 +126,7 @@ impl<T: Shape + Into<Triangle>> Method for Exact<T> {
 pub(super) struct ExactTester<'a, T: Shape + Into<Triangle>, S: Simd> {
     blocks: &'a BlocksOf<Exact<T>>,
     token: S,
-    scratch: &'a mut Scratch<f32>,
+    scratch: &'a mut [Row<f32>],
     sheared: ShearedRay<Vector<S>>,
     judge: Judge<'a, SlotCorners<'a, T>>,
     /// A depth below which hits lie before the ray's interval, among them the hit of the triangle that the

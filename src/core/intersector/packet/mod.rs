@@ -121,21 +121,6 @@ impl<M: PacketMethod, S: Simd, const IS_ANY: bool> PacketVisitor<S> for Search<'
     }
 }
 
-/// The searches of a method's packets.
-pub(super) struct Packets<M: Method> {
-    /// Finds the nearest hits.
-    pub nearest: fn(&TreeIntersector<M>, &[Ray], &mut [Option<Hit>]),
-    /// Finds any hits.
-    pub any: fn(&TreeIntersector<M>, &[Ray], &mut [bool]),
-}
-
-impl<M: PacketMethod> Packets<M> {
-    pub const NEW: Self = Self {
-        nearest: TreeIntersector::nearest_of_packets,
-        any: TreeIntersector::any_of_packets,
-    };
-}
-
 /// The most blocks that a packet visits. Rays that visit more are traced one by one: some start far from each other, at
 /// silhouettes, and the interval that encloses all of them meets much of the scene. Measured with 48, 96, 128, 192,
 /// 320 and without a limit, rays to a lamp, 1.1 M triangles: 7.6, 7.9, 7.9, 7.7, 7.5 and 2.7 Mrays/s, and 5.4 one by
@@ -148,7 +133,7 @@ const AT_ONCE: usize = u64::BITS as usize * PACKET;
 
 impl<M: PacketMethod> TreeIntersector<M> {
     /// Finds the nearest hits of coherent rays.
-    fn nearest_of_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+    pub(super) fn nearest_of_packets(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         let nearest = |rays: &[Ray], hits: &mut [Option<Hit>]| self.closest_hits(rays, hits);
         in_packets(rays, hits, nearest, |packets, hits| {
             let mut lent = LentStack::new();
@@ -158,7 +143,7 @@ impl<M: PacketMethod> TreeIntersector<M> {
     }
 
     /// Finds out which coherent rays hit anything.
-    fn any_of_packets(&self, rays: &[Ray], are_hits: &mut [bool]) {
+    pub(super) fn any_of_packets(&self, rays: &[Ray], are_hits: &mut [bool]) {
         let any = |rays: &[Ray], are_hits: &mut [bool]| self.any_hits(rays, are_hits);
         in_packets(rays, are_hits, any, |packets, are_hits| {
             let mut lent = LentStack::new();
