@@ -155,6 +155,11 @@ pub fn f32_below(x: f64) -> f32 {
     }
 }
 
+/// The smallest f32 that isn't below a number; NaN for NaN.
+pub fn f32_above(x: f64) -> f32 {
+    -f32_below(-x)
+}
+
 /// Distance from an f32 of magnitude `t` to the next larger one; the unit in which errors of t are measured.
 pub fn ulp_at(t: f64) -> f64 {
     let size = (t.abs() as f32).min(f32::MAX.next_down());

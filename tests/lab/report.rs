@@ -61,6 +61,13 @@ fn every_kernel_of_every_shape_has_speed_and_accuracy() {
             );
         }
     }
+    for shape in ["plane", "box"] {
+        let aligned = all.shape_speed.iter().filter(|row| row.is_aligned);
+        assert!(
+            aligned.filter(|row| row.shape == shape).count() > 2,
+            "{shape}"
+        );
+    }
     let mut text = Vec::new();
     print(&all, &mut text).expect("written");
     let text = String::from_utf8(text).expect("UTF-8");

@@ -121,6 +121,52 @@ fn the_formula_of_a_capped_cylinder_has_an_equation_for_each_part() {
 }
 
 #[test]
+fn the_formula_of_each_crossing_ends_at_that_crossing() {
+    let folder = Folder::new();
+    let sphere = r#"<scene version="3.0.0"><shape type="sphere"/></scene>"#;
+    folder.write("ball.xml", sphere);
+    folder.write("rays.txt", "0 0 5 0 0 -1\n");
+    let line = "@ball.xml --rays @rays.txt --all --explain";
+    let found = folder.json(|f, out| f.args::<TraceArgs>(line).run(out));
+    let crossings = found["hits"].as_array().expect("a list");
+    let last = |crossing: &Value| {
+        let lines = crossing["formula"]
+            .as_array()
+            .and_then(|lines| lines.last());
+        lines.cloned().expect("a line")
+    };
+    let last: Vec<Value> = crossings.iter().map(last).collect();
+    assert_eq!(
+        json!(last),
+        json!(["r(4) = (0, 0, 1)", "r(6) = (0, 0, -1)"])
+    );
+}
+
+#[test]
+fn a_scenes_report_has_a_page_with_each_kernel_and_one_row_per_tier() {
+    let folder = folder();
+    let line = "--quick --scene @scene.xml --size 8x6 --out @report";
+    let text = folder.text(|f, out| f.args::<LabArgs>(line).run(out));
+    assert!(text.contains("Each row is of the whole scene"), "{text}");
+    let count = |name: &str| {
+        let mut words = text
+            .lines()
+            .filter_map(|line| line.split_whitespace().next());
+        words.by_ref().filter(|&word| word == name).count()
+    };
+    for name in ["fast", "exact", "sphere-moved-origin", "cylinder-naive-f64"] {
+        assert_eq!(count(name), 1, "{name} in {text}");
+    }
+    // These serve a tier.
+    assert_eq!(count("sphere-hearn-baker"), 0, "{text}");
+    let page = std::fs::read_to_string(folder.path("report/report.html")).expect("a page");
+    assert!(page.contains("sphere-moved-origin"));
+    let json = std::fs::read_to_string(folder.path("report/lab.json")).expect("a file");
+    let json: Value = serde_json::from_str(&json).expect("JSON");
+    assert!(json["kernels"].as_array().map_or(0, Vec::len) > 20);
+}
+
+#[test]
 fn the_sensors_film_is_the_default_size_and_an_explicit_size_wins() {
     let folder = folder();
     let size = |options: &str| {

@@ -31,7 +31,7 @@
 //! | `<default name value>` | defines a parameter from here on, also after the end of an included file; the first definition counts |
 //! | `$name` in an attribute | the parameter's value; a name consists of ASCII letters, digits and `_`. There is no escape for `$` |
 //! | `<include filename>` | the contents of another `<scene>`, anywhere in an object; up to 15 deep |
-//! | `<ref id>` | the object with this `id`, which may follow later; in a shape, it must be a `bsdf` |
+//! | `<ref id>` | the object with this `id`: in a shape a `bsdf`, which may follow later; in a `bsdf` a `bsdf` or texture defined before |
 //!
 //! File names are relative to the folder of the file that contains them. Mitsuba does the same for `include`, and then
 //! also searches the main file's folder; it searches for OBJ files in the main file's folder alone. A warning tells

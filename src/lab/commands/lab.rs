@@ -16,7 +16,7 @@ use hitscope_core::counts::grouped;
 use hitscope_core::obj::Recentre;
 use hitscope_core::progress::Progress;
 use hitscope_core::simd::SimdLevel;
-use serde_json::json;
+use serde_json::{Value, json};
 use std::collections::BTreeSet;
 use std::io::{self, Write};
 use std::path::{Path, PathBuf};
@@ -47,7 +47,7 @@ pub struct LabArgs {
     /// Measure fewer rays: half a minute instead of several minutes
     #[arg(long)]
     pub quick: bool,
-    /// Write report.html, lab.json and accuracy.md to this directory
+    /// Write report.html and lab.json to this directory, and without --scene accuracy.md
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Measure only cases whose names begin with NAME, and neither speed nor packing; repeat the option for several
@@ -80,7 +80,7 @@ fn parse_seed(text: &str) -> Result<u64, String> {
 /// Options that don't require `--scene`.
 const OWN_OPTIONS: [&str; 6] = ["quick", "out", "case", "json", "seed", "scene"];
 /// Options that have no effect on a scene.
-const CASE_OPTIONS: [&str; 3] = ["out", "case", "seed"];
+const CASE_OPTIONS: [&str; 2] = ["case", "seed"];
 
 fn only_with_scene(arg: clap::Arg) -> clap::Arg {
     if OWN_OPTIONS.contains(&arg.get_id().as_str()) {
@@ -134,15 +134,7 @@ impl LabArgs {
         let measured = measure::run(sizes, self.seed, &is_wanted, &never_cancelled, &show);
         let all = measured.expect("never cancelled");
         drop(bar);
-        let about = RunInfo {
-            version: env!("CARGO_PKG_VERSION"),
-            command: self.command_line(),
-            machine: machine(),
-            started: humantime::format_rfc3339_seconds(began).to_string(),
-            seconds: start.elapsed().as_secs_f64(),
-            seed: self.seed,
-            size: if self.quick { "quick" } else { "full" },
-        };
+        let about = self.about(began, start);
         // Print the tables first: a file may turn out not to be writable.
         let json = report::to_json(&about, &all);
         if self.json {
@@ -182,14 +174,31 @@ impl LabArgs {
         if self.seed != 1 {
             text += &format!(" --seed {}", self.seed);
         }
+        if let Some(file) = &self.scene {
+            text += &format!(" --scene {}", file.display());
+        }
         if let Some(folder) = &self.out {
             text += &format!(" --out {}", folder.display());
         }
         text
     }
 
+    fn about(&self, began: SystemTime, start: Instant) -> RunInfo {
+        RunInfo {
+            version: env!("CARGO_PKG_VERSION"),
+            command: self.command_line(),
+            machine: machine(),
+            started: humantime::format_rfc3339_seconds(began).to_string(),
+            seconds: start.elapsed().as_secs_f64(),
+            seed: self.seed,
+            size: if self.quick { "quick" } else { "full" },
+        }
+    }
+
     fn measure_scene(&self, file: &Path, out: &mut dyn Write) -> Result<(), CommandError> {
         self.camera.check()?;
+        let files = self.out.as_deref().map(PageFiles::create).transpose()?;
+        let (began, start) = (SystemTime::now(), Instant::now());
         let loaded = self.mesh.load(file, Recentre::Auto)?;
         let scene = loaded.scene;
         let camera = self.camera.camera(&scene, loaded.view.as_ref())?;
@@ -214,47 +223,69 @@ impl LabArgs {
             measured.expect("never cancelled");
         }
         drop(bar);
+        let name = file.display().to_string();
+        let json = json!({
+            "file": name,
+            "machine": machine(),
+            "triangles": scene.mesh().triangles().len(),
+            "primitives": scene.primitive_count(),
+            "kernels": rows,
+        });
         if self.json {
-            let json = json!({
-                "file": file.display().to_string(),
-                "machine": machine(),
-                "triangles": scene.mesh().triangles().len(),
-                "primitives": scene.primitive_count(),
-                "kernels": rows,
-            });
             writeln!(out, "{}", json::to_pretty(&json))?;
         } else if is_empty {
             writeln!(out, "the scene is empty: there is nothing to measure")?;
         } else {
             print_scene(&rows, out)?;
         }
-        Ok(out.flush()?)
+        out.flush()?;
+        let Some(files) = files else {
+            return Ok(());
+        };
+        let about = self.about(began, start);
+        files.write(&json, &report::scene_for_page(&about, &name, &scene, &rows))
     }
 }
 
-/// The files of a report, opened before the measurement, which takes minutes, to be sure that they are writable.
-struct ReportFiles {
+/// The page and its data, opened before the measurement, which takes minutes, to be sure that they are writable.
+struct PageFiles {
     json: Output,
     page: Output,
+}
+
+impl PageFiles {
+    fn create(folder: &Path) -> Result<Self, CommandError> {
+        std::fs::create_dir_all(folder).map_err(|source| file_error(folder, source))?;
+        Ok(Self {
+            json: Output::create(&folder.join("lab.json"))?,
+            page: Output::create(&folder.join("report.html"))?,
+        })
+    }
+
+    fn write(&self, json: &Value, for_page: &Value) -> Result<(), CommandError> {
+        self.json
+            .write(|out| writeln!(out, "{}", json::to_pretty(json)))?;
+        self.page
+            .write(|out| out.write_all(report::to_page(for_page).as_bytes()))
+    }
+}
+
+/// The files of a report of all cases.
+struct ReportFiles {
+    page: PageFiles,
     table: Output,
 }
 
 impl ReportFiles {
     fn create(folder: &Path) -> Result<Self, CommandError> {
-        std::fs::create_dir_all(folder).map_err(|source| file_error(folder, source))?;
-        let create = |name: &str| Output::create(&folder.join(name));
         Ok(Self {
-            json: create("lab.json")?,
-            page: create("report.html")?,
-            table: create("accuracy.md")?,
+            page: PageFiles::create(folder)?,
+            table: Output::create(&folder.join("accuracy.md"))?,
         })
     }
 
-    fn write(&self, json: &serde_json::Value, all: &Measurements) -> Result<(), CommandError> {
-        self.json
-            .write(|out| writeln!(out, "{}", json::to_pretty(json)))?;
-        self.page
-            .write(|out| out.write_all(report::to_page(json).as_bytes()))?;
+    fn write(&self, json: &Value, all: &Measurements) -> Result<(), CommandError> {
+        self.page.write(json, json)?;
         self.table.write(|out| {
             out.write_all(report::accuracy_table(all).as_bytes())?;
             writeln!(out)?;
@@ -275,6 +306,7 @@ fn print_cases(about: &RunInfo, all: &Measurements, out: &mut dyn Write) -> io::
 
 fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     let (n, hits) = rows.first().map_or((0, 0), |row| (row.n, row.hits));
+    let has_several_shapes = rows.iter().any(|row| row.shape != rows[0].shape);
     writeln!(out, "{}", machine())?;
     writeln!(
         out,
@@ -282,9 +314,18 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         grouped(n as usize),
         grouped(hits as usize)
     )?;
+    if has_several_shapes {
+        writeln!(out, "{}", measure::scene::OF_WHOLE_SCENE)?;
+    }
+    let width = rows
+        .iter()
+        .map(|row| row.kernel.len() + 2)
+        .max()
+        .unwrap_or(0);
+    let width = width.max(24);
     writeln!(
         out,
-        "{:<24} {:>9} {:>9} {:>9} {:>10}   {:>10} {:>10} {:>10} {:>9} {:>9}",
+        "{:<width$} {:>9} {:>9} {:>9} {:>10}   {:>10} {:>10} {:>10} {:>9} {:>9}",
         "kernel",
         "primary",
         "bounce",
@@ -296,30 +337,45 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
         "t p99",
         "t max"
     )?;
+    if has_several_shapes {
+        writeln!(out, "every shape")?;
+        let first = rows.iter().filter(|row| row.shape == rows[0].shape);
+        for (row, tier) in first.filter_map(|row| Some((row, row.tier?))) {
+            print_row(tier, row, width, out)?;
+        }
+    }
     let mut shape = "";
     for row in rows {
+        if has_several_shapes && row.tier.is_some() {
+            continue;
+        }
         if row.shape != std::mem::replace(&mut shape, row.shape) {
             writeln!(out, "{}", row.shape)?;
         }
-        let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
-        // There are no bounce rays where nothing is hit, and no random rays at what has no bounds.
-        let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
-        writeln!(
-            out,
-            "  {:<22} {:>9} {:>9} {:>9} {:>10.3}   {:>10} {:>10} {:>10} {:>9} {:>9}",
-            row.kernel,
-            speed_text(rates.primary),
-            speed_text(rates.bounce),
-            speed_text(rates.random),
-            row.speed.time_relative_to_fast,
-            rate_text(row.missed, row.n),
-            rate_text(row.false_hits, row.n),
-            rate_text(row.other_triangle, row.n),
-            ulps(t.map(|t| t.p99)),
-            ulps(t.map(|t| t.max)),
-        )?;
+        print_row(row.kernel, row, width, out)?;
     }
     Ok(())
+}
+
+fn print_row(name: &str, row: &SceneRow, width: usize, out: &mut dyn Write) -> io::Result<()> {
+    let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
+    // There are no bounce rays where nothing is hit, and no random rays at what has no bounds.
+    let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
+    writeln!(
+        out,
+        "  {:<width$} {:>9} {:>9} {:>9} {:>10.3}   {:>10} {:>10} {:>10} {:>9} {:>9}",
+        name,
+        speed_text(rates.primary),
+        speed_text(rates.bounce),
+        speed_text(rates.random),
+        row.speed.time_relative_to_fast,
+        rate_text(row.missed, row.n),
+        rate_text(row.false_hits, row.n),
+        rate_text(row.other_triangle, row.n),
+        ulps(t.map(|t| t.p99)),
+        ulps(t.map(|t| t.max)),
+        width = width - 2,
+    )
 }
 
 /// Describes the machine: CPU, threads and SIMD level.

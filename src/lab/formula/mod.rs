@@ -23,11 +23,12 @@ pub use solid::solid_tree;
 use glam::{DVec3, Vec3};
 use hitscope_core::group::Group;
 use hitscope_core::kernel::LineEquation;
+use hitscope_core::ray::f32_above;
 use hitscope_core::shape::{AxisBox, Cuboid, Parameter, ParameterKind, Plane, Shape, Sphere};
 use hitscope_core::{Hit, Ray, Scene};
 use number::{point, polynomial, text};
 
-/// The derivation of a ray's first hit of a primitive; of this hit, if it is one of a solid. The ray is relative to
+/// The derivation of a ray's hit. The ray is relative to
 /// `origin`, which is the scene's unless only triangles are hit.
 ///
 /// # Panics
@@ -64,11 +65,41 @@ pub fn lines(scene: &Scene, origin: DVec3, ray: &Ray, hit: &Hit) -> Vec<String> 
         return lines;
     }
     lines.extend(of_primitive(&line, ray, group, index));
-    lines.push(match scene.exact_answer(ray, primitive) {
-        Some([t, ..]) => line.hit(t),
+    lines.push(match exact_t(scene, ray, hit) {
+        Some(t) => line.hit(t),
         None => "In exact arithmetic the ray misses this primitive.".to_owned(),
     });
     lines
+}
+
+/// How the t of a given ray follows from the t of the ray that is traced, which starts at the given one's `start` and whose t
+/// is in units of `scale`.
+pub fn t_of_given_ray(start: f64, scale: f64, t: f64) -> String {
+    let product = if scale == 1.0 {
+        "t".to_owned()
+    } else {
+        format!("{} t", text(scale))
+    };
+    format!(
+        "The traced ray starts at t = {} of the given one, whose t is {} + {product} = {}.",
+        text(start),
+        text(start),
+        text(t)
+    )
+}
+
+/// The exact t of a hit, rounded once: of all points in which the ray crosses the primitive, that of the nearest to the hit.
+fn exact_t(scene: &Scene, ray: &Ray, hit: &Hit) -> Option<f64> {
+    let (mut rest, mut nearest) = (*ray, None);
+    let distance = |t: f64| (t - f64::from(hit.t)).abs();
+    while let Some([t, ..]) = scene.exact_answer(&rest, hit.primitive) {
+        if nearest.is_some_and(|nearest| distance(nearest) <= distance(t)) {
+            break;
+        }
+        nearest = Some(t);
+        rest.t_min = f32_above(t);
+    }
+    nearest
 }
 
 /// The parameters of a primitive that is neither a triangle nor a solid, and its equations along the ray.

@@ -3,6 +3,7 @@
 use super::shapes::{Sampled, SampledSolid};
 use glam::DVec3;
 use hitscope_core::Scene;
+use hitscope_core::group::Grouped;
 use hitscope_core::mesh::{Runs, TriangleMesh};
 use hitscope_core::progress::Progress;
 use hitscope_core::random::Random;
@@ -60,10 +61,14 @@ fn primitives<S: Sampled>(counts: Counts, random: &mut Random) -> Scene {
         let near = place(n, random);
         S::sample(random, near, 1.0)
     };
-    let sampled: Vec<S> = (0..n).map(sample).collect();
+    of_primitives((0..n).map(sample).collect())
+}
+
+/// A scene of these primitives.
+pub(super) fn of_primitives<S: Grouped>(primitives: Vec<S>) -> Scene {
     let mut scene = hitscope_core::scene::scene(TriangleMesh::default());
     let (options, progress) = (SceneOptions::default(), Progress::default());
-    let added = scene.add_group(sampled, Runs::default(), options, &progress);
+    let added = scene.add_group(primitives, Runs::default(), options, &progress);
     added.expect("nobody cancels");
     scene
 }

@@ -6,7 +6,9 @@ use super::workloads::{Workloads, workloads};
 use crate::oracle;
 use hitscope_core::counts::counted_as;
 use hitscope_core::group::ShapeKernels;
-use hitscope_core::kernel::{KernelChoice, Tier, default_triangle_kernel, exact_triangle_kernel};
+use hitscope_core::kernel::{
+    KernelChoice, KernelInfo, Tier, default_triangle_kernel, exact_triangle_kernel,
+};
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::ray::ulp_at;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
@@ -38,13 +40,21 @@ impl SceneSizes {
     };
 }
 
-/// The result of one kernel.
-#[derive(Clone, Debug, PartialEq, Serialize)]
+/// What a row means in a scene with several shapes.
+pub const OF_WHOLE_SCENE: &str = "Each row is of the whole scene: other shapes are tested by their kernels of the same tier or precision.";
+
+/// The result of one kernel, for the whole scene.
+#[derive(Clone, Debug, Serialize)]
 pub struct SceneRow {
     /// The shape that the kernel tests.
     pub shape: &'static str,
     /// The kernel.
     pub kernel: &'static str,
+    /// The name of its tier, if it serves one.
+    pub tier: Option<&'static str>,
+    /// Its description.
+    #[serde(skip)]
+    pub info: &'static KernelInfo,
     /// Camera and bounce rays compared with the oracle.
     pub n: u64,
     /// Rays that hit, according to the oracle.
@@ -118,6 +128,7 @@ pub fn measure(
             each(SceneRow {
                 shape,
                 kernel: kernel.info.name,
+                info: kernel.info,
                 ..row.clone()
             });
             continue;
@@ -201,10 +212,12 @@ fn row(
             }
         }
     }
-    let n = answers.len() as u64;
+    let (n, info) = (answers.len() as u64, intersector.kernel());
     SceneRow {
         shape,
-        kernel: intersector.kernel().name,
+        kernel: info.name,
+        tier: info.tier.map(Tier::name),
+        info,
         n,
         hits,
         missed,

@@ -1,13 +1,18 @@
 //! Speed of the kernels of every shape but the triangle: rays through the tree over random primitives.
+//!
+//! Planes and boxes that are aligned with the axes are measured as general planes and boxes, too: the difference is what
+//! the simplification saves.
 
-use super::primitives::{Counts, scenes};
+use super::primitives::{Counts, of_primitives, scenes};
 use super::scene::counted_primitives;
 use super::speed::{Bench, Speed, default_camera};
 use super::workloads::workloads;
+use glam::Vec3;
+use hitscope_core::Scene;
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::random::Random;
-use hitscope_core::shape::{Shape as _, Triangle};
+use hitscope_core::shape::{AxisBox, AxisPlane, Cuboid, Plane, Shape as _, Triangle};
 use serde::Serialize;
 
 /// The speed of one kernel of a shape.
@@ -15,6 +20,8 @@ use serde::Serialize;
 pub struct ShapeSpeed {
     /// The shape.
     pub shape: &'static str,
+    /// Whether its primitives are aligned with the axes, although the kernel doesn't require that.
+    pub is_aligned: bool,
     /// The kernel.
     pub kernel: &'static str,
     /// Its speed.
@@ -50,22 +57,68 @@ pub fn measure(
     };
     let mut all = Vec::new();
     for scene in scenes(counts, &mut Random::new(seed)) {
-        let group = &scene.groups()[0];
-        let shape = group.shape().name;
-        if shape == Triangle::INFO.name {
+        if *scene.groups()[0].shape() == Triangle::INFO {
             continue;
         }
         let workloads = workloads(&scene, &default_camera(&scene), sizes.rays, seed);
         let name = counted_primitives(&scene);
         let bench = Bench::new(&scene, name, &workloads, sizes.rounds);
-        for info in group.kernels() {
-            let kernel = KernelChoice { info };
-            all.push(ShapeSpeed {
-                shape,
-                kernel: info.name,
-                speed: bench.measure(kernel, &*scene.intersector(kernel), progress)?,
-            });
+        measure_kernels(&bench, &scene, false, progress, &mut all)?;
+        if let Some(general) = generalised(&scene) {
+            measure_kernels(&bench, &general, true, progress, &mut all)?;
         }
     }
     Ok(all)
+}
+
+/// Measures the kernels of a scene's shape with the rays of a bench.
+fn measure_kernels(
+    bench: &Bench,
+    scene: &Scene,
+    is_aligned: bool,
+    progress: &Progress,
+    all: &mut Vec<ShapeSpeed>,
+) -> Result<(), Cancelled> {
+    let group = &scene.groups()[0];
+    for info in group.kernels() {
+        let kernel = KernelChoice { info };
+        all.push(ShapeSpeed {
+            shape: group.shape().name,
+            is_aligned,
+            kernel: info.name,
+            speed: bench.measure(kernel, &*scene.intersector(kernel), progress)?,
+        });
+    }
+    Ok(())
+}
+
+/// The same primitives as general planes or boxes, if they are planes or boxes that are aligned with the axes.
+fn generalised(scene: &Scene) -> Option<Scene> {
+    let group = &scene.groups()[0];
+    let numbers = (0..group.count()).map(|index| group.numbers(index as u32));
+    if *group.shape() == AxisPlane::INFO {
+        let plane = |numbers: Vec<f32>| general_plane(AxisPlane::read(&&numbers[..]));
+        Some(of_primitives(numbers.map(plane).collect()))
+    } else if *group.shape() == AxisBox::INFO {
+        let cuboid = |numbers: Vec<f32>| general_box(AxisBox::read(&&numbers[..]));
+        Some(of_primitives(numbers.map(cuboid).collect()))
+    } else {
+        None
+    }
+}
+
+fn general_plane(plane: AxisPlane) -> Plane {
+    let axis = Vec3::AXES[usize::from(plane.axis).min(2)];
+    Plane {
+        point: plane.coordinate * axis,
+        normal: if plane.is_along_axis { axis } else { -axis },
+    }
+}
+
+fn general_box(aligned: AxisBox) -> Cuboid {
+    let half = 0.5 * (aligned.max - aligned.min);
+    Cuboid {
+        centre: aligned.min + half,
+        axes: [Vec3::X * half.x, Vec3::Y * half.y, Vec3::Z * half.z],
+    }
 }

@@ -1,9 +1,11 @@
 //! Reports of measurements: JSON, an HTML page and text tables.
 
 mod accuracy;
+mod scene;
 mod shapes;
 mod text;
 
+pub use scene::scene_for_page;
 pub use shapes::{is_in_shape_table, shape_table, summary_table};
 pub use text::{accuracy_table, is_in_accuracy_table, print};
 
@@ -28,6 +30,7 @@ const SCRIPT: (&str, &str) = (
         include_str!("page/tables.js"),
         include_str!("page/plot.js"),
         include_str!("page/convergence.js"),
+        include_str!("page/scene.js"),
         include_str!("page/sections.js"),
     ),
 );
@@ -82,6 +85,7 @@ pub fn to_json(about: &RunInfo, all: &Measurements) -> Value {
         "shapes": all.shapes,
         "shape_spawning": all.shape_spawning,
         "packing": all.packing,
+        "aligned_speed": all.shape_speed.iter().filter(|row| row.is_aligned).collect::<Vec<_>>(),
     })
 }
 

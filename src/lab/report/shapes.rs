@@ -4,6 +4,7 @@ use super::accuracy::{Accuracy, Figures};
 use super::text::{header, print_table};
 use crate::measure::Measurements;
 use crate::measure::lecture::{BOX_AS_PRINTED, LECTURE, PrintedInfo};
+use crate::measure::shape_speed::ShapeSpeed;
 use crate::measure::statistics::{Quantiles, rate_text, short, speed_text};
 use hitscope_core::counts::grouped;
 use hitscope_core::group::all_kernels;
@@ -29,6 +30,18 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         out,
         "Speed at random primitives of every shape; Mrays/s of CPU time on one thread"
     )?;
+    print_speeds(all.shape_speed.iter().filter(|row| !row.is_aligned), out)?;
+    writeln!(
+        out,
+        "General planes and boxes, at the primitives and rays of the axis-aligned ones; times relative to their fast kernel"
+    )?;
+    print_speeds(all.shape_speed.iter().filter(|row| row.is_aligned), out)
+}
+
+fn print_speeds<'a>(
+    speeds: impl Iterator<Item = &'a ShapeSpeed>,
+    out: &mut dyn Write,
+) -> io::Result<()> {
     let mut rows = header(&[
         "shape",
         "kernel",
@@ -38,7 +51,7 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
         "time/fast",
         "bytes/primitive",
     ]);
-    for row in &all.shape_speed {
+    for row in speeds {
         let rates = row.speed.mrays_per_s;
         rows.push(vec![
             row.shape.to_owned(),
@@ -190,7 +203,8 @@ impl KernelEntry {
     /// The entry with the figures of a shape.
     fn measured(self, shape: &str, all: &Measurements) -> Value {
         let mut speeds = all.shape_speed.iter();
-        let speed = speeds.find(|row| row.shape == shape && row.kernel == self.name);
+        let speed =
+            speeds.find(|row| row.shape == shape && row.kernel == self.name && !row.is_aligned);
         let cells = all.shapes.iter();
         let cells = cells.filter(|cell| cell.shape == shape && cell.kernel == self.name);
         json!({

@@ -9,9 +9,8 @@ use crate::trade::{Axis, Trade, TradeState};
 use egui::{Color32, FontId, Pos2, RichText, Role, Sense, Theme, WidgetInfo};
 use egui_plot::{AxisHints, GridMark, HLine, Plot, PlotPoint, PlotPoints, PlotUi, Points};
 use hitscope_core::counts::grouped;
-use hitscope_core::group::kernel_named;
 use hitscope_core::kernel::KernelInfo;
-use hitscope_lab::measure::scene::SceneRow;
+use hitscope_lab::measure::scene::{OF_WHOLE_SCENE, SceneRow};
 use hitscope_lab::measure::statistics::{rate_text, short};
 
 /// The meaning of the table's columns.
@@ -64,6 +63,9 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
         .weak(),
     )
     .on_hover_text(COLUMNS_ABOUT);
+    if trade.shapes().len() > 1 {
+        ui.label(RichText::new(OF_WHOLE_SCENE).weak());
+    }
     ui.horizontal(|ui| {
         ui.selectable_value(&mut trade.axis, Axis::ErrorOfT, "Error of t");
         ui.selectable_value(&mut trade.axis, Axis::Wrong, "Wrong decisions");
@@ -160,10 +162,10 @@ fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut S
             draw_point(plot, row, place(axis, row), is_current, theme);
             let on_screen = plot.screen_from_plot(place(axis, row));
             // A tier has the same place for every shape.
-            let name = info(row).short_name();
+            let name = row.info.short_name();
             let is_labelled = labelled.iter().any(|(info, _)| info.short_name() == name);
-            if (info(row).tier.is_some() || is_current) && !is_labelled {
-                labelled.push((info(row), on_screen));
+            if (row.info.tier.is_some() || is_current) && !is_labelled {
+                labelled.push((row.info, on_screen));
             }
             points.push(on_screen);
         }
@@ -188,8 +190,8 @@ fn plot_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut S
         }
         let text = format!(
             "{}: {}\n{}",
-            info(row).short_name(),
-            info(row).title,
+            row.info.short_name(),
+            row.info.title,
             figures(row)
         );
         response.response.on_hover_text_at_pointer(text);
@@ -203,7 +205,7 @@ fn draw_point(
     is_current: bool,
     theme: Theme,
 ) {
-    let info = info(row);
+    let info = row.info;
     let points = Points::new(info.short_name(), PlotPoints::from(vec![[at.x, at.y]]))
         .radius(if is_current { 7.0 } else { 4.5 })
         .color(kernel_colour(info.tier, theme));
@@ -266,7 +268,7 @@ fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut 
                 {
                     ui.label(RichText::new(heading(shape)).size(11.0));
                 }
-                let info = info(row);
+                let info = row.info;
                 let is_current = trade.is_used(settings.kernel(), row);
                 let mut text = text(cells);
                 // The selection has its own text colour.
@@ -288,7 +290,7 @@ fn table_ui(ui: &mut egui::Ui, trade: &Trade, rows: &[SceneRow], settings: &mut 
 fn cells(row: &SceneRow) -> [String; 5] {
     let wrong = row.missed + row.false_hits + row.other_triangle;
     [
-        info(row).short_name().to_owned(),
+        row.info.short_name().to_owned(),
         format!("{:.2}", speed(row)),
         short(mrays_per_s(row)),
         rate_text(wrong, row.n),
@@ -309,11 +311,6 @@ fn figures(row: &SceneRow) -> String {
         row.false_hits,
         row.other_triangle,
     )
-}
-
-fn info(row: &SceneRow) -> &'static KernelInfo {
-    let kernel = kernel_named(row.kernel);
-    kernel.expect("rows are of kernels in the tables").info
 }
 
 /// The label of a mark on the logarithmic axis: `0`, `0.1`, `10`, `1e5`; empty between powers of ten.

@@ -54,6 +54,10 @@ const CONTENTS: &[(&str, &str)] = &[
     ),
     // Parameters.
     (
+        "<shape type='plane'><vector name='v' x='1' y='0' z='0'/>\n<vector name='normal' z='1' x='0' y='0'/></shape>",
+        "3: a plane is described by “p0”, “p1” and “p2”, by “a”, “b”, “c” and “d”, by “point”, “v” and “w”, or by “point” and “normal”, not by both “v” and “normal”",
+    ),
+    (
         "<shape type='sphere'>\n<float name='radios' value='1'/></shape>",
         "3: unknown parameter of shape “sphere”: “radios”; the nearest known one is “radius”",
     ),

@@ -63,7 +63,33 @@ fn is_degenerate(form: &PlaneForm) -> bool {
     }
 }
 
+/// The parameters of which a plane has those of one row.
+const FORMS: [&[&str]; 4] = [
+    &["p0", "p1", "p2"],
+    &["a", "b", "c", "d"],
+    &["v", "w"],
+    &["normal"],
+];
+
+/// # Errors
+/// Parameters of two descriptions are given.
+fn require_one_form(parameters: &Parameters) -> Result<(), Problem> {
+    let mut given = FORMS
+        .iter()
+        .filter_map(|form| Some((form[0], parameters.place_of(form)?)));
+    match (given.next(), given.next()) {
+        (Some((first, _)), Some((second, place))) => {
+            let message = format!(
+                "a plane is described by “p0”, “p1” and “p2”, by “a”, “b”, “c” and “d”, by “point”, “v” and “w”, or by “point” and “normal”, not by both “{first}” and “{second}”"
+            );
+            Err(Problem::at(place, message))
+        }
+        _ => Ok(()),
+    }
+}
+
 fn form(parameters: &mut Parameters) -> Result<PlaneForm, Problem> {
+    require_one_form(parameters)?;
     if parameters.has_any(&["p0", "p1", "p2"]) {
         return Ok(PlaneForm::ThreePoints([
             parameters.point("p0", DVec3::ZERO)?,

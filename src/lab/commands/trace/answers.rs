@@ -209,6 +209,17 @@ impl RayAnswerer<'_> {
         }
     }
 
+    fn formula(&self, placed: &PlacedRay, hit: &Hit) -> Vec<String> {
+        let origin = self.frames.origin(placed);
+        let mut lines = formula::lines(self.scene, origin, &placed.ray, hit);
+        let start = placed.t_as_given(0.0);
+        if start != 0.0 {
+            let (scale, t) = (placed.t_as_given(1.0) - start, placed.t_as_given(hit.t));
+            lines.push(formula::t_of_given_ray(start, scale, t));
+        }
+        lines
+    }
+
     fn entry(&self, placed: &PlacedRay, hit: &Hit, also: Option<Vec<u32>>) -> HitEntry {
         let (scene, primitive) = (self.scene, hit.primitive);
         let is_triangle = scene.is_triangle(primitive);
@@ -235,7 +246,7 @@ impl RayAnswerer<'_> {
                     group.is_flipped(index)
                 }),
                 solid: SolidReport::new(scene, &placed.ray, hit, |t| placed.t_as_given(t)),
-                formula: formula::lines(scene, self.frames.origin(placed), &placed.ray, hit),
+                formula: self.formula(placed, hit),
             }),
         }
     }

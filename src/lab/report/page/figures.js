@@ -16,7 +16,7 @@ const section = id => document.getElementById(id);
 
 /** The report's JSON; missing arrays are treated as empty. */
 function readLab() {
-  const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [], shape_kernels: [], shapes: [], shape_spawning: [], packing: [] };
+  const lists = { kernels: [], cases: [], triangles: [], meshes: [], order: [], boxes: [], policies: [], spawning: [], shape_kernels: [], shapes: [], shape_spawning: [], packing: [], aligned_speed: [] };
   const read = JSON.parse(section('lab').textContent);
   const present = Object.entries(read).filter(([, value]) => value != null);
   return { about: {}, ...lists, ...Object.fromEntries(present) };
@@ -175,6 +175,13 @@ const packingColumns = [
   column('ns', row => row.ns_per_primitive, { group: 'per primitive' }),
   column('bytes', row => row.bytes_per_primitive, { group: 'per primitive' }),
   column('bytes of the tree', row => row.tree_bytes_per_primitive, { group: 'per primitive' }),
+];
+const alignedColumns = [
+  words('kernel', row => row.kernel, { isHead: true, tip: row => infoTip(lab.shape_kernels.filter(info => info.shape === row.shape), row.kernel) }),
+  words('shape', row => row.shape, { style: 'name' }),
+  words('on', row => row.speed.mesh),
+  column('time / fast', row => row.speed.time_relative_to_fast),
+  ...['primary', 'bounce', 'random'].map(name => column(name, row => row.speed.mrays_per_s[name], { group: 'Mrays/s' })),
 ];
 
 // ---- Tooltips: { title, about, facts: [[label, text], …] }, built when shown ----

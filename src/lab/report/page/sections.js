@@ -15,19 +15,21 @@ function showAbout() {
 
 const timedShapes = () => shapes().filter(({ kernels }) => kernels.some(kernel => kernel.speed && kernel.accuracy));
 
-function showPlot() {
-  const place = element('div'), axes = element('div', { class: 'controls' });
-  let shape, horizontal, vertical;
+/** A plot of a shape's kernels below the choices of its axes. */
+function plotOf(shape) {
+  const place = element('div');
+  let [horizontal] = horizontalAxes(shape.kernels), [vertical] = verticalAxes;
   const redraw = () => place.replaceChildren(...drawPlot(shape, horizontal, vertical));
-  function showShape(chosen) {
-    shape = chosen;
-    [horizontal] = horizontalAxes(shape.kernels);
-    [vertical] = verticalAxes;
-    axes.replaceChildren(
-      choice('x axis', horizontalAxes(shape.kernels), axis => { horizontal = axis; redraw(); }),
-      choice('y axis', verticalAxes, axis => { vertical = axis; redraw(); }));
-  }
-  section('plot').append(element('div', { class: 'controls' }, choice('shape', timedShapes(), showShape)), axes, place);
+  const axes = element('div', { class: 'controls' },
+    choice('x axis', horizontalAxes(shape.kernels), axis => { horizontal = axis; redraw(); }),
+    choice('y axis', verticalAxes, axis => { vertical = axis; redraw(); }));
+  return [axes, place];
+}
+
+function showPlot() {
+  const place = element('div');
+  const showShape = shape => place.replaceChildren(...plotOf(shape));
+  section('plot').append(element('div', { class: 'controls' }, choice('shape', timedShapes(), showShape)), place);
 }
 
 /** A table of the kernels of each shape with the same columns. */
@@ -115,6 +117,7 @@ function showCases() {
 /** The data that a section needs, and the function that draws it. */
 const sections = {
   convergence: { needs: convergencePoints, show: showConvergence },
+  scene: { needs: sceneKernels, show: showScene },
   plot: { needs: timedShapes, show: showPlot },
   kernels: { needs: () => [...lab.kernels, ...lab.shape_kernels].filter(isMeasured), show: showKernels },
   'triangles-map': { needs: () => lab.triangles, show: () => section('triangles-map').append(...heatMap(triangleMap)) },
@@ -126,6 +129,7 @@ const sections = {
   shapes: { needs: () => lab.shapes, show: () => section('shapes').append(...mapsByShape(shapeMap), ...cellTable(shapeMap)) },
   'shape-spawning': { needs: () => lab.shape_spawning, show: () => section('shape-spawning').append(...mapsByShape(shapeSpawningMap), ...cellTable(shapeSpawningMap)) },
   packing: { needs: () => lab.packing, show: () => section('packing').append(scrollBox('Packing', null, sortableTable(packingColumns, lab.packing).table)) },
+  aligned: { needs: () => lab.aligned_speed, show: () => section('aligned').append(scrollBox('Alignment', null, sortableTable(alignedColumns, lab.aligned_speed).table)) },
   policies: { needs: () => lab.policies, show: () => section('policies').append(noteList(lab.policies)) },
   notes: { needs: () => lab.kernels, show: showNotes },
   cases: { needs: () => lab.cases, show: showCases },
