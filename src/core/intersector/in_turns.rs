@@ -13,12 +13,16 @@
 //!    1.1 M   60 MB     1.45  1.55  1.58  1.55  1.56    1.60  1.72  1.78  1.73  1.69
 //!    4.4 M  240 MB     1.54  1.78  1.84                1.62  1.81  1.87
 //! ```
+//!
+//! Rays that start near each other visit the same nodes, which stay in the cache. They lose with 8 walks: camera rays .83,
+//! and rays from the hits of neighbouring pixels .89 (1.1 M triangles).
 
 use super::blocks::Blocks;
 use super::is_behind;
 use super::method::{Method, Tester};
 use super::tree::TreeIntersector;
 use super::visitors::{Any, Nearest};
+use crate::aabb::Aabb;
 use crate::bvh::{Bvh, Stacks, Visitor, WALKS, Walk};
 use crate::ray::{Hit, Ray};
 use crate::shape::Shape;
@@ -28,9 +32,32 @@ use fearless_simd::{Simd, dispatch};
 /// [module](self) that lose and gain.
 const LARGE: usize = 8 << 20;
 
+/// Part of the tree's diameter: rays that start farther apart are scattered.
+const APART: f32 = 1.0 / 64.0;
+
+/// Pairs of successive rays whose origins are compared.
+const PAIRS: usize = 16;
+
 /// Whether turns are faster than one ray after another.
-pub(super) fn pays<S: Shape, T: Copy + Default + Send + Sync>(blocks: &Blocks<S, T>) -> bool {
-    blocks.bytes() + blocks.bvh.bytes() >= LARGE
+pub(super) fn pays<S, T>(blocks: &Blocks<S, T>, rays: &[Ray]) -> bool
+where
+    S: Shape,
+    T: Copy + Default + Send + Sync,
+{
+    blocks.bytes() + blocks.bvh.bytes() >= LARGE && are_scattered(blocks.bvh.bounds(), rays)
+}
+
+/// Whether most successive rays start far from each other.
+fn are_scattered(bounds: Aabb, rays: &[Ray]) -> bool {
+    let least = APART * (bounds.max - bounds.min).length();
+    let step = rays.len().div_ceil(PAIRS).max(1);
+    let pairs = rays.windows(2).step_by(step);
+    let (mut apart, mut count) = (0, 0);
+    for pair in pairs {
+        apart += usize::from(pair[0].origin.distance_squared(pair[1].origin) > least * least);
+        count += 1;
+    }
+    2 * apart > count
 }
 
 /// The searches of a batch of rays.

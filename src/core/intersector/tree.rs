@@ -51,9 +51,10 @@ impl<M: Method> TreeIntersector<M> {
         self.several.as_ref().filter(|_| !self.blocks.are_compact())
     }
 
-    /// These searches, if the tree is so large that walks wait for memory.
-    fn in_turns(&self) -> Option<&Several<M>> {
-        self.several().filter(|_| in_turns::pays(&self.blocks))
+    /// These searches, if walks of the rays would wait for memory.
+    fn in_turns(&self, rays: &[Ray]) -> Option<&Several<M>> {
+        self.several()
+            .filter(|_| in_turns::pays(&self.blocks, rays))
     }
 
     /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
@@ -182,7 +183,7 @@ impl<M: Method> Intersector for TreeIntersector<M> {
             .zip(hits.chunks_mut(M::BATCH_SIZE));
         for (rays, hits) in batches {
             let mut batch = M::batch();
-            match self.in_turns() {
+            match self.in_turns(rays) {
                 Some(several) => {
                     (several.nearest_in_turns)(self, rays, hits, &mut batch, lent.all());
                 }
@@ -223,7 +224,7 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         let mut lent = LentStack::new();
-        match self.in_turns() {
+        match self.in_turns(rays) {
             Some(several) => (several.any_in_turns)(self, rays, are_hits, lent.all()),
             None => M::Levels::find_any(self, rays, are_hits, lent.get()),
         }
