@@ -42,6 +42,8 @@ mod overlay;
 mod overlay_table;
 // The list of picks, measuring, the read-out, going to elements.
 mod inspecting;
+// The pointer while the camera moves.
+mod moving;
 // The pointer on the picture.
 mod pointer;
 // The program, run in a folder.

@@ -39,6 +39,7 @@ use crate::window::FitToScreen;
 use eframe::egui_wgpu::RenderState;
 use glam::UVec2;
 use hitscope_core::camera::{Turntable, UpAxis};
+use hitscope_core::film::ShownPixels;
 use hitscope_core::obj::LoadOptions;
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
@@ -195,19 +196,23 @@ pub(crate) struct Traced {
     pub range_fit: RangeFit,
     /// Scene and camera of the picture that is on the screen.
     pub on_screen: Option<(Arc<Scene>, Camera)>,
+    /// What each pixel of that picture shows.
+    pub shown: ShownPixels,
 }
 
 impl Traced {
     pub fn new(tracer: Tracer, render_state: &RenderState) -> Self {
+        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         Self {
             tracer,
             development: Development::default(),
             picture: Picture::new(render_state),
             lights: None,
             environment_file: EnvironmentFile::default(),
-            overlay: OverlayLayer::new(render_state),
+            overlay: OverlayLayer::new(render_state, is_software),
             range_fit: RangeFit::default(),
             on_screen: None,
+            shown: ShownPixels::default(),
         }
     }
 }
