@@ -10,6 +10,7 @@
 
 use super::Sheet;
 use super::files::Neighbours;
+use super::framing::PartBounds;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
@@ -139,6 +140,8 @@ pub(crate) struct Picked {
     pub face_lookup: Option<FaceLookup>,
     /// The flaw that is shown; all of its kind are marked.
     pub flaw: Option<FlawPlace>,
+    /// The search for the bounds of the picked part, which is to be framed.
+    pub part_bounds: Option<PartBounds>,
 }
 
 impl Picked {

@@ -10,7 +10,7 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::loading::is_scene_file;
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
-use hitscope_core::{Aabb, Camera, Ray, TriangleMesh};
+use hitscope_core::{Camera, Ray, TriangleMesh};
 use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
 
@@ -194,41 +194,6 @@ impl App {
         if let Some(pick) = &self.picked.pick {
             ctx.copy_text(pick.inspection.to_json());
         }
-    }
-
-    /// Frames the primitive that is marked. One without bounds, such as a plane, is only centred.
-    pub(crate) fn frame_pick(&mut self) {
-        /// Distance of the camera, relative to the distance that frames the primitive: shows some of the surface
-        /// around it.
-        const DISTANCE: f64 = 3.0;
-        let scene = &self.open.document.loaded.scene;
-        let Some(primitive) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) else {
-            return;
-        };
-        let bounds = scene.subset(&[primitive]).bounds();
-        if !bounds.is_empty() {
-            self.frame_bounds(bounds, DISTANCE);
-        } else if let Some(point) = self.marked_point() {
-            self.seen.turntable.centre_on(point);
-        }
-    }
-
-    /// Frames all triangles of the group or object of the one that is marked; the whole scene if it has no groups.
-    pub(crate) fn frame_part(&mut self) {
-        let scene = &self.open.document.loaded.scene;
-        let groups = &scene.mesh().attributes().groups;
-        let Some(primitive) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) else {
-            return;
-        };
-        let Some(group) = groups.of(primitive) else {
-            return self.frame();
-        };
-        let is_member = |other: &u32| groups.of(*other) == Some(group);
-        let count = scene.mesh().triangles().len() as u32;
-        let corners = (0..count).filter(is_member);
-        let corners = corners.filter_map(|triangle| scene.corners(triangle));
-        let bounds = Aabb::around(corners.flatten());
-        self.frame_bounds(bounds, 1.0);
     }
 
     /// Inspects a pixel and opens the Inspect tab.
