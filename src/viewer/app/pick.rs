@@ -205,10 +205,18 @@ impl App {
         self.preferences.tab = Tab::Inspect;
     }
 
-    /// Inspects a picked pixel again, with its camera.
-    pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let pixel = UVec2::from_array(pick.inspection.pixel);
-        self.start_picking(pick.camera, pixel, pick.crossing, ctx);
+    /// Inspects the picked pixel, or the one that is being inspected, in a scene whose origin has moved.
+    pub(super) fn pick_again(&mut self, shift: DVec3, ctx: &egui::Context) {
+        let (pick, picking) = (self.picked.pick.take(), self.picked.picking.take());
+        let old = pick.as_ref();
+        let next = picking.map(|next| (next.camera, next.pixel, next.crossing(old)));
+        let of_old = |pick: &Pick| {
+            let pixel = UVec2::from_array(pick.inspection.pixel);
+            (pick.camera, pixel, pick.crossing)
+        };
+        if let Some((camera, pixel, crossing)) = next.or_else(|| old.map(of_old)) {
+            self.start_picking(camera.moved(shift), pixel, crossing, ctx);
+        }
     }
 
     /// Inspects the picked pixel again if the kernel, the shading or the tree has changed.

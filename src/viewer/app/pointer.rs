@@ -19,6 +19,15 @@ pub(crate) struct Clicks {
     last_double_secs: Option<f64>,
 }
 
+impl Clicks {
+    /// Moves the camera of the click to the place where it sees the same in a scene whose origin has moved.
+    pub fn shift(&mut self, by: DVec3) {
+        if let Some(click) = &mut self.pending {
+            click.shown.camera = click.shown.camera.moved(by);
+        }
+    }
+}
+
 /// A click that may still become a double click.
 pub(crate) struct PendingClick {
     shown: ShownPixel,
