@@ -1,10 +1,8 @@
 //! Time that the window's thread takes per frame, which doesn't depend on the size of the mesh.
 
-use crate::harness::{app_started, press, say, settle};
-use crate::moving::hilly_square;
+use crate::harness::{press, say};
+use crate::moving::{hilly_square, window_of_triangles};
 use egui::Key;
-use hitscope::app::StartOptions;
-use hitscope::preferences::Preferences;
 use std::time::Duration;
 
 /// The CPU time of this thread so far.
@@ -20,15 +18,7 @@ fn frame_times(side: usize) -> Option<[Duration; 2]> {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("hills.obj");
     std::fs::write(&path, hilly_square(side)).expect("written");
-    let mut window = app_started(StartOptions {
-        file: Some(path),
-        preferences: Preferences {
-            shows_panel: false,
-            ..Preferences::default()
-        },
-        ..StartOptions::default()
-    })?;
-    settle(&mut window, "hills.obj");
+    let mut window = window_of_triangles(Some(path))?;
     press(&mut window, Key::T);
     window.run_steps(10);
     let mut times: Vec<Duration> = (0..200)

@@ -106,7 +106,7 @@ fn clicks_and_the_wheel_refer_to_the_picture_on_the_screen_while_the_camera_move
 
 /// The window without its side panel in the view of triangles, with one sample per pixel: means of several are colours of
 /// no triangle. Clicks needn't wait for a second one.
-fn window_of_triangles(file: Option<PathBuf>) -> Option<Window> {
+pub fn window_of_triangles(file: Option<PathBuf>) -> Option<Window> {
     let mut settings = Settings::default();
     settings.keep_view("triangle");
     settings.samples = 1;
