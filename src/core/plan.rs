@@ -169,6 +169,17 @@ impl Plan {
         }
     }
 
+    /// The tile that contains a pixel.
+    pub(crate) fn tile_of(&self, pixel: UVec2) -> usize {
+        Self::tile_in(self.size, pixel)
+    }
+
+    /// The tile that contains a pixel in a picture of this size.
+    pub(crate) fn tile_in(size: UVec2, pixel: UVec2) -> usize {
+        let tile = pixel / TILE_PX;
+        (tile.y * size.x.div_ceil(TILE_PX) + tile.x) as usize
+    }
+
     /// The pixels that a work unit traces, in blocks of 4 × 4, so that neighbouring rays are traced together.
     pub fn pixels(&self, unit: WorkUnit) -> impl Iterator<Item = UVec2> + '_ {
         const BLOCK: u32 = 4;

@@ -3,15 +3,17 @@
 //! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
 //! defaults.
 
+mod picked_pixel;
+mod viewpoint;
+
+pub use picked_pixel::PickedPixel;
+pub use viewpoint::Viewpoint;
+
 use crate::settings::Settings;
 use crate::storage::usable;
 use crate::tab::Tab;
-use glam::{DMat3, DVec3, UVec2};
-use hitscope_core::camera::{Projection, Turntable, UpAxis};
 use hitscope_core::obj::shown;
-use hitscope_core::{Camera, Scene};
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
@@ -55,151 +57,6 @@ pub struct Sight {
     /// The picked pixels.
     #[serde(default)]
     pub picks: Vec<PickedPixel>,
-}
-
-/// The window's camera in the file's coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Viewpoint {
-    /// A point near the scene. It is stored beside the pivot because their sum would be rounded.
-    origin: [f64; 3],
-    /// Centre of rotation, relative to `origin`.
-    pivot: [f64; 3],
-    distance: f64,
-    yaw_radians: f64,
-    pitch_radians: f64,
-    roll_radians: f64,
-    fov_y_radians: f64,
-    is_orthographic: bool,
-    is_z_up: bool,
-}
-
-/// A picked pixel, with the camera of the picture that was clicked.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct PickedPixel {
-    /// A point near the scene, in the file's coordinates.
-    origin: [f64; 3],
-    /// Position of the camera, relative to `origin`.
-    eye: [f64; 3],
-    right: [f64; 3],
-    up: [f64; 3],
-    back: [f64; 3],
-    projection: PickProjection,
-    /// Width and height of the picture.
-    size: [u32; 2],
-    /// Column and row from the top left.
-    pixel: [u32; 2],
-    /// The crossing that is marked instead of the hit, counted from 0.
-    #[serde(default)]
-    pub crossing: Option<usize>,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-enum PickProjection {
-    Perspective { fov_y_radians: f64 },
-    Orthographic { height: f64 },
-}
-
-impl Viewpoint {
-    /// A camera in a scene with this origin.
-    pub fn of(turntable: &Turntable, origin: DVec3) -> Self {
-        Self {
-            origin: origin.to_array(),
-            pivot: turntable.pivot.to_array(),
-            distance: turntable.distance,
-            yaw_radians: turntable.yaw_radians,
-            pitch_radians: turntable.pitch_radians,
-            roll_radians: turntable.roll_radians,
-            fov_y_radians: turntable.fov_y_radians,
-            is_orthographic: turntable.is_orthographic,
-            is_z_up: turntable.up_axis == UpAxis::Z,
-        }
-    }
-
-    /// The camera in a scene; exactly the same one if the scene's origin is the same.
-    pub fn turntable(&self, scene: &Scene) -> Turntable {
-        let mut turntable = Turntable::framing(scene.bounds_with_elements(), UVec2::ONE);
-        let shift = DVec3::from_array(self.origin) - scene.mesh().origin();
-        turntable.pivot = DVec3::from_array(self.pivot) + shift;
-        turntable.distance = self.distance;
-        turntable.yaw_radians = self.yaw_radians;
-        turntable.pitch_radians = self.pitch_radians;
-        turntable.roll_radians = self.roll_radians;
-        turntable.fov_y_radians = self.fov_y_radians;
-        turntable.is_orthographic = self.is_orthographic;
-        turntable.up_axis = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
-        turntable
-    }
-
-    fn check(&self) -> Result<(), &'static str> {
-        /// As on the command line, in radians.
-        const LEAST_FOV: f64 = 1e-8;
-        let limit = f64::from(f32::MAX);
-        let is_place = |v: [f64; 3]| v.iter().all(|x| x.abs() <= limit);
-        if !is_place(self.origin) || !is_place(self.pivot) {
-            return Err("the camera's origin or pivot is too far away");
-        }
-        if !(f64::from(f32::MIN_POSITIVE)..=limit).contains(&self.distance) {
-            return Err("the camera's distance must be positive, and not too large");
-        }
-        if !(self.fov_y_radians >= LEAST_FOV && self.fov_y_radians < PI) {
-            return Err("the camera's field of view must be between 0 and π");
-        }
-        Ok(())
-    }
-}
-
-impl PickedPixel {
-    /// A pixel of a camera's picture in a scene with this origin.
-    pub fn new(camera: &Camera, pixel: UVec2, crossing: Option<usize>, origin: DVec3) -> Self {
-        Self {
-            origin: origin.to_array(),
-            eye: camera.exact_eye().to_array(),
-            right: camera.right().to_array(),
-            up: camera.up().to_array(),
-            back: camera.back().to_array(),
-            projection: match camera.projection() {
-                Projection::Perspective { fov_y_radians } => {
-                    PickProjection::Perspective { fov_y_radians }
-                }
-                Projection::Orthographic { height } => PickProjection::Orthographic { height },
-            },
-            size: camera.resolution().to_array(),
-            pixel: pixel.to_array(),
-            crossing,
-        }
-    }
-
-    /// The pixel.
-    pub fn pixel(&self) -> UVec2 {
-        self.pixel.into()
-    }
-
-    /// The camera in a scene with this origin; exactly the same one if the origin is the same.
-    ///
-    /// # Errors
-    /// Why there is no such camera.
-    pub fn camera(&self, origin: DVec3) -> Result<Camera, String> {
-        let axes = [self.right, self.up, self.back].map(DVec3::from_array);
-        let projection = match self.projection {
-            PickProjection::Perspective { fov_y_radians } => {
-                Projection::Perspective { fov_y_radians }
-            }
-            PickProjection::Orthographic { height } => Projection::Orthographic { height },
-        };
-        let eye = DVec3::from_array(self.eye) + (DVec3::from_array(self.origin) - origin);
-        let axes = DMat3::from_cols_array_2d(&axes.map(DVec3::into));
-        let camera = Camera::from_axes(eye, axes, projection, self.size.into());
-        camera.map_err(|error| format!("a pick: {error}"))
-    }
-
-    fn check(&self) -> Result<(), String> {
-        self.camera(DVec3::from_array(self.origin))?;
-        if self.pixel().cmpge(self.size.into()).any() {
-            return Err("a pick: the pixel is outside the picture".to_owned());
-        }
-        Ok(())
-    }
 }
 
 impl Session {
@@ -267,11 +124,7 @@ impl Session {
         }
         sight.settings = usable(sight.settings.clone());
         sight.settings.shows_noise = session.shows_noise;
-        sight.settings.keep_up_axis(if sight.camera.is_z_up {
-            UpAxis::Z
-        } else {
-            UpAxis::Y
-        });
+        sight.settings.keep_up_axis(sight.camera.up_axis());
         Ok(session)
     }
 
@@ -308,6 +161,9 @@ pub fn is_session(path: &Path) -> bool {
 mod tests {
     use super::*;
     use crate::document::embedded_scene;
+    use glam::{DVec3, UVec2};
+    use hitscope_core::Scene;
+    use hitscope_core::camera::Turntable;
 
     fn session(scene: &Scene) -> Session {
         let mut turntable = Turntable::framing(scene.bounds(), UVec2::new(64, 48));

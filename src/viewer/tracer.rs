@@ -229,6 +229,7 @@ impl Tracer {
             self.film = Film::new(plan, background);
             (self.changed, self.changed_before) = (None, None);
         }
+        self.film.set_camera(request.context.camera);
         if !is_same_scene {
             self.changed = Some(PixelRect {
                 min: UVec2::ZERO,

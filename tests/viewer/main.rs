@@ -18,6 +18,9 @@ mod environment;
 mod feedback;
 // Recent files, and the files beside the open one.
 mod files;
+// Time of the window's thread per frame.
+#[cfg(target_os = "linux")]
+mod frames;
 // The app in a test harness, and the gate for tests that need a GPU.
 mod harness;
 // Standard input, warnings, and machines that lack memory or threads.
@@ -42,6 +45,8 @@ mod overlay;
 mod overlay_table;
 // The list of picks, measuring, the read-out, going to elements.
 mod inspecting;
+// The pointer while the camera moves.
+mod moving;
 // The pointer on the picture.
 mod pointer;
 // The program, run in a folder.

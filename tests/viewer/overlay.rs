@@ -11,13 +11,14 @@ use hitscope::overlay::face_normals::FACE_NORMALS;
 use hitscope::overlay::normals::LENGTH;
 use hitscope::overlay::wireframe::{DIAGONALS, WIREFRAME};
 use hitscope::overlay::{
-    Marks, OverlayInput, OverlayLayer, OverlaySpec, OverlayState, Overlays, switches,
+    Marks, OverlayError, OverlayInput, OverlayLayer, OverlaySpec, OverlayState, Overlays, switches,
 };
 use hitscope_core::TriangleMesh;
 use hitscope_core::camera::{Camera, Projection, UpAxis};
-use hitscope_core::mesh::{Attributes, Faces};
-use hitscope_core::mesh::{Flaw, Health};
-use hitscope_core::scene::{Scene, scene};
+use hitscope_core::mesh::{Attributes, Faces, Flaw, Health, Runs};
+use hitscope_core::progress::Progress;
+use hitscope_core::scene::{Scene, SceneOptions, scene};
+use hitscope_core::shape::Sphere;
 use std::sync::Arc;
 use std::time::{Duration, Instant};
 
@@ -76,6 +77,10 @@ pub fn only(overlay: &OverlaySpec, change: impl FnOnce(&mut OverlayState)) -> Ov
 ///   0───────────1          The line is at y = 60.5, from x = 70.5 to 130.5.
 /// ```
 pub fn marked_scene() -> Arc<Scene> {
+    Arc::new(scene(marked_mesh()))
+}
+
+fn marked_mesh() -> TriangleMesh {
     let at = |x: f32, y: f32, z: f32| Vec3::new((x - 100.0) / 50.0, (100.0 - y) / 50.0, z);
     let corners = vec![
         at(50.5, 150.5, 0.0),
@@ -100,11 +105,11 @@ pub fn marked_scene() -> Arc<Scene> {
     let mut faces = Faces::default();
     faces.push(0, 0, 0b011);
     faces.push(1, 0, 0b110);
-    Arc::new(scene(mesh.with_attributes(Attributes {
+    mesh.with_attributes(Attributes {
         faces,
         lines: vec![[9, 10]],
         ..Attributes::default()
-    })))
+    })
 }
 
 const BEHIND: u32 = 2;
@@ -116,10 +121,18 @@ pub fn drawn(
     input: &OverlayInput,
     overlays: &Overlays,
 ) -> Vec<[u8; 4]> {
+    drawn_by(layer, gpu, |layer, ctx| layer.draw(input, overlays, ctx))
+}
+
+/// Calls `draw` until the overlay is complete.
+fn drawn_by(
+    layer: &mut OverlayLayer,
+    gpu: &Gpu,
+    draw: impl Fn(&mut OverlayLayer, &egui::Context) -> Result<Option<wgpu::Texture>, OverlayError>,
+) -> Vec<[u8; 4]> {
     let start = Instant::now();
     loop {
-        let ctx = egui::Context::default();
-        let texture = layer.draw(input, overlays, &ctx).expect("drawn");
+        let texture = draw(layer, &egui::Context::default()).expect("drawn");
         if layer.is_complete() {
             let texture = texture.expect("something is drawn");
             return read_back(&gpu.device, &gpu.queue, &texture).expect("read back");
@@ -130,9 +143,14 @@ pub fn drawn(
 }
 
 pub fn layer() -> Option<(OverlayLayer, &'static Gpu)> {
+    layer_on(true)
+}
+
+/// A layer that draws as on a software GPU, or as on another one.
+fn layer_on(is_software: bool) -> Option<(OverlayLayer, &'static Gpu)> {
     let gpu = gpu()?;
     let state: RenderState = create_render_state(shared_setup(gpu), RendererOptions::PREDICTABLE);
-    Some((OverlayLayer::new(&state), gpu))
+    Some((OverlayLayer::new(&state, is_software), gpu))
 }
 
 /// A colour with premultiplied alpha, as in the texture.
@@ -286,4 +304,42 @@ fn the_last_overlay_stays_until_the_next_is_drawn_unless_the_camera_changes() {
             "the edge's old place",
         );
     }
+}
+
+#[test]
+fn lines_of_meshes_and_shapes_are_drawn_while_the_camera_moves_except_by_a_software_gpu() {
+    let mut with_ball = scene(marked_mesh());
+    // In front of the square's left edge.
+    let ball = Sphere {
+        centre: Vec3::new(-1.0, -0.2, 2.0),
+        radius: 0.9,
+    };
+    let (options, progress) = (SceneOptions::default(), Progress::default());
+    let added = with_ball.add_group(vec![ball], Runs::default(), options, &progress);
+    added.expect("nobody cancels");
+    let input = input(&Arc::new(with_ball), camera());
+    let overlays = only(&WIREFRAME, |state| state.colour = WIRE);
+    let Some((mut layer, gpu)) = layer_on(false) else {
+        return;
+    };
+    let moving = drawn_by(&mut layer, gpu, |layer, ctx| {
+        layer.draw_moving(&input, &overlays, ctx)
+    });
+    let still = drawn(&mut layer, gpu, &input, &overlays);
+    let wire = premultiplied(WIRE.map(|c| f32::from(c) / 255.0), 0.85);
+    for pixels in [&moving, &still] {
+        assert_is(pixels, [130, 150], wire, "the square's lower edge");
+    }
+    // Within the ball's outline.
+    let count = |pixels: &[[u8; 4]]| {
+        let inside = (90..130).flat_map(|y| (30..70).map(move |x| y * 200 + x));
+        inside.filter(|&i| pixels[i] != BACKGROUND).count()
+    };
+    let (moving, still) = (count(&moving), count(&still));
+    // It hides the edge only while the camera rests.
+    assert!(moving > still && still > 0, "{moving} {still}");
+
+    let (mut layer, _) = layer_on(true).expect("a graphics adapter");
+    let drawn = layer.draw_moving(&input, &overlays, &egui::Context::default());
+    assert!(drawn.expect("drawn").is_none() && layer.is_complete());
 }

@@ -1,17 +1,20 @@
 //! Film: accumulates samples and encodes them for a display.
 //!
 //! Sums are integers of 128 bits, so the picture doesn't depend on the order in which tiles arrive, and bright samples
-//! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass.
+//! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass; those of a tile that the
+//! plan hasn't reached keep the colours of the plan before it.
 
 mod shown;
 
-pub use shown::ShownPixels;
+pub use shown::{ShownPixel, ShownPixels};
 
+use crate::Camera;
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
 use crate::srgb::luminance;
 use crate::tone::Display;
 use glam::{UVec2, Vec3};
 use std::collections::TryReserveError;
+use std::ops::Range;
 
 /// The sum of a pixel's samples. The order in which samples are added doesn't matter.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -78,6 +81,16 @@ pub struct TileSamples {
     pub sums: Vec<SampleSum>,
 }
 
+/// What the pixels of a tile show.
+#[derive(Clone, Debug, Default)]
+struct TileState {
+    /// Whether the tile has samples of the plan. If not, its counts and block sizes are those of an earlier plan, and its
+    /// sums are meaningless.
+    has_samples: bool,
+    /// The camera of the picture that the pixels show, if they show one and it is known.
+    camera: Option<Camera>,
+}
+
 /// A picture that is being rendered.
 #[derive(Clone, Debug)]
 pub struct Film {
@@ -85,6 +98,10 @@ pub struct Film {
     display: Display,
     /// The linear colour of pixels that show nothing.
     background: Vec3,
+    /// The camera of the plan's picture, if it is known.
+    camera: Option<Camera>,
+    tiles: Vec<TileState>,
+    /// A pixel without samples has any sum.
     sums: Vec<SampleSum>,
     counts: Vec<u32>,
     /// Size in pixels of the block whose colour a pixel shows; 0 once the pixel has a sample of its own.
@@ -118,6 +135,8 @@ impl Film {
         Ok(Self {
             display,
             background,
+            camera: None,
+            tiles: vec![TileState::default(); plan.tile_count()],
             sums: filled(SampleSum::default(), count)?,
             counts: filled(0, count)?,
             shown_step: filled(u8::MAX, count)?,
@@ -128,7 +147,7 @@ impl Film {
     }
 
     /// Discards all samples and starts another plan. If the size stays the same, pixels keep their colour until
-    /// they receive a sample.
+    /// they receive a sample. Takes no time: the samples of a tile are discarded when it receives its first new one.
     pub fn restart(&mut self, plan: Plan, background: Vec3) {
         if plan.size() != self.plan.size() {
             let display = self.display;
@@ -137,22 +156,32 @@ impl Film {
             return;
         }
         self.background = background;
-        self.sums.fill(SampleSum::default());
-        self.counts.fill(0);
-        self.shown_step.fill(u8::MAX);
+        self.tiles
+            .iter_mut()
+            .for_each(|tile| tile.has_samples = false);
         self.tiles_done = vec![0; plan.pass_count()];
         self.plan = plan;
+    }
+
+    /// Names the camera of the plan's picture, for [`ShownPixels`].
+    pub fn set_camera(&mut self, camera: Camera) {
+        self.camera = Some(camera);
     }
 
     /// Adds a tile and returns the pixels that changed.
     pub fn add(&mut self, tile: &TileSamples) -> PixelRect {
         let pass = self.plan.pass(tile.unit.pass);
         let rect = self.plan.tile_rect(tile.unit.tile);
+        self.begin_tile(tile.unit.tile);
         let samples = pass.samples_per_pixel();
         let pixels: Vec<UVec2> = self.plan.pixels(tile.unit).collect();
         for (pixel, sum) in pixels.into_iter().zip(&tile.sums) {
             let i = self.index(pixel);
-            self.sums[i].merge(sum);
+            if self.counts[i] == 0 {
+                self.sums[i] = *sum;
+            } else {
+                self.sums[i].merge(sum);
+            }
             self.counts[i] += samples;
             self.shown_step[i] = 0;
             self.pixels[i] = self.display.encode(self.sums[i].mean(self.counts[i]));
@@ -162,6 +191,26 @@ impl Film {
         }
         self.tiles_done[tile.unit.pass] += 1;
         rect
+    }
+
+    /// Discards a tile's samples of an earlier plan.
+    fn begin_tile(&mut self, tile: usize) {
+        let state = &mut self.tiles[tile];
+        if state.has_samples {
+            return;
+        }
+        (state.has_samples, state.camera) = (true, self.camera);
+        let rect = self.plan.tile_rect(tile);
+        for y in rect.min.y..rect.max.y {
+            let row = self.row(rect, y);
+            self.counts[row.clone()].fill(0);
+            self.shown_step[row].fill(u8::MAX);
+        }
+    }
+
+    /// The indices of a rectangle's pixels in a row.
+    fn row(&self, rect: PixelRect, y: u32) -> Range<usize> {
+        self.index(UVec2::new(rect.min.x, y))..self.index(UVec2::new(rect.max.x, y))
     }
 
     /// Counts a tile that couldn't be traced as finished; its pixels keep their colour.
@@ -193,15 +242,24 @@ impl Film {
         }
         self.display = display;
         let background = display.encode(self.background);
-        for i in 0..self.pixels.len() {
-            let shown = match self.shown_step[i] {
-                u8::MAX => None,
-                step => Some(self.shown_index(i, step.into())),
-            };
-            // A pixel that represents a block has a sample.
-            self.pixels[i] = shown.map_or(background, |shown| {
-                display.encode(self.sums[shown].mean(self.counts[shown].max(1)))
-            });
+        for tile in 0..self.tiles.len() {
+            let rect = self.plan.tile_rect(tile);
+            let state = &mut self.tiles[tile];
+            let has_samples = state.has_samples;
+            if !has_samples {
+                state.camera = None;
+            }
+            for y in rect.min.y..rect.max.y {
+                for i in self.row(rect, y) {
+                    let step =
+                        Some(self.shown_step[i]).filter(|&step| has_samples && step != u8::MAX);
+                    let shown = step.map(|step| self.shown_index(i, step.into()));
+                    // A pixel that represents a block has a sample.
+                    self.pixels[i] = shown.map_or(background, |shown| {
+                        display.encode(self.sums[shown].mean(self.counts[shown].max(1)))
+                    });
+                }
+            }
         }
         true
     }
@@ -242,8 +300,8 @@ impl Film {
     /// # Panics
     /// If the pixel lies outside of the picture.
     pub fn radiance(&self, pixel: UVec2) -> Option<Vec3> {
-        let i = self.index(pixel);
-        (self.counts[i] > 0).then(|| self.sums[i].mean(self.counts[i]))
+        let (sum, count) = self.samples_of(pixel);
+        (count > 0).then(|| sum.mean(count))
     }
 
     /// The standard error of the luminance of a pixel; `None` for fewer than two samples.
@@ -251,10 +309,7 @@ impl Film {
     /// # Panics
     /// If the pixel lies outside of the picture.
     pub fn standard_error(&self, pixel: UVec2) -> Option<f64> {
-        let (sum, count) = (
-            &self.sums[self.index(pixel)],
-            self.counts[self.index(pixel)],
-        );
+        let (sum, count) = self.samples_of(pixel);
         (count > 1).then(|| (sum.variance(count) / f64::from(count)).sqrt())
     }
 
@@ -263,7 +318,14 @@ impl Film {
     /// # Panics
     /// If the pixel lies outside of the picture.
     pub fn sample_count(&self, pixel: UVec2) -> u32 {
-        self.counts[self.index(pixel)]
+        self.samples_of(pixel).1
+    }
+
+    /// The sum and the number of a pixel's samples; of 0 samples, any sum.
+    fn samples_of(&self, pixel: UVec2) -> (&SampleSum, u32) {
+        let i = self.index(pixel);
+        let has_samples = self.tiles[self.plan.tile_of(pixel)].has_samples;
+        (&self.sums[i], if has_samples { self.counts[i] } else { 0 })
     }
 
     /// The plan being rendered.

@@ -5,8 +5,8 @@
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
 //! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces coherent rays together, and
 //! `in_turns` any rays in turns, so that none waits for memory; `several` joins both.
-//! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` orders the hits of
-//! a scene's groups. `clipped` cuts rays with a clip.
+//! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` finds the hits of
+//! a scene's groups, which `ranked_hit` orders. `clipped` cuts rays with a clip.
 
 mod algebraic;
 mod blocks;
@@ -20,6 +20,7 @@ mod method;
 mod order;
 mod packet;
 mod ranked;
+mod ranked_hit;
 mod several;
 mod tree;
 mod visitors;
@@ -27,9 +28,11 @@ mod visitors;
 pub use blocks::Packing;
 pub(crate) use blocks::candidates;
 pub(crate) use clipped::Clipped;
-use groups::ExactT;
-pub use groups::{GroupIntersector, RankedHit};
-pub(crate) use groups::{crossings_of, scene_intersector};
+pub use groups::GroupIntersector;
+pub(crate) use groups::scene_intersector;
+use ranked_hit::ExactT;
+pub use ranked_hit::RankedHit;
+pub(crate) use ranked_hit::crossings_of;
 
 use crate::algebra::Pieces;
 use crate::bvh::{Bvh, OpenedBox};

@@ -86,9 +86,10 @@ impl App {
             self.shown.canvas_rect = canvas.rect;
             self.use_resolution(canvas.resolution);
             self.pointer(ui, &response, canvas);
-            self.hover(&response, canvas);
             self.rotate(ui);
             self.step_transition(ui.ctx());
+            self.show_changes();
+            self.hover(&response, canvas);
             self.paint(ui, canvas, response.dragged());
             self.gizmo_ui(ui, canvas);
             let wanted = self.wanted(ui.ctx(), canvas.resolution);
@@ -130,8 +131,8 @@ impl App {
         }
     }
 
-    /// Draws the traced picture, the overlay and the marks.
-    fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
+    /// Puts the changes of the traced picture on the screen.
+    fn show_changes(&mut self) {
         let changed = self
             .traced
             .tracer
@@ -140,10 +141,15 @@ impl App {
         let (look, film) = (self.look(), self.traced.tracer.film());
         if let Some((pixels, changed)) = self.traced.development.update(film, changed, look) {
             self.traced.picture.upload(film.size(), pixels, changed);
-            self.picked.inspecting.shown.update(film, changed);
+            self.traced.shown.update(film, changed);
         }
+        self.traced.on_screen = self.traced.tracer.shown().cloned();
+    }
+
+    /// Draws the traced picture, the overlay and the marks.
+    fn paint(&mut self, ui: &egui::Ui, canvas: Canvas, is_dragging: bool) {
         // Overlay and marks match the scene and the camera of the picture on the screen.
-        let Some((scene, camera)) = self.traced.tracer.shown().cloned() else {
+        let Some((scene, camera)) = self.traced.on_screen.clone() else {
             return;
         };
         let input = self.overlay_input(&scene, camera, canvas.pixels_per_point);
@@ -152,9 +158,8 @@ impl App {
         let mut labels = overlay::labels(&input, overlays);
         // Above the others in its corner, which stay in place.
         labels.splice(0..0, self.picked.inspecting.hover.label());
-        let drawn = if is_moving && self.traced.overlay.omits_lines_while_moving(&scene) {
-            self.traced.overlay.pause();
-            Ok(None)
+        let drawn = if is_moving {
+            self.traced.overlay.draw_moving(&input, overlays, ui.ctx())
         } else {
             self.traced.overlay.draw(&input, overlays, ui.ctx())
         };
@@ -162,7 +167,6 @@ impl App {
             Ok(texture) => (texture, None),
             Err(error) => (None, Some(error)),
         };
-        self.traced.on_screen = Some((scene, camera));
         let painter = ui.painter_at(canvas.rect);
         painter.extend(self.traced.picture.shape(canvas.rect, texture.as_ref()));
         if let Some(error) = error {

@@ -161,13 +161,7 @@ impl App {
         } else {
             self.history.clear();
         }
-        let pick = self.picked.pick.take();
-        (
-            self.picked.picking,
-            self.picked.face_lookup,
-            self.picked.flaw,
-        ) = (None, None, None);
-        self.picked.clicks.pending = None;
+        (self.picked.face_lookup, self.picked.flaw) = (None, None);
         self.open.trade = None;
         if is_same_file {
             self.seen
@@ -175,12 +169,11 @@ impl App {
                 .set_scene(self.open.document.loaded.scene.bounds_with_elements());
             // Keep the camera's place in the file's coordinates.
             self.seen.turntable.pivot += shift;
+            self.picked.clicks.shift(shift);
             self.picked.inspecting.picks.shift(shift);
-            if let Some(mut pick) = pick {
-                pick.camera = pick.camera.moved(shift);
-                self.inspect_again(&pick, ctx);
-            }
+            self.pick_again(shift, ctx);
         } else {
+            self.picked.clear_pick();
             self.picked.inspecting.picks.clear();
             self.use_first_view();
         }

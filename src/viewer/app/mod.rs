@@ -18,6 +18,7 @@
 //! | `files` | loading, reloading and saving |
 //! | `sessions` | sessions; undo and redo |
 //! | `first_view`, `view_text` | the view in which a document opens; the view as text |
+//! | `framing` | framing of the picked primitive and of its part |
 //! | `hints` | the message in the middle of an empty picture |
 //! | `side_panel`, `status_line` | the side panel and the status line |
 //! | `messages` | path fields, messages, sheets over the window |
@@ -30,6 +31,7 @@ mod feedback;
 mod files;
 mod first_view;
 pub(crate) mod flaws;
+mod framing;
 mod gizmo;
 mod hiding;
 mod hints;
@@ -212,6 +214,7 @@ impl eframe::App for App {
         self.poll_picking(ctx);
         self.poll_document(ctx);
         self.poll_range_fit();
+        self.poll_framing(ctx);
         self.refresh_pick(ctx);
         self.poll_inspecting(ctx);
         self.traced.tracer.set_limits(self.limits());

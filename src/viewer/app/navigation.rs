@@ -5,7 +5,6 @@ use super::canvas::Canvas;
 use crate::bindings::Verb;
 use egui::{Event, Key, MouseWheelUnit, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
-use hitscope_core::Camera;
 use hitscope_core::camera::{StandardView, Turntable};
 
 /// Time that a change of the view takes.
@@ -169,8 +168,7 @@ impl App {
             return None;
         }
         let start = ui.input(|input| input.pointer.press_origin())?;
-        let camera = self.shown_camera()?;
-        self.surface_at(&camera, canvas.pixel_of(start, &camera))
+        self.surface_along(&self.shown_at(start, canvas)?.ray())
     }
 
     /// Moves the camera by a movement on the screen.
@@ -256,15 +254,15 @@ impl App {
             return;
         }
         let newest = self.seen.turntable.camera(canvas.resolution);
-        let point_in = |camera: &Camera| self.surface_at(camera, canvas.pixel_of(pos, camera));
+        let at = canvas.pixel_of(pos, &newest);
         // The view may have passed what the picture on the screen shows.
         let is_ahead = |point: &DVec3| newest.depth_of(*point) > 0.0;
-        let shown = self.shown_camera().and_then(|shown| point_in(&shown));
-        let on_pivots_plane =
-            || newest.on_plane_through(self.seen.turntable.pivot, canvas.pixel_of(pos, &newest));
+        let shown = self.shown_at(pos, canvas);
+        let on_pivots_plane = || newest.on_plane_through(self.seen.turntable.pivot, at);
         let anchor = shown
+            .and_then(|shown| self.surface_along(&shown.ray()))
             .filter(is_ahead)
-            .or_else(|| point_in(&newest))
+            .or_else(|| self.surface_along(&newest.ray_through(at)))
             .unwrap_or_else(on_pivots_plane);
         self.seen.turntable.zoom(factor.into(), anchor);
     }

@@ -10,6 +10,7 @@
 
 use super::Sheet;
 use super::files::Neighbours;
+use super::framing::PartBounds;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
@@ -39,6 +40,7 @@ use crate::window::FitToScreen;
 use eframe::egui_wgpu::RenderState;
 use glam::UVec2;
 use hitscope_core::camera::{Turntable, UpAxis};
+use hitscope_core::film::ShownPixels;
 use hitscope_core::obj::LoadOptions;
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
@@ -138,6 +140,8 @@ pub(crate) struct Picked {
     pub face_lookup: Option<FaceLookup>,
     /// The flaw that is shown; all of its kind are marked.
     pub flaw: Option<FlawPlace>,
+    /// The search for the bounds of the picked part, which is to be framed.
+    pub part_bounds: Option<PartBounds>,
 }
 
 impl Picked {
@@ -195,19 +199,23 @@ pub(crate) struct Traced {
     pub range_fit: RangeFit,
     /// Scene and camera of the picture that is on the screen.
     pub on_screen: Option<(Arc<Scene>, Camera)>,
+    /// What each pixel of that picture shows.
+    pub shown: ShownPixels,
 }
 
 impl Traced {
     pub fn new(tracer: Tracer, render_state: &RenderState) -> Self {
+        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         Self {
             tracer,
             development: Development::default(),
             picture: Picture::new(render_state),
             lights: None,
             environment_file: EnvironmentFile::default(),
-            overlay: OverlayLayer::new(render_state),
+            overlay: OverlayLayer::new(render_state, is_software),
             range_fit: RangeFit::default(),
             on_screen: None,
+            shown: ShownPixels::default(),
         }
     }
 }

@@ -10,7 +10,7 @@ use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::loading::is_scene_file;
 use hitscope_core::mesh::Crease;
 use hitscope_core::scene::Shading;
-use hitscope_core::{Aabb, Camera, Ray, TriangleMesh};
+use hitscope_core::{Camera, Ray, TriangleMesh};
 use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
 
@@ -196,41 +196,6 @@ impl App {
         }
     }
 
-    /// Frames the primitive that is marked. One without bounds, such as a plane, is only centred.
-    pub(crate) fn frame_pick(&mut self) {
-        /// Distance of the camera, relative to the distance that frames the primitive: shows some of the surface
-        /// around it.
-        const DISTANCE: f64 = 3.0;
-        let scene = &self.open.document.loaded.scene;
-        let Some(primitive) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) else {
-            return;
-        };
-        let bounds = scene.subset(&[primitive]).bounds();
-        if !bounds.is_empty() {
-            self.frame_bounds(bounds, DISTANCE);
-        } else if let Some(point) = self.marked_point() {
-            self.seen.turntable.centre_on(point);
-        }
-    }
-
-    /// Frames all triangles of the group or object of the one that is marked; the whole scene if it has no groups.
-    pub(crate) fn frame_part(&mut self) {
-        let scene = &self.open.document.loaded.scene;
-        let groups = &scene.mesh().attributes().groups;
-        let Some(primitive) = self.picked.pick.as_ref().and_then(Pick::marked_primitive) else {
-            return;
-        };
-        let Some(group) = groups.of(primitive) else {
-            return self.frame();
-        };
-        let is_member = |other: &u32| groups.of(*other) == Some(group);
-        let count = scene.mesh().triangles().len() as u32;
-        let corners = (0..count).filter(is_member);
-        let corners = corners.filter_map(|triangle| scene.corners(triangle));
-        let bounds = Aabb::around(corners.flatten());
-        self.frame_bounds(bounds, 1.0);
-    }
-
     /// Inspects a pixel and opens the Inspect tab.
     pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
         if let Some(pick) = &mut self.picked.pick {
@@ -240,10 +205,18 @@ impl App {
         self.preferences.tab = Tab::Inspect;
     }
 
-    /// Inspects a picked pixel again, with its camera.
-    pub(super) fn inspect_again(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let pixel = UVec2::from_array(pick.inspection.pixel);
-        self.start_picking(pick.camera, pixel, pick.crossing, ctx);
+    /// Inspects the picked pixel, or the one that is being inspected, in a scene whose origin has moved.
+    pub(super) fn pick_again(&mut self, shift: DVec3, ctx: &egui::Context) {
+        let (pick, picking) = (self.picked.pick.take(), self.picked.picking.take());
+        let old = pick.as_ref();
+        let next = picking.map(|next| (next.camera, next.pixel, next.crossing(old)));
+        let of_old = |pick: &Pick| {
+            let pixel = UVec2::from_array(pick.inspection.pixel);
+            (pick.camera, pixel, pick.crossing)
+        };
+        if let Some((camera, pixel, crossing)) = next.or_else(|| old.map(of_old)) {
+            self.start_picking(camera.moved(shift), pixel, crossing, ctx);
+        }
     }
 
     /// Inspects the picked pixel again if the kernel, the shading or the tree has changed.

@@ -1,13 +1,14 @@
 //! Pointer input on the picture: clicks, and the surface under the pointer. Drags and scrolling are in `navigation`.
 //!
-//! The camera of the picture on the screen determines the point under the pointer. While the camera moves, that
-//! picture lags behind the newest camera.
+//! What the pixel under the pointer shows determines the point under the pointer. While the camera moves, the picture on
+//! the screen lags behind the newest camera, and its pixels may be those of several cameras.
 
 use super::App;
 use super::canvas::Canvas;
 use egui::{Event, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
-use hitscope_core::Camera;
+use hitscope_core::film::ShownPixel;
+use hitscope_core::{Camera, Ray};
 
 /// Recognizes single and double clicks. egui's own click count covers a longer time than a double click takes.
 #[derive(Default)]
@@ -18,10 +19,18 @@ pub(crate) struct Clicks {
     last_double_secs: Option<f64>,
 }
 
+impl Clicks {
+    /// Moves the camera of the click to the place where it sees the same in a scene whose origin has moved.
+    pub fn shift(&mut self, by: DVec3) {
+        if let Some(click) = &mut self.pending {
+            click.shown.camera = click.shown.camera.moved(by);
+        }
+    }
+}
+
 /// A click that may still become a double click.
 pub(crate) struct PendingClick {
-    camera: Camera,
-    pixel: UVec2,
+    shown: ShownPixel,
     pos: Pos2,
     /// Time when it becomes a single click, by egui's clock.
     due_secs: f64,
@@ -43,7 +52,7 @@ impl App {
         if !response.clicked() {
             return;
         }
-        let Some(camera) = self.shown_camera() else {
+        let Some(shown) = self.shown_at(pos, canvas) else {
             return;
         };
         let (delay, distance) = ui.ctx().options(|options| {
@@ -58,17 +67,15 @@ impl App {
             let releases = input.events.iter().filter(is_release);
             (input.time, releases.count())
         });
-        let at = canvas.pixel_of(pos, &camera);
-        let pixel = self.clicked_pixel(at, &camera);
         if ui.input(|input| input.modifiers.command) {
-            self.pick_pixel(camera, pixel, true, ui.ctx());
+            self.pick_pixel(shown.camera, shown.pixel, true, ui.ctx());
             return;
         }
         let first = self.picked.clicks.pending.take();
         let is_second = first.is_some_and(|first| first.pos.distance(pos) <= distance);
         if is_second || clicks > 1 {
             self.picked.clicks.last_double_secs = Some(now);
-            if let Some(point) = self.surface_at(&camera, at) {
+            if let Some(point) = self.surface_along(&shown.ray()) {
                 self.seen.turntable.centre_on(point);
             }
         } else if self
@@ -79,8 +86,7 @@ impl App {
         {
             // The third click of three is ignored.
             self.picked.clicks.pending = Some(PendingClick {
-                camera,
-                pixel,
+                shown,
                 pos,
                 due_secs: now + delay,
             });
@@ -102,7 +108,7 @@ impl App {
             ctx.request_repaint_after(std::time::Duration::from_secs_f64(left_secs));
             return;
         }
-        let (camera, pixel) = (click.camera, click.pixel);
+        let ShownPixel { camera, pixel } = click.shown;
         self.picked.clicks.pending = None;
         self.pick_pixel(camera, pixel, false, ctx);
     }
@@ -114,10 +120,23 @@ impl App {
         is_current.then_some(*camera)
     }
 
-    /// The point of the mesh at a pixel, in the scene's coordinates.
-    pub(super) fn surface_at(&self, camera: &Camera, at_px: DVec2) -> Option<DVec3> {
-        let ray = camera.ray_through(at_px);
-        let hit = self.open.document.intersector().closest_hit(&ray)?;
+    /// What a pixel of the picture on the screen shows; `None` if it hasn't been traced yet, and while the screen shows
+    /// another mesh.
+    pub fn shown_pixel(&self, pixel: UVec2) -> Option<ShownPixel> {
+        self.shown_camera()?;
+        self.traced.shown.at(pixel)
+    }
+
+    /// What the pixel at a place of the screen shows.
+    pub(super) fn shown_at(&self, pos: Pos2, canvas: Canvas) -> Option<ShownPixel> {
+        let camera = self.shown_camera()?;
+        let at = canvas.pixel_of(pos, &camera).max(DVec2::ZERO);
+        self.shown_pixel(at.as_uvec2().min(camera.resolution() - 1))
+    }
+
+    /// The first point of the scene along a ray, in the scene's coordinates.
+    pub(super) fn surface_along(&self, ray: &Ray) -> Option<DVec3> {
+        let hit = self.open.document.intersector().closest_hit(ray)?;
         Some(ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3())
     }
 }

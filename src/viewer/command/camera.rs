@@ -44,7 +44,7 @@ pub(super) const ROWS: &[Command] = &[
         place: FRAME,
         is_on: None,
         obstacle: App::lacks_hit,
-        run: |app, ctx, _| app.animated(ctx, App::frame_part),
+        run: |app, ctx, _| app.frame_part(ctx),
     },
     Command {
         name: "go-to",

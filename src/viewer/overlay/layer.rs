@@ -30,6 +30,13 @@ pub enum OverlayError {
     TaskPanicked(#[from] TaskPanicked),
 }
 
+/// Whether the camera moves.
+#[derive(Clone, Copy)]
+enum Motion {
+    Still,
+    Moving,
+}
+
 /// The overlay of the window's picture.
 pub struct OverlayLayer {
     overlay: Arc<Overlay>,
@@ -49,10 +56,9 @@ pub struct OverlayLayer {
 }
 
 impl OverlayLayer {
-    /// Compiles the shaders.
-    pub fn new(render_state: &RenderState) -> Self {
+    /// Compiles the shaders. `is_software` says whether the adapter is software.
+    pub fn new(render_state: &RenderState, is_software: bool) -> Self {
         let overlay = Arc::new(Overlay::new(&render_state.device, &render_state.queue));
-        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
         Self {
             painter: Painter::new(Arc::clone(&overlay), is_software),
             overlay,
@@ -68,7 +74,7 @@ impl OverlayLayer {
     }
 
     /// Draws nothing: cancels the drawing in progress.
-    pub fn pause(&mut self) {
+    fn pause(&mut self) {
         self.is_complete = true;
         self.painter.cancel();
     }
@@ -80,6 +86,34 @@ impl OverlayLayer {
     /// See [`OverlayError`].
     pub fn draw(
         &mut self,
+        input: &OverlayInput,
+        overlays: &Overlays,
+        ctx: &egui::Context,
+    ) -> Result<Option<wgpu::Texture>, OverlayError> {
+        self.draw_in(Motion::Still, input, overlays, ctx)
+    }
+
+    /// The same while the camera moves. Shapes other than meshes then have no outlines and hide no lines, since that takes
+    /// one traced ray per pixel of each view. On a software GPU nothing is drawn, so that the picture can keep up.
+    ///
+    /// # Errors
+    /// See [`OverlayError`].
+    pub fn draw_moving(
+        &mut self,
+        input: &OverlayInput,
+        overlays: &Overlays,
+        ctx: &egui::Context,
+    ) -> Result<Option<wgpu::Texture>, OverlayError> {
+        if self.is_software {
+            self.pause();
+            return Ok(None);
+        }
+        self.draw_in(Motion::Moving, input, overlays, ctx)
+    }
+
+    fn draw_in(
+        &mut self,
+        motion: Motion,
         input: &OverlayInput,
         overlays: &Overlays,
         ctx: &egui::Context,
@@ -102,12 +136,20 @@ impl OverlayLayer {
                 return Ok(None);
             }
         };
-        let traced = match self.trace(&input.scene, &input.camera, contents.view, ctx)? {
+        let traced = match motion {
+            Motion::Still => self.trace(&input.scene, &input.camera, contents.view, ctx)?,
+            Motion::Moving => None,
+        };
+        let traced = match traced {
             Some(Readiness::Ready(traced)) => Some(traced),
             // That of another view would be wrong.
             Some(Readiness::Pending(_)) => {
                 self.is_complete = false;
-                return Ok(None);
+                if self.is_software {
+                    return Ok(None);
+                }
+                // As while the camera moved.
+                None
             }
             Some(Readiness::Failed) | None => None,
         };
@@ -118,8 +160,8 @@ impl OverlayLayer {
         let drawing = Drawing {
             view: contents.view,
             mesh,
+            outline: contents.outline.filter(|_| traced.is_some()),
             traced,
-            outline: contents.outline,
             sets,
         };
         let texture = self.painter.draw(&drawing, ctx)?.cloned();
@@ -182,12 +224,6 @@ impl OverlayLayer {
     /// Whether the last texture shows everything that was requested.
     pub fn is_complete(&self) -> bool {
         self.is_complete
-    }
-
-    /// Whether lines are omitted while the camera moves, so that the picture can keep up.
-    pub fn omits_lines_while_moving(&self, scene: &Scene) -> bool {
-        // Each view of shapes takes one traced ray per pixel.
-        self.is_software || scene.has_other_shapes()
     }
 
     /// Whether lines are drawn by software, in the background.

@@ -8,9 +8,10 @@ use crate::numbers::significant;
 use crate::overlay::{Label, Place};
 use crate::tracer::Request;
 use egui::Response;
-use glam::{DVec2, UVec2};
+use glam::UVec2;
+use hitscope_core::film::ShownPixel;
 use hitscope_core::sampler::Sampler;
-use hitscope_core::{Camera, Hit, Scene};
+use hitscope_core::{Hit, Scene};
 
 /// The read-out.
 pub(crate) struct Hover {
@@ -30,7 +31,7 @@ impl Default for Hover {
 
 /// What the text depends on.
 struct HoverKey {
-    /// The request, with the camera of the picture on the screen.
+    /// The request, with the camera of the pixel on the screen.
     request: Request,
     pixel: UVec2,
 }
@@ -53,7 +54,7 @@ impl App {
         let key = pos
             .filter(|_| self.picked.inspecting.hover.is_on && self.screenshot.is_none())
             .and_then(|pos| {
-                let camera = self.shown_camera()?;
+                let ShownPixel { camera, pixel } = self.shown_at(pos, canvas)?;
                 let mut request = self.traced.tracer.posted()?.clone();
                 let scene = &self.open.document.loaded.scene;
                 if self.open.document.is_blank
@@ -61,8 +62,6 @@ impl App {
                 {
                     return None;
                 }
-                let at = canvas.pixel_of(pos, &camera);
-                let pixel = self.clicked_pixel(at, &camera);
                 request.context.camera = camera;
                 Some(HoverKey { request, pixel })
             });
@@ -84,13 +83,6 @@ impl App {
             let text = read_out(&key);
             self.picked.inspecting.hover.last = Some((key, text));
         }
-    }
-
-    /// The pixel whose sample the picture on the screen shows at a place.
-    pub(in crate::app) fn clicked_pixel(&self, at: DVec2, camera: &Camera) -> UVec2 {
-        let last = camera.resolution() - 1;
-        let pixel = at.max(DVec2::ZERO).as_uvec2().min(last);
-        self.picked.inspecting.shown.pixel(pixel).min(last)
     }
 
     /// Whether the read-out under the pointer is on.

@@ -15,7 +15,6 @@ mod picks;
 use super::App;
 use crate::dialog::{FileDialog, Purpose};
 use crate::go_to::GoToBox;
-use hitscope_core::film::ShownPixels;
 
 /// The state of inspecting beyond one pixel.
 pub(crate) struct Inspecting {
@@ -26,8 +25,6 @@ pub(crate) struct Inspecting {
     /// The box in which the user names an element.
     pub go_to: GoToBox,
     journey: Option<go_to::Journey>,
-    /// The pixels whose samples the picture on the screen shows.
-    pub shown: ShownPixels,
 }
 
 impl Default for Inspecting {
@@ -38,7 +35,6 @@ impl Default for Inspecting {
             hover: hover::Hover::default(),
             go_to: GoToBox::default(),
             journey: None,
-            shown: ShownPixels::default(),
         }
     }
 }
