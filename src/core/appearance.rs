@@ -1,5 +1,6 @@
 //! What a surface looks like at a hit: its material with textures and vertex colours.
 
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::bsdf::{Black, Bsdf, Scatter};
 use crate::interaction::{SurfaceInteraction, texture_coordinates, texture_frame, vertex_colour};
 use crate::mesh::{Material, Property, Relief, Side, TextureMap, Tilt};
@@ -38,13 +39,19 @@ impl<'a> Appearance<'a> {
         texture_coordinates(self.scene, self.position, &self.hit)
     }
 
-    /// The value of a property's texture; 1 without one.
+    /// The value of a property's texture, from 0 to 1; 1 without one.
     fn value(&self, material: &Material, property: Property) -> Vec3 {
         let map = material.further_map(property);
         self.of_texture(map).unwrap_or(Vec3::ONE)
     }
 
+    /// The value of a texture. No surface reflects more than all light, so that it ends at 1.
     fn of_texture(&self, map: Option<&TextureMap>) -> Option<Vec3> {
+        self.unlimited(map).map(|value| value.min(Vec3::ONE))
+    }
+
+    /// The value of a texture, which exceeds 1 in pictures of light.
+    fn unlimited(&self, map: Option<&TextureMap>) -> Option<Vec3> {
         let textures = &self.scene.mesh().attributes().textures;
         Some(map?.value(textures, self.uv()?))
     }
@@ -81,7 +88,9 @@ impl<'a> Appearance<'a> {
     pub fn emission(&self) -> Vec3 {
         match self.material {
             Some(material) if material.emission != Vec3::ZERO => {
-                material.emission * self.value(material, Property::Emission)
+                let value = self.unlimited(material.further_map(Property::Emission));
+                let light = material.emission * value.unwrap_or(Vec3::ONE);
+                light.min(Vec3::splat(MAX_BRIGHTNESS))
             }
             _ => Vec3::ZERO,
         }

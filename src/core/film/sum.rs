@@ -235,7 +235,13 @@ mod tests {
 
     #[test]
     fn half_of_all_samples_at_the_brightest_light_have_its_variance() {
-        let sample = |k: u32| Vec3::splat(if k.is_multiple_of(2) { MAX_BRIGHTNESS } else { 0.0 });
+        let sample = |k: u32| {
+            Vec3::splat(if k.is_multiple_of(2) {
+                MAX_BRIGHTNESS
+            } else {
+                0.0
+            })
+        };
         let n = 1 << 16;
         let found = sum_of((0..n).map(sample)).variance(n);
         let half = f64::from(MAX_BRIGHTNESS) / 2.0;

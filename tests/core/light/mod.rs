@@ -10,6 +10,8 @@ mod environment;
 mod environment_files;
 // Surfaces lit by emitters: form factors.
 mod form_factors;
+// Textures in linear formats.
+mod linear_textures;
 // Closed rooms that emit light.
 mod furnace;
 // Planes under points and directions of light, from scene files; the studio.
