@@ -11,6 +11,7 @@ use crate::sampler::Sampler;
 use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
+use crate::terminator::Offset;
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
 
@@ -39,6 +40,15 @@ pub(super) struct ShadingPoint<'a> {
 
 impl<'a> ShadingPoint<'a> {
     pub fn new(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
+        Self::repaired(context, ray, hit, context.lighting.terminator.offset)
+    }
+
+    /// The same without offsets of rays by a repair of the shadow terminator.
+    pub fn unrepaired(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
+        Self::repaired(context, ray, hit, None)
+    }
+
+    fn repaired(context: &'a Context, ray: &'a Ray, hit: Hit, offset: Option<Offset>) -> Self {
         let scene = &context.scene;
         let surface = scene.surface(ray, &hit);
         let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
@@ -72,17 +82,9 @@ impl<'a> ShadingPoint<'a> {
             untilted,
             normal: side * interaction.geometric_normal,
             bsdf,
-            offset: terminator_offset(context, &hit, is_front),
+            offset: offset.map_or(Vec3::ZERO, |f| offset_by(f, context, &hit, is_front)),
             emission,
             opacity,
-        }
-    }
-
-    /// The same without a repair of the shadow terminator.
-    pub fn unrepaired(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
-        Self {
-            offset: Vec3::ZERO,
-            ..Self::new(context, ray, hit)
         }
     }
 
@@ -310,11 +312,8 @@ impl<'a> ShadingPoint<'a> {
 }
 
 /// The offset of rays that leave on the front or the back, by the repair of the shadow terminator.
-fn terminator_offset(context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
+fn offset_by(offset: Offset, context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
     let scene = &context.scene;
-    let Some(offset) = context.lighting.terminator.offset else {
-        return Vec3::ZERO;
-    };
     let corners = scene.corners(hit.primitive);
     let Some(corners) = corners.filter(|_| context.shading != Shading::Flat) else {
         return Vec3::ZERO;
@@ -363,9 +362,10 @@ pub(super) fn balance(own: f32, other: f32) -> f32 {
 /// The part of light below which a ray isn't followed: half a step of 8 bits.
 pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// Whether a camera's ray shows the background: it hits nothing, and there is no environment.
+/// Whether a camera's ray shows the background: it hits nothing, and no environment is there to be seen.
 pub(super) fn shows_background(context: &Context, hit: Option<Hit>) -> bool {
-    hit.is_none() && context.lighting.lights.environment().is_none()
+    let lighting = &context.lighting;
+    hit.is_none() && (lighting.hides_emitters || lighting.lights.environment().is_none())
 }
 
 /// The light of a ray that hits nothing. `scattered_with` is the density of its direction, `None` for single directions

@@ -79,14 +79,15 @@ impl App {
                 lights: Arc::new(lights),
             }
         });
-        let settings = &self.seen.settings;
+        let (settings, default) = (&self.seen.settings, loaded.lighting());
         let lighting = Lighting {
             lights: Arc::clone(&lights.lights),
             spawn: settings.spawn(),
             second_spawn: settings.second_spawn(),
             ao_distance: settings.ao_distance,
-            depth_limit: settings.depth_limit().or(loaded.depth_limit()),
+            depth_limit: settings.depth_limit().or(default.depth_limit),
             terminator: settings.terminator(),
+            ..default
         };
         self.traced.lights = Some(lights);
         lighting

@@ -14,6 +14,8 @@ mod form_factors;
 mod linear_textures;
 // Closed rooms that emit light.
 mod furnace;
+// Integrators of scene files: Russian roulette, hidden emitters.
+mod integrators;
 // Planes under points and directions of light, from scene files; the studio.
 mod lamps;
 // How open surfaces are.
