@@ -10,6 +10,7 @@ use crate::srgb::{from_display, luminance};
 use crate::statements::{self, CLAY, Values};
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 /// A material at a hit.
 pub(crate) struct Appearance<'a> {
@@ -17,6 +18,8 @@ pub(crate) struct Appearance<'a> {
     material: Option<&'a Material>,
     position: Vec3,
     hit: Hit,
+    /// Texture coordinates, once they are needed.
+    uv: OnceCell<Option<Vec2>>,
 }
 
 impl<'a> Appearance<'a> {
@@ -31,12 +34,14 @@ impl<'a> Appearance<'a> {
             material,
             position,
             hit: *hit,
+            uv: OnceCell::new(),
         }
     }
 
     /// Texture coordinates. A face without them shows no texture.
     fn uv(&self) -> Option<Vec2> {
-        texture_coordinates(self.scene, self.position, &self.hit)
+        let found = || texture_coordinates(self.scene, self.position, &self.hit);
+        *self.uv.get_or_init(found)
     }
 
     /// The value of a property's texture, from 0 to 1; 1 without one.
