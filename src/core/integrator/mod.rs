@@ -13,6 +13,7 @@ mod hidden_emitters;
 mod interpolation;
 mod normal;
 mod number;
+mod offset;
 mod options;
 mod orientation;
 pub mod palette;

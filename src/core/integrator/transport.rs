@@ -1,6 +1,7 @@
 //! What the views that transport light have in common: the surface that a ray hits, and the light that reaches it.
 
 use super::Context;
+use super::offset::offset_by;
 use super::record::Recorder;
 use crate::appearance::Appearance;
 use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
@@ -8,7 +9,6 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
-use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
 use crate::terminator::Offset;
@@ -201,10 +201,14 @@ impl<'a> ShadingPoint<'a> {
         [self.frame.z.dot(dir) > 0.0, self.normal.dot(dir) > 0.0]
     }
 
-    /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
+    /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal,
+    /// and of the shading normal before a texture tilts it: a relief doesn't see what is behind the surface that has it.
     /// Rays that start above the surface may point through it.
     #[inline]
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
+        if self.untilted != self.frame.z && local.z * self.untilted.dot(dir) <= 0.0 {
+            return false;
+        }
         let is_reflected = local.z * self.outgoing.z > 0.0;
         let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
         starts_above || local.z * self.normal.dot(dir) > 0.0
@@ -309,19 +313,6 @@ impl<'a> ShadingPoint<'a> {
         };
         ray.map_or(0.0, |ray| transmittance(self.context, ray))
     }
-}
-
-/// The offset of rays that leave on the front or the back, by the repair of the shadow terminator.
-fn offset_by(offset: Offset, context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
-    let scene = &context.scene;
-    let corners = scene.corners(hit.primitive);
-    let Some(corners) = corners.filter(|_| context.shading != Shading::Flat) else {
-        return Vec3::ZERO;
-    };
-    let normals = scene.vertex_normals();
-    let normals = normals.of_triangle(scene.mesh(), hit.primitive);
-    let side = if is_front { 1.0 } else { -1.0 };
-    offset(hit.barycentric(), corners, normals.map(|n| side * n))
 }
 
 /// The part of light that passes along a ray.
