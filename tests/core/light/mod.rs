@@ -106,11 +106,14 @@ impl Estimate {
     /// for rounding.
     #[track_caller]
     fn require(&self, expected: f64) {
-        eprintln!("{self:?} (n = {}), expected {expected}", self.n);
-        let most = 4.0 * self.error + 1e-6 * expected;
-        assert!(
-            (self.mean - expected).abs() <= most,
-            "{self:?}, expected {expected}"
+        let deviation = self.mean - expected;
+        eprintln!(
+            "{self:?} (n = {}), expected {expected}: {:+.2} standard errors, {:+.4} %",
+            self.n,
+            deviation / self.error,
+            100.0 * deviation / expected
         );
+        let most = 4.0 * self.error + 1e-6 * expected;
+        assert!(deviation.abs() <= most, "{self:?}, expected {expected}");
     }
 }
