@@ -129,10 +129,11 @@ def compare(binary, path, samples):
     z = np.abs(ours - theirs) / error
     passing = float(np.mean(~(z > limit)))
     bias = float(ours.mean() / theirs.mean() - 1.0)
+    bias_error = float(np.sqrt(np.sum(our_error**2 + their_error**2)) / n / theirs.mean())
     rate = lambda seconds: n * samples / seconds / 1e6
     print(
         f"{path.name}: {100 * passing:.2f} % of {n} pixels pass (|z| < {limit:.2f}; largest {z.max():.1f}), "
-        f"means differ by {100 * bias:+.3f} %, Msamples/s of CPU time {rate(our_seconds):.2f} "
+        f"means differ by {100 * bias:+.3f} % (standard error {100 * bias_error:.3f} %), Msamples/s of CPU time {rate(our_seconds):.2f} "
         f"and Mitsuba's {rate(their_seconds):.2f}"
     )
     return passing >= PASSING
