@@ -132,7 +132,7 @@
 //!
 //! | texture | parameters and defaults |
 //! |---|---|
-//! | `bitmap` | `filename`: PNG or JPEG; `raw` = false: whether texels aren't sRGB; `filter_type` = bilinear or `nearest`; `wrap_mode` = repeat, `mirror` or `clamp`. A file that can't be read gives a warning and the parameter's default |
+//! | `bitmap` | `filename`: PNG or JPEG, or Radiance HDR or OpenEXR, whose numbers are linear; `raw` = false: whether bytes aren't sRGB; `filter_type` = bilinear or `nearest`; `wrap_mode` = repeat, `mirror` or `clamp`. A file that can't be read gives a warning and the parameter's default |
 //! | `checkerboard` | `color0` = 0.4, `color1` = 0.2, constant |
 //!
 //! `to_uv` maps the surface's texture coordinates to the texture's, of which (0, 0) is the upper left corner and (1, 1) the

@@ -70,10 +70,11 @@ fn linear(
         Problem::Content(message) => message,
         Problem::Cancelled => "cancelled".to_owned(),
     })?;
+    let all = 3 * u64::from(size.x) * u64::from(size.y);
     let (texture, replaced) = Texture::linear(name, size, texels).ok_or("the picture is empty")?;
     let fault = (replaced > 0).then(|| {
         format!(
-            "{replaced} numbers are negative, not finite or above {MAX_BRIGHTNESS:.1e}: those above become this limit, all else 0"
+            "{replaced} of {all} numbers in the picture are negative, not finite or above {MAX_BRIGHTNESS:.1e}: those above become this limit, all else 0"
         )
     });
     Ok(Picture { texture, fault })
