@@ -1,5 +1,6 @@
 //! What a surface looks like at a hit: its material with textures and vertex colours.
 
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::bsdf::{Black, Bsdf, Scatter};
 use crate::interaction::{SurfaceInteraction, texture_coordinates, texture_frame, vertex_colour};
 use crate::mesh::{Material, Property, Relief, Side, TextureMap, Tilt};
@@ -9,6 +10,7 @@ use crate::srgb::{from_display, luminance};
 use crate::statements::{self, CLAY, Values};
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
+use std::cell::OnceCell;
 
 /// A material at a hit.
 pub(crate) struct Appearance<'a> {
@@ -16,6 +18,8 @@ pub(crate) struct Appearance<'a> {
     material: Option<&'a Material>,
     position: Vec3,
     hit: Hit,
+    /// Texture coordinates, once they are needed.
+    uv: OnceCell<Option<Vec2>>,
 }
 
 impl<'a> Appearance<'a> {
@@ -30,21 +34,29 @@ impl<'a> Appearance<'a> {
             material,
             position,
             hit: *hit,
+            uv: OnceCell::new(),
         }
     }
 
     /// Texture coordinates. A face without them shows no texture.
     fn uv(&self) -> Option<Vec2> {
-        texture_coordinates(self.scene, self.position, &self.hit)
+        let found = || texture_coordinates(self.scene, self.position, &self.hit);
+        *self.uv.get_or_init(found)
     }
 
-    /// The value of a property's texture; 1 without one.
+    /// The value of a property's texture, from 0 to 1; 1 without one.
     fn value(&self, material: &Material, property: Property) -> Vec3 {
         let map = material.further_map(property);
         self.of_texture(map).unwrap_or(Vec3::ONE)
     }
 
+    /// The value of a texture. No surface reflects more than all light, so that it ends at 1.
     fn of_texture(&self, map: Option<&TextureMap>) -> Option<Vec3> {
+        self.unlimited(map).map(|value| value.min(Vec3::ONE))
+    }
+
+    /// The value of a texture, which exceeds 1 in pictures of light.
+    fn unlimited(&self, map: Option<&TextureMap>) -> Option<Vec3> {
         let textures = &self.scene.mesh().attributes().textures;
         Some(map?.value(textures, self.uv()?))
     }
@@ -81,7 +93,9 @@ impl<'a> Appearance<'a> {
     pub fn emission(&self) -> Vec3 {
         match self.material {
             Some(material) if material.emission != Vec3::ZERO => {
-                material.emission * self.value(material, Property::Emission)
+                let value = self.unlimited(material.further_map(Property::Emission));
+                let light = material.emission * value.unwrap_or(Vec3::ONE);
+                light.min(Vec3::splat(MAX_BRIGHTNESS))
             }
             _ => Vec3::ZERO,
         }

@@ -1,10 +1,14 @@
 //! The brightest light that a picture can hold.
 
 use glam::DVec3;
+use std::ops::RangeInclusive;
 
 /// The largest radiance or irradiance of a light in a colour channel: 2⁴⁸, about 2.8e14. A pixel has at most
 /// 2¹⁶ samples, whose sum the [film](crate::film) cuts at 2⁶⁴: below the limit, it never does.
 pub const MAX_BRIGHTNESS: f32 = (1_u64 << 48) as f32;
+
+/// The exposures that a picture may need, in stops: they show the brightest light, and the darkest, 2⁻⁶⁴, as white.
+pub const EXPOSURES: RangeInclusive<f32> = -48.0..=64.0;
 
 /// Checks the radiance or the irradiance of a light.
 ///
@@ -46,6 +50,13 @@ pub(crate) fn too_bright() -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn the_range_of_exposures_ends_at_the_brightest_and_the_darkest_light_of_a_picture() {
+        let (darkest, brightest) = (2f32.powi(-64), MAX_BRIGHTNESS);
+        assert_eq!(EXPOSURES.start().exp2() * brightest, 1.0);
+        assert_eq!(EXPOSURES.end().exp2() * darkest, 1.0);
+    }
 
     #[test]
     fn light_is_refused_with_the_reason() {

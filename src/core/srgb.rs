@@ -39,7 +39,7 @@ pub fn from_texel(texel: [u8; 3]) -> Vec3 {
 /// The luminance of red, green and blue of brightness 1.
 ///
 /// Source: ITU-R BT.709.
-const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
+pub(crate) const LUMINANCE: DVec3 = DVec3::new(0.2126, 0.7152, 0.0722);
 
 /// The luminance of linear RGB.
 pub fn luminance(rgb: Vec3) -> f32 {

@@ -25,7 +25,7 @@ pub struct TerminatorRepair {
 
 /// The offset of rays that leave a triangle on the side of its normals, by the point's barycentric coordinates, the
 /// triangle's corners and their unit normals.
-type Offset = fn([f32; 3], [Vec3; 3], [Vec3; 3]) -> Vec3;
+pub(crate) type Offset = fn([f32; 3], [Vec3; 3], [Vec3; 3]) -> Vec3;
 
 /// All repairs; the first one, which is the default, is none.
 pub static TERMINATOR_REPAIRS: &[TerminatorRepair] = &[

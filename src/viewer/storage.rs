@@ -5,10 +5,11 @@
 
 use crate::overlay::older;
 use crate::panels::light::{
-    AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, EXPOSURES, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
+    AO_DISTANCES, BRIGHTNESSES, DEPTH_LIMITS, NOISE_LIMITS, ROTATIONS, TIME_LIMITS_S,
 };
 use crate::preferences::{PANEL_WIDTHS, Preferences};
 use crate::settings::{EnvironmentSource, Settings};
+use hitscope_core::brightness::EXPOSURES;
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::integrator;
 use hitscope_core::plan::MAX_SAMPLES;

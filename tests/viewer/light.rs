@@ -1,12 +1,13 @@
 //! Tests of views that need lights: their options, noise and limits.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, bare_with, in_picture, pointer, wait};
+use crate::harness::{Window, app, app_with, bare_with, in_picture, pointer, wait};
 use egui::{Event, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
 use hitscope::look::noise_legend;
 use hitscope::settings::{EnvironmentSource, Settings};
+use hitscope_core::brightness::{EXPOSURES, MAX_BRIGHTNESS};
 use hitscope_core::tone::Display;
 use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
@@ -202,4 +203,32 @@ fn a_dropped_environment_lights_the_scene_and_does_not_replace_it() {
     assert!(app.notice().is_some_and(|text| text.contains("none.HDR")));
     assert_eq!(app.settings().environment, EnvironmentSource::Scene);
     assert_eq!(app.document().name(), name);
+}
+
+#[test]
+fn brightness_and_exposure_end_where_the_film_ends() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let sky = folder.path().join("sky.hdr");
+    let mut bytes = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
+    // 128/256 · 2⁴⁷, a quarter of the film's limit.
+    bytes.extend([128, 128, 128, 175, 0, 0, 0, 0]);
+    std::fs::write(&sky, bytes).expect("written");
+    let settings = Settings {
+        view: "direct".to_owned(),
+        environment: EnvironmentSource::File,
+        environment_file: Some(sky),
+        environment_brightness: 100.0,
+        exposure_stops: -100.0,
+        ..ambient_occlusion(1)
+    };
+    let Some(mut window) = app_with(settings) else {
+        return;
+    };
+    wait(&mut window, "the picture", App::is_settled);
+    window.run_steps(2);
+    let settings = window.state().settings();
+    assert_eq!(settings.environment_brightness, 4.0);
+    assert_eq!(settings.exposure_stops, *EXPOSURES.start());
+    let brightest = 2f32.powi(46) * settings.environment_brightness;
+    assert_eq!(brightest, MAX_BRIGHTNESS);
 }

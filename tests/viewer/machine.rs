@@ -85,7 +85,7 @@ fn a_lack_of_threads_is_reported_in_one_line() {
 #[test]
 fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
     let program = Program::new();
-    // 73 bytes for each of 67 million pixels, with a limit of 3 GB.
+    // 89 bytes for each of 67 million pixels, with a limit of 3 GB.
     let ran = program
         .shell("ulimit -v 3000000; exec \"$hitscope\" render good.obj -o out.png --size 8192x8192");
     let message = "hitscope: there isn't enough memory for a picture of 8192x8192 pixels";
@@ -95,26 +95,26 @@ fn a_picture_too_large_for_the_memory_is_reported_in_one_line() {
 #[test]
 fn the_memory_limit_includes_the_picture_and_refuses_nothing_that_fits() {
     let program = Program::new();
-    // 73 bytes for each of 180 000 pixels: 12.5 MiB.
+    // 89 bytes for each of 180 000 pixels: 15.3 MiB.
     let render = |more: &str| program.run(&format!("render {more} -o out.png --size 600x300"));
-    assert!(render("good.obj --max-memory 13").status.success());
-    let ran = render("none.obj --max-memory 12");
-    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 13 MB");
-    // The picture that replaces the window: 73 bytes for each of 1280 × 720 pixels, 64.2 MiB.
-    let ran = program.run("good.obj --max-memory 64");
+    assert!(render("good.obj --max-memory 16").status.success());
+    let ran = render("none.obj --max-memory 15");
+    assert_fails(&ran, 2, "error: a picture of 600x300 pixels takes 16 MB");
+    // The picture that replaces the window: 89 bytes for each of 1280 × 720 pixels, 78.2 MiB.
+    let ran = program.run("good.obj --max-memory 78");
     assert_eq!(ran.status.code(), Some(2), "{}", stderr(&ran));
-    let ran = program.run("good.obj --max-memory 66");
+    let ran = program.run("good.obj --max-memory 81");
     assert_eq!(ran.status.code(), Some(0), "{}", stderr(&ran));
-    // A mesh whose triangles take more than the remaining 0.5 MiB.
-    let vertices: String = (0..5000)
+    // A mesh whose triangles take more than the remaining 0.7 MiB.
+    let vertices: String = (0..8000)
         .map(|k| format!("v {k} 0 0\nv {k} 1 {k}\n"))
         .collect();
-    let faces: String = (1..9998)
+    let faces: String = (1..15998)
         .map(|k| format!("f {k} {} {}\n", k + 1, k + 2))
         .collect();
     program.write("strip.obj", vertices + &faces);
     assert!(render("strip.obj --max-memory 50").status.success());
-    let ran = render("strip.obj --max-memory 13");
+    let ran = render("strip.obj --max-memory 16");
     assert_eq!(ran.status.code(), Some(1), "{}", stderr(&ran));
     assert!(stderr(&ran).contains("--max-memory"), "{}", stderr(&ran));
 }

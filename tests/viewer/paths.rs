@@ -2,6 +2,7 @@
 
 use crate::harness::{Window, app_with, click, in_picture, wait};
 use crate::pointer::on_the_mesh;
+use egui::OutputCommand;
 use egui_kittest::kittest::Queryable as _;
 use glam::UVec2;
 use hitscope::app::App;
@@ -69,4 +70,57 @@ fn a_view_that_follows_no_paths_shows_none() {
     window.run_steps(5);
     assert!(window.state().path().is_none());
     assert!(window.query_by_label("Paths").is_none());
+}
+
+/// The text that the button *Copy as JSON* copies.
+fn copied(window: &mut Window) -> serde_json::Value {
+    window.get_by_label("Copy as JSON").click_accesskit();
+    for _ in 0..5 {
+        window.step();
+        let commands = &window.output().platform_output.commands;
+        let text = commands.iter().find_map(|command| match command {
+            OutputCommand::CopyText(text) => Some(text.clone()),
+            _ => None,
+        });
+        if let Some(text) = text {
+            return parsed(&text);
+        }
+    }
+    panic!("nothing was copied");
+}
+
+fn parsed(text: &str) -> serde_json::Value {
+    serde_json::from_str(text).expect("JSON")
+}
+
+#[test]
+fn the_copied_inspection_contains_the_path_of_the_selected_sample() {
+    let Some(mut window) = picked("path", 4) else {
+        return;
+    };
+    wait(&mut window, "the path", |app| app.path().is_some());
+    window.run_steps(2);
+    window.get_by_label("Next").click_accesskit();
+    wait(&mut window, "the next path", |app| {
+        app.path().is_some_and(|path| path.sample == 1)
+    });
+    window.run_steps(2);
+    let copied = copied(&mut window);
+    let app = window.state();
+    let mut expected = app.inspection().expect("a pick").clone();
+    expected.path = app.path().cloned();
+    assert_eq!(copied.to_string(), parsed(&expected.to_json()).to_string());
+    assert_eq!(copied["path"]["sample"], 1);
+    for name in ["t", "position", "throughput", "emission", "direct"] {
+        assert!(copied["path"]["vertices"][0].get(name).is_some(), "{name}");
+    }
+}
+
+#[test]
+fn the_copied_inspection_of_a_view_without_paths_has_none() {
+    let Some(mut window) = picked("normal", 1) else {
+        return;
+    };
+    window.run_steps(5);
+    assert!(copied(&mut window)["path"].is_null());
 }

@@ -1,10 +1,29 @@
-//! Sampling of rough reflection over a diffuse base.
+//! What models of a coat over a base share: the choice between both, the light that the base returns, and sampling of a
+//! rough coat over a diffuse base.
 
 use super::diffuse::{cosine_density, cosine_direction};
 use super::microfacets::Microfacets;
 use super::optics::reflected;
 use super::rough_conductor::{reflecting, reflection_density};
 use glam::{Vec2, Vec3};
+
+/// The probability of the first of two lobes with these weights.
+pub(super) fn probability(first: Vec3, second: Vec3) -> f32 {
+    let (first, second) = (first.element_sum(), second.element_sum());
+    let sum = first + second;
+    if sum > 0.0 { first / sum } else { 0.0 }
+}
+
+/// The reflectance of a base below a coat that reflects `inner` of its light back: the sum over all reflections, and the
+/// scale of light that leaves a medium of relative index `eta`.
+pub(super) fn below_coat(diffuse: Vec3, inner: f32, eta: f32, is_nonlinear: bool) -> Vec3 {
+    let back = if is_nonlinear {
+        inner * diffuse
+    } else {
+        Vec3::splat(inner)
+    };
+    diffuse / ((1.0 - back) * (eta * eta))
+}
 
 /// A direction reflected by the facets, or one of the base; `None` behind the surface.
 pub(super) fn sample_direction(

@@ -4,11 +4,10 @@
 //! them: light is lost to the highlight both when it enters the diffuse part and when it leaves, so that no more is
 //! reflected than arrives.
 
-use super::coat;
+use super::coat::{self, probability};
 use super::diffuse::cosine_density;
 use super::microfacets::{Law, Microfacets};
 use super::optics::schlick;
-use super::plastic::probability;
 use super::rough_conductor::{facet_reflection, reflecting};
 use super::{Bsdf, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};

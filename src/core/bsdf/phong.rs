@@ -3,9 +3,9 @@
 //! Source: Lafortune, Willems, "Using the Modified Phong Reflectance Model for Physically Based Rendering", Report CW197,
 //! Leuven, 1994.
 
+use super::coat::probability;
 use super::diffuse::{cosine_density, cosine_direction};
 use super::optics::mirrored;
-use super::plastic::probability;
 use super::{Bsdf, Frame, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};
 use std::f32::consts::TAU;

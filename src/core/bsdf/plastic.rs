@@ -5,6 +5,7 @@
 //! Source: Wolff, "Diffuse-reflectance model for smooth dielectric surfaces", JOSA A 11(11), 1994; the documentation of
 //! Mitsuba's `plastic`.
 
+use super::coat::{below_coat, probability};
 use super::diffuse::{cosine_density, cosine_direction};
 use super::optics::{Interface, diffuse_reflectance, mirrored};
 use super::{Bsdf, Model, Scatter, Scattered};
@@ -47,24 +48,6 @@ impl Plastic {
         let coat = self.coat(outgoing.z);
         probability(coat * self.specular, (1.0 - coat) * self.diffuse)
     }
-}
-
-/// The probability of the first of two lobes with these weights.
-pub(super) fn probability(first: Vec3, second: Vec3) -> f32 {
-    let (first, second) = (first.element_sum(), second.element_sum());
-    let sum = first + second;
-    if sum > 0.0 { first / sum } else { 0.0 }
-}
-
-/// The reflectance of a base below a coat that reflects `inner` of its light back: the sum over all reflections, and the
-/// scale of light that leaves a medium of relative index `eta`.
-pub(super) fn below_coat(diffuse: Vec3, inner: f32, eta: f32, is_nonlinear: bool) -> Vec3 {
-    let back = if is_nonlinear {
-        inner * diffuse
-    } else {
-        Vec3::splat(inner)
-    };
-    diffuse / ((1.0 - back) * (eta * eta))
 }
 
 pub(super) static PLASTIC: Model = Model {

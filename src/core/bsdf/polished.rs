@@ -3,9 +3,9 @@
 //! Source: Alias|Wavefront, "MTL material format", Appendix B1 of the Advanced Visualizer Manual, 1995; Whitted, "An
 //! Improved Illumination Model for Shaded Display", CACM 23(6), 1980.
 
+use super::coat::probability;
 use super::diffuse::{cosine_density, cosine_direction};
 use super::optics::{mirrored, schlick};
-use super::plastic::probability;
 use super::{Bsdf, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};
 

@@ -9,11 +9,10 @@
 //! 1.5 % below the integral. With Beckmann's law, pictures differ by up to 0.5 %: there, Mitsuba approximates the visible
 //! part of facets by a fraction.
 
-use super::coat;
+use super::coat::{self, below_coat, probability};
 use super::diffuse::cosine_density;
 use super::microfacets::{Law, Microfacets};
 use super::optics::{Interface, reflected, refracted};
-use super::plastic::{below_coat, probability};
 use super::rough_conductor::{facet_reflection, reflecting};
 use super::{Bsdf, Model, Scatter, Scattered};
 use glam::{Vec2, Vec3};

@@ -1,76 +1,21 @@
 //! Film: accumulates samples and encodes them for a display.
 //!
-//! Sums are integers of 128 bits, so the picture doesn't depend on the order in which tiles arrive, and bright samples
+//! Sums are integers, so the picture doesn't depend on the order in which tiles arrive, and bright samples
 //! aren't clamped. Pixels without a sample show the colour of their block from a coarser pass; those of a tile that the
 //! plan hasn't reached keep the colours of the plan before it.
 
 mod shown;
+mod sum;
 
 pub use shown::{ShownPixel, ShownPixels};
+pub use sum::SampleSum;
 
 use crate::Camera;
 use crate::plan::{Pass, PixelRect, Plan, WorkUnit};
-use crate::srgb::luminance;
 use crate::tone::Display;
 use glam::{UVec2, Vec3};
 use std::collections::TryReserveError;
 use std::ops::Range;
-
-/// The sum of a pixel's samples. The order in which samples are added doesn't matter.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct SampleSum {
-    /// Linear RGB in units of 2⁻⁶⁴.
-    rgb: [u128; 3],
-    /// Squared luminance in the same units, for the variance.
-    square: u128,
-}
-
-/// The value 1 in [`SampleSum`].
-const ONE: f64 = 18_446_744_073_709_551_616.0;
-
-impl SampleSum {
-    /// Adds a sample in linear RGB, and returns whether it was finite. One that isn't is left out, and a negative number
-    /// counts as 0.
-    ///
-    /// Digits below 2⁻⁶⁴ are dropped, and sums end at 2⁶⁴.
-    pub fn add(&mut self, radiance: Vec3) -> bool {
-        // A negative number becomes 0.
-        let fixed = |x: f64| (x * ONE) as u128;
-        if !radiance.is_finite() {
-            return false;
-        }
-        let brightness = f64::from(luminance(radiance));
-        self.merge(&Self {
-            rgb: radiance.to_array().map(|x| fixed(x.into())),
-            square: fixed(brightness * brightness),
-        });
-        true
-    }
-
-    fn merge(&mut self, other: &Self) {
-        for (sum, part) in self.rgb.iter_mut().zip(other.rgb) {
-            *sum = sum.saturating_add(part);
-        }
-        self.square = self.square.saturating_add(other.square);
-    }
-
-    /// The mean of `count` samples.
-    fn mean(&self, count: u32) -> Vec3 {
-        let unit = 1.0 / (ONE * f64::from(count));
-        Vec3::from_array(self.rgb.map(|sum| (sum as f64 * unit) as f32))
-    }
-
-    /// The variance of the luminance of a single sample, estimated from `count` samples; 0 for fewer than 2.
-    fn variance(&self, count: u32) -> f64 {
-        if count < 2 {
-            return 0.0;
-        }
-        let n = f64::from(count);
-        let mean = f64::from(luminance(self.mean(count)));
-        let square = self.square as f64 / (ONE * n);
-        (square - mean * mean).max(0.0) * n / (n - 1.0)
-    }
-}
 
 /// The samples of one tile in one pass, pixel by pixel in the pass's order.
 #[derive(Clone, Debug)]

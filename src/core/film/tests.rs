@@ -1,19 +1,11 @@
 //! Tests of films.
 
 use super::*;
-use crate::brightness::MAX_BRIGHTNESS;
-use crate::random::Random;
 
 fn sum_of(samples: &[Vec3]) -> SampleSum {
     let mut sum = SampleSum::default();
     samples.iter().for_each(|&sample| _ = sum.add(sample));
     sum
-}
-
-#[test]
-fn the_mean_of_equal_samples_is_that_sample() {
-    let grey = Vec3::splat(0.215_861);
-    assert_eq!(sum_of(&[grey; 4]).mean(4), grey);
 }
 
 #[test]
@@ -42,53 +34,6 @@ fn a_changed_display_gives_the_pixels_of_a_film_that_had_it_from_the_start() {
     with.restart(Plan::new(UVec2::ONE, 1, 1), background);
     assert_eq!(with.display(), display);
     assert_eq!(with.pixels(), [display.encode(background)]);
-}
-
-#[test]
-fn non_finite_samples_are_rejected_and_bright_ones_are_not_clamped() {
-    let mut sum = SampleSum::default();
-    assert!(!sum.add(Vec3::new(0.0, f32::NAN, 0.0)));
-    assert!(!sum.add(Vec3::new(0.0, f32::INFINITY, 0.0)));
-    assert!(sum.add(Vec3::splat(-1.0)));
-    assert_eq!(sum.mean(1), Vec3::ZERO);
-    assert!(sum.add(Vec3::new(1e9, 1e-9, 3.0)));
-    assert_eq!(sum.mean(1), Vec3::new(1e9, 1e-9, 3.0));
-    (0..3).for_each(|_| _ = sum.add(Vec3::splat(f32::MAX)));
-    // The end of the range, 2⁶⁴.
-    assert_eq!(sum.mean(1), Vec3::splat(ONE as f32));
-}
-
-#[test]
-fn no_sum_of_the_brightest_light_is_cut() {
-    let samples = vec![Vec3::splat(MAX_BRIGHTNESS); 1 << 16];
-    // The sum is 2⁶⁴ less one unit of the sums, which the mean rounds away.
-    let mean = sum_of(&samples).mean(1 << 16);
-    assert_eq!(mean, Vec3::splat(MAX_BRIGHTNESS));
-}
-
-#[test]
-fn the_order_of_samples_of_any_brightness_does_not_change_their_sum() {
-    let mut random = Random::new(4);
-    let mut samples = [(); 100].map(|()| {
-        let exponent = random.index(60) as i32 - 40;
-        Vec3::from_array([(); 3].map(|()| random.unit() as f32 * 2f32.powi(exponent)))
-    });
-    let sum = sum_of(&samples);
-    samples.reverse();
-    assert_eq!(sum_of(&samples), sum);
-    samples.sort_by(|a, b| a.x.total_cmp(&b.x));
-    assert_eq!(sum_of(&samples), sum);
-}
-
-#[test]
-fn the_variance_is_that_of_single_samples() {
-    let grey = |x: f32| Vec3::splat(x);
-    // Of 1, 2, 3, 6: deviations −2, −1, 0, 3, and 14/3.
-    let sum = sum_of(&[1.0, 2.0, 3.0, 6.0].map(grey));
-    // Luminances are rounded to f32.
-    assert!((sum.variance(4) - 14.0 / 3.0).abs() < 1e-5);
-    assert_eq!(sum_of(&[grey(0.25); 2]).variance(1), 0.0);
-    assert!(sum_of(&[grey(0.1); 9]).variance(9) < 1e-9);
 }
 
 #[test]

@@ -9,9 +9,11 @@ mod depth;
 mod direct;
 mod disagreement;
 mod error;
+mod hidden_emitters;
 mod interpolation;
 mod normal;
 mod number;
+mod offset;
 mod options;
 mod orientation;
 pub mod palette;
@@ -74,9 +76,17 @@ pub struct Lighting {
     pub ao_distance: f32,
     /// The most surfaces on a path; `None` for no limit.
     pub depth_limit: Option<u32>,
+    /// The surface of a path, counted from 1, from which on Russian roulette may end it.
+    pub roulette_depth: u32,
+    /// Whether the camera sees neither emitters nor the environment. Seen in mirrors, through glass and through parts of
+    /// surfaces that aren't there, they're visible.
+    pub hides_emitters: bool,
     /// The repair of the shadow terminator.
     pub terminator: &'static TerminatorRepair,
 }
+
+/// The default of [`Lighting::roulette_depth`]; Mitsuba's.
+pub(crate) const ROULETTE_DEPTH: u32 = 5;
 
 impl Default for Lighting {
     /// No lights, the default policy, the first of the table to compare it with, and no repair.
@@ -87,6 +97,8 @@ impl Default for Lighting {
             second_spawn: &SPAWN_POLICIES[0],
             ao_distance: 1.0,
             depth_limit: None,
+            roulette_depth: ROULETTE_DEPTH,
+            hides_emitters: false,
             terminator: default_terminator_repair(),
         }
     }

@@ -3,6 +3,7 @@
 //! Source: Kajiya, "The Rendering Equation", SIGGRAPH 1986; next event estimation and its weights: Veach, "Robust Monte
 //! Carlo Methods for Light Transport Simulation", 1997.
 
+use super::hidden_emitters::past_emitters;
 use super::record::{PathEnd, Recorder};
 use super::transport::{ShadingPoint, emitted, from_afar, shows_background};
 use super::{Context, Integrator, Needs, Source};
@@ -20,8 +21,6 @@ pub(super) static PATH: Integrator = Integrator {
     source: Source::Colour(radiance),
 };
 
-/// Surfaces on a path before Russian roulette may end it.
-const SURE_SURFACES: u32 = 4;
 /// The largest probability of going on, so that paths between white surfaces end.
 const MOST_LIKELY: f32 = 0.95;
 
@@ -44,12 +43,13 @@ pub(super) fn follow(
     limit: Option<u32>,
     recorder: &mut impl Recorder,
 ) -> Vec3 {
+    let (ray, hit) = past_emitters(context, ray, hit, recorder);
     if shows_background(context, hit) {
-        recorder.end(PathEnd::Left, ray, context.background);
+        recorder.end(PathEnd::Left, &ray, context.background);
         return context.background;
     }
     let from = (ray.origin, None);
-    follow_scattered(context, *ray, hit, from, sampler, limit, recorder)
+    follow_scattered(context, ray, hit, from, sampler, limit, recorder)
 }
 
 /// The same for a ray that left a surface at the point `from`, where the surface scattered it with the density `density`;
@@ -99,7 +99,7 @@ pub(super) fn follow_scattered(
         };
         throughput *= scattered.weight;
         scale *= scattered.eta * scattered.eta;
-        if surfaces > SURE_SURFACES {
+        if surfaces >= context.lighting.roulette_depth {
             let Some(surviving) = roulette(throughput, scale, sampler, recorder) else {
                 break PathEnd::RussianRoulette;
             };

@@ -1,6 +1,7 @@
 //! What the views that transport light have in common: the surface that a ray hits, and the light that reaches it.
 
 use super::Context;
+use super::offset::offset_by;
 use super::record::Recorder;
 use crate::appearance::Appearance;
 use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
@@ -8,9 +9,9 @@ use crate::interaction::SurfaceInteraction;
 use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
-use crate::scene::Shading;
 use crate::shape::{SurfacePoint, on_sphere};
 use crate::spawn::{Departure, SpawnPolicy};
+use crate::terminator::Offset;
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
 
@@ -39,6 +40,15 @@ pub(super) struct ShadingPoint<'a> {
 
 impl<'a> ShadingPoint<'a> {
     pub fn new(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
+        Self::repaired(context, ray, hit, context.lighting.terminator.offset)
+    }
+
+    /// The same without offsets of rays by a repair of the shadow terminator.
+    pub fn unrepaired(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
+        Self::repaired(context, ray, hit, None)
+    }
+
+    fn repaired(context: &'a Context, ray: &'a Ray, hit: Hit, offset: Option<Offset>) -> Self {
         let scene = &context.scene;
         let surface = scene.surface(ray, &hit);
         let interaction = SurfaceInteraction::of_surface(scene, &surface, hit, context.shading);
@@ -72,17 +82,9 @@ impl<'a> ShadingPoint<'a> {
             untilted,
             normal: side * interaction.geometric_normal,
             bsdf,
-            offset: terminator_offset(context, &hit, is_front),
+            offset: offset.map_or(Vec3::ZERO, |f| offset_by(f, context, &hit, is_front)),
             emission,
             opacity,
-        }
-    }
-
-    /// The same without a repair of the shadow terminator.
-    pub fn unrepaired(context: &'a Context, ray: &'a Ray, hit: Hit) -> Self {
-        Self {
-            offset: Vec3::ZERO,
-            ..Self::new(context, ray, hit)
         }
     }
 
@@ -199,10 +201,14 @@ impl<'a> ShadingPoint<'a> {
         [self.frame.z.dot(dir) > 0.0, self.normal.dot(dir) > 0.0]
     }
 
-    /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal.
+    /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal,
+    /// and of the shading normal before a texture tilts it: a relief doesn't see what is behind the surface that has it.
     /// Rays that start above the surface may point through it.
     #[inline]
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
+        if self.untilted != self.frame.z && local.z * self.untilted.dot(dir) <= 0.0 {
+            return false;
+        }
         let is_reflected = local.z * self.outgoing.z > 0.0;
         let starts_above = self.offset != Vec3::ZERO && is_reflected && self.goes_back(dir);
         starts_above || local.z * self.normal.dot(dir) > 0.0
@@ -309,22 +315,6 @@ impl<'a> ShadingPoint<'a> {
     }
 }
 
-/// The offset of rays that leave on the front or the back, by the repair of the shadow terminator.
-fn terminator_offset(context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
-    let scene = &context.scene;
-    let Some(offset) = context.lighting.terminator.offset else {
-        return Vec3::ZERO;
-    };
-    let corners = scene.corners(hit.primitive);
-    let Some(corners) = corners.filter(|_| context.shading != Shading::Flat) else {
-        return Vec3::ZERO;
-    };
-    let normals = scene.vertex_normals();
-    let normals = normals.of_triangle(scene.mesh(), hit.primitive);
-    let side = if is_front { 1.0 } else { -1.0 };
-    offset(hit.barycentric(), corners, normals.map(|n| side * n))
-}
-
 /// The part of light that passes along a ray.
 #[inline]
 pub(super) fn transmittance(context: &Context, mut ray: Ray) -> f32 {
@@ -363,9 +353,10 @@ pub(super) fn balance(own: f32, other: f32) -> f32 {
 /// The part of light below which a ray isn't followed: half a step of 8 bits.
 pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// Whether a camera's ray shows the background: it hits nothing, and there is no environment.
+/// Whether a camera's ray shows the background: it hits nothing, and no environment is there to be seen.
 pub(super) fn shows_background(context: &Context, hit: Option<Hit>) -> bool {
-    hit.is_none() && context.lighting.lights.environment().is_none()
+    let lighting = &context.lighting;
+    hit.is_none() && (lighting.hides_emitters || lighting.lights.environment().is_none())
 }
 
 /// The light of a ray that hits nothing. `scattered_with` is the density of its direction, `None` for single directions

@@ -4,6 +4,7 @@
 //! Differs from it: the parts of light that glass reflects and refracts follow from Fresnel's equations; glass casts a
 //! shadow; lights may have extent, and surfaces coverage.
 
+use super::hidden_emitters::past_emitters;
 use super::path::follow_scattered;
 use super::transport::{INVISIBLE, ShadingPoint, emitted, from_afar, shows_background};
 use super::{Context, Integrator, Needs, Source};
@@ -51,6 +52,7 @@ impl Branch {
 }
 
 fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
+    let (ray, hit) = past_emitters(context, ray, hit, &mut ());
     if shows_background(context, hit) {
         return context.background;
     }
@@ -58,7 +60,7 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sample
     let limit = limit.min(MOST_SURFACES);
     let mut light = Vec3::ZERO;
     let mut branches = vec![Branch {
-        ray: *ray,
+        ray,
         hit,
         weight: Vec3::ONE,
         scale: 1.0,

@@ -22,36 +22,53 @@ pub struct AreaLight {
     is_textured: bool,
 }
 
-/// Whether a primitive of the scene emits light.
-pub(super) fn emits(scene: &Scene) -> bool {
-    emitting(scene).next().is_some()
+/// The primitives of a scene that emit light.
+pub(super) struct Emitters {
+    /// Those with an area that can be sampled. Rays that hit the others find their light.
+    pub lights: Vec<AreaLight>,
+    /// Whether there are others.
+    pub are_more: bool,
 }
 
-/// The primitives of a scene that emit light, with their materials.
-fn emitting(scene: &Scene) -> impl Iterator<Item = (u32, &Material)> {
-    let materials = &scene.mesh().attributes().materials;
-    let emits = |material: &Material| material.emission.max_element() > 0.0;
-    let any = materials.entries().iter().any(emits);
-    let count = if any { scene.primitive_count() } else { 0 };
-    (0..count as u32).filter_map(move |primitive| {
-        let material = materials.get(scene.material(primitive))?;
-        (emits(material) && scene.is_shown(primitive)).then_some((primitive, material))
-    })
+impl Emitters {
+    pub fn of_scene(scene: &Scene) -> Self {
+        let materials = &scene.mesh().attributes().materials;
+        let any = materials.entries().iter().any(Material::emits);
+        let count = if any { scene.primitive_count() } else { 0 };
+        let mut found = Self {
+            lights: Vec::new(),
+            are_more: false,
+        };
+        for primitive in 0..count as u32 {
+            if let Some(material) = materials.get(scene.material(primitive))
+                && material.emits()
+                && scene.is_shown(primitive)
+            {
+                match AreaLight::new(scene, primitive, material) {
+                    Some(light) => found.lights.push(light),
+                    None => found.are_more = true,
+                }
+            }
+        }
+        found
+    }
+
+    /// Whether there are any.
+    pub fn are_some(&self) -> bool {
+        self.are_more || !self.lights.is_empty()
+    }
 }
 
 impl AreaLight {
-    /// The primitives of a scene that emit light. Those without an area that can be sampled are left out; rays that hit
-    /// them find their light.
-    pub(super) fn of_scene(scene: &Scene) -> impl Iterator<Item = Self> + '_ {
-        emitting(scene).filter_map(|(primitive, material)| {
-            let area = scene.area(primitive);
-            (area > 0.0 && area.is_finite()).then_some(Self {
-                primitive,
-                radiance: material.emission,
-                area,
-                emits_on_back: material.emits_on_back,
-                is_textured: material.further_map(Property::Emission).is_some(),
-            })
+    /// `None` if the primitive has no area that can be sampled.
+    fn new(scene: &Scene, primitive: u32, material: &Material) -> Option<Self> {
+        let area = scene.area(primitive);
+        (area > 0.0 && area.is_finite()).then_some(Self {
+            primitive,
+            radiance: material.emission,
+            area,
+            emits_on_back: material.emits_on_back,
+            is_textured: material.further_map(Property::Emission).is_some(),
         })
     }
 

@@ -24,6 +24,7 @@ use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
 use crate::spawn::Endpoint;
 use crate::srgb::luminance;
+use area::Emitters;
 use glam::{Vec2, Vec3};
 use std::collections::HashMap;
 
@@ -70,7 +71,12 @@ pub struct Lights {
 impl Lights {
     /// The primitives of a scene that emit light, and further lights. Of several environments the last one counts.
     pub fn new(scene: &Scene, others: Vec<Light>) -> Self {
-        let mut lights: Vec<Light> = AreaLight::of_scene(scene).map(Light::Area).collect();
+        Self::with(scene, Emitters::of_scene(scene), others)
+    }
+
+    fn with(scene: &Scene, emitters: Emitters, others: Vec<Light>) -> Self {
+        let has_emitters = emitters.are_some();
+        let mut lights: Vec<Light> = emitters.lights.into_iter().map(Light::Area).collect();
         let of_primitive = lights
             .iter()
             .zip(0..)
@@ -92,7 +98,7 @@ impl Lights {
         let power = |light: &Light| f64::from(luminance(light.power(radius)));
         let environment = lights.iter().position(is_environment).map(|k| k as u32);
         Self {
-            has_extent: environment.is_some() || area::emits(scene),
+            has_extent: environment.is_some() || has_emitters,
             choice: AliasTable::new(&lights.iter().map(power).collect::<Vec<_>>()),
             environment,
             of_primitive,
@@ -103,11 +109,13 @@ impl Lights {
 
     /// The same; if nothing emits light, white light of radiance 1 from all directions, so that pictures aren't black.
     pub fn or_white(scene: &Scene, others: Vec<Light>) -> Self {
-        if others.is_empty() && !area::emits(scene) {
-            let white = Environment::Constant(Vec3::ONE);
-            return Self::new(scene, vec![Light::Environment(white)]);
-        }
-        Self::new(scene, others)
+        let emitters = Emitters::of_scene(scene);
+        let others = if others.is_empty() && !emitters.are_some() {
+            vec![Light::Environment(Environment::Constant(Vec3::ONE))]
+        } else {
+            others
+        };
+        Self::with(scene, emitters, others)
     }
 
     /// Whether light passes through parts of some surface.

@@ -28,7 +28,7 @@ mod view;
 pub use saving::scene_text;
 pub use view::StartView;
 
-use crate::integrator::{Integrator, integrator};
+use crate::integrator::{Integrator, Lighting, integrator};
 use crate::light::Light;
 use crate::mesh::SAFE_SIZE;
 use crate::obj::{self, LoadError, LoadOptions, LoadReport, Loaded, Warning};
@@ -116,9 +116,18 @@ impl LoadedScene {
         integrator(self.file_integrator()?.view?)
     }
 
-    /// The most surfaces on a path that the file's integrator asks for; `None` for no limit.
-    pub fn depth_limit(&self) -> Option<u32> {
-        self.file_integrator()?.depth_limit
+    /// What light transport depends on as the file's integrator asks for it; else the defaults.
+    pub fn lighting(&self) -> Lighting {
+        let default = Lighting::default();
+        match self.file_integrator() {
+            Some(integrator) => Lighting {
+                depth_limit: integrator.depth_limit,
+                roulette_depth: integrator.roulette_depth,
+                hides_emitters: integrator.hides_emitters,
+                ..default
+            },
+            None => default,
+        }
     }
 
     fn file_integrator(&self) -> Option<&scene_file::Integrator> {

@@ -31,7 +31,8 @@ impl Textures {
             progress.check()?;
             match &texture.kind {
                 TextureKind::Bitmap(bitmap) => {
-                    textures.add_picture(&bitmap.file, texture.place, max_bytes);
+                    textures.add_picture(&bitmap.file, texture.place, max_bytes, progress);
+                    progress.check()?;
                 }
                 TextureKind::Checkerboard(board) => textures.add_board(board.colours),
             }
@@ -47,7 +48,7 @@ impl Textures {
         }
     }
 
-    fn add_picture(&mut self, path: &Path, place: Place, max_bytes: u64) {
+    fn add_picture(&mut self, path: &Path, place: Place, max_bytes: u64, progress: &Progress) {
         if self.pictures.contains_key(path) {
             return;
         }
@@ -56,13 +57,10 @@ impl Textures {
             let message = format!("texture {}: {what}", shown(path));
             self.warnings.push((place, message));
         };
-        let index = match obj::read_picture(path, left) {
-            Ok(Picture {
-                texture,
-                is_truncated,
-            }) => {
-                if is_truncated {
-                    warn("truncated file: part of the picture is missing");
+        let index = match obj::read_picture(path, left, progress) {
+            Ok(Picture { texture, fault }) => {
+                if let Some(fault) = fault {
+                    warn(&fault);
                 }
                 // Mitsuba ignores the alpha channel.
                 self.list.push(texture.with_alpha(Vec::new()));

@@ -130,6 +130,11 @@ impl Material {
         }
     }
 
+    /// Whether some side emits light.
+    pub fn emits(&self) -> bool {
+        self.emission.max_element() > 0.0
+    }
+
     /// The texture that multiplies a property.
     pub fn further_map(&self, property: Property) -> Option<&TextureMap> {
         let found = self

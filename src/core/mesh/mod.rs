@@ -15,6 +15,7 @@ mod per_triangle;
 mod place;
 mod relief;
 mod runs;
+mod sampling;
 pub mod shapes;
 mod strips;
 mod texture;
@@ -33,8 +34,9 @@ pub use per_triangle::PerTriangle;
 pub use place::ElementPlace;
 pub use relief::{Bitangent, HeightUnit, Relief, ReliefKind, Tilt};
 pub use runs::Runs;
+pub use sampling::{Encoding, Filter, Sampling, Wrap};
 pub use strips::bytes_as;
-pub use texture::{Encoding, Filter, Sampling, Texture, Wrap};
+pub use texture::Texture;
 pub use texture_frame::TextureFrame;
 pub use texture_map::TextureMap;
 

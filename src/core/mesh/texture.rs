@@ -1,7 +1,9 @@
 //! Textures: images mapped onto surfaces.
 
+use super::{Encoding, Filter, Sampling};
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::srgb::from_texel;
-use glam::{IVec2, UVec2, Vec2, Vec3};
+use glam::{DVec3, IVec2, UVec2, Vec2, Vec3};
 
 /// An image. Its lower left corner is at (0, 0), its upper right corner at (1, 1).
 #[derive(Clone, Debug, PartialEq)]
@@ -9,81 +11,20 @@ pub struct Texture {
     /// The name in the file; empty for checkerboards.
     pub name: String,
     size: UVec2,
-    /// Three bytes per texel, row by row from the top; empty for a checkerboard.
-    texels: Vec<u8>,
+    texels: Texels,
     /// The alpha channel, a byte per texel; empty if all texels are opaque.
     alpha: Vec<u8>,
+}
+
+/// Values row by row from the top.
+#[derive(Clone, Debug, PartialEq)]
+enum Texels {
+    /// Three bytes per texel.
+    Bytes(Vec<u8>),
+    /// Linear values, which may exceed 1.
+    Linear(Vec<Vec3>),
     /// The two values of a checkerboard.
-    checkers: Option<[Vec3; 2]>,
-}
-
-/// How values between and beyond the texels follow from them.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Sampling {
-    /// Between texels.
-    pub filter: Filter,
-    /// Beyond the image.
-    pub wrap: Wrap,
-    /// The meaning of texels.
-    pub encoding: Encoding,
-}
-
-/// Values between texel centres.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Filter {
-    /// Bilinear interpolation.
-    #[default]
-    Bilinear,
-    /// The value of the nearest texel.
-    Nearest,
-}
-
-/// Values beyond the image.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Wrap {
-    /// The image repeats.
-    #[default]
-    Repeat,
-    /// The image repeats, each time mirrored.
-    Mirror,
-    /// The texels of the border continue.
-    Clamp,
-}
-
-/// The meaning of texels.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Encoding {
-    /// sRGB, for colours.
-    #[default]
-    Srgb,
-    /// Proportional to the value, for all else.
-    Linear,
-}
-
-impl Wrap {
-    /// The texel that stands for one of `count` texels in a row or column, of which there may be none at `index`.
-    fn texel(self, index: i32, count: u32) -> usize {
-        // In 64 bits, where twice the count can't overflow.
-        let (index, count) = (i64::from(index), i64::from(count));
-        let inside = match self {
-            Self::Repeat => index.rem_euclid(count),
-            Self::Clamp => index.clamp(0, count - 1),
-            Self::Mirror => {
-                let in_pair = index.rem_euclid(2 * count);
-                in_pair.min(2 * count - 1 - in_pair)
-            }
-        };
-        inside as usize
-    }
-
-    /// A coordinate from which the texels' indices fit into 32 bits: the same by period, or by clamping.
-    fn reduced(self, x: f32) -> f32 {
-        match self {
-            Self::Repeat => x - x.floor(),
-            Self::Mirror => x - 2.0 * (0.5 * x).floor(),
-            Self::Clamp => x.clamp(-1.0, 2.0),
-        }
-    }
+    Checkers([Vec3; 2]),
 }
 
 impl Texture {
@@ -94,10 +35,32 @@ impl Texture {
         (count > 0 && texels.len() == count).then(|| Self {
             name: name.to_owned(),
             size,
-            texels,
+            texels: Texels::Bytes(texels),
             alpha: Vec::new(),
-            checkers: None,
         })
+    }
+
+    /// Creates a texture from linear values, row by row from the top, and returns how many numbers were replaced: one
+    /// that is negative or NaN becomes 0, one above [`MAX_BRIGHTNESS`] this limit. `None` as for [`new`](Self::new).
+    pub fn linear(name: &str, size: UVec2, mut texels: Vec<Vec3>) -> Option<(Self, usize)> {
+        let count = size.x as usize * size.y as usize;
+        if count == 0 || texels.len() != count {
+            return None;
+        }
+        let mut replaced = 0;
+        for texel in &mut texels {
+            // In this order NaN becomes 0.
+            let valid = texel.max(Vec3::ZERO).min(Vec3::splat(MAX_BRIGHTNESS));
+            replaced += valid.cmpne(*texel).bitmask().count_ones() as usize;
+            *texel = valid;
+        }
+        let texture = Self {
+            name: name.to_owned(),
+            size,
+            texels: Texels::Linear(texels),
+            alpha: Vec::new(),
+        };
+        Some((texture, replaced))
     }
 
     /// A checkerboard of four fields: the first value where both coordinates are in the same half of 0…1.
@@ -105,15 +68,16 @@ impl Texture {
         Self {
             name: String::new(),
             size: UVec2::splat(2),
-            texels: Vec::new(),
+            texels: Texels::Checkers(values),
             alpha: Vec::new(),
-            checkers: Some(values),
         }
     }
 
     /// The texture with an alpha channel, a byte per texel in the same order. Without effect if their number doesn't match.
     pub fn with_alpha(mut self, alpha: Vec<u8>) -> Self {
-        if 3 * alpha.len() == self.texels.len() && self.checkers.is_none() {
+        if let Texels::Bytes(texels) = &self.texels
+            && (alpha.is_empty() || 3 * alpha.len() == texels.len())
+        {
             self.alpha = alpha;
         }
         self
@@ -140,9 +104,8 @@ impl Texture {
         Self {
             name: String::new(),
             size: UVec2::splat(SIDE),
-            texels: (0..SIDE * SIDE).flat_map(texel).collect(),
+            texels: Texels::Bytes((0..SIDE * SIDE).flat_map(texel).collect()),
             alpha: Vec::new(),
-            checkers: None,
         }
     }
 
@@ -151,16 +114,20 @@ impl Texture {
         self.size
     }
 
-    /// The value at `uv`, from 0 to 1. A coordinate that isn't finite counts as 0.
+    /// The value at `uv`; of bytes, it is from 0 to 1. A coordinate that isn't finite counts as 0.
     pub fn value(&self, uv: Vec2, sampling: Sampling) -> Vec3 {
-        if let Some(values) = self.checkers {
-            return values[usize::from(is_odd_field(uv))];
-        }
-        match sampling.encoding {
-            Encoding::Srgb => self.between(uv, sampling, |k| from_texel(self.texel(k))),
-            Encoding::Linear => self.between(uv, sampling, |k| {
-                Vec3::from_array(self.texel(k).map(f32::from)) / 255.0
-            }),
+        match &self.texels {
+            Texels::Checkers(values) => values[usize::from(is_odd_field(uv))],
+            Texels::Linear(texels) => self.between(uv, sampling, |k| texels[k]),
+            Texels::Bytes(texels) => {
+                let texel = |k: usize| [0, 1, 2].map(|channel| texels[3 * k + channel]);
+                match sampling.encoding {
+                    Encoding::Srgb => self.between(uv, sampling, |k| from_texel(texel(k))),
+                    Encoding::Linear => self.between(uv, sampling, |k| {
+                        Vec3::from_array(texel(k).map(f32::from)) / 255.0
+                    }),
+                }
+            }
         }
     }
 
@@ -173,18 +140,24 @@ impl Texture {
 
     /// Whether the image looks like one of normals: coloured, and on average near (½, ½, 1).
     pub fn looks_like_normals(&self) -> bool {
-        /// Flat images have 128 and 255; those of rough surfaces deviate by less.
+        /// As bytes. Flat images have 128 and 255; those of rough surfaces deviate by less.
         const RANGE: [std::ops::Range<f64>; 3] = [96.0..160.0, 96.0..160.0, 192.0..256.0];
-        let count = self.texels.len() / 3;
-        let mean = |channel: usize| {
-            let values = self.texels.iter().skip(channel).step_by(3);
-            values.map(|&value| u64::from(value)).sum::<u64>() as f64 / count as f64
+        let count = f64::from(self.size.x) * f64::from(self.size.y);
+        let means = match &self.texels {
+            Texels::Bytes(texels) => [0, 1, 2].map(|channel| {
+                let values = texels.iter().skip(channel).step_by(3);
+                values.map(|&value| u64::from(value)).sum::<u64>() as f64 / count
+            }),
+            Texels::Linear(texels) => {
+                let sum: DVec3 = texels.iter().map(|texel| texel.as_dvec3()).sum();
+                (sum / count * 255.0).to_array()
+            }
+            Texels::Checkers(_) => return false,
         };
-        count > 0 && (0..3).all(|channel| RANGE[channel].contains(&mean(channel)))
-    }
-
-    fn texel(&self, index: usize) -> [u8; 3] {
-        [0, 1, 2].map(|channel| self.texels[3 * index + channel])
+        means
+            .iter()
+            .zip(RANGE)
+            .all(|(mean, range)| range.contains(mean))
     }
 
     /// The values of texels, by their index, filtered at `uv`.
@@ -211,7 +184,12 @@ impl Texture {
 
     /// Size in bytes.
     pub fn bytes(&self) -> usize {
-        size_of_val(&self.texels[..]) + size_of_val(&self.alpha[..])
+        let texels = match &self.texels {
+            Texels::Bytes(texels) => size_of_val(&texels[..]),
+            Texels::Linear(texels) => size_of_val(&texels[..]),
+            Texels::Checkers(_) => 0,
+        };
+        texels + size_of_val(&self.alpha[..])
     }
 }
 
@@ -224,6 +202,7 @@ fn is_odd_field(uv: Vec2) -> bool {
 
 #[cfg(test)]
 mod tests {
+    use super::super::Wrap;
     use super::*;
 
     /// Red and green above, blue and white below.
@@ -330,6 +309,26 @@ mod tests {
         for texel in [[128; 3], [255; 3], [0, 128, 255]] {
             assert!(!even(texel).looks_like_normals(), "{texel:?}");
         }
+    }
+
+    #[test]
+    fn linear_texels_are_not_decoded_and_may_exceed_1() {
+        let texels = vec![Vec3::new(0.5, 8.0, -1.0), Vec3::new(f32::NAN, 1e30, 0.0)];
+        let made = Texture::linear("t", UVec2::new(2, 1), texels);
+        let (texture, replaced) = made.expect("two texels");
+        assert_eq!((replaced, texture.bytes()), (3, 24));
+        for encoding in [Encoding::Srgb, Encoding::Linear] {
+            let sampling = Sampling {
+                encoding,
+                ..Sampling::default()
+            };
+            let at = |u: f32| texture.value(Vec2::new(u, 0.5), sampling);
+            assert_eq!(at(0.25), Vec3::new(0.5, 8.0, 0.0));
+            assert_eq!(at(0.75), Vec3::new(0.0, MAX_BRIGHTNESS, 0.0));
+        }
+        let normals = Texture::linear("t", UVec2::ONE, vec![Vec3::new(0.5, 0.5, 1.0)]);
+        assert!(normals.is_some_and(|(texture, _)| texture.looks_like_normals()));
+        assert_eq!(Texture::linear("t", UVec2::ONE, Vec::new()), None);
     }
 
     #[test]

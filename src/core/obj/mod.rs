@@ -60,7 +60,7 @@ pub use error::{LoadError, Warning, shown};
 pub use face_source::{FaceCorner, FaceSource, face_source};
 pub(crate) use fence::fenced;
 pub use materials::ReadFile;
-pub(crate) use materials::{Picture, read_past, read_picture};
+pub(crate) use materials::{Picture, linear_picture, read_past, read_picture};
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
 pub use tally::LineRuns;

@@ -1,6 +1,6 @@
 //! Pictures from files: PNG, OpenEXR and Radiance HDR.
 
-use super::decoding::{Memory, Picture, Problem, linear_decoder};
+use crate::obj::linear_picture::{Memory, Picture, Problem, linear_decoder};
 use crate::obj::{self, LoadError, printable};
 use crate::progress::Progress;
 use crate::srgb::from_display;

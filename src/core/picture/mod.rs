@@ -7,16 +7,13 @@
 //! | OpenEXR files | `open_exr` |
 //! | parallel tracing | `rows` |
 //! | pictures from files | `file` |
-//! | decoders of linear formats | `decoding` |
 
-mod decoding;
 mod file;
 mod guides;
 mod open_exr;
 mod rows;
 mod surfaces;
 
-pub(crate) use decoding::{Memory, Picture, Problem, linear_decoder};
 pub use file::{PictureEncoding, PictureFile};
 pub use guides::{Guide, Guides, guides};
 pub use open_exr::{NO_PRIMITIVE, PictureError, write_depth, write_exr, write_ids};

@@ -10,7 +10,7 @@ use crate::clip::{Clip, CutRay};
 use crate::group::{Appearance, CsgGroup, Group, Grouped, ShapeGroup, ShapeKernels, Solid};
 use crate::intersector::{Clipped, Intersector, Packing, scene_intersector};
 use crate::kernel::KernelChoice;
-use crate::mesh::{Crease, TriangleMesh, VertexNormals};
+use crate::mesh::{Crease, Material, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{SampledSurface, SurfacePoint};
@@ -255,6 +255,13 @@ impl Scene {
         }
         let (group, index) = self.group_of(primitive);
         group.material(index)
+    }
+
+    /// Whether a primitive emits light on some side.
+    pub(crate) fn emits(&self, primitive: u32) -> bool {
+        let materials = &self.mesh.attributes().materials;
+        let material = materials.get(self.material(primitive));
+        material.is_some_and(Material::emits)
     }
 
     /// The number of primitives of all groups.

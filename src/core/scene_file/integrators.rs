@@ -6,7 +6,7 @@ use super::parameters::Parameters;
 use super::plugin::{Parameter, Plugin};
 use super::problem::{Problem, quoted};
 use super::reader::Reader;
-use crate::integrator;
+use crate::integrator::{self, ROULETTE_DEPTH};
 
 /// An integrator as it stands in the file, and the view that it stands for.
 #[derive(Clone, Debug, PartialEq)]
@@ -17,6 +17,10 @@ pub struct Integrator {
     pub view: Option<&'static str>,
     /// The most surfaces on a path; `None` for no limit. Mitsuba's `max_depth` also counts the emitter.
     pub depth_limit: Option<u32>,
+    /// The surface of a path from which on Russian roulette may end it.
+    pub roulette_depth: u32,
+    /// Whether the camera sees neither emitters nor the environment.
+    pub hides_emitters: bool,
 }
 
 /// The integrators of Mitsuba 3.9.1 that aren't views, and the view that is shown instead.
@@ -35,9 +39,6 @@ pub(super) const OTHERS: [(&str, Option<&str>); 12] = [
     ("volprim_rf_basic", None),
 ];
 
-/// Mitsuba's default of `rr_depth`, which is what the view *Path tracing* does.
-const RR_DEPTH: u32 = 5;
-
 /// An integrator.
 ///
 /// # Errors
@@ -52,18 +53,8 @@ pub(super) fn integrator(reader: &mut Reader, element: Element) -> Result<Integr
         parameters.add(parameter.clone())?;
     }
     let depth_limit = depth_limit(reader, &mut parameters)?;
-    let rr_depth = parameters
-        .count("rr_depth", 1..=u32::MAX)?
-        .unwrap_or(RR_DEPTH);
-    if rr_depth != RR_DEPTH {
-        let message =
-            format!("“rr_depth” isn't used: paths may end early from depth {RR_DEPTH} on");
-        reader.warnings.add(plugin.place, message);
-    }
-    if parameters.boolean("hide_emitters", false)? {
-        let message = "“hide_emitters” isn't used: emitters are visible".to_owned();
-        reader.warnings.add(plugin.place, message);
-    }
+    let roulette_depth = parameters.count("rr_depth", 1..=u32::MAX)?;
+    let hides_emitters = parameters.boolean("hide_emitters", false)?;
     let samples = ["shading_samples", "emitter_samples", "bsdf_samples"];
     parameters.warn_about(&samples, &mut reader.warnings);
 
@@ -87,6 +78,8 @@ pub(super) fn integrator(reader: &mut Reader, element: Element) -> Result<Integr
         plugin,
         view,
         depth_limit,
+        roulette_depth: roulette_depth.unwrap_or(ROULETTE_DEPTH),
+        hides_emitters,
     })
 }
 

@@ -132,7 +132,7 @@
 //!
 //! | texture | parameters and defaults |
 //! |---|---|
-//! | `bitmap` | `filename`: PNG or JPEG; `raw` = false: whether texels aren't sRGB; `filter_type` = bilinear or `nearest`; `wrap_mode` = repeat, `mirror` or `clamp`. A file that can't be read gives a warning and the parameter's default |
+//! | `bitmap` | `filename`: PNG or JPEG, or Radiance HDR or OpenEXR, whose numbers are linear; `raw` = false: whether bytes aren't sRGB; `filter_type` = bilinear or `nearest`; `wrap_mode` = repeat, `mirror` or `clamp`. A file that can't be read gives a warning and the parameter's default |
 //! | `checkerboard` | `color0` = 0.4, `color1` = 0.2, constant |
 //!
 //! `to_uv` maps the surface's texture coordinates to the texture's, of which (0, 0) is the upper left corner and (1, 1) the
@@ -171,8 +171,10 @@
 //! refuses. For others of Mitsuba's, a warning names the view that is shown instead.
 //!
 //! `max_depth` = −1 (no limit) counts the surfaces on a path and the emitter: 1 shows emitters alone, 2 also light that
-//! one surface reflects. In [`Integrator::depth_limit`] it is one less, the number of surfaces. `rr_depth` and
-//! `hide_emitters` give a warning unless they have Mitsuba's defaults of 5 and `false`.
+//! one surface reflects. In [`Integrator::depth_limit`] it is one less, the number of surfaces. `rr_depth` = 5 is the
+//! surface from which on Russian roulette may end a path. `hide_emitters` = `false`: if true, rays of the camera pass
+//! through surfaces that emit light, and show the background where they hit nothing, but not behind a `mask`, as in
+//! Mitsuba's `direct`.
 //!
 //! ## Objects that aren't used
 //!

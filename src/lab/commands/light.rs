@@ -131,7 +131,7 @@ impl LightArgs {
     /// # Errors
     /// [`CommandError::Usage`] if there is no picture to turn, and [`CommandError::Load`].
     pub fn load(&self, loaded: &LoadedScene, max_memory: u64) -> Result<SceneLight, CommandError> {
-        let default = Lighting::default();
+        let default = loaded.lighting();
         let policy = |name: &Option<String>, default: &'static SpawnPolicy| {
             name.as_deref().map_or(default, |name| {
                 spawn_policy(name).expect("clap accepts only names in the table")
@@ -148,8 +148,9 @@ impl LightArgs {
                 spawn: policy(&self.spawn, default.spawn),
                 second_spawn: policy(&self.second_spawn, default.second_spawn),
                 ao_distance: self.ao_distance.unwrap_or(default.ao_distance),
-                depth_limit: self.depth.or(loaded.depth_limit()),
+                depth_limit: self.depth.or(default.depth_limit),
                 terminator: repair.unwrap_or(default.terminator),
+                ..default
             },
             scene: Arc::clone(&loaded.scene),
             has_studio: self.environment == Some(EnvironmentSource::Studio),

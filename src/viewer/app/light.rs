@@ -79,14 +79,15 @@ impl App {
                 lights: Arc::new(lights),
             }
         });
-        let settings = &self.seen.settings;
+        let (settings, default) = (&self.seen.settings, loaded.lighting());
         let lighting = Lighting {
             lights: Arc::clone(&lights.lights),
             spawn: settings.spawn(),
             second_spawn: settings.second_spawn(),
             ao_distance: settings.ao_distance,
-            depth_limit: settings.depth_limit().or(loaded.depth_limit()),
+            depth_limit: settings.depth_limit().or(default.depth_limit),
             terminator: settings.terminator(),
+            ..default
         };
         self.traced.lights = Some(lights);
         lighting
@@ -127,8 +128,20 @@ impl App {
         self.traced.environment_file = EnvironmentFile::None;
     }
 
-    /// Loads the file of the environment if it is wanted. If that fails, the environment is that of the scene again.
+    /// Loads the file of the environment if it is wanted, and limits its brightness to what the film holds.
     pub(super) fn poll_environment(&mut self, ctx: &egui::Context) {
+        self.load_environment(ctx);
+        let settings = &mut self.seen.settings;
+        if let EnvironmentFile::Loaded(_, map) = &self.traced.environment_file
+            && settings.environment == EnvironmentSource::File
+        {
+            settings.environment_brightness =
+                settings.environment_brightness.min(map.largest_scale());
+        }
+    }
+
+    /// Loads the file of the environment if it is wanted. If that fails, the environment is that of the scene again.
+    fn load_environment(&mut self, ctx: &egui::Context) {
         let is_wanted = self.seen.settings.environment == EnvironmentSource::File
             && self.seen.settings.view().needs.lights;
         let Some(path) = self

@@ -66,6 +66,13 @@ impl App {
         }
     }
 
+    /// The path of the selected sample; `None` also while it is being followed.
+    pub(super) fn current_path(&self) -> Option<&PathReport> {
+        let (key, path) = self.picked.path.followed.as_ref()?;
+        let is_current = self.wanted_path().is_some_and(|wanted| wanted == *key);
+        is_current.then_some(&path.as_ref()?.report)
+    }
+
     /// The sample whose path is shown.
     fn wanted_path(&self) -> Option<PathKey> {
         let (pick, request) = (self.picked.pick.as_ref()?, self.traced.tracer.posted()?);

@@ -189,10 +189,12 @@ impl App {
         }
     }
 
-    /// Copies the inspection as JSON.
+    /// Copies the inspection as JSON, with the path of the selected sample if the view follows paths.
     pub(crate) fn copy_pick(&self, ctx: &egui::Context) {
         if let Some(pick) = &self.picked.pick {
-            ctx.copy_text(pick.inspection.to_json());
+            let mut inspection = pick.inspection.clone();
+            inspection.path = self.current_path().cloned();
+            ctx.copy_text(inspection.to_json());
         }
     }
 

@@ -5,7 +5,8 @@ use crate::command::Commands;
 use crate::look::noise_legend;
 use crate::settings::{EnvironmentSource, Settings};
 use crate::tracer::LEAST_SAMPLES;
-use egui::{DragValue, Slider};
+use egui::{DragValue, Slider, SliderClamping};
+use hitscope_core::brightness::EXPOSURES;
 use hitscope_core::integrator::Setting;
 use hitscope_core::spawn::{SPAWN_POLICIES, SpawnPolicy};
 use hitscope_core::terminator::TERMINATOR_REPAIRS;
@@ -20,8 +21,8 @@ pub const DEPTH_LIMITS: RangeInclusive<u32> = 1..=1000;
 pub const BRIGHTNESSES: RangeInclusive<f32> = 0.0..=100.0;
 /// Rotations of the light from far away, in degrees.
 pub const ROTATIONS: RangeInclusive<f32> = 0.0..=360.0;
-/// Exposures in stops.
-pub const EXPOSURES: RangeInclusive<f32> = -10.0..=10.0;
+/// Exposures within reach of the slider, in stops; those of [`EXPOSURES`] can be typed.
+const DRAGGED_EXPOSURES: RangeInclusive<f32> = -10.0..=10.0;
 /// Limits on the time of tracing, in seconds.
 pub const TIME_LIMITS_S: RangeInclusive<f32> = 1.0..=86_400.0;
 /// Limits on the noise, in percent of white.
@@ -137,11 +138,16 @@ fn environment_ui(ui: &mut egui::Ui, settings: &mut Settings, commands: &Command
 fn exposure_ui(ui: &mut egui::Ui, settings: &mut Settings) {
     ui.horizontal(|ui| {
         let label = ui.label("Exposure");
-        let slider = Slider::new(&mut settings.exposure_stops, EXPOSURES)
+        let slider = Slider::new(&mut settings.exposure_stops, DRAGGED_EXPOSURES)
+            .clamping(SliderClamping::Never)
             .suffix(" stops")
             .fixed_decimals(1);
         let slider = ui.add(slider).labelled_by(label.id);
-        slider.on_hover_text("Each stop doubles the brightness of the picture");
+        let (least, most) = (EXPOSURES.start(), EXPOSURES.end());
+        slider.on_hover_text(format!(
+            "Each stop doubles the brightness of the picture; {least} to {most} can be typed"
+        ));
+        settings.exposure_stops = settings.exposure_stops.clamp(*least, *most);
     });
     ui.horizontal(|ui| {
         let label = ui.label("Tone curve");

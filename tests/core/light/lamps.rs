@@ -24,14 +24,19 @@ const SIZES: [f64; 3] = [1e-12, 1.0, 1e12];
 const OFFSET: DVec3 = DVec3::new(1e6, -2e6, 0.5e6);
 
 pub(super) fn loaded(contents: &str) -> LoadedScene {
+    let mesh = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
+    loaded_with("square.obj", mesh, contents)
+}
+
+/// A scene file beside a mesh and the picture `sky.hdr`.
+pub(super) fn loaded_with(name: &str, mesh: &str, contents: &str) -> LoadedScene {
     let folder = tempfile::tempdir().expect("a folder");
     // White above and black below.
     let mut sky = b"#?RADIANCE\n\n-Y 2 +X 1\n".to_vec();
     sky.extend([128, 128, 128, 129, 0, 0, 0, 0]);
     std::fs::write(folder.path().join("sky.hdr"), sky).expect("written");
     let path = folder.path().join("scene.xml");
-    let mesh = "v -1 -1 0\nv 1 -1 0\nv 1 1 0\nv -1 1 0\nf 1 2 3 4\n";
-    std::fs::write(folder.path().join("square.obj"), mesh).expect("written");
+    std::fs::write(folder.path().join(name), mesh).expect("written");
     let text = format!("<scene version=\"3.0.0\">\n{contents}\n</scene>");
     std::fs::write(&path, text).expect("written");
     let (load_options, options) = (LoadOptions::default(), SceneOptions::default());

@@ -1,6 +1,7 @@
 //! Light transport against closed forms.
 //!
-//! `HITSCOPE_LIGHT_PATHS=1000000` follows that many paths for each figure. By default it is 2^16.
+//! `HITSCOPE_LIGHT_PATHS=1000000` follows that many paths for each figure. By default it is 2^16. With `--nocapture`, each
+//! figure is printed with its deviation.
 
 // Scenes of which a clip removes a part.
 mod clipped;
@@ -10,8 +11,12 @@ mod environment;
 mod environment_files;
 // Surfaces lit by emitters: form factors.
 mod form_factors;
+// Textures in linear formats.
+mod linear_textures;
 // Closed rooms that emit light.
 mod furnace;
+// Integrators of scene files: Russian roulette, hidden emitters.
+mod integrators;
 // Planes under points and directions of light, from scene files; the studio.
 mod lamps;
 // How open surfaces are.
@@ -79,12 +84,25 @@ impl Estimate {
     /// The mean of a function of independent random numbers. The samples of one pixel aren't independent, so each sample
     /// is of a pixel of its own.
     fn of(n: u32, sample: impl Fn(&mut Sampler) -> f64 + Sync) -> Self {
-        let values = (0..n)
-            .into_par_iter()
-            .map(|k| sample(&mut Sampler::new(UVec2::new(k, 7), 3)));
-        let values: Vec<f64> = values.collect();
-        let mean = values.iter().sum::<f64>() / f64::from(n);
-        let squares: f64 = values.iter().map(|x| (x - mean).powi(2)).sum();
+        /// Of a chunk, all values are in memory.
+        const CHUNK: u32 = 1 << 12;
+        // The sum of a chunk, and the squared deviations from its mean.
+        let chunk = |k: u32| {
+            let range = k * CHUNK..(k + 1).saturating_mul(CHUNK).min(n);
+            let count = f64::from(range.end - range.start);
+            let values: Vec<f64> = range
+                .map(|k| sample(&mut Sampler::new(UVec2::new(k, 7), 3)))
+                .collect();
+            let sum: f64 = values.iter().sum();
+            let squares: f64 = values.iter().map(|x| (x - sum / count).powi(2)).sum();
+            [count, sum, squares]
+        };
+        let chunks: Vec<[f64; 3]> = (0..n.div_ceil(CHUNK)).into_par_iter().map(chunk).collect();
+        let mean = chunks.iter().map(|[_, sum, _]| sum).sum::<f64>() / f64::from(n);
+        let squares = chunks
+            .iter()
+            .map(|[count, sum, squares]| squares + count * (sum / count - mean).powi(2))
+            .sum::<f64>();
         let error = (squares / f64::from(n - 1) / f64::from(n)).sqrt();
         Self { mean, error, n }
     }
@@ -102,11 +120,14 @@ impl Estimate {
     /// for rounding.
     #[track_caller]
     fn require(&self, expected: f64) {
-        eprintln!("{self:?} (n = {}), expected {expected}", self.n);
-        let most = 4.0 * self.error + 1e-6 * expected;
-        assert!(
-            (self.mean - expected).abs() <= most,
-            "{self:?}, expected {expected}"
+        let deviation = self.mean - expected;
+        eprintln!(
+            "{self:?} (n = {}), expected {expected}: {:+.2} standard errors, {:+.4} %",
+            self.n,
+            deviation / self.error,
+            100.0 * deviation / expected
         );
+        let most = 4.0 * self.error + 1e-6 * expected;
+        assert!(deviation.abs() <= most, "{self:?}, expected {expected}");
     }
 }

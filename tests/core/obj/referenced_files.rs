@@ -43,7 +43,7 @@ fn a_file_that_is_no_library_or_picture_is_named_but_not_quoted() {
         ),
         (
             "mtllib m.mtl",
-            "texture “secret”: not a PNG or JPEG picture; shown as a checkerboard",
+            "texture “secret”: not a PNG, JPEG, OpenEXR or Radiance HDR picture; shown as a checkerboard",
         ),
     ] {
         let loaded = load_beside(line, &[("secret", SECRET), library], STRICT);

@@ -260,10 +260,11 @@ fn integrators_name_views_or_what_is_shown_instead() {
     ));
     let file = file.expect("good");
     assert_eq!(view(&file), (Some("path"), Some(0)));
-    let expected = [
-        "line 3: “max_depth” 0 is black in Mitsuba; here, emitters are visible",
-        "line 2: “rr_depth” isn't used: paths may end early from depth 5 on",
-        "line 2: “hide_emitters” isn't used: emitters are visible",
-    ];
+    let integrator = file.integrator.as_ref().expect("an integrator");
+    assert_eq!(
+        (integrator.roulette_depth, integrator.hides_emitters),
+        (9, true)
+    );
+    let expected = ["line 3: “max_depth” 0 is black in Mitsuba; here, emitters are visible"];
     assert_eq!(warnings(&file), expected);
 }

@@ -2,8 +2,8 @@
 
 use super::map::{EnvironmentMap, MapError};
 use crate::brightness::MAX_BRIGHTNESS;
+use crate::obj::linear_picture::{Memory, Picture, Problem, linear_decoder};
 use crate::obj::{self, LoadError, Warning};
-use crate::picture::{Memory, Picture, Problem, linear_decoder};
 use crate::progress::Progress;
 use std::path::Path;
 use std::sync::{Arc, LazyLock};

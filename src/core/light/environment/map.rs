@@ -40,6 +40,7 @@ pub struct EnvironmentMap {
     cells: Vec<Cumulative>,
     flux: Vec3,
     replaced: usize,
+    brightest: f32,
 }
 
 /// Why there is no map.
@@ -102,8 +103,11 @@ impl EnvironmentMap {
             cells: Vec::new(),
             flux: Vec3::ZERO,
             replaced: 0,
+            brightest: 0.0,
         };
         map.replace_invalid();
+        let brightest = map.texels.iter().map(|texel| texel.max_element());
+        map.brightest = brightest.fold(0.0, f32::max);
         if size.y == 1 {
             map.texels.extend_from_within(..);
         }
@@ -166,8 +170,12 @@ impl EnvironmentMap {
 
     /// The largest of all numbers.
     pub fn brightest(&self) -> f32 {
-        let brightest = self.texels.iter().map(|texel| texel.max_element());
-        brightest.fold(0.0, f32::max)
+        self.brightest
+    }
+
+    /// The largest factor with which no number exceeds [`MAX_BRIGHTNESS`]; infinite if all are 0.
+    pub fn largest_scale(&self) -> f32 {
+        MAX_BRIGHTNESS / self.brightest
     }
 
     /// Size in bytes.

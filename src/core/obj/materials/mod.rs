@@ -1,6 +1,7 @@
 //! Materials: libraries, their definitions, and textures.
 
 mod libraries;
+pub(crate) mod linear_picture;
 mod map_file;
 mod map_statements;
 mod mtl;
@@ -42,7 +43,7 @@ pub(super) fn resolve(
     progress: &Progress,
 ) -> Result<ResolvedMaterials, Problem> {
     let libraries = Libraries::of(contents, files, max_memory, progress)?;
-    let mut textures = Textures::new(files, max_memory);
+    let mut textures = Textures::new(files, max_memory, progress);
     let mut unknown: Vec<&str> = Vec::new();
     let mut materials = Vec::with_capacity(contents.materials.names.len());
     let mut is_invisible_by_tr = Vec::with_capacity(contents.materials.names.len());

@@ -1,10 +1,13 @@
-//! Decoder of texture pictures in PNG or JPEG format.
+//! Decoder of texture pictures: PNG and JPEG in 8 bits, OpenEXR and Radiance HDR as linear numbers.
 
+use super::linear_picture::{self, Decoder, Memory, Problem, linear_decoder};
 use super::{reason, stored_file};
+use crate::brightness::MAX_BRIGHTNESS;
 use crate::mesh::Texture;
 use crate::obj::error::printable;
 use crate::obj::fence::fenced;
-use glam::UVec2;
+use crate::progress::Progress;
+use glam::{UVec2, Vec3};
 use image::{ColorType, DynamicImage, ImageDecoder, ImageFormat, ImageReader, Limits};
 use std::io::Cursor;
 use std::path::Path;
@@ -12,32 +15,69 @@ use std::path::Path;
 /// A decoded picture.
 pub(crate) struct Picture {
     pub texture: Texture,
-    /// Whether the file is truncated.
-    pub is_truncated: bool,
+    /// What is wrong with the file.
+    pub fault: Option<String>,
 }
 
 /// Reads and decodes a picture with at most `max_bytes` of memory.
 ///
 /// # Errors
 /// The reason; see [`decode`].
-pub(crate) fn read(path: &Path, max_bytes: u64) -> Result<Picture, String> {
+pub(crate) fn read(path: &Path, max_bytes: u64, progress: &Progress) -> Result<Picture, String> {
     let bytes = stored_file::read(path, max_bytes).map_err(|error| reason(&error))?;
     let name = path.to_string_lossy();
-    decode(&name, &bytes, max_bytes.saturating_sub(bytes.len() as u64))
+    let left = max_bytes.saturating_sub(bytes.len() as u64);
+    decode(&name, &bytes, left, progress)
 }
 
 /// Decodes a picture with at most `max_bytes` of memory, not counting the file's bytes.
 ///
 /// # Errors
 /// The reason. It never quotes the content of a file that isn't a picture.
-pub(super) fn decode(name: &str, bytes: &[u8], max_bytes: u64) -> Result<Picture, String> {
+pub(super) fn decode(
+    name: &str,
+    bytes: &[u8],
+    max_bytes: u64,
+    progress: &Progress,
+) -> Result<Picture, String> {
+    if let Some(decoder) = linear_decoder(bytes) {
+        return linear(name, bytes, decoder, max_bytes, progress);
+    }
     let (picture, alpha) = fenced("decoding", || pixels(bytes, max_bytes))??;
     let size = UVec2::new(picture.width(), picture.height());
     let texture = Texture::new(name, size, picture.into_raw());
     Ok(Picture {
         texture: texture.ok_or("the picture is empty")?.with_alpha(alpha),
-        is_truncated: bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes),
+        fault: (bytes.starts_with(JPEG_START) && !has_jpeg_end(bytes))
+            .then(|| "truncated file: part of the picture is missing".to_owned()),
     })
+}
+
+/// Decodes a picture in a linear format.
+fn linear(
+    name: &str,
+    bytes: &[u8],
+    decode: Decoder,
+    max_bytes: u64,
+    progress: &Progress,
+) -> Result<Picture, String> {
+    let memory = Memory {
+        max_bytes,
+        bytes_per_texel: size_of::<Vec3>() as u64,
+    };
+    let decoded = fenced("decoding", || decode(bytes, memory, progress))?;
+    let linear_picture::Picture { size, texels } = decoded.map_err(|problem| match problem {
+        Problem::Content(message) => message,
+        Problem::Cancelled => "cancelled".to_owned(),
+    })?;
+    let all = 3 * u64::from(size.x) * u64::from(size.y);
+    let (texture, replaced) = Texture::linear(name, size, texels).ok_or("the picture is empty")?;
+    let fault = (replaced > 0).then(|| {
+        format!(
+            "{replaced} of {all} numbers in the picture are negative, not finite or above {MAX_BRIGHTNESS:.1e}: those above become this limit, all else 0"
+        )
+    });
+    Ok(Picture { texture, fault })
 }
 
 /// The pixels, and their alpha values unless all are opaque.
@@ -48,7 +88,7 @@ fn pixels(bytes: &[u8], max_bytes: u64) -> Result<(image::RgbImage, Vec<u8>), St
         .with_guessed_format()
         .map_err(|error| message(error.into()))?;
     let Some(format @ (ImageFormat::Png | ImageFormat::Jpeg)) = reader.format() else {
-        return Err("not a PNG or JPEG picture".to_owned());
+        return Err("not a PNG, JPEG, OpenEXR or Radiance HDR picture".to_owned());
     };
     let mut limits = Limits::default();
     limits.max_alloc = Some(max_bytes);

@@ -9,6 +9,7 @@ use crate::mesh::{Bitangent, Encoding, HeightUnit, Relief, ReliefKind, Texture, 
 use crate::obj::error::Warning;
 use crate::obj::tally::shortened;
 use crate::obj::words::before_comment;
+use crate::progress::Progress;
 use std::collections::{HashMap, HashSet};
 use std::path::PathBuf;
 
@@ -17,6 +18,7 @@ pub(super) struct Textures<'a> {
     files: &'a dyn ReferencedFiles,
     /// The memory left for further textures, in bytes.
     max_memory: u64,
+    progress: &'a Progress,
     pub list: Vec<Texture>,
     /// Texture indices by the library's folder and the name; `None` for an unreadable one.
     by_name: HashMap<(String, String), Option<u32>>,
@@ -30,10 +32,15 @@ pub(super) struct Textures<'a> {
 }
 
 impl<'a> Textures<'a> {
-    pub(super) fn new(files: &'a dyn ReferencedFiles, max_memory: u64) -> Self {
+    pub(super) fn new(
+        files: &'a dyn ReferencedFiles,
+        max_memory: u64,
+        progress: &'a Progress,
+    ) -> Self {
         Self {
             files,
             max_memory,
+            progress,
             list: Vec::new(),
             by_name: HashMap::new(),
             by_path: HashMap::new(),
@@ -134,12 +141,9 @@ impl<'a> Textures<'a> {
 
     fn decode(&mut self, name: &str, bytes: &[u8]) -> Result<u32, String> {
         let left = self.max_memory.saturating_sub(bytes.len() as u64);
-        let Picture {
-            texture,
-            is_truncated,
-        } = picture::decode(name, bytes, left)?;
-        if is_truncated {
-            self.warn(name, "truncated file: part of the picture is missing");
+        let Picture { texture, fault } = picture::decode(name, bytes, left, self.progress)?;
+        if let Some(fault) = fault {
+            self.warn(name, &fault);
         }
         self.max_memory = self.max_memory.saturating_sub(texture.bytes() as u64);
         Ok(self.push(texture))

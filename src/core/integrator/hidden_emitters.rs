@@ -1,0 +1,42 @@
+//! Rays of the camera where emitters light the scene but aren't seen: they pass through surfaces that emit light.
+
+use super::Context;
+use super::record::Recorder;
+use super::transport::ShadingPoint;
+use crate::ray::{Hit, Ray};
+
+/// The part of a camera's ray behind all emitters that it meets first, with its hit; the ray itself unless emitters are
+/// hidden.
+#[inline]
+pub(super) fn past_emitters(
+    context: &Context,
+    ray: &Ray,
+    hit: Option<Hit>,
+    recorder: &mut impl Recorder,
+) -> (Ray, Option<Hit>) {
+    if context.lighting.hides_emitters {
+        search(context, *ray, hit, recorder)
+    } else {
+        (*ray, hit)
+    }
+}
+
+fn search(
+    context: &Context,
+    mut ray: Ray,
+    mut hit: Option<Hit>,
+    recorder: &mut impl Recorder,
+) -> (Ray, Option<Hit>) {
+    while let Some(nearest) = hit.filter(|hit| context.scene.emits(hit.primitive)) {
+        let point = ShadingPoint::new(context, &ray, nearest);
+        recorder.meet(&point);
+        recorder.pass();
+        // Numbers overflow: nothing is behind.
+        let Some(onward) = point.onward() else {
+            return (ray, None);
+        };
+        ray = onward;
+        hit = context.intersector.closest_hit(&ray);
+    }
+    (ray, hit)
+}
