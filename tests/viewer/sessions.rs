@@ -1,13 +1,15 @@
 //! Sessions, and undo and redo, as a user meets them.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, bare, click, in_picture, pointer, press, say, settle, wait};
+use crate::harness::{
+    Window, app, bare, click, in_picture, pointer, press, say, settle, wait, write,
+};
 use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
 use hitscope::overlay::wireframe::WIREFRAME;
 use hitscope::session::Sight;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use tempfile::TempDir;
 
 /// A triangle that covers the middle of the first picture.
@@ -20,12 +22,6 @@ fn opened() -> Option<(Window, TempDir)> {
     let mut window = app(Some(path))?;
     settle(&mut window, "mesh.obj");
     Some((window, folder))
-}
-
-fn write(folder: &TempDir, name: &str, text: &str) -> PathBuf {
-    let path = folder.path().join(name);
-    std::fs::write(&path, text).expect("written");
-    path
 }
 
 fn ctrl(window: &mut Window, key: Key) {
