@@ -34,13 +34,8 @@ impl App {
             loading.cancel();
             return;
         }
-        let is_closed = self.open.dialog.dismiss()
-            || self.open.save_dialog.dismiss()
-            || self.open.environment_dialog.dismiss()
-            || self.open.session_dialog.dismiss()
-            || self.open.save_session_dialog.dismiss()
+        let is_closed = self.open.dialogs.dismiss()
             || self.pictures.dialog.dismiss()
-            || self.picked.inspecting.dialog.dismiss()
             || self.feedback.notice.take().is_some();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
@@ -50,24 +45,7 @@ impl App {
 
     /// Shows what is over the picture.
     pub(super) fn windows_ui(&mut self, ctx: &egui::Context, commands: &Commands) {
-        if let Some(path) = self.open.dialog.field_ui(ctx) {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.save_dialog.field_ui(ctx) {
-            self.save_as(&path, ctx);
-        }
-        if let Some(path) = self.open.session_dialog.field_ui(ctx) {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.save_session_dialog.field_ui(ctx) {
-            self.save_session(&path, ctx);
-        }
-        if let Some(path) = self.open.environment_dialog.field_ui(ctx) {
-            self.set_environment(&path);
-        }
-        if let Some(path) = self.picked.inspecting.dialog.field_ui(ctx) {
-            self.export_picks(&path, ctx);
-        }
+        self.path_fields_ui(ctx);
         self.go_to_ui(ctx);
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {

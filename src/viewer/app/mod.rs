@@ -16,6 +16,7 @@
 //! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
+//! | `dialogs` | file dialogs |
 //! | `sessions` | sessions; undo and redo |
 //! | `first_view`, `view_text` | the view in which a document opens; the view as text |
 //! | `hints` | the message in the middle of an empty picture |
@@ -26,6 +27,7 @@
 
 mod canvas;
 mod clipping;
+mod dialogs;
 mod feedback;
 mod files;
 mod first_view;
@@ -52,6 +54,7 @@ mod state;
 mod status_line;
 mod view_text;
 
+pub(crate) use dialogs::Purpose;
 pub(crate) use messages::Sheet;
 
 use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
@@ -200,10 +203,11 @@ impl eframe::App for App {
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
         }
+        self.poll_dialogs(ctx);
         self.poll_neighbours(ctx);
         self.poll_session(ctx);
         self.poll_loading(ctx);
-        self.poll_saving(ctx);
+        self.poll_saving();
         self.poll_pictures(ctx);
         self.poll_rendering();
         self.poll_environment(ctx);

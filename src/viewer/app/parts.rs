@@ -9,6 +9,7 @@
 //! | [`Traced`] | what traces and draws the picture |
 
 use super::Sheet;
+use super::dialogs::Dialogs;
 use super::files::Neighbours;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
@@ -18,7 +19,6 @@ use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
 use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
-use crate::dialog::{FileDialog, Purpose};
 use crate::document::Document;
 use crate::face_lookup::FaceLookup;
 use crate::flaw_place::FlawPlace;
@@ -49,11 +49,7 @@ pub(crate) struct Open {
     pub loading: Option<Loading>,
     pub load_options: LoadOptions,
     pub watch: Option<Watch>,
-    pub dialog: FileDialog,
-    pub save_dialog: FileDialog,
-    pub environment_dialog: FileDialog,
-    pub session_dialog: FileDialog,
-    pub save_session_dialog: FileDialog,
+    pub dialogs: Dialogs,
     /// The session file that is being read.
     pub session: Option<Task<Result<Session, String>>>,
     /// The session whose file is being loaded.
@@ -74,11 +70,7 @@ impl Open {
             loading: None,
             load_options,
             watch: None,
-            dialog: FileDialog::new(Purpose::Open),
-            save_dialog: FileDialog::new(Purpose::Save),
-            environment_dialog: FileDialog::new(Purpose::Environment),
-            session_dialog: FileDialog::new(Purpose::OpenSession),
-            save_session_dialog: FileDialog::new(Purpose::SaveSession),
+            dialogs: Dialogs::default(),
             session: None,
             loading_session: None,
             neighbours: Neighbours::default(),

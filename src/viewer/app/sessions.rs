@@ -4,7 +4,7 @@ use super::App;
 use crate::document::Document;
 use crate::history::Gesture;
 use crate::saving::Saving;
-use crate::session::{EXTENSION, PickedPixel, Session, Sight, Viewpoint};
+use crate::session::{PickedPixel, Session, Sight, Viewpoint};
 use crate::task::Task;
 use std::path::{Path, PathBuf};
 
@@ -116,20 +116,6 @@ impl App {
         }
     }
 
-    /// Shows the dialog that opens a session.
-    pub(crate) fn show_open_session_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let near = self.open.document.path.as_deref();
-        self.open.session_dialog.open(ctx, frame, near);
-    }
-
-    /// Shows the dialog that saves a session.
-    pub(crate) fn show_save_session_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let own = self.open.document.path.as_ref();
-        let suggested = own.map(|path| path.with_extension(EXTENSION));
-        let dialog = &mut self.open.save_session_dialog;
-        dialog.open(ctx, frame, suggested.as_deref());
-    }
-
     /// Writes the session to a file.
     pub(super) fn save_session(&mut self, path: &Path, ctx: &egui::Context) {
         let session = Session::new(
@@ -152,12 +138,6 @@ impl App {
 
     /// Opens the session that was read: its file, unless that is open, and then shows it as it was seen.
     pub(super) fn poll_session(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.open.session_dialog.poll() {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.save_session_dialog.poll() {
-            self.save_session(&path, ctx);
-        }
         let session = match self.open.session.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(session))) => session,
