@@ -3,6 +3,7 @@
 //! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
 //! defaults.
 
+use crate::parts::PartsChoice;
 use crate::settings::Settings;
 use crate::storage::usable;
 use crate::tab::Tab;
@@ -52,6 +53,9 @@ pub struct Sight {
     /// How the scene is shown.
     #[serde(default)]
     pub settings: Settings,
+    /// Hidden parts, and own colours of parts.
+    #[serde(default)]
+    pub parts: PartsChoice,
     /// The picked pixels.
     #[serde(default)]
     pub picks: Vec<PickedPixel>,
@@ -321,6 +325,7 @@ mod tests {
                 file_view: Some("path"),
                 ..Settings::default()
             },
+            parts: PartsChoice::default(),
             picks: vec![PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin)],
         };
         Session::new(Some("/a/b/mesh.obj".into()), sight, true, Tab::Mesh)

@@ -24,7 +24,7 @@ mod transport;
 mod triangle;
 mod whitted;
 
-pub use options::{ScaleOptions, ViewOptions, back_face_colour};
+pub use options::{ScaleOptions, SurfaceColours, ViewOptions, back_face_colour};
 pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
@@ -149,6 +149,8 @@ pub enum Setting {
     Exposure,
     /// The tint of back faces.
     BackFaces,
+    /// The own colours of parts.
+    PartColours,
     /// The scale of the view's numbers.
     Scale,
 }

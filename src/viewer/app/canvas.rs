@@ -8,7 +8,7 @@ use crate::theme;
 use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::integrator::Context;
+use hitscope_core::integrator::{Context, Setting};
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 
@@ -112,7 +112,10 @@ impl App {
     pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let (settings, theme) = (&self.seen.settings, ctx.theme());
         let background = theme::background(settings.view(), settings.colours.background, theme);
-        let options = settings.colours.options(settings.view());
+        let mut options = settings.colours.options(settings.view());
+        if settings.view().needs.uses(Setting::PartColours) {
+            options.surface_colours = self.seen.parts.colours().cloned();
+        }
         Request {
             context: Context {
                 scene: Arc::clone(&self.open.document.loaded.scene),
