@@ -113,6 +113,8 @@ enum Source {
     Colour(fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3),
     /// Numbers, which a scale colours.
     Number(NumberView),
+    /// The index of the primitive that was hit.
+    Index,
 }
 
 /// What a view needs besides the scene and the chosen kernel.
@@ -224,6 +226,11 @@ impl Comparison {
 pub type Legend = Vec<Vec<(Vec3, String)>>;
 
 impl Integrator {
+    /// Whether the colours stand for indices of primitives.
+    pub fn shows_indices(&self) -> bool {
+        matches!(self.source, Source::Index)
+    }
+
     /// The intersector to compare `first` with; `first` itself if the view doesn't compare.
     pub fn second(
         &self,
@@ -248,6 +255,9 @@ impl Integrator {
     ) -> Vec3 {
         match &self.source {
             Source::Colour(radiance) => radiance(context, ray, hit, sampler),
+            Source::Index => {
+                hit.map_or(context.background, |hit| palette::id_colour(hit.primitive))
+            }
             Source::Number(view) => {
                 let shown = (view.shown)(context, ray, hit, sampler);
                 view.colour(context, shown)

@@ -23,8 +23,8 @@ impl App {
         self.shown.sheet = (self.shown.sheet != Some(sheet)).then_some(sheet);
     }
 
-    /// Closes the topmost window or message, cancels loading, clears the marked flaw, or clears the pick: the first
-    /// of these that applies.
+    /// Closes the topmost window or message, cancels loading, shows the whole picture instead of an enlarged part, clears
+    /// the marked flaw, or clears the pick: the first of these that applies.
     pub(crate) fn dismiss(&mut self) {
         let is_box_closed = self.shown.palette.dismiss() || self.picked.inspecting.go_to.dismiss();
         if is_box_closed || self.shown.sheet.take().is_some() {
@@ -36,7 +36,8 @@ impl App {
         }
         let is_closed = self.open.dialogs.dismiss()
             || self.pictures.dialog.dismiss()
-            || self.feedback.notice.take().is_some();
+            || self.feedback.notice.take().is_some()
+            || self.shown.magnifier.leave();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
             self.picked.inspecting.picks.clear_unpinned();

@@ -8,6 +8,7 @@
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | clicks on the picture; the picked pixel |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
+//! | `magnifier`, `pixel_numbers` | an enlarged part of the picture, and the numbers in its pixels |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
 //! | `feedback` | messages: the notice, toasts and the log |
 //! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
@@ -39,6 +40,7 @@ mod inspecting;
 mod labels;
 mod legend;
 mod light;
+mod magnifier;
 mod messages;
 mod navigation;
 mod parts;
@@ -46,6 +48,7 @@ mod path;
 mod pick;
 mod picture_dialog;
 mod pictures;
+mod pixel_numbers;
 mod pointer;
 mod prepare;
 mod sessions;

@@ -14,6 +14,7 @@ use super::files::Neighbours;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
+use super::magnifier::Magnifier;
 use super::path::PickedPath;
 use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
@@ -152,6 +153,7 @@ pub(crate) struct Shown {
     /// Whether the last complete picture shows only background.
     pub shows_nothing: bool,
     pub fit_to_screen: FitToScreen,
+    pub magnifier: Magnifier,
     /// The side panel's width in the last frame.
     pub panel_width: f32,
     /// UI thread times per frame.
@@ -168,6 +170,7 @@ impl Shown {
             resolution: UVec2::ZERO,
             shows_nothing: false,
             fit_to_screen: FitToScreen::default(),
+            magnifier: Magnifier::default(),
             panel_width: 0.0,
             ui_times: Times::default(),
         }
