@@ -6,7 +6,7 @@ use egui::accesskit::Role;
 use egui::{Key, Modifiers, OutputCommand};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
-use hitscope::quality::Quality;
+use hitscope::quality::{MovingResolution, Quality};
 
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -128,7 +128,7 @@ fn the_quality_sets_kernel_and_samples_and_own_settings_are_called_custom() {
         Quality::of(settings).map(|quality| quality.title),
         Some("Draft")
     );
-    assert!(window.query_by_label("Custom").is_none());
+    assert_eq!(settings.moving, MovingResolution::Quarter);
     // Another kernel.
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run_steps(4);
@@ -138,5 +138,17 @@ fn the_quality_sets_kernel_and_samples_and_own_settings_are_called_custom() {
     window.run_steps(3);
     press(&mut window, Key::Enter);
     window.run_steps(3);
-    window.get_by_label("Custom");
+    assert!(Quality::of(window.state().settings()).is_none());
+    // The details open, and the resolution while moving is one of them.
+    assert!(window.query_by_label("Resolution while moving").is_none());
+    window.get_by_label("Custom").click();
+    window.run_steps(20);
+    // After the views of the tool bar.
+    let combo = window.get_all_by_role(Role::ComboBox).nth(1);
+    let combo = combo.expect("the first drop-down of the tab");
+    combo.click();
+    window.run_steps(3);
+    window.get_by_label("1/2").click();
+    window.run_steps(3);
+    assert_eq!(window.state().settings().moving, MovingResolution::Half);
 }

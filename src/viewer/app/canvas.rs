@@ -104,6 +104,8 @@ impl App {
             self.paint(ui, canvas, response.dragged());
             self.gizmo_ui(ui, canvas);
             let wanted = self.wanted(ui.ctx(), canvas.resolution);
+            let block = self.seen.settings.moving.block();
+            self.traced.tracer.set_first_step(block);
             self.traced.tracer.request(wanted);
         });
     }
