@@ -253,6 +253,9 @@ impl Integrator {
         hit: Option<Hit>,
         sampler: &mut Sampler,
     ) -> Vec3 {
+        if hit.is_none() && context.options.has_transparent_background {
+            return Vec3::ZERO;
+        }
         match &self.source {
             Source::Colour(radiance) => radiance(context, ray, hit, sampler),
             Source::Index => {

@@ -4,11 +4,13 @@
 //! |---|---|
 //! | what each pixel shows first: albedo, normal, depth, primitive | `guides` |
 //! | the surface in the centre of each pixel | `surfaces` |
+//! | the part of each pixel that surfaces cover | `alpha` |
 //! | OpenEXR files | `open_exr` |
 //! | parallel tracing | `rows` |
 //! | pictures from files | `file` |
 //! | decoders of linear formats | `decoding` |
 
+mod alpha;
 mod decoding;
 mod file;
 mod guides;
@@ -16,6 +18,7 @@ mod open_exr;
 mod rows;
 mod surfaces;
 
+pub use alpha::Alpha;
 pub(crate) use decoding::{Memory, Picture, Problem, linear_decoder};
 pub use file::{PictureEncoding, PictureFile};
 pub use guides::{Guide, Guides, guides};
