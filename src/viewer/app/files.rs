@@ -3,6 +3,7 @@
 use super::App;
 use crate::document::Document;
 use crate::folder::{self, Direction};
+use crate::log::Kind;
 use crate::opening::Loading;
 use crate::saving::Saving;
 use crate::session::is_session;
@@ -175,6 +176,20 @@ impl App {
             };
             let text = format!("{}: {first}{more}", self.open.document.name());
             self.warn(&text);
+        }
+        self.note_warnings();
+    }
+
+    /// Adds the document's warnings to the log, after the first one, which is shown.
+    fn note_warnings(&mut self) {
+        /// The most that are added; the Mesh tab has all.
+        const MOST: usize = 100;
+        let document = &self.open.document;
+        let (name, warnings) = (document.name(), &document.loaded.report.warnings);
+        let others = warnings.iter().skip(1).take(MOST);
+        let texts: Vec<String> = others.map(|warning| format!("{name}: {warning}")).collect();
+        for text in texts {
+            self.note(Kind::Warning, &text);
         }
     }
 

@@ -4,6 +4,7 @@ use super::App;
 use super::feedback::NoticeKind;
 use super::light::is_environment;
 use crate::command::{Commands, help_sheet};
+use crate::log::LogAction;
 use egui::{Align, Layout, RichText};
 
 /// A sheet over the window.
@@ -121,13 +122,27 @@ impl App {
         if is_cancelled {
             self.cancel_loading();
         }
+        if let Some(work) = cancelled {
+            self.cancel_work(work);
+        }
+    }
+
+    /// Shows the log. Returns whether it is closed: by the user, or because a link is followed.
+    fn log_ui(&mut self, ctx: &egui::Context) -> bool {
+        let document = self.open.document.path.as_deref();
+        match self.feedback.log.log_ui(ctx, document) {
+            None => return false,
+            Some(LogAction::Close) => (),
+            Some(LogAction::Follow(target)) => self.follow(target, ctx),
+        }
+        true
     }
 
     fn sheet_ui(&mut self, ctx: &egui::Context) {
         let is_closed = match self.shown.sheet {
             None => return,
             Some(Sheet::Help) => help_sheet::help_ui(ctx, &self.preferences.navigation),
-            Some(Sheet::Log) => self.feedback.log.log_ui(ctx),
+            Some(Sheet::Log) => self.log_ui(ctx),
             Some(Sheet::About) => self.shown.about.about_ui(ctx),
         };
         if is_closed {
