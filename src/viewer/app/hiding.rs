@@ -10,7 +10,11 @@ impl App {
     pub(super) fn use_parts(&mut self, ctx: &egui::Context) -> bool {
         let parts = &mut self.seen.parts;
         parts.refresh(&self.open.document.loaded.scene);
-        self.open.document.use_primitives(parts.shown(), ctx)
+        let begins = self.open.document.use_primitives(parts.shown(), ctx);
+        if self.open.document.shows(parts.shown()) {
+            parts.note_applied();
+        }
+        begins
     }
 
     /// Collects the tree over the chosen parts. If building it failed, everything is shown.
@@ -19,6 +23,12 @@ impl App {
             self.seen.parts.show_all();
             self.error(panicked);
         }
+    }
+
+    /// Ends building a tree over the chosen parts, and shows the last ones.
+    pub(super) fn cancel_parts(&mut self) {
+        self.open.document.cancel_primitives();
+        self.seen.parts.revert();
     }
 
     /// The parts of the scene.

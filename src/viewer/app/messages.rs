@@ -3,6 +3,7 @@
 use super::App;
 use super::feedback::NoticeKind;
 use super::light::is_environment;
+use super::work::work_ui;
 use crate::command::{Commands, help_sheet};
 use crate::log::LogAction;
 use egui::{Align, Layout, RichText};
@@ -76,7 +77,7 @@ impl App {
             });
     }
 
-    /// Shows the loading progress and the notice.
+    /// Shows the loading progress, work that takes long, and the notice.
     fn notices_ui(&mut self, ctx: &egui::Context) {
         // Without an open document, `hints_ui` shows the progress.
         let loading = self
@@ -84,10 +85,11 @@ impl App {
             .loading
             .as_ref()
             .filter(|_| !self.open.document.is_blank);
-        if loading.is_none() && self.feedback.notice.is_none() {
+        let running = self.long_work(ctx);
+        if loading.is_none() && self.feedback.notice.is_none() && running.is_empty() {
             return;
         }
-        let (mut is_closed, mut is_cancelled) = (false, false);
+        let (mut is_closed, mut is_cancelled, mut cancelled) = (false, false, None);
         egui::Area::new(egui::Id::unique("notices"))
             .fixed_pos(self.shown.canvas_rect.min + egui::vec2(10.0, 10.0))
             .show(ctx, |ui| {
@@ -99,6 +101,7 @@ impl App {
                         is_cancelled = loading.progress_ui(ui);
                     });
                 }
+                cancelled = work_ui(ui, &running);
                 if let Some(notice) = &self.feedback.notice {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         let visuals = ui.visuals();

@@ -10,6 +10,7 @@
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
 //! | `magnifier`, `pixel_numbers` | an enlarged part of the picture, and the numbers in its pixels |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
+//! | `work` | background work that takes long |
 //! | `feedback` | messages: the notice, toasts and the log |
 //! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
@@ -56,9 +57,11 @@ mod side_panel;
 mod state;
 mod status_line;
 mod view_text;
+mod work;
 
 pub(crate) use dialogs::Purpose;
 pub(crate) use messages::Sheet;
+pub(crate) use work::working_ui;
 
 use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
 use crate::document::Document;

@@ -39,6 +39,8 @@ pub struct Parts {
     colours: Option<SurfaceColours>,
     /// The parts with own colours in `colours`.
     coloured: Vec<PartName>,
+    /// The choice that the picture shows, and its primitives.
+    applied: (PartsChoice, ShownPrimitives),
 }
 
 impl Parts {
@@ -155,6 +157,22 @@ impl Parts {
     /// The primitives that are to be shown.
     pub fn shown(&self) -> &ShownPrimitives {
         &self.shown
+    }
+
+    /// Notes that the picture shows what was chosen.
+    pub fn note_applied(&mut self) {
+        if self.applied.0 != self.choice || self.applied.1 != self.shown {
+            self.applied = (self.choice.clone(), self.shown.clone());
+        }
+    }
+
+    /// Goes back to the choice that the picture shows.
+    pub fn revert(&mut self) {
+        let (choice, shown) = self.applied.clone();
+        self.choose(choice);
+        // The same flags, so that no tree is built again.
+        self.shown = shown;
+        self.counted = None;
     }
 
     /// The own colours of parts; `None` if no part has one.
