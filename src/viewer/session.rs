@@ -1,4 +1,5 @@
-//! A session as plain data: what is open and how it is seen. A part of it is a step of undo.
+//! A session as plain data: what is open and how it is seen. A part of it is a step of undo; its camera is one that the
+//! commands take, too: `--session`.
 //!
 //! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
 //! defaults.
@@ -8,19 +9,18 @@ use crate::settings::Settings;
 use crate::storage::usable;
 use crate::tab::Tab;
 use glam::{DMat3, DVec3, UVec2};
-use hitscope_core::camera::{Projection, Turntable, UpAxis};
+use hitscope_core::Camera;
+use hitscope_core::camera::Projection;
 use hitscope_core::obj::shown;
-use hitscope_core::{Camera, Scene};
+use hitscope_lab::viewpoint;
+pub use hitscope_lab::viewpoint::Viewpoint;
 use serde::{Deserialize, Serialize};
-use std::f64::consts::PI;
 use std::fs::File;
 use std::io::Read as _;
 use std::path::{Path, PathBuf};
 
 /// The extension of session files.
 pub const EXTENSION: &str = "hitscope";
-/// The version of the format that is written. Files of later versions are refused.
-const FORMAT: u32 = 1;
 /// Size limit of a session file, which usually has some thousand bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
@@ -61,22 +61,6 @@ pub struct Sight {
     pub picks: Vec<PickedPixel>,
 }
 
-/// The window's camera in the file's coordinates.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Viewpoint {
-    /// A point near the scene. It is stored beside the pivot because their sum would be rounded.
-    origin: [f64; 3],
-    /// Centre of rotation, relative to `origin`.
-    pivot: [f64; 3],
-    distance: f64,
-    yaw_radians: f64,
-    pitch_radians: f64,
-    roll_radians: f64,
-    fov_y_radians: f64,
-    is_orthographic: bool,
-    is_z_up: bool,
-}
-
 /// A picked pixel, with the camera of the picture that was clicked.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct PickedPixel {
@@ -102,55 +86,6 @@ pub struct PickedPixel {
 enum PickProjection {
     Perspective { fov_y_radians: f64 },
     Orthographic { height: f64 },
-}
-
-impl Viewpoint {
-    /// A camera in a scene with this origin.
-    pub fn of(turntable: &Turntable, origin: DVec3) -> Self {
-        Self {
-            origin: origin.to_array(),
-            pivot: turntable.pivot.to_array(),
-            distance: turntable.distance,
-            yaw_radians: turntable.yaw_radians,
-            pitch_radians: turntable.pitch_radians,
-            roll_radians: turntable.roll_radians,
-            fov_y_radians: turntable.fov_y_radians,
-            is_orthographic: turntable.is_orthographic,
-            is_z_up: turntable.up_axis == UpAxis::Z,
-        }
-    }
-
-    /// The camera in a scene; exactly the same one if the scene's origin is the same.
-    pub fn turntable(&self, scene: &Scene) -> Turntable {
-        let mut turntable = Turntable::framing(scene.bounds_with_elements(), UVec2::ONE);
-        let shift = DVec3::from_array(self.origin) - scene.mesh().origin();
-        turntable.pivot = DVec3::from_array(self.pivot) + shift;
-        turntable.distance = self.distance;
-        turntable.yaw_radians = self.yaw_radians;
-        turntable.pitch_radians = self.pitch_radians;
-        turntable.roll_radians = self.roll_radians;
-        turntable.fov_y_radians = self.fov_y_radians;
-        turntable.is_orthographic = self.is_orthographic;
-        turntable.up_axis = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
-        turntable
-    }
-
-    fn check(&self) -> Result<(), &'static str> {
-        /// As on the command line, in radians.
-        const LEAST_FOV: f64 = 1e-8;
-        let limit = f64::from(f32::MAX);
-        let is_place = |v: [f64; 3]| v.iter().all(|x| x.abs() <= limit);
-        if !is_place(self.origin) || !is_place(self.pivot) {
-            return Err("the camera's origin or pivot is too far away");
-        }
-        if !(f64::from(f32::MIN_POSITIVE)..=limit).contains(&self.distance) {
-            return Err("the camera's distance must be positive, and not too large");
-        }
-        if !(self.fov_y_radians >= LEAST_FOV && self.fov_y_radians < PI) {
-            return Err("the camera's field of view must be between 0 and π");
-        }
-        Ok(())
-    }
 }
 
 impl PickedPixel {
@@ -216,7 +151,7 @@ impl Session {
         settings.keep_kernel(kernel.info.name);
         settings.keep_up_axis(axis);
         Self {
-            hitscope: FORMAT,
+            hitscope: viewpoint::SESSION_FORMAT,
             file,
             shows_noise: settings.shows_noise,
             sight,
@@ -248,18 +183,8 @@ impl Session {
     }
 
     fn of_text(text: &str) -> Result<Self, String> {
-        /// The version alone: later versions may differ in all else.
-        #[derive(Deserialize)]
-        struct Version {
-            hitscope: u32,
-        }
+        viewpoint::check_format(text)?;
         let said = |error: serde_json::Error| format!("not a session file: {error}");
-        let Version { hitscope } = serde_json::from_str(text).map_err(said)?;
-        if hitscope > FORMAT {
-            return Err(format!(
-                "written by a later version of hitscope: format {hitscope}, not {FORMAT}"
-            ));
-        }
         let mut session: Self = serde_json::from_str(text).map_err(said)?;
         if session.file.as_deref().is_some_and(is_session) {
             return Err("its file is a session, not a mesh or a scene".to_owned());
@@ -271,11 +196,7 @@ impl Session {
         }
         sight.settings = usable(sight.settings.clone());
         sight.settings.shows_noise = session.shows_noise;
-        sight.settings.keep_up_axis(if sight.camera.is_z_up {
-            UpAxis::Z
-        } else {
-            UpAxis::Y
-        });
+        sight.settings.keep_up_axis(sight.camera.up_axis());
         Ok(session)
     }
 
@@ -312,6 +233,8 @@ pub fn is_session(path: &Path) -> bool {
 mod tests {
     use super::*;
     use crate::document::embedded_scene;
+    use hitscope_core::Scene;
+    use hitscope_core::camera::Turntable;
 
     fn session(scene: &Scene) -> Session {
         let mut turntable = Turntable::framing(scene.bounds(), UVec2::new(64, 48));

@@ -8,7 +8,8 @@ use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
 use hitscope::overlay::wireframe::WIREFRAME;
-use hitscope::session::Sight;
+use hitscope::session::{Session, Sight};
+use hitscope_lab::commands::CameraArgs;
 use std::path::Path;
 use tempfile::TempDir;
 
@@ -240,4 +241,34 @@ fn another_file_clears_the_steps_and_a_reload_keeps_them() {
     window.run_steps(2);
     ctrl(&mut window, Key::Z);
     assert_eq!(window.state().notice(), Some("Nothing to undo"));
+}
+
+#[test]
+fn the_command_line_takes_the_camera_of_a_session_to_the_last_bit() {
+    let Some((mut window, folder)) = opened() else {
+        return;
+    };
+    drag(&mut window);
+    let path = folder.path().join("mesh.hitscope");
+    let app = window.state();
+    let file = Some(folder.path().join("mesh.obj"));
+    let session = Session::new(file, app.sight(), true, app.preferences().tab);
+    let text = session.text_at(&path).expect("UTF-8");
+    std::fs::write(&path, text).expect("written");
+    let size = glam::UVec2::new(160, 90);
+    let args = CameraArgs {
+        size: Some(size),
+        session: Some(path),
+        ..CameraArgs::default()
+    };
+    args.check().expect("a session");
+    let scene = &app.document().loaded.scene;
+    let camera = args.camera(scene, None).expect("a camera");
+    assert_eq!(camera, app.turntable().camera(size));
+    let args = CameraArgs {
+        session: Some(folder.path().join("mesh.obj")),
+        ..CameraArgs::default()
+    };
+    let error = args.check().expect_err("not a session").to_string();
+    assert!(error.contains("not a session file"), "{error}");
 }

@@ -41,6 +41,7 @@ Examples:
   hitscope render bunny.obj -o bunny.png --overlay grid --overlay axes
   hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0
   hitscope render bunny.obj -o bunny.png --look-at triangle:123
+  hitscope render bunny.obj -o bunny.png --session bunny.hitscope
   hitscope render bunny.obj -o bunny.png --view path --samples 256 --noise
   hitscope render bunny.obj -o bunny.exr --view path --environment built-in
   hitscope render bunny.obj -o - --view cost | display
@@ -127,6 +128,7 @@ const CAMERA_OPTIONS: [&str; 8] = [
     "up",
     "fov",
     "ortho",
+    "session",
     "look_at",
     "turntable",
 ];

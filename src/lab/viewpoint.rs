@@ -1,0 +1,131 @@
+//! The window's camera as plain data: that of session files, of steps of undo, and of `--session` on the command line.
+
+use glam::{DVec3, UVec2};
+use hitscope_core::camera::{Turntable, UpAxis};
+use hitscope_core::{Camera, Scene};
+use serde::{Deserialize, Serialize};
+use std::f64::consts::PI;
+
+/// The version of session files that is written. Files of later versions are refused.
+pub const SESSION_FORMAT: u32 = 1;
+
+/// The window's camera in the file's coordinates.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Viewpoint {
+    /// A point near the scene. It is stored beside the pivot because their sum would be rounded.
+    origin: [f64; 3],
+    /// Centre of rotation, relative to `origin`.
+    pivot: [f64; 3],
+    distance: f64,
+    yaw_radians: f64,
+    pitch_radians: f64,
+    roll_radians: f64,
+    fov_y_radians: f64,
+    is_orthographic: bool,
+    is_z_up: bool,
+}
+
+impl Viewpoint {
+    /// A camera in a scene with this origin.
+    pub fn of(turntable: &Turntable, origin: DVec3) -> Self {
+        Self {
+            origin: origin.to_array(),
+            pivot: turntable.pivot.to_array(),
+            distance: turntable.distance,
+            yaw_radians: turntable.yaw_radians,
+            pitch_radians: turntable.pitch_radians,
+            roll_radians: turntable.roll_radians,
+            fov_y_radians: turntable.fov_y_radians,
+            is_orthographic: turntable.is_orthographic,
+            is_z_up: turntable.up_axis == UpAxis::Z,
+        }
+    }
+
+    /// The camera in a scene; exactly the same one if the scene's origin is the same.
+    pub fn turntable(&self, scene: &Scene) -> Turntable {
+        let mut turntable = Turntable::framing(scene.bounds_with_elements(), UVec2::ONE);
+        let shift = DVec3::from_array(self.origin) - scene.mesh().origin();
+        turntable.pivot = DVec3::from_array(self.pivot) + shift;
+        turntable.distance = self.distance;
+        turntable.yaw_radians = self.yaw_radians;
+        turntable.pitch_radians = self.pitch_radians;
+        turntable.roll_radians = self.roll_radians;
+        turntable.fov_y_radians = self.fov_y_radians;
+        turntable.is_orthographic = self.is_orthographic;
+        turntable.up_axis = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
+        turntable
+    }
+
+    /// Refuses numbers that no window has set.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn check(&self) -> Result<(), &'static str> {
+        /// As on the command line, in radians.
+        const LEAST_FOV: f64 = 1e-8;
+        let limit = f64::from(f32::MAX);
+        let is_place = |v: [f64; 3]| v.iter().all(|x| x.abs() <= limit);
+        if !is_place(self.origin) || !is_place(self.pivot) {
+            return Err("the camera's origin or pivot is too far away");
+        }
+        if !(f64::from(f32::MIN_POSITIVE)..=limit).contains(&self.distance) {
+            return Err("the camera's distance must be positive, and not too large");
+        }
+        if !(self.fov_y_radians >= LEAST_FOV && self.fov_y_radians < PI) {
+            return Err("the camera's field of view must be between 0 and π");
+        }
+        Ok(())
+    }
+
+    /// The axis that points up.
+    pub fn up_axis(&self) -> UpAxis {
+        if self.is_z_up { UpAxis::Z } else { UpAxis::Y }
+    }
+
+    /// The camera for a picture of this size in a scene.
+    pub fn camera(&self, scene: &Scene, size: UVec2) -> Camera {
+        self.turntable(scene).camera(size)
+    }
+
+    /// Reads the camera of a session file.
+    ///
+    /// # Errors
+    /// What is wrong with the text.
+    pub fn of_session(text: &str) -> Result<Self, String> {
+        #[derive(Deserialize)]
+        struct Session {
+            sight: Sight,
+        }
+        #[derive(Deserialize)]
+        struct Sight {
+            camera: Viewpoint,
+        }
+        check_format(text)?;
+        let session: Session = serde_json::from_str(text).map_err(not_a_session)?;
+        session.sight.camera.check()?;
+        Ok(session.sight.camera)
+    }
+}
+
+/// Refuses a text that isn't a session of this version or an earlier one.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn check_format(text: &str) -> Result<(), String> {
+    /// The version alone: later versions may differ in all else.
+    #[derive(Deserialize)]
+    struct Version {
+        hitscope: u32,
+    }
+    let Version { hitscope } = serde_json::from_str(text).map_err(not_a_session)?;
+    if hitscope > SESSION_FORMAT {
+        return Err(format!(
+            "written by a later version of hitscope: format {hitscope}, not {SESSION_FORMAT}"
+        ));
+    }
+    Ok(())
+}
+
+fn not_a_session(error: serde_json::Error) -> String {
+    format!("not a session file: {error}")
+}
