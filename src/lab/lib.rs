@@ -17,6 +17,7 @@
 //! | [`requirement`] | the kernel tier that a scene requires |
 //! | [`second_opinion`] | what another reader finds in an OBJ file |
 //! | [`report`] | measurements as JSON, HTML and text |
+//! | [`viewpoint`] | the window's camera as plain data |
 //! | [`commands`] | the commands `render`, `inspect`, `trace`, `info`, `compare`, `lab`, `bench` and `converge` |
 
 pub mod commands;
@@ -34,3 +35,4 @@ pub mod requirement;
 pub mod second_opinion;
 pub mod surface;
 pub mod surface_comparison;
+pub mod viewpoint;

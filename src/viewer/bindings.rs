@@ -199,6 +199,10 @@ impl NavigationSettings {
                 "Right drag+W A S D Q E",
                 "Fly: ahead, left, back, right, down, up; the drag looks around, scrolling sets the speed",
             ),
+            (
+                "Ctrl+Shift+scroll",
+                "Zoom into the picture; Esc shows all of it",
+            ),
             ("Click", "Inspect the pixel"),
             ("Ctrl+click", "Inspect the pixel and keep the other picks"),
             ("Double-click", "Set the pivot"),

@@ -9,55 +9,22 @@ use std::time::{Duration, Instant};
 /// A dialog that ends without a file in less than this time was never shown.
 const TOO_QUICK: Duration = Duration::from_millis(200);
 
-/// The purpose of a file dialog.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Purpose {
-    /// Choose a file to open.
-    Open,
-    /// Choose the name of a scene file to write.
-    Save,
-    /// Choose a picture of an environment to open.
-    Environment,
-    /// Choose a session to open.
-    OpenSession,
-    /// Choose the name of a session file to write.
-    SaveSession,
-    /// Choose the name of a file to write picks to.
-    Picks,
-}
-
-impl Purpose {
-    fn title(self) -> &'static str {
-        match self {
-            Self::Open => "Open a mesh",
-            Self::Save => "Save as a scene file",
-            Self::Environment => "Open an environment",
-            Self::OpenSession => "Open a session",
-            Self::SaveSession => "Save the session",
-            Self::Picks => "Export picks",
-        }
-    }
-
+/// What a file dialog shows.
+#[derive(Debug)]
+pub struct DialogSpec {
+    /// The title.
+    pub title: &'static str,
     /// An example of a path.
-    fn example(self) -> &'static str {
-        match self {
-            Self::Open => "/path/to/mesh.obj",
-            Self::Save => "/path/to/scene.xml",
-            Self::Environment => "/path/to/sky.hdr",
-            Self::OpenSession | Self::SaveSession => "/path/to/view.hitscope",
-            Self::Picks => "/path/to/picks.csv or .json",
-        }
-    }
-
+    pub example: &'static str,
     /// Whether it chooses a file to write.
-    fn is_saving(self) -> bool {
-        matches!(self, Self::Save | Self::SaveSession | Self::Picks)
-    }
+    pub is_saving: bool,
+    /// Kinds of files, each with its extensions.
+    pub filters: &'static [(&'static str, &'static [&'static str])],
 }
 
 /// The system's file dialog, or the path field that replaces it.
 pub struct FileDialog {
-    purpose: Purpose,
+    spec: &'static DialogSpec,
     /// The path that the user may want.
     suggested: Option<PathBuf>,
     native: Option<Task<Choice>>,
@@ -91,9 +58,9 @@ impl PathField {
 
 impl FileDialog {
     /// A dialog that isn't shown yet.
-    pub fn new(purpose: Purpose) -> Self {
+    pub fn new(spec: &'static DialogSpec) -> Self {
         Self {
-            purpose,
+            spec,
             suggested: None,
             native: None,
             field: None,
@@ -103,7 +70,7 @@ impl FileDialog {
     /// Shows the system's dialog, or the path field if the dialog is already open and perhaps hidden. The dialog starts
     /// in the folder of the suggested path; one for saving also suggests its name.
     pub fn open(&mut self, ctx: &egui::Context, frame: &eframe::Frame, suggested: Option<&Path>) {
-        let is_saving = self.purpose.is_saving();
+        let is_saving = self.spec.is_saving;
         self.suggested = suggested.filter(|_| is_saving).map(Path::to_owned);
         if self.native.is_some() {
             let suggested = self.suggested.as_deref();
@@ -114,26 +81,11 @@ impl FileDialog {
             return;
         }
         let mut dialog = rfd::AsyncFileDialog::new()
-            .set_title(self.purpose.title())
+            .set_title(self.spec.title)
             .set_parent(frame);
-        dialog = match self.purpose {
-            Purpose::Open => dialog
-                .add_filter(
-                    "Meshes and scenes",
-                    &["obj", "OBJ", "obj.gz", "gz", "xml", "XML", "hitscope"],
-                )
-                .add_filter("All files", &["*"]),
-            Purpose::Save => dialog.add_filter("Scene files", &["xml"]),
-            Purpose::OpenSession | Purpose::SaveSession => {
-                dialog.add_filter("Sessions", &["hitscope"])
-            }
-            Purpose::Picks => dialog
-                .add_filter("JSON", &["json"])
-                .add_filter("Comma-separated values", &["csv"]),
-            Purpose::Environment => dialog
-                .add_filter("Environments", &["hdr", "HDR", "exr", "EXR"])
-                .add_filter("All files", &["*"]),
-        };
+        for (name, extensions) in self.spec.filters {
+            dialog = dialog.add_filter(*name, extensions);
+        }
         if let Some(folder) = suggested.and_then(Path::parent) {
             dialog = dialog.set_directory(folder);
         }
@@ -192,8 +144,8 @@ impl FileDialog {
         let field = self.field.as_mut()?;
         let mut is_open = true;
         let mut is_entered = false;
-        let purpose = self.purpose;
-        egui::Window::new(purpose.title())
+        let spec = self.spec;
+        egui::Window::new(spec.title)
             .open(&mut is_open)
             .collapsible(false)
             .resizable(false)
@@ -205,7 +157,7 @@ impl FileDialog {
                 ui.horizontal(|ui| {
                     let label = ui.label("Path");
                     let edit = egui::TextEdit::singleline(&mut field.path)
-                        .hint_text(purpose.example())
+                        .hint_text(spec.example)
                         .desired_width(ui.available_width() - 80.0);
                     let edit = ui.add(edit).labelled_by(label.id);
                     if std::mem::take(&mut field.is_new) {
@@ -213,11 +165,11 @@ impl FileDialog {
                     }
                     let is_enter = ui.input(|input| input.key_pressed(egui::Key::Enter));
                     // A file is replaced only by a click on a button that says so.
-                    let replaces = purpose.is_saving() && Path::new(field.path.trim()).exists();
-                    let button = match purpose {
-                        Purpose::Open | Purpose::Environment | Purpose::OpenSession => "Load",
-                        _ if replaces => "Replace",
-                        Purpose::Save | Purpose::SaveSession | Purpose::Picks => "Save",
+                    let replaces = spec.is_saving && Path::new(field.path.trim()).exists();
+                    let button = match (spec.is_saving, replaces) {
+                        (false, _) => "Load",
+                        (true, true) => "Replace",
+                        (true, false) => "Save",
                     };
                     let is_confirmed = edit.lost_focus() && is_enter && !replaces;
                     is_entered = ui.button(button).clicked() || is_confirmed;

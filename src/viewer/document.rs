@@ -18,7 +18,7 @@ use shown_part::{Packed, Showing};
 use std::io;
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
-use std::time::SystemTime;
+use std::time::{Duration, SystemTime};
 
 pub(crate) const DEFAULT_OBJ: &str = include_str!("../../assets/default.obj");
 const DEFAULT_MTL: &[u8] = include_bytes!("../../assets/default.mtl");
@@ -95,6 +95,11 @@ impl Packing {
             let pack = move || Packed::of(&scene, kernel);
             self.next = Pending::Running(Task::spawn("pack", ctx, pack));
         }
+    }
+
+    /// Stays with the kernel that was packed last.
+    fn cancel(&mut self) {
+        (self.next, self.wanted) = (Pending::Unasked, self.kernel);
     }
 
     /// Switches to the wanted kernel once the scene is packed for it. If packing failed, the previous kernel stays.
@@ -246,6 +251,21 @@ impl Document {
     /// [`TaskPanicked`], once, if packing failed; the previous kernel stays.
     pub fn poll_kernel(&mut self) -> Result<(), TaskPanicked> {
         self.packing.poll(&self.loaded.scene)
+    }
+
+    /// How long the scene has been being packed for the wanted kernel; `None` if that isn't under way.
+    pub fn packing_lasted(&self) -> Option<Duration> {
+        self.packing.next.lasted()
+    }
+
+    /// The same for the second kernel.
+    pub fn second_packing_lasted(&self) -> Option<Duration> {
+        self.second.as_ref()?.next.lasted()
+    }
+
+    /// Stays with the kernel that was packed last. The thread that packs ends later, and its result is dropped.
+    pub fn cancel_packing(&mut self) {
+        self.packing.cancel();
     }
 
     /// The intersector to compare with; the first one if there is no second, or until it is ready.

@@ -107,6 +107,7 @@ impl History {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::parts::PartsChoice;
     use crate::session::Viewpoint;
     use crate::settings::Settings;
     use glam::{DVec3, UVec2};
@@ -122,6 +123,7 @@ mod tests {
                 samples: number,
                 ..Settings::default()
             },
+            parts: PartsChoice::default(),
             picks: Vec::new(),
         }
     }

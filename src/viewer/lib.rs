@@ -17,7 +17,7 @@
 //! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
-//! | [`toasts`], [`log`] | short messages about results; all messages |
+//! | [`toasts`], [`log`], [`log_links`] | short messages about results; all messages, and the links in them |
 //! | [`overlay`], [`gpu`] | drawing the picture and the lines over it |
 //! | [`picks`], [`measuring`], [`go_to`] | the list of picks; measurements between them; going to an element |
 //! | [`face_lookup`], [`flaw_place`] | the picked face in its file; the place of a flaw |
@@ -48,6 +48,7 @@ pub mod go_to;
 pub mod gpu;
 pub mod history;
 pub mod log;
+pub mod log_links;
 pub mod look;
 pub mod man;
 pub mod measuring;

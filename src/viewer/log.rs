@@ -1,7 +1,9 @@
 //! The log: all messages since the start.
 
+use crate::log_links::{Link, Target, links};
 use egui::{Grid, Modal, RichText, ScrollArea, vec2};
 use std::collections::VecDeque;
+use std::path::{Path, PathBuf};
 use std::time::{Duration, Instant};
 
 /// The most messages that are kept.
@@ -32,6 +34,17 @@ struct Entry {
     since_start: Duration,
     kind: Kind,
     text: String,
+    links: Vec<Link>,
+    /// The file that was open.
+    document: Option<PathBuf>,
+}
+
+/// What the user clicks in the log.
+pub enum LogAction {
+    /// Close the log.
+    Close,
+    /// Go where a link leads.
+    Follow(Target),
 }
 
 /// The messages since the start.
@@ -51,14 +64,18 @@ impl Default for Log {
 
 impl Log {
     /// Adds a message. The oldest of too many is dropped.
-    pub fn add(&mut self, kind: Kind, text: impl Into<String>) {
+    /// `document` is the file that is open.
+    pub fn add(&mut self, kind: Kind, text: impl Into<String>, document: Option<&Path>) {
         if self.entries.len() == MOST {
             self.entries.pop_front();
         }
+        let text = text.into();
         self.entries.push_back(Entry {
             since_start: self.start.elapsed(),
             kind,
-            text: text.into(),
+            links: links(&text, Path::is_file),
+            text,
+            document: document.map(Path::to_owned),
         });
     }
 
@@ -71,8 +88,9 @@ impl Log {
         self.entries.iter().map(line).collect()
     }
 
-    /// Shows the messages over the window. Returns whether the user closes them.
-    pub fn log_ui(&self, ctx: &egui::Context) -> bool {
+    /// Shows the messages over the window. `document` is the file that is open.
+    pub fn log_ui(&self, ctx: &egui::Context, document: Option<&Path>) -> Option<LogAction> {
+        let mut followed = None;
         let response = Modal::new(egui::Id::unique("log")).show(ctx, |ui| {
             ui.heading("Messages");
             if self.entries.is_empty() {
@@ -82,7 +100,7 @@ impl Log {
             ScrollArea::both()
                 .max_width(size.x)
                 .max_height(size.y)
-                .show(ui, |ui| self.rows_ui(ui));
+                .show(ui, |ui| followed = self.rows_ui(ui, document));
             ui.add_space(6.0);
             ui.horizontal(|ui| {
                 let copy = ui.button("Copy all");
@@ -93,10 +111,14 @@ impl Log {
             })
             .inner
         });
-        response.inner || response.backdrop_response.clicked()
+        let is_closed = response.inner || response.backdrop_response.clicked();
+        let followed = followed.map(LogAction::Follow);
+        followed.or(is_closed.then_some(LogAction::Close))
     }
 
-    fn rows_ui(&self, ui: &mut egui::Ui) {
+    /// Shows the messages. Returns where a clicked link leads.
+    fn rows_ui(&self, ui: &mut egui::Ui, document: Option<&Path>) -> Option<Target> {
+        let mut followed = None;
         Grid::new("messages").num_columns(3).show(ui, |ui| {
             for entry in &self.entries {
                 let visuals = ui.visuals();
@@ -107,10 +129,43 @@ impl Log {
                 };
                 ui.label(RichText::new(time_text(entry.since_start)).weak());
                 ui.label(RichText::new(entry.kind.title()).color(colour));
-                ui.label(&entry.text);
+                let target = entry.text_ui(ui, document);
+                followed = followed.take().or(target);
                 ui.end_row();
             }
         });
+        followed
+    }
+}
+
+impl Entry {
+    /// Shows the text with its links. Returns where a clicked one leads.
+    fn text_ui(&self, ui: &mut egui::Ui, document: Option<&Path>) -> Option<Target> {
+        if self.links.is_empty() {
+            ui.label(&self.text);
+            return None;
+        }
+        let is_of_document = self.document.as_deref() == document;
+        let (mut followed, mut at) = (None, 0);
+        ui.horizontal(|ui| {
+            ui.spacing_mut().item_spacing.x = 0.0;
+            for Link { range, target } in &self.links {
+                if at < range.start {
+                    ui.label(&self.text[at..range.start]);
+                }
+                at = range.end;
+                let is_there = is_of_document || matches!(target, Target::File(..));
+                let link = ui.add_enabled(is_there, egui::Link::new(&self.text[range.clone()]));
+                let link = link.on_disabled_hover_text("The message is about another file");
+                if link.clicked() {
+                    followed = Some(target.clone());
+                }
+            }
+            if at < self.text.len() {
+                ui.label(&self.text[at..]);
+            }
+        });
+        followed
     }
 }
 
@@ -128,7 +183,7 @@ mod tests {
     #[test]
     fn the_log_keeps_the_newest_messages_in_order() {
         let mut log = Log::default();
-        (0..MOST + 2).for_each(|k| log.add(Kind::Warning, format!("message {k}")));
+        (0..MOST + 2).for_each(|k| log.add(Kind::Warning, format!("message {k}"), None));
         let text = log.text();
         assert_eq!(text.lines().count(), MOST);
         assert!(text.starts_with("0:00:0") && text.contains("warning: message 2\n"));

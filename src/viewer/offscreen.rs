@@ -225,14 +225,22 @@ pub fn read_back(
     Ok(pixels.collect())
 }
 
-/// Blends a pixel with premultiplied alpha over an opaque one, both sRGB-encoded.
+/// Blends a pixel with premultiplied alpha over one with straight alpha, which the result has, too. All are sRGB-encoded.
 fn blend(under: [u8; 4], over: [u8; 4]) -> [u8; 4] {
-    let rest = 255 - u32::from(over[3]);
+    const ONE: u32 = 255;
+    let rest = ONE - u32::from(over[3]);
+    // In units of 1/255².
+    let left = rest * u32::from(under[3]);
+    let alpha = u32::from(over[3]) * ONE + left;
+    if alpha == 0 {
+        return [0; 4];
+    }
     let channel = |k: usize| {
-        let sum = u32::from(over[k]) * 255 + u32::from(under[k]) * rest;
-        ((sum + 127) / 255).min(255) as u8
+        let sum = u32::from(over[k]) * ONE * ONE + u32::from(under[k]) * left;
+        ((sum + alpha / 2) / alpha).min(ONE) as u8
     };
-    [channel(0), channel(1), channel(2), 255]
+    let alpha = (alpha + ONE / 2) / ONE;
+    [channel(0), channel(1), channel(2), alpha as u8]
 }
 
 #[cfg(test)]
@@ -245,5 +253,9 @@ mod tests {
         assert_eq!(blend(under, [0; 4]), under);
         assert_eq!(blend(under, [1, 2, 3, 255]), [1, 2, 3, 255]);
         assert_eq!(blend([0, 0, 200, 255], [0, 64, 0, 128])[2], 100);
+        assert_eq!(blend([0; 4], [0; 4]), [0; 4]);
+        // A white line of half coverage over nothing is white with half alpha.
+        assert_eq!(blend([0; 4], [128, 128, 128, 128]), [255, 255, 255, 128]);
+        assert_eq!(blend([50, 60, 70, 128], [0; 4]), [50, 60, 70, 128]);
     }
 }

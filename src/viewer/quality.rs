@@ -3,6 +3,7 @@
 use crate::settings::Settings;
 use hitscope_core::group::kernel_named;
 use hitscope_core::spawn::default_spawn_policy;
+use serde::{Deserialize, Serialize};
 
 /// A set of settings.
 pub struct Quality {
@@ -18,49 +19,105 @@ pub struct Quality {
     spawn: Option<&'static str>,
     /// The most surfaces on a path.
     depth_limit: Option<u32>,
+    /// The resolution while the camera moves.
+    moving: MovingResolution,
+}
+
+/// The resolution of the first picture from a new place, relative to that of the finished picture.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum MovingResolution {
+    /// As high as the time of a frame allows.
+    #[default]
+    Automatic,
+    /// The same.
+    Full,
+    /// Half of it in each direction.
+    Half,
+    /// A quarter of it in each direction.
+    Quarter,
+}
+
+impl MovingResolution {
+    /// All of them.
+    pub const ALL: [Self; 4] = [Self::Automatic, Self::Full, Self::Half, Self::Quarter];
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Automatic => "Automatic",
+            Self::Full => "1",
+            Self::Half => "1/2",
+            Self::Quarter => "1/4",
+        }
+    }
+
+    /// What it is, in words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Automatic => "automatic resolution",
+            Self::Full => "full resolution",
+            Self::Half => "half of the resolution",
+            Self::Quarter => "a quarter of the resolution",
+        }
+    }
+
+    /// The side of the blocks of pixels in which the picture is traced first; `None` for as small ones as possible.
+    pub fn block(self) -> Option<u32> {
+        match self {
+            Self::Automatic => None,
+            Self::Full => Some(1),
+            Self::Half => Some(2),
+            Self::Quarter => Some(4),
+        }
+    }
 }
 
 /// All sets, from fast to exact.
 pub static QUALITY: &[Quality] = &[
     Quality {
         title: "Draft",
-        about: "For looking around: the fast kernel, 4 samples, offsets by a scaled epsilon, paths of 3 surfaces",
+        about: "For looking around: the fast kernel, 4 samples, offsets by a scaled epsilon, paths of 3 surfaces, a quarter of the resolution while moving",
         kernel: "fast",
         samples: 4,
         spawn: Some("scaled-epsilon"),
         depth_limit: Some(3),
+        moving: MovingResolution::Quarter,
     },
     Quality {
         title: "Fast",
-        about: "For quick pictures: the fast kernel, 16 samples, the default offsets, paths of 8 surfaces",
+        about: "For quick pictures: the fast kernel, 16 samples, the default offsets, paths of 8 surfaces, automatic resolution while moving",
         kernel: "fast",
         samples: 16,
         spawn: None,
         depth_limit: Some(8),
+        moving: MovingResolution::Automatic,
     },
     Quality {
         title: "Balanced",
-        about: "For most uses: the watertight kernel, 64 samples, the default offsets, paths of any length",
+        about: "For most uses: the watertight kernel, 64 samples, the default offsets, paths of any length, automatic resolution while moving",
         kernel: "watertight",
         samples: 64,
         spawn: None,
         depth_limit: None,
+        moving: MovingResolution::Automatic,
     },
     Quality {
         title: "Precise",
-        about: "For final pictures: the precise kernel, 256 samples, the default offsets, paths of any length",
+        about: "For final pictures: the precise kernel, 256 samples, the default offsets, paths of any length, automatic resolution while moving",
         kernel: "precise",
         samples: 256,
         spawn: None,
         depth_limit: None,
+        moving: MovingResolution::Automatic,
     },
     Quality {
         title: "Exact",
-        about: "For references: the exact kernel, 1024 samples, the default offsets, paths of any length",
+        about: "For references: the exact kernel, 1024 samples, the default offsets, paths of any length, full resolution while moving",
         kernel: "exact",
         samples: 1024,
         spawn: None,
         depth_limit: None,
+        moving: MovingResolution::Full,
     },
 ];
 
@@ -75,6 +132,7 @@ impl Quality {
             && settings.samples == self.samples
             && settings.spawn().name == self.spawn_name()
             && settings.depth_limit() == self.depth_limit
+            && settings.moving == self.moving
     }
 
     fn spawn_name(&self) -> &'static str {
@@ -86,6 +144,7 @@ impl Quality {
         let kernel = kernel_named(self.kernel);
         settings.keep_kernel(kernel.map_or(self.kernel, |kernel| kernel.info.name));
         settings.samples = self.samples;
+        settings.moving = self.moving;
         self.spawn_name().clone_into(&mut settings.spawn);
         settings.has_depth_limit = self.depth_limit.is_some();
         if let Some(limit) = self.depth_limit {
@@ -112,8 +171,13 @@ mod tests {
                 about.contains(&format!("{} samples", quality.samples)),
                 "{about}"
             );
+            let moving = format!("{} while moving", quality.moving.words());
+            assert!(about.contains(&moving), "{about}");
         }
         settings.samples = 8;
+        assert_eq!(title(&settings), None);
+        QUALITY[0].apply(&mut settings);
+        settings.moving = MovingResolution::Half;
         assert_eq!(title(&settings), None);
     }
 }

@@ -1,18 +1,20 @@
-//! A session as plain data: what is open and how it is seen. A part of it is a step of undo.
+//! A session as plain data: what is open and how it is seen. A part of it is a step of undo; its camera is one that the
+//! commands take, too: `--session`.
 //!
 //! Session files are JSON. Unknown fields are ignored; settings that are missing or that no control can set have their
 //! defaults.
 
 mod picked_pixel;
-mod viewpoint;
 
+pub use hitscope_lab::viewpoint::Viewpoint;
 pub use picked_pixel::PickedPixel;
-pub use viewpoint::Viewpoint;
 
+use crate::parts::PartsChoice;
 use crate::settings::Settings;
 use crate::storage::usable;
 use crate::tab::Tab;
 use hitscope_core::obj::shown;
+use hitscope_lab::viewpoint;
 use serde::{Deserialize, Serialize};
 use std::fs::File;
 use std::io::Read as _;
@@ -20,8 +22,6 @@ use std::path::{Path, PathBuf};
 
 /// The extension of session files.
 pub const EXTENSION: &str = "hitscope";
-/// The version of the format that is written. Files of later versions are refused.
-const FORMAT: u32 = 1;
 /// Size limit of a session file, which usually has some thousand bytes.
 const MAX_BYTES: u64 = 1 << 20;
 
@@ -54,6 +54,9 @@ pub struct Sight {
     /// How the scene is shown.
     #[serde(default)]
     pub settings: Settings,
+    /// Hidden parts, and own colours of parts.
+    #[serde(default)]
+    pub parts: PartsChoice,
     /// The picked pixels.
     #[serde(default)]
     pub picks: Vec<PickedPixel>,
@@ -69,7 +72,7 @@ impl Session {
         settings.keep_kernel(kernel.info.name);
         settings.keep_up_axis(axis);
         Self {
-            hitscope: FORMAT,
+            hitscope: viewpoint::SESSION_FORMAT,
             file,
             shows_noise: settings.shows_noise,
             sight,
@@ -101,18 +104,8 @@ impl Session {
     }
 
     fn of_text(text: &str) -> Result<Self, String> {
-        /// The version alone: later versions may differ in all else.
-        #[derive(Deserialize)]
-        struct Version {
-            hitscope: u32,
-        }
+        viewpoint::check_format(text)?;
         let said = |error: serde_json::Error| format!("not a session file: {error}");
-        let Version { hitscope } = serde_json::from_str(text).map_err(said)?;
-        if hitscope > FORMAT {
-            return Err(format!(
-                "written by a later version of hitscope: format {hitscope}, not {FORMAT}"
-            ));
-        }
         let mut session: Self = serde_json::from_str(text).map_err(said)?;
         if session.file.as_deref().is_some_and(is_session) {
             return Err("its file is a session, not a mesh or a scene".to_owned());
@@ -177,6 +170,7 @@ mod tests {
                 file_view: Some("path"),
                 ..Settings::default()
             },
+            parts: PartsChoice::default(),
             picks: vec![PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin)],
         };
         Session::new(Some("/a/b/mesh.obj".into()), sight, true, Tab::Mesh)

@@ -5,6 +5,7 @@ use crate::colour_choice::ColourChoice;
 use crate::overlay::Overlays;
 use crate::overlay::face_normals::FACE_NORMALS;
 use crate::overlay::vertex_normals::VERTEX_NORMALS;
+use crate::quality::MovingResolution;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::group::kernel_named;
 use hitscope_core::integrator::{INTEGRATORS, Integrator, Setting, integrator};
@@ -56,6 +57,8 @@ pub struct Settings {
     pub colours: ColourChoice,
     /// Samples per pixel of the finished picture; a power of two.
     pub samples: u32,
+    /// The resolution while the camera moves.
+    pub moving: MovingResolution,
     /// Whether refinement of views that need lights ends after a time.
     pub has_time_limit: bool,
     /// The time, in seconds.
@@ -121,6 +124,7 @@ impl Default for Settings {
             clip: ClipChoice::default(),
             colours: ColourChoice::default(),
             samples: 64,
+            moving: MovingResolution::Automatic,
             has_time_limit: false,
             time_limit_s: 60.0,
             has_noise_limit: false,

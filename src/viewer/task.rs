@@ -1,9 +1,13 @@
 //! Background tasks: one thread, one result.
 
 use std::sync::mpsc::{Receiver, TryRecvError, sync_channel};
+use std::time::{Duration, Instant};
 
 /// A thread and its future result.
-pub struct Task<T>(Receiver<T>);
+pub struct Task<T> {
+    receiver: Receiver<T>,
+    start: Instant,
+}
 
 /// The error of a thread that ended without a result: it panicked.
 #[derive(Clone, Copy, Debug, thiserror::Error)]
@@ -31,7 +35,13 @@ impl<T: Send + 'static> Task<T> {
         };
         // Without a thread the sender is dropped, which `poll` reports.
         _ = std::thread::Builder::new().name(name.to_owned()).spawn(run);
-        Self(receiver)
+        let start = Instant::now();
+        Self { receiver, start }
+    }
+
+    /// The time since the start.
+    pub fn lasted(&self) -> Duration {
+        self.start.elapsed()
     }
 
     /// The result, once it is ready.
@@ -39,7 +49,7 @@ impl<T: Send + 'static> Task<T> {
     /// # Errors
     /// [`TaskPanicked`] if the thread panicked.
     pub fn poll(&self) -> Result<Option<T>, TaskPanicked> {
-        match self.0.try_recv() {
+        match self.receiver.try_recv() {
             Ok(result) => Ok(Some(result)),
             Err(TryRecvError::Empty) => Ok(None),
             Err(TryRecvError::Disconnected) => Err(TaskPanicked),
@@ -104,6 +114,14 @@ impl<T: Send + 'static> Pending<T> {
         }
     }
 
+    /// How long the task has been running; `None` if it isn't.
+    pub fn lasted(&self) -> Option<Duration> {
+        match self {
+            Self::Running(task) => Some(task.lasted()),
+            _ => None,
+        }
+    }
+
     /// Whether the task has ended.
     pub fn is_over(&self) -> bool {
         matches!(self, Self::Done(_) | Self::Failed)
@@ -120,6 +138,16 @@ impl<K, T> Default for KeyedTask<K, T> {
 }
 
 impl<K: PartialEq, T: Send + 'static> KeyedTask<K, T> {
+    /// How long the task has been running; `None` if it isn't.
+    pub fn lasted(&self) -> Option<Duration> {
+        self.0.as_ref().map(|(_, task)| task.lasted())
+    }
+
+    /// Drops the task.
+    pub fn cancel(&mut self) {
+        self.0 = None;
+    }
+
     /// The result for `key`, once it is ready. Starts the task unless it is running; a task for
     /// another key is dropped.
     ///
@@ -154,13 +182,31 @@ impl Drop for RepaintOnDrop {
     }
 }
 
-/// Deliberate panics for tests.
+/// Deliberate panics and delays for tests.
 #[cfg(test)]
 pub(crate) mod sabotage {
     use std::cell::RefCell;
+    use std::sync::mpsc::{Receiver, Sender, channel};
 
     thread_local! {
         static NAME: RefCell<Option<&'static str>> = const { RefCell::new(None) };
+        static HELD: RefCell<Option<(&'static str, Receiver<()>)>> = const { RefCell::new(None) };
+    }
+
+    /// Holds a task back until it is dropped.
+    pub struct Hold(Sender<()>);
+
+    impl Drop for Hold {
+        fn drop(&mut self) {
+            _ = self.0.send(());
+        }
+    }
+
+    /// Makes the next task with this name that the calling thread starts wait.
+    pub fn hold(name: &'static str) -> Hold {
+        let (sender, receiver) = channel();
+        HELD.set(Some((name, receiver)));
+        Hold(sender)
     }
 
     /// Makes the next task with this name that the calling thread starts panic.
@@ -171,7 +217,11 @@ pub(crate) mod sabotage {
     /// The work of a task, or a panic instead.
     pub fn wrap<T, W: FnOnce() -> T>(name: &str, work: W) -> impl FnOnce() -> T + use<T, W> {
         let panics = NAME.with_borrow_mut(|next| next.take_if(|next| *next == name).is_some());
+        let held = HELD.with_borrow_mut(|held| held.take_if(|held| held.0 == name));
         move || {
+            if let Some((_, end)) = held {
+                _ = end.recv();
+            }
             assert!(!panics, "a test makes this task panic");
             work()
         }
@@ -181,7 +231,6 @@ pub(crate) mod sabotage {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use std::time::Duration;
 
     /// Waits for the result of a task.
     fn end<T: Send + 'static>(task: &Task<T>) -> Result<T, TaskPanicked> {

@@ -47,6 +47,8 @@ pub struct Tracer {
     frame_intervals: Times,
     /// Time of the first pass, adapted so that frames meet their target.
     first_pass: Duration,
+    /// The block size of the first pass that the user chose.
+    chosen_step: Option<u32>,
     changed: Option<PixelRect>,
     /// Pixels of the preview that changed and weren't taken before the view began.
     changed_before: Option<PixelRect>,
@@ -83,6 +85,7 @@ impl Tracer {
             shown_at: None,
             frame_intervals: Times::default(),
             first_pass: Duration::from_millis(12),
+            chosen_step: None,
             changed: None,
             changed_before: None,
             speeds: [Speed::default(); 2],
@@ -157,14 +160,21 @@ impl Tracer {
     /// Traces the view whose preview is shown, with the preview's block size. The preview stays until the view's first
     /// pass is done.
     fn begin_view(&mut self) {
+        let of_preview = match self.film.plan().pass(0) {
+            Pass::Lattice { step } => step,
+            Pass::Samples { .. } => 1,
+        };
+        let step = match self.chosen_step {
+            // The view is slower than its preview, whose blocks the user chose.
+            Some(_) => self
+                .affordable_step(self.film.size(), false)
+                .max(of_preview),
+            None => of_preview,
+        };
         let Some(posted) = &mut self.posted else {
             return;
         };
         posted.is_preview = false;
-        let step = match self.film.plan().pass(0) {
-            Pass::Lattice { step } => step,
-            Pass::Samples { .. } => 1,
-        };
         let plan = Plan::new(self.film.size(), step, posted.request.samples);
         self.film.restart(plan, posted.request.context.background);
         self.changed_before = self.changed.take();

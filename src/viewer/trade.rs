@@ -7,6 +7,7 @@ use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::{Camera, Scene};
 use hitscope_lab::measure::scene::{SceneRow, SceneSizes, measure};
 use std::sync::{Arc, Mutex, PoisonError};
+use std::time::Duration;
 
 /// The vertical axis of the plot.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -43,6 +44,8 @@ pub enum TradeState {
     Measuring,
     /// All kernels have been measured.
     Done,
+    /// The user has cancelled it.
+    Cancelled,
     /// The thread panicked.
     Failed,
 }
@@ -115,10 +118,21 @@ impl Trade {
         if self.state == TradeState::Measuring {
             self.state = match self.task.poll() {
                 Ok(None) => TradeState::Measuring,
-                Ok(Some(_)) => TradeState::Done,
+                Ok(Some(Ok(()))) => TradeState::Done,
+                Ok(Some(Err(Cancelled))) => TradeState::Cancelled,
                 Err(_) => TradeState::Failed,
             };
         }
+    }
+
+    /// The time since the start.
+    pub fn lasted(&self) -> Duration {
+        self.task.lasted()
+    }
+
+    /// Ends the measurement; the rows so far stay.
+    pub fn cancel(&self) {
+        self.progress.cancel();
     }
 
     /// The state at the last [`poll`](Self::poll).
@@ -129,6 +143,6 @@ impl Trade {
 
 impl Drop for Trade {
     fn drop(&mut self) {
-        self.progress.cancel();
+        self.cancel();
     }
 }

@@ -5,10 +5,11 @@ use glam::{DVec3, UVec2, Vec2, Vec3};
 use hitscope_core::camera::{Camera, Projection};
 use hitscope_core::integrator::{Context, Lighting, ViewOptions, integrator};
 use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::light::Lights;
 use hitscope_core::mesh::shapes::soup;
 use hitscope_core::mesh::{Assigned, Attributes, Material, Runs};
 use hitscope_core::picture::{
-    NO_PRIMITIVE, PictureError, TraceError, VisibleSurfaces, guides, write_depth, write_exr,
+    Alpha, NO_PRIMITIVE, PictureError, TraceError, VisibleSurfaces, guides, write_depth, write_exr,
     write_ids,
 };
 use hitscope_core::plan::Plan;
@@ -90,6 +91,67 @@ fn index(x: u32, y: u32) -> usize {
 }
 
 #[test]
+fn a_transparent_background_has_no_colour_and_edges_have_the_part_that_is_covered() {
+    for view in ["shaded", "path"] {
+        let plan = Plan::new(SIZE, 1, 16);
+        let opaque = square();
+        let mut context = square();
+        context.background = Vec3::ZERO;
+        context.options.has_transparent_background = true;
+        let lights = Lights::or_white(&context.scene, Vec::new());
+        context.lighting.lights = Arc::new(lights);
+        let (camera, intersector) = (context.camera, Arc::clone(&context.intersector));
+        let progress = Progress::default();
+        let alpha = Alpha::trace(&camera, &*intersector, &plan, 2, &progress).expect("traced");
+        let integrator = integrator(view).expect("a view");
+        let job = Job {
+            context,
+            integrator,
+            plan: plan.clone(),
+        };
+        let film = render(job, 2).expect("no panic");
+        let (mut outside, mut edge, mut inside) = (0, 0, 0);
+        let shown = alpha.shown(&film);
+        for y in 0..SIZE.y {
+            for x in 0..SIZE.x {
+                let (pixel, a) = (UVec2::new(x, y), alpha.pixels()[index(x, y)]);
+                let hits = (0..16).filter(|&sample| {
+                    let ray = camera.ray(pixel, Plan::position(pixel, sample));
+                    opaque.intersector.closest_hit(&ray).is_some()
+                });
+                assert_eq!(a, hits.count() as f32 / 16.0, "{pixel}");
+                let colour = film.radiance(pixel).expect("a sample");
+                let [.., alpha_byte] = shown[index(x, y)];
+                assert_eq!(alpha_byte, (255.0 * a).round() as u8);
+                match a {
+                    0.0 => {
+                        outside += 1;
+                        assert_eq!((colour, shown[index(x, y)]), (Vec3::ZERO, [0; 4]));
+                    }
+                    1.0 => inside += 1,
+                    _ => edge += 1,
+                }
+            }
+        }
+        assert!(
+            outside > 100 && edge > 10 && inside > 50,
+            "{outside} {edge} {inside}"
+        );
+        // The straight colour of an edge is that of the inside: the light is the same everywhere.
+        if view == "shaded" {
+            let middle = shown[index(SIZE.x / 2, SIZE.y / 2)];
+            for (pixel, a) in shown.iter().zip(alpha.pixels()).filter(|(_, a)| **a > 0.0) {
+                let differs = (0..3).any(|k| pixel[k].abs_diff(middle[k]) > 1);
+                assert!(!differs, "{pixel:?} {middle:?} {a}");
+            }
+        }
+        let mut bytes = Cursor::new(Vec::new());
+        write_exr(&film, None, Some(&alpha), &mut bytes).expect("written");
+        assert_eq!(floats(&channels(bytes.into_inner()), "A"), alpha.pixels());
+    }
+}
+
+#[test]
 fn an_exr_file_has_the_film_and_its_guides() {
     let (context, plan) = (square(), Plan::new(SIZE, 1, 4));
     let guides = guides(&context, &plan, 2, &Progress::default()).expect("guides");
@@ -100,7 +162,7 @@ fn an_exr_file_has_the_film_and_its_guides() {
     };
     let film = render(job, 2).expect("no panic");
     let mut bytes = Cursor::new(Vec::new());
-    write_exr(&film, Some(&guides), &mut bytes).expect("written");
+    write_exr(&film, Some(&guides), None, &mut bytes).expect("written");
     let channels = channels(bytes.into_inner());
     let mut names: Vec<&str> = channels.keys().map(String::as_str).collect();
     names.sort_unstable();
@@ -171,7 +233,7 @@ fn guides_are_means_over_the_samples_and_the_same_on_any_number_of_threads() {
 fn a_film_without_guides_or_samples_is_written() {
     let film = Film::new(Plan::new(SIZE, 1, 1), Vec3::ONE);
     let mut bytes = Cursor::new(Vec::new());
-    write_exr(&film, None, &mut bytes).expect("written");
+    write_exr(&film, None, None, &mut bytes).expect("written");
     let channels = channels(bytes.into_inner());
     assert_eq!(channels.len(), 5);
     assert!(floats(&channels, "G").iter().all(|&x| x == 0.0));
@@ -184,7 +246,7 @@ fn guides_of_another_size_and_cancelled_ones_are_errors() {
     let context = square();
     let other = guides(&context, &Plan::new(SIZE, 1, 1), 1, &progress).expect("guides");
     let film = Film::new(Plan::new(UVec2::ONE, 1, 1), Vec3::ONE);
-    let error = write_exr(&film, Some(&other), Cursor::new(Vec::new()));
+    let error = write_exr(&film, Some(&other), None, Cursor::new(Vec::new()));
     assert!(matches!(error, Err(PictureError::Size { .. })));
     progress.cancel();
     let cancelled = guides(&context, &Plan::new(SIZE, 1, 1), 1, &progress);

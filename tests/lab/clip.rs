@@ -1,12 +1,18 @@
 //! The commands' options of the clip: rays, inspections and pictures show the same part.
 
 use crate::folder::Folder;
-use glam::UVec2;
+use glam::{DVec3, UVec2};
+use hitscope_core::camera::Turntable;
 use hitscope_core::integrator::palette::id_colour;
-use hitscope_core::scene::Shading;
+use hitscope_core::kernel::exact_triangle_kernel;
+use hitscope_core::mesh::shapes;
+use hitscope_core::progress::Progress;
+use hitscope_core::scene::{Shading, scene};
 use hitscope_core::tone::Display;
-use hitscope_lab::commands::{InspectArgs, RenderArgs};
+use hitscope_core::{Clip, Scene};
+use hitscope_lab::commands::{BenchArgs, ConvergeArgs, InspectArgs, RenderArgs};
 use hitscope_lab::inspection::Inspection;
+use hitscope_lab::measure::scene::{SceneSizes, measure};
 use serde_json::Value;
 
 fn ts(answer: &Value) -> Vec<f64> {
@@ -148,4 +154,67 @@ fn each_pixel_shows_the_primitive_that_its_inspection_hits() {
         // The sphere, and triangles seen from inside the cube.
         assert!(shown.len() > 3 && shown.contains(&12), "{shown:?}");
     }
+}
+
+#[test]
+fn bench_and_converge_trace_the_part_that_the_clip_keeps() {
+    let folder = Folder::new();
+    let bench = |clip: &str| {
+        let line =
+            format!("@cube.obj --size 32x24 --rounds 1 --threads 1 --kernel exact --json {clip}");
+        let report = folder.json(|folder, out| folder.args::<BenchArgs>(&line).run(out));
+        let row = &report["workloads"][0];
+        assert_eq!(
+            (&row["name"], &row["rays"]),
+            (&"primary".into(), &768.into())
+        );
+        row["hits"].as_u64().expect("a number")
+    };
+    let whole = bench("");
+    let part = bench("--clip-box 0,0,0,0.5,0.5,0.5");
+    assert!(0 < part && part < whole, "{part} of {whole}");
+    assert_eq!(bench("--clip-plane 0,0,1,-0.5"), 0);
+
+    let mean_error = |clip: &str| {
+        let line = format!(
+            "@cube.obj --size 8x8 --reference 16 --seconds 100 --setting path,depth=0 --json {clip}"
+        );
+        let report = folder.json(|folder, out| folder.args::<ConvergeArgs>(&line).run(out));
+        let points = report["convergence"]["points"].as_array().expect("a list");
+        points[0]["relative_rmse"].as_f64().expect("a number")
+    };
+    // Without reflection the surface is black; without surface there is only the environment.
+    assert!(mean_error("") > 0.0);
+    assert_eq!(mean_error("--clip-plane 0,0,1,-0.5"), 0.0);
+}
+
+#[test]
+fn measuring_a_clipped_scene_checks_rays_against_the_part_that_is_kept() {
+    let mesh = shapes::sphere(3, shapes::Placement::UNIT);
+    let whole = scene(mesh);
+    let camera = Turntable::framing(whole.bounds(), UVec2::new(64, 48)).camera(UVec2::new(64, 48));
+    // A box within the hollow sphere.
+    let (centre, half) = (whole.bounds().centre().as_dvec3(), DVec3::splat(0.1));
+    let clip = Clip::axis_box(centre - half, centre + half).expect("a box");
+    let sizes = SceneSizes {
+        checked: 3000,
+        timed: 3000,
+        rounds: 1,
+    };
+    let exact = |scene: &Scene| {
+        let mut rows = Vec::new();
+        let never = Progress::default();
+        measure(scene, &camera, sizes, &never, |row| rows.push(row)).expect("never cancelled");
+        let exact = rows
+            .into_iter()
+            .find(|row| row.kernel == exact_triangle_kernel().info.name);
+        exact.expect("a row")
+    };
+    let [whole, part] = [exact(&whole), exact(&whole.with_clip(Some(clip)))];
+    for row in [&whole, &part] {
+        assert_eq!(row.wrong_per_million, 0.0);
+    }
+    assert!(whole.hits > 0);
+    assert!(part.n > 0 && part.n < whole.n, "{} of {}", part.n, whole.n);
+    assert_eq!(part.hits, 0);
 }

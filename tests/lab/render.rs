@@ -262,3 +262,25 @@ fn scene_files_have_elements_but_no_lines() {
         "{found}"
     );
 }
+
+#[test]
+fn a_transparent_background_leaves_the_surface_and_nothing_else() {
+    let folder = Folder::new();
+    let options = "--size 40x40 --samples 16 --view shaded";
+    run(
+        &folder,
+        &format!("@cube.obj -o @cut.png --transparent {options}"),
+    )
+    .expect("done");
+    run(&folder, &format!("@cube.obj -o @whole.png {options}")).expect("done");
+    let (cut, whole) = (picture(&folder, "cut.png"), picture(&folder, "whole.png"));
+    assert_eq!(cut.get_pixel(0, 0).0, [0; 4]);
+    assert_eq!(cut.get_pixel(20, 20), whole.get_pixel(20, 20));
+    let has_edge = cut.pixels().any(|pixel| !matches!(pixel.0[3], 0 | 255));
+    assert!(has_edge, "edge pixels are partly covered");
+    assert!(whole.pixels().all(|pixel| pixel.0[3] == 255));
+    let line = "@cube.obj -o @x.png --transparent --view disagreement";
+    let error = error(&folder, line);
+    assert!(error.to_string().contains("--transparent"), "{error}");
+    assert!(matches!(error, CommandError::Usage(_)));
+}

@@ -1,7 +1,7 @@
 //! Tests of the real app, driven by labels and keys.
 
 use crate::harness::{
-    Window, app, bare, choose_kernel, choose_view, click, in_picture, press, say, wait,
+    Window, app, bare, choose_kernel, choose_view, click, in_picture, press, say, wait, write,
 };
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
@@ -10,12 +10,6 @@ use hitscope::app::App;
 use hitscope_core::camera::UpAxis;
 use hitscope_core::integrator::INTEGRATORS;
 use std::path::PathBuf;
-
-fn write(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
-    let path = folder.path().join(name);
-    std::fs::write(&path, text).expect("written");
-    path
-}
 
 #[test]
 fn a_file_opens_and_stays_if_the_next_one_is_bad() {

@@ -1,12 +1,12 @@
 //! Tests of toasts, the log, pictures of the screen and the quality.
 
 use crate::commands::open_menu;
-use crate::harness::{app, bare, press, wait};
+use crate::harness::{app, bare, press, wait, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers, OutputCommand};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
-use hitscope::quality::Quality;
+use hitscope::quality::{MovingResolution, Quality};
 
 const MESH: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
 
@@ -43,6 +43,62 @@ fn f12_saves_the_picture_beside_the_file_and_a_toast_says_so_for_some_seconds() 
     window.get_by_label("Copy all");
     press(&mut window, Key::Escape);
     assert!(window.query_by_label("Copy all").is_none());
+}
+
+#[test]
+fn a_link_of_the_log_goes_to_the_line_that_a_warning_names() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let text = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf 1 2 9\n";
+    let mesh = write(&folder, "mesh.obj", text);
+    let Some(mut window) = app(Some(mesh)) else {
+        return;
+    };
+    wait(&mut window, "the warning", |app| app.notice().is_some());
+    let notice = window.state().notice().expect("a warning").to_owned();
+    assert!(notice.contains("line 5"), "{notice}");
+    window.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::L);
+    window.run_steps(4);
+    window.get_by_role_and_label(Role::Link, "line 5").click();
+    window.run_steps(4);
+    // The line has no face that could be framed: the box of elements says so.
+    for _ in 0..400 {
+        window.step();
+        if window.query_by_label("Go to element").is_some() {
+            return;
+        }
+        std::thread::sleep(std::time::Duration::from_millis(5));
+    }
+    panic!("the link goes nowhere");
+}
+
+#[test]
+fn a_rendered_picture_can_have_a_transparent_background() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mesh = write(&folder, "mesh.obj", MESH);
+    let Some(mut window) = app(Some(mesh)) else {
+        return;
+    };
+    window.get_by_label("Draft").click();
+    window.run_steps(2);
+    window.key_press_modifiers(Modifiers::COMMAND, Key::F12);
+    window.run_steps(4);
+    for label in [
+        "Size of the window's picture",
+        "Transparent background",
+        "Render",
+    ] {
+        window.get_by_label(label).click();
+        window.run_steps(2);
+    }
+    let path = folder.path().join("mesh-1.png");
+    let text = format!("Saved {}", path.display());
+    wait(&mut window, "the file", |app| {
+        app.toasts().contains(&text.as_str())
+    });
+    let picture = image::open(&path).expect("a picture").to_rgba8();
+    assert_eq!(picture.get_pixel(0, 0).0, [0; 4]);
+    let opaque = picture.pixels().filter(|pixel| pixel.0[3] == 255).count();
+    assert!(opaque > 1000, "{opaque}");
 }
 
 #[test]
@@ -128,7 +184,7 @@ fn the_quality_sets_kernel_and_samples_and_own_settings_are_called_custom() {
         Quality::of(settings).map(|quality| quality.title),
         Some("Draft")
     );
-    assert!(window.query_by_label("Custom").is_none());
+    assert_eq!(settings.moving, MovingResolution::Quarter);
     // Another kernel.
     window.key_press_modifiers(Modifiers::COMMAND, Key::P);
     window.run_steps(4);
@@ -138,5 +194,17 @@ fn the_quality_sets_kernel_and_samples_and_own_settings_are_called_custom() {
     window.run_steps(3);
     press(&mut window, Key::Enter);
     window.run_steps(3);
-    window.get_by_label("Custom");
+    assert!(Quality::of(window.state().settings()).is_none());
+    // The details open, and the resolution while moving is one of them.
+    assert!(window.query_by_label("Resolution while moving").is_none());
+    window.get_by_label("Custom").click();
+    window.run_steps(20);
+    // After the views of the tool bar.
+    let combo = window.get_all_by_role(Role::ComboBox).nth(1);
+    let combo = combo.expect("the first drop-down of the tab");
+    combo.click();
+    window.run_steps(3);
+    window.get_by_label("1/2").click();
+    window.run_steps(3);
+    assert_eq!(window.state().settings().moving, MovingResolution::Half);
 }

@@ -2,19 +2,12 @@
 
 use crate::app::drop_file;
 use crate::commands::open_menu;
-use crate::harness::{Window, app, press, wait};
+use crate::harness::{Window, app, press, wait, write};
 use egui::accesskit::Role;
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
-use std::path::{Path, PathBuf};
 
 const TRIANGLE: &str = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
-
-fn write(folder: &Path, name: &str) -> PathBuf {
-    let path = folder.join(name);
-    std::fs::write(&path, TRIANGLE).expect("written");
-    path
-}
 
 fn wait_for(window: &mut Window, name: &str) {
     wait(window, name, |app| app.document().name() == name);
@@ -35,7 +28,7 @@ fn open_recent(window: &mut Window, name: &str) {
 #[test]
 fn recent_files_open_again_and_a_missing_one_is_removed_with_a_message() {
     let folder = tempfile::tempdir().expect("a folder");
-    let [one, two] = ["one.obj", "two.obj"].map(|name| write(folder.path(), name));
+    let [one, two] = ["one.obj", "two.obj"].map(|name| write(&folder, name, TRIANGLE));
     let Some(mut window) = app(Some(one.clone())) else {
         return;
     };
@@ -60,8 +53,8 @@ fn recent_files_open_again_and_a_missing_one_is_removed_with_a_message() {
 #[test]
 fn ctrl_right_and_ctrl_left_open_the_files_of_the_folder_in_natural_order() {
     let folder = tempfile::tempdir().expect("a folder");
-    let first = write(folder.path(), "m2.obj");
-    write(folder.path(), "m10.obj");
+    let first = write(&folder, "m2.obj", TRIANGLE);
+    write(&folder, "m10.obj", TRIANGLE);
     std::fs::write(folder.path().join("m9.txt"), "").expect("written");
     let scene = r#"<scene version="3.0.0"><shape type="sphere"/></scene>"#;
     std::fs::write(folder.path().join("m3.xml"), scene).expect("written");
@@ -95,7 +88,7 @@ fn ctrl_right_and_ctrl_left_open_the_files_of_the_folder_in_natural_order() {
 #[test]
 fn a_file_alone_in_its_folder_gives_a_message() {
     let folder = tempfile::tempdir().expect("a folder");
-    let Some(mut window) = app(Some(write(folder.path(), "one.obj"))) else {
+    let Some(mut window) = app(Some(write(&folder, "one.obj", TRIANGLE))) else {
         return;
     };
     wait_for(&mut window, "one.obj");

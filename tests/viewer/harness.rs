@@ -35,6 +35,13 @@ pub fn say(text: &str) {
     _ = writeln!(std::io::stderr(), "{text}");
 }
 
+/// Writes a file of a folder. Returns its path.
+pub fn write(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
+    let path = folder.path().join(name);
+    std::fs::write(&path, text).expect("written");
+    path
+}
+
 /// The device that all tests share, or `None` if the test is skipped. It is never closed.
 pub fn gpu() -> Option<&'static Gpu> {
     static GPU: OnceLock<Option<Gpu>> = OnceLock::new();

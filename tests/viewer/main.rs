@@ -72,5 +72,9 @@ mod window;
 mod trade;
 // Navigation with the pointer, and animated views.
 mod navigation;
+// The enlarged picture, and numbers in its pixels.
+mod magnifier;
+// The list of parts.
+mod parts;
 // The view as text, copied and pasted.
 mod view_text;

@@ -1,23 +1,16 @@
 //! Tests of flaws, reloading and creases of the open mesh.
 
-use crate::harness::{Window, app, click, in_picture, press, wait};
+use crate::harness::{Window, app, click, in_picture, press, wait, write};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use hitscope::app::App;
 use hitscope_core::camera::Turntable;
 use hitscope_core::mesh::{Crease, Flaw};
-use std::path::PathBuf;
-
-fn write(folder: &tempfile::TempDir, text: &str) -> PathBuf {
-    let path = folder.path().join("mesh.obj");
-    std::fs::write(&path, text).expect("written");
-    path
-}
 
 /// The window with an open mesh, and the folder with its file; `None` if the test is skipped.
 fn opened(text: &str) -> Option<(Window, tempfile::TempDir)> {
     let folder = tempfile::tempdir().expect("a folder");
-    let file = write(&folder, text);
+    let file = write(&folder, "mesh.obj", text);
     let mut window = app(Some(file))?;
     wait(&mut window, "the file", |app| {
         app.document().name() == "mesh.obj"
@@ -90,7 +83,7 @@ fn reloading_a_watched_file_keeps_the_camera_and_the_pick() {
     assert!(window.state().preferences().watches);
     let before = *window.state().turntable();
     let raised = FLAWED.replace(" 0\n", " 0.25\n");
-    write(&folder, &raised);
+    write(&folder, "mesh.obj", &raised);
     wait(&mut window, "the new file", |app| {
         app.document().loaded.scene.bounds().min.z == 0.25
     });
@@ -110,7 +103,7 @@ fn reloading_a_watched_file_keeps_the_camera_and_the_pick() {
 fn the_camera_keeps_its_place_in_the_file_when_the_origin_moves() {
     let folder = tempfile::tempdir().expect("a folder");
     let text = |x: u32| format!("v 500000 0 0\nv {x} 0 0\nv 500000 1 0\nf 1 2 3\n");
-    let file = write(&folder, &text(500_001));
+    let file = write(&folder, "mesh.obj", &text(500_001));
     let Some(mut window) = app(Some(file)) else {
         return;
     };
@@ -123,7 +116,7 @@ fn the_camera_keeps_its_place_in_the_file_when_the_origin_moves() {
     let (before, pivot) = (origin(window.state()), in_file(window.state()));
     let ray = |app: &App| app.inspection().map(|inspection| inspection.ray.origin);
     let eye = ray(window.state()).expect("a ray");
-    write(&folder, &text(500_019));
+    write(&folder, "mesh.obj", &text(500_019));
     press(&mut window, Key::F5);
     wait(&mut window, "the new file", |app| origin(app) != before);
     assert_eq!(in_file(window.state()), pivot);

@@ -1,6 +1,6 @@
 //! Tests of the window before, during and after opening a file.
 
-use crate::harness::{Window, bare, choose_view, gpu, press, shared_setup, wait};
+use crate::harness::{Window, bare, choose_view, gpu, press, shared_setup, wait, write};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::{App, StartOptions};
@@ -10,12 +10,6 @@ use std::time::Duration;
 
 /// A triangle in the plane x = 0.
 const FLAT: &str = "v 0 0 0\nv 0 1 0\nv 0 0 1\nf 1 2 3\n";
-
-fn write(folder: &tempfile::TempDir, name: &str, text: &str) -> PathBuf {
-    let path = folder.path().join(name);
-    std::fs::write(&path, text).expect("written");
-    path
-}
 
 fn open(window: &mut Window, path: PathBuf, name: &str) {
     crate::app::drop_file(window, path);

@@ -1,13 +1,16 @@
 //! Sessions, and undo and redo, as a user meets them.
 
 use crate::app::drop_file;
-use crate::harness::{Window, app, bare, click, in_picture, pointer, press, say, settle, wait};
+use crate::harness::{
+    Window, app, bare, click, in_picture, pointer, press, say, settle, wait, write,
+};
 use egui::{Event, Key, Modifiers, PointerButton};
 use egui_kittest::kittest::Queryable as _;
 use hitscope::app::App;
 use hitscope::overlay::wireframe::WIREFRAME;
-use hitscope::session::Sight;
-use std::path::{Path, PathBuf};
+use hitscope::session::{Session, Sight};
+use hitscope_lab::commands::CameraArgs;
+use std::path::Path;
 use tempfile::TempDir;
 
 /// A triangle that covers the middle of the first picture.
@@ -20,12 +23,6 @@ fn opened() -> Option<(Window, TempDir)> {
     let mut window = app(Some(path))?;
     settle(&mut window, "mesh.obj");
     Some((window, folder))
-}
-
-fn write(folder: &TempDir, name: &str, text: &str) -> PathBuf {
-    let path = folder.path().join(name);
-    std::fs::write(&path, text).expect("written");
-    path
 }
 
 fn ctrl(window: &mut Window, key: Key) {
@@ -244,4 +241,34 @@ fn another_file_clears_the_steps_and_a_reload_keeps_them() {
     window.run_steps(2);
     ctrl(&mut window, Key::Z);
     assert_eq!(window.state().notice(), Some("Nothing to undo"));
+}
+
+#[test]
+fn the_command_line_takes_the_camera_of_a_session_to_the_last_bit() {
+    let Some((mut window, folder)) = opened() else {
+        return;
+    };
+    drag(&mut window);
+    let path = folder.path().join("mesh.hitscope");
+    let app = window.state();
+    let file = Some(folder.path().join("mesh.obj"));
+    let session = Session::new(file, app.sight(), true, app.preferences().tab);
+    let text = session.text_at(&path).expect("UTF-8");
+    std::fs::write(&path, text).expect("written");
+    let size = glam::UVec2::new(160, 90);
+    let args = CameraArgs {
+        size: Some(size),
+        session: Some(path),
+        ..CameraArgs::default()
+    };
+    args.check().expect("a session");
+    let scene = &app.document().loaded.scene;
+    let camera = args.camera(scene, None).expect("a camera");
+    assert_eq!(camera, app.turntable().camera(size));
+    let args = CameraArgs {
+        session: Some(folder.path().join("mesh.obj")),
+        ..CameraArgs::default()
+    };
+    let error = args.check().expect_err("not a session").to_string();
+    assert!(error.contains("not a session file"), "{error}");
 }

@@ -180,7 +180,7 @@ fn a_hidden_part_is_in_no_pixel_and_the_others_keep_theirs() {
     let (before, whole) = (hits(&window), pixels(&window));
     let knots = before.iter().filter(|&&hit| is_knot(&window, hit)).count();
     assert!(knots > 100, "{knots}");
-    press_button(&mut window, "knot");
+    press_button(&mut window, "Show knot");
     let (after, part) = (hits(&window), pixels(&window));
     assert!(!after.iter().any(|&hit| is_knot(&window, hit)));
     for (k, &hit) in before.iter().enumerate() {
@@ -252,7 +252,7 @@ fn an_empty_picture_offers_to_show_what_was_hidden() {
     };
     let whole = pixels(&window);
     for part in ["floor", "knot", "gem", "shell"] {
-        press_button(&mut window, part);
+        press_button(&mut window, &format!("Show {part}"));
     }
     assert_eq!(count(&hits(&window)), 0);
     wait(&mut window, "the hint", App::shows_nothing);

@@ -26,7 +26,7 @@ mod transport;
 mod triangle;
 mod whitted;
 
-pub use options::{ScaleOptions, ViewOptions, back_face_colour};
+pub use options::{ScaleOptions, SurfaceColours, ViewOptions, back_face_colour};
 pub use record::{PathEnd, PathRecord, PathVertex, ShadowRay};
 
 use crate::camera::Camera;
@@ -125,6 +125,8 @@ enum Source {
     Colour(fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3),
     /// Numbers, which a scale colours.
     Number(NumberView),
+    /// The index of the primitive that was hit.
+    Index,
 }
 
 /// What a view needs besides the scene and the chosen kernel.
@@ -161,6 +163,8 @@ pub enum Setting {
     Exposure,
     /// The tint of back faces.
     BackFaces,
+    /// The own colours of parts.
+    PartColours,
     /// The scale of the view's numbers.
     Scale,
 }
@@ -234,6 +238,11 @@ impl Comparison {
 pub type Legend = Vec<Vec<(Vec3, String)>>;
 
 impl Integrator {
+    /// Whether the colours stand for indices of primitives.
+    pub fn shows_indices(&self) -> bool {
+        matches!(self.source, Source::Index)
+    }
+
     /// The intersector to compare `first` with; `first` itself if the view doesn't compare.
     pub fn second(
         &self,
@@ -256,8 +265,14 @@ impl Integrator {
         hit: Option<Hit>,
         sampler: &mut Sampler,
     ) -> Vec3 {
+        if hit.is_none() && context.options.has_transparent_background {
+            return Vec3::ZERO;
+        }
         match &self.source {
             Source::Colour(radiance) => radiance(context, ray, hit, sampler),
+            Source::Index => {
+                hit.map_or(context.background, |hit| palette::id_colour(hit.primitive))
+            }
             Source::Number(view) => {
                 let shown = (view.shown)(context, ray, hit, sampler);
                 view.colour(context, shown)

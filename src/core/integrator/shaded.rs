@@ -18,7 +18,7 @@ pub(super) static SHADED: Integrator = Integrator {
     title: "Shaded",
     about: "Lit by a studio light that moves with the camera.",
     needs: Needs {
-        settings: &[Setting::Exposure, Setting::BackFaces],
+        settings: &[Setting::Exposure, Setting::BackFaces, Setting::PartColours],
         ..Needs::VERTEX_NORMALS
     },
     legend: Vec::new,
@@ -74,7 +74,9 @@ fn reflection(context: &Context, ray: &Ray, hit: Hit) -> (Vec3, f32) {
     } else {
         back_face_tint(context, ray)
     };
-    let diffuse = appearance.diffuse();
+    let own = context.options.surface_colours.as_ref();
+    let own = own.and_then(|colours| colours.of(hit.primitive));
+    let diffuse = own.unwrap_or_else(|| appearance.diffuse());
     let diffuse = tint.map_or(diffuse, |tint| diffuse.lerp(tint, TINT_PART));
     let emission = appearance.emission_of_side(is_front);
     let opacity = appearance.opacity();
@@ -119,7 +121,7 @@ fn back_face_tint(context: &Context, ray: &Ray) -> Option<Vec3> {
 mod tests {
     use super::*;
     use crate::camera::{Camera, Projection};
-    use crate::integrator::{Lighting, ViewOptions};
+    use crate::integrator::{Lighting, SurfaceColours, ViewOptions};
     use crate::kernel::default_triangle_kernel;
     use crate::mesh::{
         Assigned, Attributes, CornerValues, Material, Runs, Texture, TextureMap, shapes,
@@ -193,6 +195,18 @@ mod tests {
             seen(&[constant(Vec3::X, 1.0)], Attributes::default()),
             Vec3::X
         );
+    }
+
+    #[test]
+    fn an_own_colour_replaces_that_of_the_material_of_its_primitives_alone() {
+        let (red, blue) = (constant(Vec3::X, 0.5), constant(Vec3::Z, 1.0));
+        let (mut context, ray) = layers(&[red, blue], Attributes::default());
+        let colours = SurfaceColours::new(vec![0, 1], vec![Vec3::Y]);
+        context.options.surface_colours = Some(colours.clone());
+        assert_eq!(colour(&context, &ray), 0.5 * Vec3::X + 0.5 * Vec3::Y);
+        let colours = colours.recoloured(vec![Vec3::ONE]);
+        context.options.surface_colours = Some(colours);
+        assert_eq!(colour(&context, &ray), 0.5 * Vec3::X + 0.5 * Vec3::ONE);
     }
 
     #[test]

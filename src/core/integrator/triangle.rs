@@ -1,10 +1,6 @@
 //! The view *Triangle*.
 
-use super::palette::id_colour;
-use super::{Context, Integrator, Needs, Source};
-use crate::ray::{Hit, Ray};
-use crate::sampler::Sampler;
-use glam::Vec3;
+use super::{Integrator, Needs, Source};
 
 /// The row of the view.
 pub(super) static TRIANGLE: Integrator = Integrator {
@@ -13,9 +9,5 @@ pub(super) static TRIANGLE: Integrator = Integrator {
     about: "A colour for each triangle or other primitive.",
     needs: Needs::NOTHING,
     legend: Vec::new,
-    source: Source::Colour(radiance),
+    source: Source::Index,
 };
-
-fn radiance(context: &Context, _: &Ray, hit: Option<Hit>, _: &mut Sampler) -> Vec3 {
-    hit.map_or(context.background, |hit| id_colour(hit.primitive))
-}

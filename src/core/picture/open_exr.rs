@@ -5,6 +5,7 @@
 //! | channels | contents |
 //! |---|---|
 //! | `R` `G` `B` | the mean of the samples, linear, with the primaries of sRGB |
+//! | `A` | the part of the samples that hit something, if the background is transparent; `R`, `G` and `B` are premultiplied by it |
 //! | `albedo.R` `albedo.G` `albedo.B` | mean diffuse reflectance of the first hits |
 //! | `normal.X` `normal.Y` `normal.Z` | mean shading normal of the first hits |
 //! | `Z` | mean distance of the first hits in the scene's units; infinite if there are none |
@@ -33,6 +34,7 @@
 //! Sources: "Technical Introduction to OpenEXR", <https://openexr.com/en/latest/TechnicalIntroduction.html> (names of
 //! layers, and `Z`); Open Image Denoise's documentation, <https://www.openimagedenoise.org/documentation.html>.
 
+use super::alpha::Alpha;
 use super::guides::{Guide, Guides};
 use super::surfaces::{SurfaceIds, VisibleSurface, VisibleSurfaces};
 use crate::film::Film;
@@ -51,8 +53,8 @@ pub const NO_PRIMITIVE: u32 = u32::MAX;
 /// Why a picture can't be written.
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
-    /// Film and guides differ in size.
-    #[error("the guides are of {guides} pixels, the film is of {film} pixels")]
+    /// Film and guides, or film and alpha, differ in size.
+    #[error("the guides or the alpha are of {guides} pixels, the film is of {film} pixels")]
     Size {
         /// Width and height of the guides.
         guides: UVec2,
@@ -65,17 +67,26 @@ pub enum PictureError {
 }
 
 /// Writes a film in OpenEXR format, compressed without loss, with the channels that the module's documentation lists;
-/// without guides, those of the film. Pixels without a sample are black.
+/// without guides and alpha, those of the film. Pixels without a sample are black.
 ///
 /// # Errors
 /// See [`PictureError`].
 pub fn write_exr(
     film: &Film,
     guides: Option<&Guides>,
+    alpha: Option<&Alpha>,
     to: impl Write + Seek,
 ) -> Result<(), PictureError> {
     let size = film.size();
     let mut channels = of_film(film);
+    if let Some(alpha) = alpha {
+        if alpha.size() != size {
+            let (guides, film) = (alpha.size(), size);
+            return Err(PictureError::Size { guides, film });
+        }
+        let values = FlatSamples::F32(alpha.pixels().to_vec());
+        channels.push(AnyChannel::new("A", values));
+    }
     if let Some(guides) = guides {
         if guides.size() != size {
             let (guides, film) = (guides.size(), size);

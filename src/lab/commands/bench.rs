@@ -3,7 +3,7 @@
 use super::args::MeshArgs;
 use super::camera::CameraArgs;
 use super::kernel::parse_kernel;
-use super::{CommandError, ThreadsArg, default_thread_count};
+use super::{ClipArgs, CommandError, ThreadsArg, default_thread_count};
 use crate::json;
 use crate::measure::scene::counted_primitives;
 use crate::measure::speed::{RAYS_AT_ONCE, median};
@@ -49,6 +49,9 @@ pub struct BenchArgs {
     /// Camera of the primary rays.
     #[command(flatten)]
     pub camera: CameraArgs,
+    /// Clip.
+    #[command(flatten)]
+    pub clip: ClipArgs,
     /// Kernel, by tier or by a name that `hitscope lab --help` lists; repeat the option for several
     /// [default: the four tiers]
     #[arg(long = "kernel", value_name = "KERNEL", value_parser = parse_kernel)]
@@ -150,10 +153,12 @@ impl BenchArgs {
     /// See [`CommandError`].
     pub fn run(&self, out: &mut dyn Write) -> Result<(), CommandError> {
         self.camera.check()?;
-        let loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        loaded.scene = self.clip.apply(loaded.scene)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         let primitives = scene.primitive_count();
+        let milliseconds = |duration: Duration| duration.as_secs_f64() * 1e3;
         let meter = Meter::default();
         let bar = ProgressBar::of(&meter);
         meter.begin("Packing");
@@ -190,8 +195,7 @@ impl BenchArgs {
         };
         drop(bar);
         if self.json {
-            let text = json::to_line(&report);
-            writeln!(out, "{text}")?;
+            writeln!(out, "{}", json::to_line(&report))?;
         } else {
             report.print(out)?;
         }
@@ -202,8 +206,9 @@ impl BenchArgs {
         if !self.kernels.is_empty() {
             return self.kernels.clone();
         }
-        let of_tier = |tier| Triangle::kernel_of(tier).into();
-        Tier::ALL.map(of_tier).to_vec()
+        Tier::ALL
+            .map(|tier| Triangle::kernel_of(tier).into())
+            .to_vec()
     }
 
     fn rows(
@@ -375,10 +380,6 @@ impl Report {
         }
         Ok(())
     }
-}
-
-fn milliseconds(duration: Duration) -> f64 {
-    duration.as_secs_f64() * 1e3
 }
 
 fn quick_build_time(mesh: &TriangleMesh) -> Duration {

@@ -1,14 +1,17 @@
 //! The camera's arguments, which several commands share.
 
-use super::CommandError;
 use super::numbers::numbers;
+use super::{CommandError, file_error};
+use crate::viewpoint::Viewpoint;
 use clap::Args;
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{CameraError, MAX_SIDE, Projection, Turntable, UpAxis};
 use hitscope_core::loading::{StartView, is_scene_file};
 use hitscope_core::mesh::ElementPlace;
+use hitscope_core::obj::shown;
 use hitscope_core::{Camera, Scene};
-use std::path::Path;
+use std::fs;
+use std::path::{Path, PathBuf};
 
 /// The camera. Positions are in the file's coordinates.
 #[derive(Args, Clone, Debug, Default)]
@@ -31,6 +34,9 @@ pub struct CameraArgs {
     /// Orthographic projection; the picture is HEIGHT units of the file high
     #[arg(long, value_name = "HEIGHT", allow_negative_numbers = true, value_parser = parse_height)]
     pub ortho: Option<f64>,
+    /// Camera of a session file that the window saved
+    #[arg(long, value_name = "SESSION.hitscope", conflicts_with_all = ["eye", "target", "up", "fov", "ortho"])]
+    pub session: Option<PathBuf>,
 }
 
 /// The size of pictures without `--size` and without a sensor.
@@ -46,8 +52,9 @@ impl CameraArgs {
     /// Checks the arguments without a mesh. Call this before loading one.
     ///
     /// # Errors
-    /// [`CommandError::Usage`].
+    /// [`CommandError::Usage`]; [`CommandError::File`] and [`CommandError::Other`] about the session.
     pub fn check(&self) -> Result<(), CommandError> {
+        self.viewpoint()?;
         let (Some(eye), Some(target)) = (self.eye, self.target) else {
             return match self.up {
                 Some(DVec3::ZERO) => Err(usage(CameraError::NoUp)),
@@ -61,14 +68,28 @@ impl CameraArgs {
         }
     }
 
+    /// The camera of the session.
+    fn viewpoint(&self) -> Result<Option<Viewpoint>, CommandError> {
+        let Some(path) = &self.session else {
+            return Ok(None);
+        };
+        let text = fs::read_to_string(path).map_err(|source| file_error(path, source))?;
+        let viewpoint = Viewpoint::of_session(&text);
+        let named = |error| CommandError::Other(format!("{}: {error}", shown(path)));
+        viewpoint.map(Some).map_err(named)
+    }
+
     /// The camera for a scene whose file asks for a view, if it does.
     ///
     /// # Errors
     /// [`CommandError::Usage`] if the arguments don't fit the mesh, [`CommandError::Camera`] if no camera can show
-    /// the mesh.
+    /// the mesh; [`CommandError::File`] and [`CommandError::Other`] about the session.
     pub fn camera(&self, scene: &Scene, view: Option<&StartView>) -> Result<Camera, CommandError> {
         let of_file = view.map(|view| view.size);
         let size = self.size.or(of_file).unwrap_or(DEFAULT_SIZE);
+        if let Some(viewpoint) = self.viewpoint()? {
+            return Ok(viewpoint.camera(scene, size));
+        }
         let Some(eye) = self.eye else {
             return Ok(match view {
                 Some(view) => self.given(scene, view, size)?,
@@ -89,6 +110,10 @@ impl CameraArgs {
 
     /// The axis that points up in the picture.
     pub fn up_axis(&self, view: Option<&StartView>) -> UpAxis {
+        // A session that can't be read has no picture.
+        if let Ok(Some(viewpoint)) = self.viewpoint() {
+            return viewpoint.up_axis();
+        }
         let of_file = view.filter(|_| self.eye.is_none()).map(|view| view.up);
         UpAxis::nearest(self.up.or(of_file).unwrap_or(DVec3::Y))
     }

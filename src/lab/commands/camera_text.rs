@@ -40,6 +40,7 @@ impl CameraArgs {
             up: Some(camera.up()),
             fov,
             ortho,
+            session: None,
         }
     }
 
@@ -73,6 +74,10 @@ impl fmt::Display for CameraArgs {
             ("up", self.up.map(vector)),
             ("fov", self.fov.map(|degrees| degrees.to_string())),
             ("ortho", self.ortho.map(|height| height.to_string())),
+            (
+                "session",
+                self.session.as_ref().map(|path| path.display().to_string()),
+            ),
         ];
         let given = arguments
             .into_iter()

@@ -84,6 +84,7 @@ impl ColourArgs {
                 range: None,
                 is_logarithmic: self.scale.map(|scale| scale == SpacingArg::Log),
             },
+            ..ViewOptions::default()
         };
         context.options.scale.range = match self.range {
             None => None,

@@ -5,7 +5,7 @@ use super::kernel::parse_kernel;
 use super::lab::machine;
 use super::picture::picture_bytes;
 use super::scene::SceneArgs;
-use super::{CommandError, DARK_BACKGROUND, LightArgs, Output, ThreadsArg, file_error};
+use super::{ClipArgs, CommandError, DARK_BACKGROUND, LightArgs, Output, ThreadsArg, file_error};
 use crate::json;
 use crate::measure::convergence::{
     Convergence, ConvergencePoint, ConvergenceSizes, LightSetting, measure,
@@ -54,6 +54,9 @@ pub struct ConvergeArgs {
     /// Camera.
     #[command(flatten)]
     pub camera: CameraArgs,
+    /// Clip.
+    #[command(flatten)]
+    pub clip: ClipArgs,
     /// Light.
     #[command(flatten)]
     pub light: LightArgs,
@@ -125,7 +128,8 @@ impl ConvergeArgs {
 
     /// The scene, the camera and the lights.
     fn context(&self) -> Result<Context, CommandError> {
-        let loaded = self.scene.load()?;
+        let mut loaded = self.scene.load()?;
+        loaded.scene = self.clip.apply(loaded.scene)?;
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         let intersector = self.scene.intersector(scene);

@@ -4,7 +4,7 @@ use super::draft::Draft;
 use super::{CommandError, file_error};
 use glam::UVec2;
 use hitscope_core::Film;
-use hitscope_core::picture::{Guides, write_exr};
+use hitscope_core::picture::{Alpha, Guides, write_exr};
 use std::fmt::Display;
 use std::fs::{self, File, OpenOptions};
 use std::io::{self, BufWriter, Write};
@@ -68,12 +68,17 @@ impl Output {
         written.map_err(|source| file_error(&self.path, source))
     }
 
-    /// Writes a film with its guides as an OpenEXR file.
+    /// Writes a film with its guides and its alpha as an OpenEXR file.
     ///
     /// # Errors
     /// See [`write`](Self::write).
-    pub fn write_exr(&self, film: &Film, guides: Option<&Guides>) -> Result<(), CommandError> {
-        self.write_seekable(|to| write_exr(film, guides, to))
+    pub fn write_exr(
+        &self,
+        film: &Film,
+        guides: Option<&Guides>,
+        alpha: Option<&Alpha>,
+    ) -> Result<(), CommandError> {
+        self.write_seekable(|to| write_exr(film, guides, alpha, to))
     }
 
     /// Writes a file whose format needs a place to seek in.

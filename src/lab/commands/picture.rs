@@ -17,7 +17,7 @@ use hitscope_core::film::BYTES_PER_PIXEL;
 use hitscope_core::integrator::{Comparison, Integrator};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::picture::Guides;
+use hitscope_core::picture::{Alpha, Guides};
 use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Film};
 use std::fmt;
@@ -76,6 +76,8 @@ pub struct Rendered {
     pub shading: Shading,
     /// What each pixel shows first, if asked for.
     pub guides: Option<Arc<Guides>>,
+    /// The part of each pixel that surfaces cover, if the background is transparent.
+    pub alpha: Option<Alpha>,
 }
 
 /// How far the colours of a picture may be off by chance.
@@ -90,6 +92,14 @@ pub struct Noise {
 }
 
 impl Rendered {
+    /// The pixels as they are displayed, in sRGB with straight alpha, row by row from the top.
+    pub fn pixels(&self) -> Vec<[u8; 4]> {
+        match &self.alpha {
+            Some(alpha) => alpha.shown(&self.film),
+            None => self.film.pixels().to_vec(),
+        }
+    }
+
     /// The noise, from the variance of each pixel's samples as if they were independent. Samples that are spread evenly
     /// have less. With one sample per pixel it isn't known, and counts as 0.
     pub fn noise(&self) -> Noise {
@@ -222,6 +232,7 @@ impl PictureArgs {
             loaded: Arc::new(loaded),
             views,
             has_guides,
+            is_transparent: false,
         })
     }
 }

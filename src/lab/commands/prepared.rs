@@ -8,7 +8,7 @@ use glam::Vec3;
 use hitscope_core::integrator::{Context, Integrator, Lighting, ViewOptions};
 use hitscope_core::kernel::exact_triangle_kernel;
 use hitscope_core::loading::LoadedScene;
-use hitscope_core::picture::{Guides, TraceError, VisibleSurfaces, guides};
+use hitscope_core::picture::{Alpha, Guides, TraceError, VisibleSurfaces, guides};
 use hitscope_core::plan::Plan;
 use hitscope_core::progress::Progress;
 use hitscope_core::render::{Job, render_with_progress};
@@ -24,6 +24,8 @@ pub struct PreparedScene<'a> {
     pub(super) intersector: Arc<dyn Intersector>,
     pub(super) views: Vec<&'static Integrator>,
     pub(super) has_guides: bool,
+    /// Whether rays that hit nothing are transparent.
+    pub(super) is_transparent: bool,
     /// `None` if no view needs light.
     pub(super) light: Option<SceneLight>,
 }
@@ -84,7 +86,8 @@ impl PreparedPicture<'_> {
         let chosen = args.against.unwrap_or_else(default);
         let second = view.second(&scene.loaded.scene, &scene.intersector, chosen);
         self.require_memory(&second)?;
-        let context = args.colours.apply(self.context(view, second), view)?;
+        let mut context = args.colours.apply(self.context(view, second), view)?;
+        context.options.has_transparent_background = scene.is_transparent;
         let (shading, threads) = (context.shading, args.threads.count());
         // The colours were checked.
         let scale = view.scale(&context).ok().flatten();
@@ -95,6 +98,13 @@ impl PreparedPicture<'_> {
         };
         let guides = if scene.has_guides {
             Some(self.guides(&job)?)
+        } else {
+            None
+        };
+        let alpha = if scene.is_transparent {
+            let (intersector, progress) = (&*job.context.intersector, Progress::default());
+            let alpha = Alpha::trace(&self.camera, intersector, &job.plan, threads, &progress);
+            Some(alpha.map_err(other)?)
         } else {
             None
         };
@@ -109,6 +119,7 @@ impl PreparedPicture<'_> {
             loaded: Arc::clone(&scene.loaded),
             shading,
             guides,
+            alpha,
         })
     }
 
@@ -133,7 +144,7 @@ impl PreparedPicture<'_> {
             camera: self.camera,
             shading: scene.args.scene.shading.into(),
             // No light comes from a background.
-            background: if scene.has_guides {
+            background: if scene.has_guides || scene.is_transparent {
                 Vec3::ZERO
             } else {
                 from_display(DARK_BACKGROUND)

@@ -98,8 +98,10 @@ pub fn measured_kernels(scene: &Scene) -> Vec<(&'static str, KernelChoice)> {
     scene.kernels().into_iter().flat_map(of_shape).collect()
 }
 
-/// Measures every kernel of the scene's shapes, seen by a camera. Passes each row to `each` as soon as it is measured. The
-/// scene is measured without its clip.
+/// Measures every kernel of the scene's shapes, seen by a camera. Passes each row to `each` as soon as it is measured.
+///
+/// Rays see the part that the scene's clip keeps: they are cut before they are timed, so that the figures are those of the
+/// kernels alone.
 ///
 /// Each row is of the whole scene: the other shapes are tested by their kernels of the same tier, or of the tier of the
 /// same precision. So a tier has the same figures for every shape, and is measured once.
@@ -113,8 +115,10 @@ pub fn measure(
     progress: &Progress,
     mut each: impl FnMut(SceneRow),
 ) -> Result<(), Cancelled> {
-    let scene = &scene.with_clip(None);
     let workloads = workloads(scene, camera, sizes.timed, 1);
+    let cut = |rays: Vec<Ray>| rays.iter().filter_map(|ray| scene.cut(ray)).collect();
+    let workloads = workloads.map(cut);
+    let scene = &scene.with_clip(None);
     let checked = checked_rays(&workloads, sizes.checked);
     let answers = answers(scene, &checked, progress)?;
     let name = counted_primitives(scene);

@@ -8,7 +8,7 @@ use crate::theme;
 use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::integrator::Context;
+use hitscope_core::integrator::{Context, Setting};
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 
@@ -19,6 +19,8 @@ pub(super) struct Canvas {
     pub rect: Rect,
     pub resolution: UVec2,
     pub pixels_per_point: f32,
+    /// The part of the picture that fills the place, from (0, 0) at the top left to (1, 1) at the bottom right.
+    pub part: Rect,
 }
 
 impl Canvas {
@@ -30,6 +32,7 @@ impl Canvas {
             rect: Rect::from_min_size((min / pixels_per_point).to_pos2(), size / pixels_per_point),
             resolution: UVec2::new(size.x as u32, size.y as u32),
             pixels_per_point,
+            part: Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)),
         }
     }
 
@@ -59,15 +62,22 @@ impl Canvas {
     /// Converts a position on the screen to pixels of a camera's picture, from its top left corner. A picture of
     /// another size is stretched over the canvas.
     pub fn pixel_of(&self, pos: Pos2, camera: &Camera) -> DVec2 {
-        let part = (pos - self.rect.min) / self.rect.size();
+        let part = self.part_at(pos);
         DVec2::new(part.x.into(), part.y.into()) * camera.resolution().as_dvec2()
+    }
+
+    /// Converts a position on the screen to a part of the picture, from (0, 0) to (1, 1).
+    pub fn part_at(&self, pos: Pos2) -> Pos2 {
+        self.part
+            .lerp_inside((pos - self.rect.min) / self.rect.size())
     }
 
     /// Converts a pixel of a camera's picture to a position on the screen.
     pub fn pos_of(&self, pixel: DVec2, camera: &Camera) -> Pos2 {
         let part = pixel / camera.resolution().as_dvec2();
+        let part = Pos2::new(part.x as f32, part.y as f32);
         self.rect
-            .lerp_inside(egui::vec2(part.x as f32, part.y as f32))
+            .lerp_inside((part - self.part.min) / self.part.size())
     }
 }
 
@@ -75,7 +85,8 @@ impl App {
     pub(super) fn canvas_ui(&mut self, ui: &mut egui::Ui) {
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let available = ui.available_rect_before_wrap();
-            let canvas = Canvas::new(available, ui.ctx().pixels_per_point());
+            let mut canvas = Canvas::new(available, ui.ctx().pixels_per_point());
+            canvas.part = self.shown.magnifier.part();
             for rest in canvas.rest_of(available) {
                 ui.painter().rect_filled(rest, 0.0, ui.visuals().panel_fill);
             }
@@ -86,6 +97,7 @@ impl App {
             self.shown.canvas_rect = canvas.rect;
             self.use_resolution(canvas.resolution);
             self.pointer(ui, &response, canvas);
+            canvas.part = self.shown.magnifier.part();
             self.rotate(ui);
             self.step_transition(ui.ctx());
             self.show_changes();
@@ -93,6 +105,8 @@ impl App {
             self.paint(ui, canvas, response.dragged());
             self.gizmo_ui(ui, canvas);
             let wanted = self.wanted(ui.ctx(), canvas.resolution);
+            let block = self.seen.settings.moving.block();
+            self.traced.tracer.set_first_step(block);
             self.traced.tracer.request(wanted);
         });
     }
@@ -113,7 +127,10 @@ impl App {
     pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
         let (settings, theme) = (&self.seen.settings, ctx.theme());
         let background = theme::background(settings.view(), settings.colours.background, theme);
-        let options = settings.colours.options(settings.view());
+        let mut options = settings.colours.options(settings.view());
+        if settings.view().needs.uses(Setting::PartColours) {
+            options.surface_colours = self.seen.parts.colours().cloned();
+        }
         Request {
             context: Context {
                 scene: Arc::clone(&self.open.document.loaded.scene),
@@ -168,13 +185,25 @@ impl App {
             Err(error) => (None, Some(error)),
         };
         let painter = ui.painter_at(canvas.rect);
-        painter.extend(self.traced.picture.shape(canvas.rect, texture.as_ref()));
+        painter.extend(
+            self.traced
+                .picture
+                .shape(canvas.rect, canvas.part, texture.as_ref()),
+        );
         if let Some(error) = error {
             self.seen.settings.overlays.turn_off_added();
             self.error(error);
         }
+        labels.extend(self.magnified_label());
+        self.pixel_numbers_ui(ui, canvas, &camera);
         labels_ui(ui, canvas, &camera, &labels);
         self.scale_legend_ui(ui, canvas);
+        self.marks_ui(&painter, canvas, &input);
+    }
+
+    /// Draws rings around the picks, and cross hairs at the marked points.
+    fn marks_ui(&self, painter: &egui::Painter, canvas: Canvas, input: &OverlayInput) {
+        let camera = &input.camera;
         let marks = [
             (self.marked_point(), theme::PICK),
             (
@@ -184,12 +213,12 @@ impl App {
         ];
         for (point, _) in &input.marks.picks {
             if let Some(pixel) = camera.pixel_of(*point) {
-                ring(&painter, canvas.pos_of(pixel, &camera));
+                ring(painter, canvas.pos_of(pixel, camera));
             }
         }
         for (point, colour) in marks {
             if let Some(pixel) = point.and_then(|point| camera.pixel_of(point)) {
-                cross_hair(&painter, canvas.pos_of(pixel, &camera), colour);
+                cross_hair(painter, canvas.pos_of(pixel, camera), colour);
             }
         }
     }
@@ -264,6 +293,18 @@ mod tests {
             let pos = canvas.pos_of(middle, &camera);
             assert!((canvas.pixel_of(pos, &camera) - middle).length() < 1e-3);
         }
+    }
+
+    #[test]
+    fn places_in_an_enlarged_picture_are_those_of_its_part() {
+        let available = Rect::from_min_size(Pos2::ZERO, egui::vec2(800.0, 600.0));
+        let mut canvas = Canvas::new(available, 1.0);
+        canvas.part = Rect::from_min_size(Pos2::new(0.5, 0.25), egui::Vec2::splat(1.0 / 64.0));
+        let camera = Turntable::framing(Aabb::EMPTY, canvas.resolution).camera(canvas.resolution);
+        let corner = canvas.pixel_of(Pos2::ZERO, &camera);
+        assert_eq!(corner, DVec2::new(400.0, 150.0));
+        let pos = canvas.pos_of(DVec2::new(401.5, 151.5), &camera);
+        assert!(pos.distance(Pos2::new(96.0, 96.0)) < 0.01, "{pos}");
     }
 
     #[test]

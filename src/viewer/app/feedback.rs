@@ -2,7 +2,14 @@
 
 use super::App;
 use crate::log::{Kind, Log};
+use crate::log_links::Target;
+use crate::session::is_session;
+use crate::tab::Tab;
 use crate::toasts::Toasts;
+use egui::OpenUrl;
+use hitscope_core::loading::is_scene_file;
+use hitscope_lab::element::Element;
+use std::path::Path;
 
 /// A message that stays until the user closes it.
 pub(super) struct Notice {
@@ -44,8 +51,35 @@ impl App {
     /// Shows a result for some seconds.
     pub(crate) fn tell(&mut self, text: impl Into<String>) {
         let text = text.into();
-        self.feedback.log.add(Kind::Result, text.as_str());
+        self.note(Kind::Result, text.as_str());
         self.feedback.toasts.add(text);
+    }
+
+    /// Adds a message to the log without showing it.
+    pub(super) fn note(&mut self, kind: Kind, text: &str) {
+        let document = self.open.document.path.as_deref();
+        self.feedback.log.add(kind, text, document);
+    }
+
+    /// Goes where a link of the log leads: to an element or a part of the scene, or opens a file. Files that the viewer can't
+    /// open are opened by the system.
+    pub(super) fn follow(&mut self, target: Target, ctx: &egui::Context) {
+        match target {
+            Target::Element(element) => self.go_to(element, ctx),
+            Target::Part(name) => {
+                self.seen.parts.filter = name;
+                self.preferences.shows_panel = true;
+                self.preferences.tab = Tab::Parts;
+            }
+            Target::File(path, line) => {
+                let is_open = self.open.document.path.as_ref() == Some(&path);
+                match line {
+                    Some(line) if is_open => self.go_to(Element::Line(line), ctx),
+                    _ if is_openable(&path) => self.load(path, ctx),
+                    _ => ctx.open_url(OpenUrl::new_tab(file_url(&path))),
+                }
+            }
+        }
     }
 
     fn notify(&mut self, kind: NoticeKind, text: String) {
@@ -53,7 +87,40 @@ impl App {
             NoticeKind::Error => Kind::Error,
             NoticeKind::Warning => Kind::Warning,
         };
-        self.feedback.log.add(logged, text.as_str());
+        self.note(logged, text.as_str());
         self.feedback.notice = Some(Notice { text, kind });
+    }
+}
+
+/// Whether the viewer opens files with this name.
+fn is_openable(path: &Path) -> bool {
+    let extension = path.extension().unwrap_or_default();
+    let is_mesh = ["obj", "gz"]
+        .iter()
+        .any(|known| extension.eq_ignore_ascii_case(known));
+    is_mesh || is_scene_file(path) || is_session(path)
+}
+
+/// The address of a file.
+fn file_url(path: &Path) -> String {
+    let path = std::path::absolute(path).unwrap_or_else(|_| path.to_owned());
+    let path = path.to_string_lossy().replace('\\', "/");
+    let is_plain = |byte: u8| byte.is_ascii_alphanumeric() || b"/-._~:".contains(&byte);
+    let encoded = path.bytes().map(|byte| match is_plain(byte) {
+        true => char::from(byte).to_string(),
+        false => format!("%{byte:02X}"),
+    });
+    let root = if path.starts_with('/') { "" } else { "/" };
+    format!("file://{root}{}", encoded.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn addresses_of_files_have_no_spaces() {
+        let url = file_url(Path::new("/a b/ü.png"));
+        assert_eq!(url, "file:///a%20b/%C3%BC.png");
     }
 }

@@ -3,8 +3,9 @@
 use super::App;
 use crate::document::Document;
 use crate::folder::{self, Direction};
+use crate::log::Kind;
 use crate::opening::Loading;
-use crate::saving::{Saving, suggested_path};
+use crate::saving::Saving;
 use crate::session::is_session;
 use crate::task::{Task, TaskPanicked};
 use crate::watch::Watch;
@@ -22,24 +23,6 @@ pub(crate) struct Neighbours {
 }
 
 impl App {
-    /// Shows the dialog that opens a file.
-    pub(crate) fn show_open_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let near = self.open.document.path.as_deref();
-        self.open.dialog.open(ctx, frame, near);
-    }
-
-    /// Shows the dialog that opens a picture of an environment.
-    pub(crate) fn show_environment_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let near = self.open.document.path.as_deref();
-        self.open.environment_dialog.open(ctx, frame, near);
-    }
-
-    /// Shows the dialog that saves a scene file.
-    pub(crate) fn show_save_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let suggested = suggested_path(&self.open.document);
-        self.open.save_dialog.open(ctx, frame, suggested.as_deref());
-    }
-
     /// Loads the open file again.
     pub(crate) fn reload(&mut self, ctx: &egui::Context) {
         if let Some(path) = self.open.document.path.clone() {
@@ -102,12 +85,6 @@ impl App {
 
     /// Shows a document that has been loaded. If the file can't be loaded, the old document stays.
     pub(super) fn poll_loading(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.open.dialog.poll() {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.environment_dialog.poll() {
-            self.set_environment(&path);
-        }
         let Some(loading) = &self.open.loading else {
             return;
         };
@@ -193,6 +170,20 @@ impl App {
             let text = format!("{}: {first}{more}", self.open.document.name());
             self.warn(&text);
         }
+        self.note_warnings();
+    }
+
+    /// Adds the document's warnings to the log, after the first one, which is shown.
+    fn note_warnings(&mut self) {
+        /// The most that are added; the Mesh tab has all.
+        const MOST: usize = 100;
+        let document = &self.open.document;
+        let (name, warnings) = (document.name(), &document.loaded.report.warnings);
+        let others = warnings.iter().skip(1).take(MOST);
+        let texts: Vec<String> = others.map(|warning| format!("{name}: {warning}")).collect();
+        for text in texts {
+            self.note(Kind::Warning, &text);
+        }
     }
 
     /// Writes what is open, with the current camera, to a scene file.
@@ -204,11 +195,8 @@ impl App {
         }
     }
 
-    /// Starts to save to the chosen path, and tells when it is done.
-    pub(super) fn poll_saving(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.open.save_dialog.poll() {
-            self.save_as(&path, ctx);
-        }
+    /// Tells when a file is saved.
+    pub(super) fn poll_saving(&mut self) {
         let Some(result) = self.open.saving.as_ref().and_then(Saving::poll) else {
             return;
         };

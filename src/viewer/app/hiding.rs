@@ -3,13 +3,18 @@
 use super::App;
 use super::pick::Pick;
 use crate::clip_choice::{ClipChoice, ClipShape};
-use crate::parts::{Grouping, Parts};
+use crate::parts::{Grouping, Parts, PartsChoice};
 
 impl App {
     /// Shows only the chosen parts, as soon as a tree over them is built. Returns whether that begins now.
     pub(super) fn use_parts(&mut self, ctx: &egui::Context) -> bool {
-        let shown = self.seen.parts.shown();
-        self.open.document.use_primitives(shown, ctx)
+        let parts = &mut self.seen.parts;
+        parts.refresh(&self.open.document.loaded.scene);
+        let begins = self.open.document.use_primitives(parts.shown(), ctx);
+        if self.open.document.shows(parts.shown()) {
+            parts.note_applied();
+        }
+        begins
     }
 
     /// Collects the tree over the chosen parts. If building it failed, everything is shown.
@@ -20,15 +25,28 @@ impl App {
         }
     }
 
+    /// Ends building a tree over the chosen parts, and shows the last ones.
+    pub(super) fn cancel_parts(&mut self) {
+        self.open.document.cancel_primitives();
+        self.seen.parts.revert();
+    }
+
     /// The parts of the scene.
     pub fn parts(&self) -> &Parts {
         &self.seen.parts
     }
 
-    /// Shows everything of a new document, which is of the same file if that was loaded again: then the clip stays. The
-    /// choice of the grouping stays.
+    /// Shows everything of a new document, unless it is of the same file, which was loaded again: then the clip stays,
+    /// and so does what was chosen about parts that have the same names. The choice of the grouping stays.
     pub(super) fn forget_shown_part(&mut self, is_same_file: bool) {
-        self.seen.parts = Parts::by(self.seen.parts.grouping);
+        let parts = std::mem::take(&mut self.seen.parts);
+        let choice = if is_same_file {
+            parts.choice().clone()
+        } else {
+            PartsChoice::default()
+        };
+        self.seen.parts = Parts::by(parts.grouping, choice);
+        self.seen.parts.filter = parts.filter;
         if !is_same_file {
             self.seen.settings.clip = ClipChoice::default();
             self.seen.settings.colours.scales.clear();
@@ -70,7 +88,6 @@ impl App {
 
     /// Shows the hidden parts and hides the others.
     pub(crate) fn invert_parts(&mut self) {
-        self.seen.parts.list(&self.open.document.loaded.scene);
         self.seen.parts.invert();
     }
 

@@ -3,7 +3,9 @@
 use super::App;
 use super::feedback::NoticeKind;
 use super::light::is_environment;
+use super::work::work_ui;
 use crate::command::{Commands, help_sheet};
+use crate::log::LogAction;
 use egui::{Align, Layout, RichText};
 
 /// A sheet over the window.
@@ -23,8 +25,8 @@ impl App {
         self.shown.sheet = (self.shown.sheet != Some(sheet)).then_some(sheet);
     }
 
-    /// Closes the topmost window or message, cancels loading, clears the marked flaw, or clears the pick: the first
-    /// of these that applies.
+    /// Closes the topmost window or message, cancels loading, shows the whole picture instead of an enlarged part, clears
+    /// the marked flaw, or clears the pick: the first of these that applies.
     pub(crate) fn dismiss(&mut self) {
         let is_box_closed = self.shown.palette.dismiss() || self.picked.inspecting.go_to.dismiss();
         if is_box_closed || self.shown.sheet.take().is_some() {
@@ -34,14 +36,10 @@ impl App {
             loading.cancel();
             return;
         }
-        let is_closed = self.open.dialog.dismiss()
-            || self.open.save_dialog.dismiss()
-            || self.open.environment_dialog.dismiss()
-            || self.open.session_dialog.dismiss()
-            || self.open.save_session_dialog.dismiss()
+        let is_closed = self.open.dialogs.dismiss()
             || self.pictures.dialog.dismiss()
-            || self.picked.inspecting.dialog.dismiss()
-            || self.feedback.notice.take().is_some();
+            || self.feedback.notice.take().is_some()
+            || self.shown.magnifier.leave();
         if !is_closed && self.picked.flaw.take().is_none() {
             self.picked.clear_pick();
             self.picked.inspecting.picks.clear_unpinned();
@@ -50,24 +48,7 @@ impl App {
 
     /// Shows what is over the picture.
     pub(super) fn windows_ui(&mut self, ctx: &egui::Context, commands: &Commands) {
-        if let Some(path) = self.open.dialog.field_ui(ctx) {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.save_dialog.field_ui(ctx) {
-            self.save_as(&path, ctx);
-        }
-        if let Some(path) = self.open.session_dialog.field_ui(ctx) {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.save_session_dialog.field_ui(ctx) {
-            self.save_session(&path, ctx);
-        }
-        if let Some(path) = self.open.environment_dialog.field_ui(ctx) {
-            self.set_environment(&path);
-        }
-        if let Some(path) = self.picked.inspecting.dialog.field_ui(ctx) {
-            self.export_picks(&path, ctx);
-        }
+        self.path_fields_ui(ctx);
         self.go_to_ui(ctx);
         let dropped = ctx.input(|input| input.raw.dropped_files.first().cloned());
         if let Some(file) = dropped {
@@ -96,7 +77,7 @@ impl App {
             });
     }
 
-    /// Shows the loading progress and the notice.
+    /// Shows the loading progress, work that takes long, and the notice.
     fn notices_ui(&mut self, ctx: &egui::Context) {
         // Without an open document, `hints_ui` shows the progress.
         let loading = self
@@ -104,10 +85,11 @@ impl App {
             .loading
             .as_ref()
             .filter(|_| !self.open.document.is_blank);
-        if loading.is_none() && self.feedback.notice.is_none() {
+        let running = self.long_work(ctx);
+        if loading.is_none() && self.feedback.notice.is_none() && running.is_empty() {
             return;
         }
-        let (mut is_closed, mut is_cancelled) = (false, false);
+        let (mut is_closed, mut is_cancelled, mut cancelled) = (false, false, None);
         egui::Area::new(egui::Id::unique("notices"))
             .fixed_pos(self.shown.canvas_rect.min + egui::vec2(10.0, 10.0))
             .show(ctx, |ui| {
@@ -119,6 +101,7 @@ impl App {
                         is_cancelled = loading.progress_ui(ui);
                     });
                 }
+                cancelled = work_ui(ui, &running);
                 if let Some(notice) = &self.feedback.notice {
                     egui::Frame::popup(ui.style()).show(ui, |ui| {
                         let visuals = ui.visuals();
@@ -142,13 +125,27 @@ impl App {
         if is_cancelled {
             self.cancel_loading();
         }
+        if let Some(work) = cancelled {
+            self.cancel_work(work);
+        }
+    }
+
+    /// Shows the log. Returns whether it is closed: by the user, or because a link is followed.
+    fn log_ui(&mut self, ctx: &egui::Context) -> bool {
+        let document = self.open.document.path.as_deref();
+        match self.feedback.log.log_ui(ctx, document) {
+            None => return false,
+            Some(LogAction::Close) => (),
+            Some(LogAction::Follow(target)) => self.follow(target, ctx),
+        }
+        true
     }
 
     fn sheet_ui(&mut self, ctx: &egui::Context) {
         let is_closed = match self.shown.sheet {
             None => return,
             Some(Sheet::Help) => help_sheet::help_ui(ctx, &self.preferences.navigation),
-            Some(Sheet::Log) => self.feedback.log.log_ui(ctx),
+            Some(Sheet::Log) => self.log_ui(ctx),
             Some(Sheet::About) => self.shown.about.about_ui(ctx),
         };
         if is_closed {

@@ -8,7 +8,9 @@
 //! | `canvas`, `labels` | the picture with its overlay and marks; texts over it |
 //! | `pointer`, `pick` | clicks on the picture; the picked pixel |
 //! | `navigation`, `gizmo` | drags, scrolling, flying and animated changes of the view; the axis gizmo |
+//! | `magnifier`, `pixel_numbers` | an enlarged part of the picture, and the numbers in its pixels |
 //! | `pictures`, `picture_dialog` | pictures of what is on the screen; pictures of any size |
+//! | `work` | background work that takes long |
 //! | `feedback` | messages: the notice, toasts and the log |
 //! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
@@ -16,6 +18,7 @@
 //! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
 //! | `files` | loading, reloading and saving |
+//! | `dialogs` | file dialogs |
 //! | `sessions` | sessions; undo and redo |
 //! | `first_view`, `view_text` | the view in which a document opens; the view as text |
 //! | `framing` | framing of the picked primitive and of its part |
@@ -27,6 +30,7 @@
 
 mod canvas;
 mod clipping;
+mod dialogs;
 mod feedback;
 mod files;
 mod first_view;
@@ -39,6 +43,7 @@ mod inspecting;
 mod labels;
 mod legend;
 mod light;
+mod magnifier;
 mod messages;
 mod navigation;
 mod parts;
@@ -46,6 +51,7 @@ mod path;
 mod pick;
 mod picture_dialog;
 mod pictures;
+mod pixel_numbers;
 mod pointer;
 mod prepare;
 mod sessions;
@@ -53,8 +59,11 @@ mod side_panel;
 mod state;
 mod status_line;
 mod view_text;
+mod work;
 
+pub(crate) use dialogs::Purpose;
 pub(crate) use messages::Sheet;
+pub(crate) use work::working_ui;
 
 use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
 use crate::document::Document;
@@ -202,10 +211,11 @@ impl eframe::App for App {
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
         }
+        self.poll_dialogs(ctx);
         self.poll_neighbours(ctx);
         self.poll_session(ctx);
         self.poll_loading(ctx);
-        self.poll_saving(ctx);
+        self.poll_saving();
         self.poll_pictures(ctx);
         self.poll_rendering();
         self.poll_environment(ctx);

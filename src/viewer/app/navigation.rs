@@ -11,7 +11,7 @@ use hitscope_core::camera::{StandardView, Turntable};
 const TRANSITION_SECS: f64 = 0.25;
 
 /// Scrolling by this zooms by a factor of e. A notch of the wheel, about 50 points, zooms by a fifth.
-const POINTS_PER_E: f32 = 220.0;
+pub(super) const POINTS_PER_E: f32 = 220.0;
 
 /// The keys of flying, and the directions to the right, up and back.
 const FLIGHT_KEYS: [(Key, DVec3); 6] = [
@@ -63,6 +63,12 @@ struct Transition {
 }
 
 impl Navigation {
+    /// Ends drags and flying.
+    pub fn rest(&mut self) {
+        self.centre = None;
+        (self.flight.is_held, self.flight.is_flying) = (false, false);
+    }
+
     /// Whether a change of the view is in progress.
     pub fn is_changing_view(&self) -> bool {
         self.transition.is_some()

@@ -9,17 +9,18 @@
 //! | [`Traced`] | what traces and draws the picture |
 
 use super::Sheet;
+use super::dialogs::Dialogs;
 use super::files::Neighbours;
 use super::framing::PartBounds;
 use super::inspecting::Inspecting;
 use super::legend::RangeFit;
 use super::light::{EnvironmentFile, SceneLights};
+use super::magnifier::Magnifier;
 use super::path::PickedPath;
 use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
 use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
-use crate::dialog::{FileDialog, Purpose};
 use crate::document::Document;
 use crate::face_lookup::FaceLookup;
 use crate::flaw_place::FlawPlace;
@@ -51,11 +52,7 @@ pub(crate) struct Open {
     pub loading: Option<Loading>,
     pub load_options: LoadOptions,
     pub watch: Option<Watch>,
-    pub dialog: FileDialog,
-    pub save_dialog: FileDialog,
-    pub environment_dialog: FileDialog,
-    pub session_dialog: FileDialog,
-    pub save_session_dialog: FileDialog,
+    pub dialogs: Dialogs,
     /// The session file that is being read.
     pub session: Option<Task<Result<Session, String>>>,
     /// The session whose file is being loaded.
@@ -76,11 +73,7 @@ impl Open {
             loading: None,
             load_options,
             watch: None,
-            dialog: FileDialog::new(Purpose::Open),
-            save_dialog: FileDialog::new(Purpose::Save),
-            environment_dialog: FileDialog::new(Purpose::Environment),
-            session_dialog: FileDialog::new(Purpose::OpenSession),
-            save_session_dialog: FileDialog::new(Purpose::SaveSession),
+            dialogs: Dialogs::default(),
             session: None,
             loading_session: None,
             neighbours: Neighbours::default(),
@@ -164,6 +157,7 @@ pub(crate) struct Shown {
     /// Whether the last complete picture shows only background.
     pub shows_nothing: bool,
     pub fit_to_screen: FitToScreen,
+    pub magnifier: Magnifier,
     /// The side panel's width in the last frame.
     pub panel_width: f32,
     /// UI thread times per frame.
@@ -180,6 +174,7 @@ impl Shown {
             resolution: UVec2::ZERO,
             shows_nothing: false,
             fit_to_screen: FitToScreen::default(),
+            magnifier: Magnifier::default(),
             panel_width: 0.0,
             ui_times: Times::default(),
         }

@@ -13,6 +13,7 @@ use hitscope_core::scene::Shading;
 use hitscope_core::{Camera, Ray, TriangleMesh};
 use hitscope_lab::inspection::{CrossingReport, Inspection, TriangleReport};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A clicked pixel and its inspection.
 pub(crate) struct Pick {
@@ -38,6 +39,11 @@ pub(crate) struct Picking {
 }
 
 impl Picking {
+    /// The time since the inspection began.
+    pub fn lasted(&self) -> Duration {
+        self.task.lasted()
+    }
+
     /// The crossing that will be marked. If the same ray is inspected again, that of the old pick.
     pub fn crossing(&self, old: Option<&Pick>) -> Option<usize> {
         let is_same = |old: &&Pick| {

@@ -6,11 +6,12 @@ use crate::offscreen;
 use crate::overlay::{OverlayInput, Overlays};
 use crate::task::{Task, TaskPanicked};
 use egui::{DragValue, ProgressBar};
-use glam::UVec2;
-use hitscope_core::Film;
+use glam::{UVec2, Vec3};
 use hitscope_core::camera::MAX_SIDE;
 use hitscope_core::obj::shown;
+use hitscope_core::picture::{Alpha, TraceError};
 use hitscope_core::plan::{MAX_SAMPLES, Plan};
+use hitscope_core::progress::Progress;
 use hitscope_core::render::{Job, RenderError, render_while};
 use hitscope_core::tone::Display;
 use hitscope_lab::commands::{Output, default_thread_count};
@@ -34,6 +35,7 @@ pub(super) struct PictureDialog {
     size: UVec2,
     samples: u32,
     has_overlay: bool,
+    is_transparent: bool,
     format: Format,
     rendering: Option<Rendering>,
 }
@@ -45,6 +47,7 @@ impl Default for PictureDialog {
             size: UVec2::new(1920, 1080),
             samples: 64,
             has_overlay: true,
+            is_transparent: false,
             format: Format::Png,
             rendering: None,
         }
@@ -64,11 +67,14 @@ struct RenderingState {
     /// The traced part in thousandths.
     thousandths: AtomicU32,
     is_cancelled: AtomicBool,
+    /// That of the transparent background.
+    alpha: Progress,
 }
 
 impl Drop for Rendering {
     fn drop(&mut self) {
         self.state.is_cancelled.store(true, Ordering::Relaxed);
+        self.state.alpha.cancel();
     }
 }
 
@@ -86,7 +92,7 @@ impl PictureDialog {
         std::mem::take(&mut self.is_open)
     }
 
-    fn dialog_ui(&mut self, ctx: &egui::Context) -> Option<Choice> {
+    fn dialog_ui(&mut self, ctx: &egui::Context, compares: bool) -> Option<Choice> {
         let mut is_open = self.is_open;
         let shown = egui::Window::new("Render a picture")
             .open(&mut is_open)
@@ -100,13 +106,14 @@ impl PictureDialog {
                     ui.add(bar.desired_width(240.0));
                     ui.button("Cancel").clicked().then_some(Choice::Cancel)
                 }
-                None => self.options_ui(ui),
+                None => self.options_ui(ui, compares),
             });
         self.is_open = is_open;
         shown.and_then(|shown| shown.inner).flatten()
     }
 
-    fn options_ui(&mut self, ui: &mut egui::Ui) -> Option<Choice> {
+    /// Shows the options; `compares` tells whether the view compares kernels.
+    fn options_ui(&mut self, ui: &mut egui::Ui, compares: bool) -> Option<Choice> {
         let mut choice = None;
         ui.horizontal(|ui| {
             for (name, side) in [("Width", &mut self.size.x), ("Height", &mut self.size.y)] {
@@ -132,6 +139,10 @@ impl PictureDialog {
         });
         let lines = egui::Checkbox::new(&mut self.has_overlay, "With the lines over it");
         ui.add_enabled(self.format == Format::Png, lines);
+        let background = egui::Checkbox::new(&mut self.is_transparent, "Transparent background");
+        ui.add_enabled(!compares, background)
+            .on_hover_text("Pixels have the part of their samples that hit something as alpha")
+            .on_disabled_hover_text("Views that compare kernels have no background");
         let render = ui.button("Render");
         let render = render.on_hover_text("Renders the picture and saves it beside the open file");
         if render.clicked() {
@@ -158,16 +169,32 @@ impl Order {
             state.thousandths.store(thousandths, Ordering::Relaxed);
             !state.is_cancelled.load(Ordering::Relaxed)
         };
-        let mut film = match render_while(self.job, default_thread_count(), advanced) {
+        let (camera, plan) = (self.job.context.camera, self.job.plan.clone());
+        let intersector = Arc::clone(&self.job.context.intersector);
+        let is_transparent = self.job.context.options.has_transparent_background;
+        let threads = default_thread_count();
+        let mut film = match render_while(self.job, threads, advanced) {
             Ok(film) => film,
             Err(RenderError::Cancelled) => return Ok(None),
             Err(error) => return Err(error.to_string()),
         };
         film.set_display(self.display);
+        let trace = || Alpha::trace(&camera, &*intersector, &plan, threads, &state.alpha);
+        let alpha = match is_transparent.then(trace).transpose() {
+            Ok(alpha) => alpha,
+            Err(TraceError::Cancelled) => return Ok(None),
+            Err(error) => return Err(error.to_string()),
+        };
         let output = Output::create(&self.path).map_err(|error| error.to_string())?;
         match self.format {
-            Format::Exr => output.write_exr(&film, None),
-            Format::Png => output.write_png(film.size(), &with_lines(&film, self.overlay)?),
+            Format::Exr => output.write_exr(&film, None, alpha.as_ref()),
+            Format::Png => {
+                let pixels = match &alpha {
+                    Some(alpha) => alpha.shown(&film),
+                    None => film.pixels().to_vec(),
+                };
+                output.write_png(film.size(), &with_lines(pixels, self.overlay)?)
+            }
         }
         .map_err(|error| error.to_string())?;
         Ok(Some(self.path))
@@ -175,10 +202,9 @@ impl Order {
 }
 
 fn with_lines(
-    film: &Film,
+    mut pixels: Vec<[u8; 4]>,
     overlay: Option<(OverlayInput, Overlays, wgpu::Device, wgpu::Queue)>,
 ) -> Result<Vec<[u8; 4]>, String> {
-    let mut pixels = film.pixels().to_vec();
     if let Some((input, overlays, device, queue)) = overlay {
         offscreen::draw_onto(&mut pixels, (&device, &queue), &input, &overlays)
             .map_err(|error| error.to_string())?;
@@ -196,7 +222,7 @@ impl App {
 
     /// Shows the dialog if it is open.
     pub(super) fn picture_dialog_ui(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        match self.pictures.dialog.dialog_ui(ctx) {
+        match self.pictures.dialog.dialog_ui(ctx, self.compares_kernels()) {
             None => (),
             Some(Choice::UseWindowSize) => self.pictures.dialog.size = self.shown.resolution,
             Some(Choice::Cancel) => self.pictures.dialog.rendering = None,
@@ -204,11 +230,21 @@ impl App {
         }
     }
 
+    /// Whether the view compares kernels.
+    fn compares_kernels(&self) -> bool {
+        self.seen.settings.second_kernel().is_some()
+    }
+
     fn render_picture(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
         let dialog = &self.pictures.dialog;
         let (size, samples, format) = (dialog.size, dialog.samples, dialog.format);
         let has_lines = dialog.has_overlay && format == Format::Png;
-        let request = self.wanted(ctx, size);
+        let is_transparent = dialog.is_transparent && !self.compares_kernels();
+        let mut request = self.wanted(ctx, size);
+        if is_transparent {
+            request.context.background = Vec3::ZERO;
+            request.context.options.has_transparent_background = true;
+        }
         let (scene, camera) = (Arc::clone(&request.context.scene), request.context.camera);
         let enlarged = size.y as f32 / self.shown.resolution.y.max(1) as f32;
         let scale = ctx.pixels_per_point() * enlarged;

@@ -39,7 +39,9 @@ pub(crate) struct PendingClick {
 impl App {
     /// Handles drags, wheel and clicks.
     pub(super) fn pointer(&mut self, ui: &egui::Ui, response: &Response, canvas: Canvas) {
-        self.navigate(ui, response, canvas);
+        if !self.magnify(ui, response, canvas) {
+            self.navigate(ui, response, canvas);
+        }
         if let Some(pos) = response.interact_pointer_pos() {
             self.click(ui, response, pos, canvas);
         }

@@ -33,6 +33,9 @@ impl App {
             self.error(broken);
             self.seen.settings.keep_view(&Settings::default().view);
         }
+        if let Some(trade) = &mut self.open.trade {
+            trade.poll();
+        }
         if let Err(broken) = self.open.document.poll_tree() {
             self.error(broken);
         }

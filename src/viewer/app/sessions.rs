@@ -4,7 +4,7 @@ use super::App;
 use crate::document::Document;
 use crate::history::Gesture;
 use crate::saving::Saving;
-use crate::session::{EXTENSION, PickedPixel, Session, Sight, Viewpoint};
+use crate::session::{PickedPixel, Session, Sight, Viewpoint};
 use crate::task::Task;
 use std::path::{Path, PathBuf};
 
@@ -14,6 +14,7 @@ impl App {
         Sight {
             camera: self.viewpoint(),
             settings: self.seen.settings.clone(),
+            parts: self.seen.parts.choice().clone(),
             picks: self.picked_pixel().into_iter().collect(),
         }
     }
@@ -48,6 +49,9 @@ impl App {
         let origin = scene.mesh().origin();
         self.seen.turntable = sight.camera.turntable(scene);
         self.seen.settings = sight.settings.clone();
+        if *self.seen.parts.choice() != sight.parts {
+            self.seen.parts.choose(sight.parts.clone());
+        }
         (self.seen.is_unframed, self.seen.is_rotating) = (false, false);
         let wanted = sight.picks.first();
         if self.picked_pixel().as_ref() != wanted {
@@ -80,6 +84,7 @@ impl App {
         // Most frames change nothing; comparing is cheaper than copying.
         let is_same = self.history.now().is_some_and(|now| {
             now.settings == self.seen.settings
+                && now.parts == *self.seen.parts.choice()
                 && now.camera == self.viewpoint()
                 && now.picks.first() == self.picked_pixel().as_ref()
         });
@@ -116,20 +121,6 @@ impl App {
         }
     }
 
-    /// Shows the dialog that opens a session.
-    pub(crate) fn show_open_session_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let near = self.open.document.path.as_deref();
-        self.open.session_dialog.open(ctx, frame, near);
-    }
-
-    /// Shows the dialog that saves a session.
-    pub(crate) fn show_save_session_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let own = self.open.document.path.as_ref();
-        let suggested = own.map(|path| path.with_extension(EXTENSION));
-        let dialog = &mut self.open.save_session_dialog;
-        dialog.open(ctx, frame, suggested.as_deref());
-    }
-
     /// Writes the session to a file.
     pub(super) fn save_session(&mut self, path: &Path, ctx: &egui::Context) {
         let session = Session::new(
@@ -152,12 +143,6 @@ impl App {
 
     /// Opens the session that was read: its file, unless that is open, and then shows it as it was seen.
     pub(super) fn poll_session(&mut self, ctx: &egui::Context) {
-        if let Some(path) = self.open.session_dialog.poll() {
-            self.load(path, ctx);
-        }
-        if let Some(path) = self.open.save_session_dialog.poll() {
-            self.save_session(&path, ctx);
-        }
         let session = match self.open.session.as_ref().map(Task::poll) {
             None | Some(Ok(None)) => return,
             Some(Ok(Some(session))) => session,

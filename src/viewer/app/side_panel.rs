@@ -73,7 +73,7 @@ impl App {
                 };
                 let trade = self.open.trade.as_ref();
                 let is_measuring =
-                    panels::quality::quality_ui(ui, &self.seen.settings, trade, commands);
+                    panels::quality::quality_ui(ui, &mut self.seen.settings, trade, commands);
                 if is_measuring {
                     self.preferences.tab = Tab::Trade;
                 }

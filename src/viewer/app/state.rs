@@ -29,6 +29,7 @@ impl App {
             && self.open.session.is_none()
             && !self.is_loading_environment()
             && self.open.document.has_last_tree()
+            && !self.seen.parts.is_stale()
             && self.open.document.shows(self.seen.parts.shown())
             && self.traced.tracer.posted().is_some_and(is_wanted)
             && self.traced.tracer.is_finished()

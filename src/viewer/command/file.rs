@@ -2,7 +2,7 @@
 
 use super::keys::{ctrl, ctrl_shift, key, shift};
 use super::{Command, Entry, Menu, Place, lacks_file, lacks_scene, none};
-use crate::app::App;
+use crate::app::{App, Purpose};
 use crate::folder::Direction;
 use egui::Key;
 use hitscope_core::obj::shown;
@@ -25,7 +25,7 @@ pub(super) const ROWS: &[Command] = &[
         place: OPEN,
         is_on: None,
         obstacle: none,
-        run: App::show_open_dialog,
+        run: |app, ctx, frame| app.show_dialog(Purpose::Open, ctx, frame),
     },
     Command {
         name: "open-environment",
@@ -35,7 +35,7 @@ pub(super) const ROWS: &[Command] = &[
         place: OPEN,
         is_on: None,
         obstacle: none,
-        run: App::show_environment_dialog,
+        run: |app, ctx, frame| app.show_dialog(Purpose::Environment, ctx, frame),
     },
     Command {
         name: "next-file",
@@ -98,7 +98,7 @@ pub(super) const ROWS: &[Command] = &[
         place: SAVE,
         is_on: None,
         obstacle: lacks_file,
-        run: App::show_save_dialog,
+        run: |app, ctx, frame| app.show_dialog(Purpose::Save, ctx, frame),
     },
     Command {
         name: "save-picture",
@@ -138,7 +138,7 @@ pub(super) const ROWS: &[Command] = &[
         place: SESSION,
         is_on: None,
         obstacle: none,
-        run: App::show_open_session_dialog,
+        run: |app, ctx, frame| app.show_dialog(Purpose::OpenSession, ctx, frame),
     },
     Command {
         name: "save-session",
@@ -148,7 +148,7 @@ pub(super) const ROWS: &[Command] = &[
         place: SESSION,
         is_on: None,
         obstacle: lacks_scene,
-        run: App::show_save_session_dialog,
+        run: |app, ctx, frame| app.show_dialog(Purpose::SaveSession, ctx, frame),
     },
     Command {
         name: "quit",

@@ -73,6 +73,7 @@ pub static COMMANDS: &[&[Command]] = &[
     clip::ROWS,
     colours::ROWS,
     part::ROWS,
+    view::MAGNIFIER_ROWS,
     camera::ROWS,
     pick::ROWS,
     clip::PICK_ROWS,

@@ -2,7 +2,7 @@
 
 use super::keys::{ctrl, key};
 use super::{Command, Entry, Menu, Place, none};
-use crate::app::App;
+use crate::app::{App, Purpose};
 use crate::picks::Snapping;
 use egui::Key;
 
@@ -72,7 +72,7 @@ pub(super) const ROWS: &[Command] = &[
         place: LIST,
         is_on: None,
         obstacle: App::lacks_picks,
-        run: App::show_picks_dialog,
+        run: |app, ctx, frame| app.show_dialog(Purpose::Picks, ctx, frame),
     },
     Command {
         name: "remove-picks",

@@ -1,7 +1,7 @@
 //! The menu *View*: the picture and the lines over it.
 
 use super::keys::key;
-use super::{Command, Commands, Entry, Menu, Place, all, none};
+use super::{Command, Commands, Entry, Menu, Place, all, lacks_scene, none};
 use crate::app::App;
 use crate::overlay::wireframe::WIREFRAME;
 use crate::overlay::{OverlaySpec, switches};
@@ -19,6 +19,42 @@ const REFINEMENT: Place = Place::new(Menu::View, 3);
 /// The sets of settings from a draft to exact.
 pub const QUALITIES: Place = Place::submenu(Menu::View, 4, "Quality");
 const KERNELS: Place = Place::submenu(Menu::View, 4, "Kernel");
+
+const MAGNIFIER: Place = Place::new(Menu::View, 8);
+
+/// The commands of the enlarged picture, after those of the parts.
+pub(super) const MAGNIFIER_ROWS: &[Command] = &[
+    Command {
+        name: "magnify",
+        keys: &[key(Key::Z)],
+        title: "Zoom into the picture",
+        tooltip: "Enlarges the pixels of the picture at the pointer; the camera stays. Ctrl+Shift+scroll does so by steps",
+        place: MAGNIFIER,
+        is_on: Some(|app| app.magnification() > 1.0),
+        obstacle: lacks_scene,
+        run: |app, ctx, _| app.toggle_magnifier(ctx),
+    },
+    Command {
+        name: "pixel-numbers",
+        keys: &[],
+        title: "Numbers in pixels",
+        tooltip: "Writes what the view shows into enlarged pixels",
+        place: MAGNIFIER,
+        is_on: Some(|app| app.shown.magnifier.numbers.is_on),
+        obstacle: none,
+        run: |app, _, _| app.shown.magnifier.numbers.is_on ^= true,
+    },
+    Command {
+        name: "exact-pixel-numbers",
+        keys: &[],
+        title: "Exact numbers in pixels",
+        tooltip: "Writes all bits of the numbers in enlarged pixels, as hexadecimal floats",
+        place: MAGNIFIER,
+        is_on: Some(|app| app.shown.magnifier.numbers.is_exact),
+        obstacle: none,
+        run: |app, _, _| app.shown.magnifier.numbers.is_exact ^= true,
+    },
+];
 
 pub(super) const ROWS: &[Command] = &[
     Command {

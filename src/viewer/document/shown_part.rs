@@ -4,9 +4,10 @@ use super::{Document, Packing};
 use crate::task::{Pending, Task, TaskPanicked};
 use hitscope_core::clip::ClipError;
 use hitscope_core::kernel::KernelChoice;
-use hitscope_core::progress::Progress;
+use hitscope_core::progress::{Cancelled, Progress};
 use hitscope_core::{Clip, Intersector, Scene};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// A flag for each primitive that tells whether it is shown; `None` if all are. Equal only to itself.
 #[derive(Clone, Debug, Default)]
@@ -62,7 +63,9 @@ pub(super) struct Showing {
     /// What is to be shown.
     wanted: ShownPrimitives,
     /// The scene, packed for a kernel.
-    next: Pending<(Scene, KernelChoice, Packed)>,
+    next: Pending<Result<(Scene, KernelChoice, Packed), Cancelled>>,
+    /// Ends building.
+    progress: Progress,
 }
 
 impl Default for Showing {
@@ -70,6 +73,7 @@ impl Default for Showing {
         Self {
             wanted: ShownPrimitives::default(),
             next: Pending::Unasked,
+            progress: Progress::default(),
         }
     }
 }
@@ -111,11 +115,14 @@ impl Document {
         }
         let (scene, kernel) = (Arc::clone(&self.loaded.scene), self.packing.wanted);
         let flags = shown.0.clone();
+        self.showing.progress.cancel();
+        self.showing.progress = Progress::default();
+        let progress = self.showing.progress.clone();
         let build = move || {
-            let scene = scene.showing(flags, &Progress::default());
-            let scene = scene.expect("nobody cancels");
+            let scene = scene.showing(flags, &progress)?;
+            progress.check()?;
             let packed = Packed::of(&scene, kernel);
-            (scene, kernel, packed)
+            Ok((scene, kernel, packed))
         };
         self.showing.next = Pending::Running(Task::spawn("parts", ctx, build));
         true
@@ -126,7 +133,7 @@ impl Document {
     /// # Errors
     /// [`TaskPanicked`], once, if building failed; the last primitives stay.
     pub fn poll_primitives(&mut self, ctx: &egui::Context) -> Result<(), TaskPanicked> {
-        let Some((scene, kernel, packed)) = self.showing.next.take()? else {
+        let Some(Ok((scene, kernel, packed))) = self.showing.next.take()? else {
             return Ok(());
         };
         // Clip and crease may have changed meanwhile.
@@ -143,6 +150,18 @@ impl Document {
         self.progress = Progress::default();
         self.improve(ctx);
         Ok(())
+    }
+
+    /// How long a tree over the wanted primitives has been being built; `None` if none is.
+    pub fn primitives_lasted(&self) -> Option<Duration> {
+        self.showing.next.lasted()
+    }
+
+    /// Ends building a tree over the wanted primitives; those that are shown stay.
+    pub fn cancel_primitives(&mut self) {
+        self.showing.progress.cancel();
+        self.showing.next = Pending::Unasked;
+        self.showing.wanted = ShownPrimitives::of(&self.loaded.scene);
     }
 
     /// Whether these primitives are shown, and no others.

@@ -29,6 +29,8 @@ pub struct Picture {
     layout: wgpu::BindGroupLayout,
     /// A placeholder texture if there is no overlay.
     nothing: wgpu::Texture,
+    /// The part that is drawn: `part` in picture.wgsl.
+    part: wgpu::Buffer,
     picture: Option<wgpu::Texture>,
     /// The bind group of the picture and this overlay.
     bound: Option<(wgpu::Texture, wgpu::BindGroup)>,
@@ -44,6 +46,12 @@ impl Picture {
                 .map(|layers| pipeline(&device, &layout, render_state.target_format, layers)),
             // One transparent pixel: wgpu clears textures that are never written.
             nothing: texture(&device, "nothing", UVec2::ONE, FORMAT, USAGE),
+            part: device.create_buffer(&wgpu::BufferDescriptor {
+                label: Some("part of the picture"),
+                size: size_of::<[f32; 4]>() as u64,
+                usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+                mapped_at_creation: false,
+            }),
             queue: render_state.queue.clone(),
             layout,
             picture: None,
@@ -92,9 +100,18 @@ impl Picture {
         self.picture = Some(texture);
     }
 
-    /// A shape that draws the picture and an overlay of its size into `rect`; `None` before the first upload.
-    pub fn shape(&mut self, rect: Rect, overlay: Option<&wgpu::Texture>) -> Option<Shape> {
+    /// A shape that draws a part of the picture and of an overlay of its size into `rect`; `None` before the first upload.
+    /// The part is in the unit square, and the same for all shapes of a frame.
+    pub fn shape(
+        &mut self,
+        rect: Rect,
+        part: Rect,
+        overlay: Option<&wgpu::Texture>,
+    ) -> Option<Shape> {
         let picture = self.picture.as_ref()?;
+        let values = [part.min.x, part.min.y, part.width(), part.height()];
+        self.queue
+            .write_buffer(&self.part, 0, bytemuck::bytes_of(&values));
         let pipeline = &self.pipelines[usize::from(overlay.is_some())];
         let overlay = overlay.unwrap_or(&self.nothing);
         if self
@@ -102,7 +119,7 @@ impl Picture {
             .as_ref()
             .is_none_or(|(bound, _)| bound != overlay)
         {
-            let group = bind(&self.device, &self.layout, [picture, overlay]);
+            let group = bind(&self.device, &self.layout, [picture, overlay], &self.part);
             self.bound = Some((overlay.clone(), group));
         }
         let (_, group) = self.bound.as_ref()?;
@@ -151,9 +168,19 @@ fn layout(device: &wgpu::Device) -> wgpu::BindGroupLayout {
         },
         count: None,
     };
+    let part = wgpu::BindGroupLayoutEntry {
+        binding: 2,
+        visibility: wgpu::ShaderStages::FRAGMENT,
+        ty: wgpu::BindingType::Buffer {
+            ty: wgpu::BufferBindingType::Uniform,
+            has_dynamic_offset: false,
+            min_binding_size: None,
+        },
+        count: None,
+    };
     device.create_bind_group_layout(&wgpu::BindGroupLayoutDescriptor {
         label: Some("picture"),
-        entries: &[entry(0), entry(1)],
+        entries: &[entry(0), entry(1), part],
     })
 }
 
@@ -161,6 +188,7 @@ fn bind(
     device: &wgpu::Device,
     layout: &wgpu::BindGroupLayout,
     textures: [&wgpu::Texture; 2],
+    part: &wgpu::Buffer,
 ) -> wgpu::BindGroup {
     let views =
         textures.map(|texture| texture.create_view(&wgpu::TextureViewDescriptor::default()));
@@ -168,10 +196,14 @@ fn bind(
         binding: binding as u32,
         resource: wgpu::BindingResource::TextureView(&views[binding]),
     };
+    let part = wgpu::BindGroupEntry {
+        binding: 2,
+        resource: part.as_entire_binding(),
+    };
     device.create_bind_group(&wgpu::BindGroupDescriptor {
         label: Some("picture"),
         layout,
-        entries: &[entry(0), entry(1)],
+        entries: &[entry(0), entry(1), part],
     })
 }
 

@@ -2,6 +2,7 @@
 
 mod clip;
 mod colours;
+mod eye;
 mod flaws;
 pub mod inspect;
 mod labels;

@@ -1,12 +1,16 @@
-//! The Parts tab: groups, materials or shapes of the scene, each with a check box that shows and hides it.
+//! The Parts tab: groups, materials or shapes of the scene, each with an eye that shows and hides it, and
+//! with a colour.
 
+use super::eye::eye_ui;
 use crate::command::Commands;
-use crate::parts::{Grouping, PartList, Parts};
-use egui::{Align, Checkbox, Color32, Layout, RichText, ScrollArea, Sense, TextEdit, vec2};
+use crate::parts::{Grouping, Part, PartList, Parts};
+use egui::{Align, Layout, RichText, ScrollArea, TextEdit};
 use hitscope_core::counts::counted;
 
 /// Height of the lowest list in points.
 const MIN_HEIGHT: f32 = 120.0;
+/// sRGB of the colour button of a part that isn't a material and has no colour of its own.
+const VARIOUS: [u8; 3] = [160; 3];
 
 /// Shows the tab; `picked` is the part of the picked primitive.
 pub fn parts_ui(
@@ -33,7 +37,13 @@ pub fn parts_ui(
     ui.add(TextEdit::singleline(&mut parts.filter).hint_text("Search"))
         .accessible_name("Search for a part");
     let filter = parts.filter.to_lowercase();
-    let is_listed = |number: &usize| list.parts[*number].name.to_lowercase().contains(&filter);
+    let is_listed = |number: &usize| {
+        list.parts[*number]
+            .name
+            .name
+            .to_lowercase()
+            .contains(&filter)
+    };
     let listed: Vec<usize> = (0..list.parts.len()).filter(is_listed).collect();
     ui.label(RichText::new(counted(listed.len(), "part")).weak());
     // With a margin, so that the tab itself doesn't scroll.
@@ -52,38 +62,56 @@ pub fn parts_ui(
 
 fn row_ui(ui: &mut egui::Ui, parts: &mut Parts, list: &PartList, number: usize, is_picked: bool) {
     let part = &list.parts[number];
-    ui.horizontal(|ui| {
-        let state = parts.is_shown(number);
-        let mut is_shown = state.unwrap_or_default();
-        let name = RichText::new(&part.name);
-        let name = if is_picked { name.strong() } else { name };
-        let check_box = Checkbox::new(&mut is_shown, name).indeterminate(state.is_none());
-        let response = ui
-            .add(check_box)
-            .on_hover_text("Shows or hides the part; with Alt, shows it alone");
-        if response.clicked() && ui.input(|input| input.modifiers.alt) {
-            parts.show_only(number);
-        } else if response.changed() {
-            parts.show(number, is_shown);
-        }
-        if let Some([r, g, b]) = part.colour {
-            let (rect, _) = ui.allocate_exact_size(vec2(12.0, 12.0), Sense::hover());
-            let stroke = ui.visuals().widgets.noninteractive.bg_stroke;
-            let colour = Color32::from_rgb(r, g, b);
-            ui.painter()
-                .rect(rect, 2.0, colour, stroke, egui::StrokeKind::Inside);
-        }
-        if is_picked {
-            ui.label(RichText::new("picked").weak());
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let only = ui.small_button("Only");
-            let only = only.accessible_name(format!("Show only {}", part.name));
-            if only.on_hover_text("Shows the part alone").clicked() {
+    let name = part.name.name.as_str();
+    ui.push_id(number, |ui| {
+        ui.horizontal(|ui| {
+            let state = parts.is_shown(number);
+            let eye = eye_ui(ui, state, &format!("Show {name}"))
+                .on_hover_text("Shows or hides the part; with Alt, shows it alone");
+            if eye.clicked() && ui.input(|input| input.modifiers.alt) {
                 parts.show_only(number);
+            } else if eye.clicked() {
+                parts.show(number, state != Some(true));
             }
-            ui.label(RichText::new(part.count.to_string()).weak())
-                .on_hover_text("The number of its triangles or other shapes");
+            colour_ui(ui, parts, part, number);
+            let text = RichText::new(name);
+            ui.label(if is_picked { text.strong() } else { text });
+            if is_picked {
+                ui.label(RichText::new("picked").weak());
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let only = ui.small_button("Only");
+                let only = only.accessible_name(format!("Show only {name}"));
+                if only.on_hover_text("Shows the part alone").clicked() {
+                    parts.show_only(number);
+                }
+                ui.label(RichText::new(part.count.to_string()).weak())
+                    .on_hover_text("The number of its triangles or other shapes");
+            });
         });
     });
+}
+
+/// The colour of a part: its own one or that of its material.
+fn colour_ui(ui: &mut egui::Ui, parts: &mut Parts, part: &Part, number: usize) {
+    let name = part.name.name.as_str();
+    let own = parts.own_colour(number);
+    let shown = own.or(part.colour).unwrap_or(VARIOUS);
+    let mut srgb = shown;
+    let button = ui
+        .color_edit_button_srgb(&mut srgb)
+        .accessible_name(format!("Colour of {name}"))
+        .on_hover_text("Gives the part its own colour in the view Shaded");
+    // The picker also reports changes by rounding.
+    if button.changed() && srgb != shown {
+        parts.colour(number, Some(srgb));
+    }
+    if own.is_some() {
+        let reset = ui.small_button("Reset");
+        let reset = reset.accessible_name(format!("Remove the own colour of {name}"));
+        let reset = reset.on_hover_text("Removes the part's own colour");
+        if reset.clicked() {
+            parts.colour(number, None);
+        }
+    }
 }

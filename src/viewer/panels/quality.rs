@@ -1,30 +1,36 @@
 //! The quality in the Display tab: the sets of settings, with their speed and accuracy in this scene.
 
+use super::row_ui;
 use crate::command::{Commands, QUALITIES};
 use crate::numbers::significant;
-use crate::quality::Quality;
+use crate::quality::{MovingResolution, Quality};
 use crate::settings::Settings;
 use crate::trade::Trade;
-use egui::RichText;
+use egui::{CollapsingHeader, ComboBox, RichText};
 
 /// Shows the sets. Returns whether the user wants the kernels to be measured.
 pub fn quality_ui(
     ui: &mut egui::Ui,
-    settings: &Settings,
+    settings: &mut Settings,
     trade: Option<&Trade>,
     commands: &Commands,
 ) -> bool {
     let chosen = Quality::of(settings);
+    let mut opens_details = false;
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("Quality").strong());
         for quality in commands.at(QUALITIES) {
             commands.choice_ui(ui, quality);
         }
-        if chosen.is_none() {
-            ui.label("Custom")
-                .on_hover_text("The settings match none of these");
-        }
+        opens_details = ui
+            .selectable_label(chosen.is_none(), "Custom")
+            .on_hover_text("Opens the details. On if the settings match none of the levels")
+            .clicked();
     });
+    CollapsingHeader::new("Details")
+        .id_salt("quality")
+        .open(opens_details.then_some(true))
+        .show(ui, |ui| details_ui(ui, settings));
     match trade.and_then(|trade| figures(settings, trade)) {
         Some(figures) => {
             ui.label(figures);
@@ -35,6 +41,33 @@ pub fn quality_ui(
             .on_hover_text("Measures all kernels in this scene and shows them in the Trade tab")
             .clicked(),
     }
+}
+
+/// Shows what a level sets.
+fn details_ui(ui: &mut egui::Ui, settings: &mut Settings) {
+    let depth = settings.depth_limit();
+    let depth = depth.map_or("any number".to_owned(), |limit| format!("{limit} at most"));
+    for (name, value) in [
+        ("Kernel", settings.kernel().info.short_name().to_owned()),
+        ("Samples", settings.samples.to_string()),
+        ("Rays leave by", settings.spawn().title.to_owned()),
+        ("Surfaces", depth),
+    ] {
+        row_ui(ui, name, value);
+    }
+    ui.horizontal(|ui| {
+        let label = ui.label("Resolution while moving");
+        ComboBox::from_id_salt("moving")
+            .selected_text(settings.moving.title())
+            .show_ui(ui, |ui| {
+                for resolution in MovingResolution::ALL {
+                    ui.selectable_value(&mut settings.moving, resolution, resolution.title())
+                        .on_hover_text(resolution.words());
+                }
+            })
+            .response
+            .labelled_by(label.id);
+    });
 }
 
 /// The measured speed and accuracy of the kernel.

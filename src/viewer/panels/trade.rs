@@ -3,6 +3,7 @@
 use super::labels;
 use super::table::{aligned, dash, widths};
 use super::view::heading;
+use crate::app::working_ui;
 use crate::settings::Settings;
 use crate::theme::kernel_colour;
 use crate::trade::{Axis, Trade, TradeState};
@@ -34,12 +35,18 @@ pub fn trade_ui(ui: &mut egui::Ui, trade: &mut Trade, settings: &mut Settings) -
     let mut is_wanted_again = false;
     ui.horizontal(|ui| match trade.state() {
         TradeState::Measuring => {
-            ui.spinner();
-            ui.label(format!(
+            let title = format!(
                 "Measuring kernel {} of {}",
                 (rows.len() + 1).min(trade.kernel_count()),
                 trade.kernel_count()
-            ));
+            );
+            if working_ui(ui, &title, trade.lasted()) {
+                trade.cancel();
+            }
+        }
+        TradeState::Cancelled => {
+            ui.label("Cancelled.");
+            is_wanted_again = ui.button("Measure again").clicked();
         }
         TradeState::Done => {
             is_wanted_again = ui

@@ -46,8 +46,19 @@ impl Tracer {
         self.first_pass = wanted.clamp(*FIRST_PASS.start(), *FIRST_PASS.end());
     }
 
-    /// The smallest block size with which the first pass is fast enough.
+    /// Sets the block size of the first pass of views that need no lights, and of previews; `None` adapts it to the time.
+    pub fn set_first_step(&mut self, step: Option<u32>) {
+        self.chosen_step = step;
+    }
+
+    /// The block size of the first pass.
     pub(super) fn first_step(&self, size: UVec2, is_lit: bool) -> u32 {
+        let chosen = self.chosen_step.filter(|_| !is_lit);
+        chosen.unwrap_or_else(|| self.affordable_step(size, is_lit))
+    }
+
+    /// The smallest block size with which the first pass is fast enough.
+    pub(super) fn affordable_step(&self, size: UVec2, is_lit: bool) -> u32 {
         let speed = self.speeds[usize::from(is_lit)].rays_per_s();
         let affordable =
             self.of_all_threads(speed.unwrap_or(ASSUMED_SPEED)) * self.first_pass.as_secs_f64();

@@ -107,6 +107,11 @@ fn the_first_pass_has_the_smallest_blocks_that_fit_its_time() {
             "{rays_per_first_pass} of {pixels}"
         );
     }
+    tracer.set_first_step(Some(4));
+    assert_eq!(tracer.first_step(SIZE, false), 4, "as chosen");
+    assert_eq!(tracer.first_step(SIZE, true), 16, "only of previews");
+    tracer.set_first_step(None);
+    assert_eq!(tracer.first_step(SIZE, false), 16);
 }
 
 #[test]

@@ -26,7 +26,7 @@ use super::{CommandError, Output, PictureArgs, PreparedScene, Rendered};
 use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use format::parse_exr;
-use hitscope_core::integrator::{Integrator, Setting};
+use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::obj::shown;
 use outputs::{OutputNames, Outputs};
 use shots::Shots;
@@ -41,12 +41,14 @@ Examples:
   hitscope render bunny.obj -o bunny.png --overlay grid --overlay axes
   hitscope render bunny.obj -o bunny.png --eye 3,2,4 --target 0,1,0
   hitscope render bunny.obj -o bunny.png --look-at triangle:123
+  hitscope render bunny.obj -o bunny.png --session bunny.hitscope
   hitscope render bunny.obj -o bunny.png --view path --samples 256 --noise
   hitscope render bunny.obj -o bunny.exr --view path --environment built-in
   hitscope render bunny.obj -o - --view cost | display
   hitscope render bunny.obj -o out-{view}.png --view shaded --view depth
   hitscope render bunny.obj -o error.png --view error-t --range 1,1000 --legend
   hitscope render bunny.obj -o half.png --clip-plane 1,0,0,0.5
+  hitscope render bunny.obj -o cut-out.png --transparent --samples 16
   hitscope render bunny.obj -o out.png --depth-map depth.exr --ids ids.exr
   hitscope render bunny.obj -o frame-{index}.png --turntable 36
   hitscope render bunny.obj -o bunny-{name}.png --cameras cameras.json
@@ -99,6 +101,10 @@ pub struct RenderArgs {
     /// Draw normals: as --overlay face-normals with flat shading, else as --overlay vertex-normals
     #[arg(long)]
     pub normals: bool,
+    /// Make the background transparent: alpha is the part of a pixel's samples that hit something (PNG: straight alpha;
+    /// OpenEXR: the channel A, and colours premultiplied by it)
+    #[arg(long)]
+    pub transparent: bool,
     /// Print the standard error of the pixels' luminance, on average and at most
     #[arg(long)]
     pub noise: bool,
@@ -116,12 +122,13 @@ pub struct RenderArgs {
 }
 
 /// Options that a file of cameras replaces.
-const CAMERA_OPTIONS: [&str; 7] = [
+const CAMERA_OPTIONS: [&str; 8] = [
     "eye",
     "target",
     "up",
     "fov",
     "ortho",
+    "session",
     "look_at",
     "turntable",
 ];
@@ -222,6 +229,7 @@ impl RenderArgs {
         let shots = Shots::new(self)?;
         if let Some(views) = self.picture.view.known(&self.picture.scene.file) {
             self.check_legend(&views)?;
+            self.check_transparency(&views)?;
         }
         self.picture.check()?;
         Ok(shots)
@@ -231,12 +239,25 @@ impl RenderArgs {
         refuse_without_effect(views, &[("--legend", self.legend, Setting::Scale)])
     }
 
+    fn check_transparency(&self, views: &[&Integrator]) -> Result<(), CommandError> {
+        let compares = |view: &&&Integrator| view.needs.second != Comparison::Nothing;
+        match views.iter().find(compares) {
+            Some(view) if self.transparent => Err(CommandError::Usage(format!(
+                "--transparent can't be used with the view “{}”: where its ray hits nothing, another kernel's may hit",
+                view.name
+            ))),
+            _ => Ok(()),
+        }
+    }
+
     /// Loads the scene.
     fn prepare(&self) -> Result<PreparedScene<'_>, CommandError> {
         let loaded = self.picture.scene.load()?;
         let has_guides = self.format()? == PictureFormat::Exr;
-        let scene = self.picture.prepare(loaded, has_guides)?;
+        let mut scene = self.picture.prepare(loaded, has_guides)?;
+        scene.is_transparent = self.transparent;
         self.check_legend(scene.views())?;
+        self.check_transparency(scene.views())?;
         Ok(scene)
     }
 
@@ -248,9 +269,9 @@ impl RenderArgs {
     ) -> Result<(), CommandError> {
         let film = &rendered.film;
         if self.format()? == PictureFormat::Exr {
-            return output.write_exr(film, rendered.guides.as_deref());
+            return output.write_exr(film, rendered.guides.as_deref(), rendered.alpha.as_ref());
         }
-        let mut pixels = film.pixels().to_vec();
+        let mut pixels = rendered.pixels();
         if let Some(pen) = pen {
             pen(&mut pixels, rendered)?;
         }

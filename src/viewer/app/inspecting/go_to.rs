@@ -28,9 +28,13 @@ impl App {
 
     /// Shows the box if it is open, and starts to look up the element.
     pub(in crate::app) fn go_to_ui(&mut self, ctx: &egui::Context) {
-        let Some(element) = self.picked.inspecting.go_to.go_to_ui(ctx) else {
-            return;
-        };
+        if let Some(element) = self.picked.inspecting.go_to.go_to_ui(ctx) {
+            self.go_to(element, ctx);
+        }
+    }
+
+    /// Starts to look up an element, to which the camera then goes.
+    pub(in crate::app) fn go_to(&mut self, element: Element, ctx: &egui::Context) {
         let (loaded, path) = (
             self.open.document.loaded.clone(),
             self.open.document.path.clone(),

@@ -13,30 +13,16 @@ mod pick_list;
 mod picks;
 
 use super::App;
-use crate::dialog::{FileDialog, Purpose};
 use crate::go_to::GoToBox;
 
 /// The state of inspecting beyond one pixel.
+#[derive(Default)]
 pub(crate) struct Inspecting {
     pub picks: pick_list::Picks,
-    /// The dialog that exports the picks.
-    pub dialog: FileDialog,
     pub hover: hover::Hover,
     /// The box in which the user names an element.
     pub go_to: GoToBox,
     journey: Option<go_to::Journey>,
-}
-
-impl Default for Inspecting {
-    fn default() -> Self {
-        Self {
-            picks: pick_list::Picks::default(),
-            dialog: FileDialog::new(Purpose::Picks),
-            hover: hover::Hover::default(),
-            go_to: GoToBox::default(),
-            journey: None,
-        }
-    }
 }
 
 impl App {

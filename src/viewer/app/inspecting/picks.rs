@@ -35,9 +35,6 @@ impl App {
         if let Some(broken) = broken.into_iter().flatten().next() {
             self.error(broken);
         }
-        if let Some(path) = self.picked.inspecting.dialog.poll() {
-            self.export_picks(&path, ctx);
-        }
         self.poll_export();
     }
 
@@ -285,16 +282,6 @@ impl App {
     /// Shows the picked ray's walk, or hides it.
     pub(crate) fn toggle_walk(&mut self) {
         self.picked.inspecting.picks.shows_walk ^= true;
-    }
-
-    /// Shows the dialog that exports the picks.
-    pub(crate) fn show_picks_dialog(&mut self, ctx: &egui::Context, frame: &eframe::Frame) {
-        let path = self.open.document.path.as_deref();
-        let suggested = path.map(|path| path.with_extension("picks.json"));
-        self.picked
-            .inspecting
-            .dialog
-            .open(ctx, frame, suggested.as_deref());
     }
 
     /// Writes the picks to a file: a table if its name ends in `.csv`, else JSON.

@@ -1,10 +1,13 @@
-//! The window's camera as plain data.
+//! The window's camera as plain data: that of session files, of steps of undo, and of `--session` on the command line.
 
 use glam::{DVec3, UVec2};
-use hitscope_core::Scene;
 use hitscope_core::camera::{Turntable, UpAxis};
+use hitscope_core::{Camera, Scene};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
+
+/// The version of session files that is written. Files of later versions are refused.
+pub const SESSION_FORMAT: u32 = 1;
 
 /// The window's camera in the file's coordinates.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -49,16 +52,15 @@ impl Viewpoint {
         turntable.roll_radians = self.roll_radians;
         turntable.fov_y_radians = self.fov_y_radians;
         turntable.is_orthographic = self.is_orthographic;
-        turntable.up_axis = self.up_axis();
+        turntable.up_axis = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
         turntable
     }
 
-    /// The axis of the file that points up.
-    pub fn up_axis(&self) -> UpAxis {
-        if self.is_z_up { UpAxis::Z } else { UpAxis::Y }
-    }
-
-    pub(super) fn check(&self) -> Result<(), &'static str> {
+    /// Refuses numbers that no window has set.
+    ///
+    /// # Errors
+    /// What is wrong.
+    pub fn check(&self) -> Result<(), &'static str> {
         /// As on the command line, in radians.
         const LEAST_FOV: f64 = 1e-8;
         let limit = f64::from(f32::MAX);
@@ -74,4 +76,56 @@ impl Viewpoint {
         }
         Ok(())
     }
+
+    /// The axis that points up.
+    pub fn up_axis(&self) -> UpAxis {
+        if self.is_z_up { UpAxis::Z } else { UpAxis::Y }
+    }
+
+    /// The camera for a picture of this size in a scene.
+    pub fn camera(&self, scene: &Scene, size: UVec2) -> Camera {
+        self.turntable(scene).camera(size)
+    }
+
+    /// Reads the camera of a session file.
+    ///
+    /// # Errors
+    /// What is wrong with the text.
+    pub fn of_session(text: &str) -> Result<Self, String> {
+        #[derive(Deserialize)]
+        struct Session {
+            sight: Sight,
+        }
+        #[derive(Deserialize)]
+        struct Sight {
+            camera: Viewpoint,
+        }
+        check_format(text)?;
+        let session: Session = serde_json::from_str(text).map_err(not_a_session)?;
+        session.sight.camera.check()?;
+        Ok(session.sight.camera)
+    }
+}
+
+/// Refuses a text that isn't a session of this version or an earlier one.
+///
+/// # Errors
+/// What is wrong with the text.
+pub fn check_format(text: &str) -> Result<(), String> {
+    /// The version alone: later versions may differ in all else.
+    #[derive(Deserialize)]
+    struct Version {
+        hitscope: u32,
+    }
+    let Version { hitscope } = serde_json::from_str(text).map_err(not_a_session)?;
+    if hitscope > SESSION_FORMAT {
+        return Err(format!(
+            "written by a later version of hitscope: format {hitscope}, not {SESSION_FORMAT}"
+        ));
+    }
+    Ok(())
+}
+
+fn not_a_session(error: serde_json::Error) -> String {
+    format!("not a session file: {error}")
 }

@@ -1,0 +1,183 @@
+//! Background work that takes long: it is shown, and the user can cancel it.
+//!
+//! Loading, and pictures of any size, have bars of their own.
+
+use super::App;
+use crate::settings::Settings;
+use crate::tab::Tab;
+use crate::trade::TradeState;
+use std::time::Duration;
+
+/// Work that takes longer is shown.
+const SHOWN_AFTER: Duration = Duration::from_millis(200);
+/// Work that takes longer can be cancelled.
+const CANCELLED_AFTER: Duration = Duration::from_secs(1);
+/// Time between two frames that show it.
+const FRAME: Duration = Duration::from_millis(100);
+
+/// A kind of work.
+pub(super) struct Work {
+    title: &'static str,
+    /// How long it has been running; `None` if it isn't.
+    lasted: fn(&App) -> Option<Duration>,
+    cancel: fn(&mut App),
+}
+
+/// All kinds.
+static WORK: &[Work] = &[
+    Work {
+        title: "Packing the scene for the kernel",
+        lasted: |app| app.open.document.packing_lasted(),
+        cancel: |app| {
+            app.open.document.cancel_packing();
+            let packed = app.open.document.kernel().info.name;
+            app.seen.settings.keep_kernel(packed);
+        },
+    },
+    Work {
+        title: "Packing the scene for the second kernel",
+        lasted: |app| app.open.document.second_packing_lasted(),
+        cancel: |app| {
+            let default = Settings::default().view;
+            app.seen.settings.keep_view(&default);
+        },
+    },
+    Work {
+        title: "Building the tree of the shown parts",
+        lasted: |app| app.open.document.primitives_lasted(),
+        cancel: App::cancel_parts,
+    },
+    Work {
+        title: "Inspecting the pixel",
+        lasted: |app| Some(app.picked.picking.as_ref()?.lasted()),
+        cancel: |app| app.picked.clear_pick(),
+    },
+    Work {
+        title: "Measuring at the pick",
+        lasted: |app| app.picked.inspecting.picks.detail_task.lasted(),
+        cancel: |app| {
+            let picks = &mut app.picked.inspecting.picks;
+            (picks.measures_thickness, picks.shows_walk) = (false, false);
+            picks.detail_task.cancel();
+        },
+    },
+    Work {
+        title: "Measuring speed and accuracy",
+        lasted: |app| {
+            // The tab shows it, too.
+            let is_elsewhere = !app.preferences.shows_panel || app.preferences.tab != Tab::Trade;
+            let trade = app.open.trade.as_ref().filter(|_| is_elsewhere)?;
+            (trade.state() == TradeState::Measuring).then(|| trade.lasted())
+        },
+        cancel: |app| {
+            if let Some(trade) = &app.open.trade {
+                trade.cancel();
+            }
+        },
+    },
+];
+
+/// Shows a spinner and, after a while, a button that cancels. Returns whether it was clicked.
+pub(crate) fn working_ui(ui: &mut egui::Ui, title: &str, lasted: Duration) -> bool {
+    ui.ctx().request_repaint_after(FRAME);
+    let row = ui.horizontal(|ui| {
+        ui.spinner();
+        ui.label(format!("{title}, {:.1} s", lasted.as_secs_f64()));
+        let is_long = lasted >= CANCELLED_AFTER;
+        is_long && ui.button("Cancel").clicked()
+    });
+    row.inner
+}
+
+impl App {
+    /// The work that has lasted so long that it is shown.
+    pub(super) fn long_work(&self, ctx: &egui::Context) -> Vec<(&'static Work, Duration)> {
+        let running = WORK
+            .iter()
+            .filter_map(|work| Some((work, (work.lasted)(self)?)));
+        let running: Vec<_> = running.collect();
+        if !running.is_empty() {
+            ctx.request_repaint_after(FRAME);
+        }
+        let is_long = |(_, lasted): &(&Work, Duration)| *lasted >= SHOWN_AFTER;
+        running.into_iter().filter(is_long).collect()
+    }
+
+    /// Cancels work.
+    pub(super) fn cancel_work(&mut self, work: &Work) {
+        (work.cancel)(self);
+    }
+}
+
+/// Shows work. Returns that which the user cancels.
+pub(super) fn work_ui(
+    ui: &mut egui::Ui,
+    running: &[(&'static Work, Duration)],
+) -> Option<&'static Work> {
+    let mut cancelled = None;
+    for &(work, lasted) in running {
+        egui::Frame::popup(ui.style()).show(ui, |ui| {
+            if working_ui(ui, work.title, lasted) {
+                cancelled = Some(work);
+            }
+        });
+    }
+    cancelled
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::harness::{app, wait};
+    use crate::task::sabotage;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn work_that_takes_long_is_shown_and_cancelled_and_kernel_and_parts_stay() {
+        let Some(mut window) = app(None) else { return };
+        let hold = sabotage::hold("pack");
+        window
+            .state_mut()
+            .seen
+            .settings
+            .keep_kernel("moller-trumbore");
+        window.run_steps(2);
+        let is_shown = |window: &crate::harness::Window, label: &str| {
+            window.query_by_label_contains(label).is_some()
+        };
+        for label in ["Packing the scene", "Cancel"] {
+            while !is_shown(&window, label) {
+                std::thread::sleep(std::time::Duration::from_millis(20));
+                window.step();
+            }
+        }
+        window.get_by_label("Cancel").click();
+        window.run_steps(3);
+        assert!(!is_shown(&window, "Packing the scene"));
+        assert_eq!(window.state().settings().kernel().info.name, "watertight");
+        drop(hold);
+
+        let hold = sabotage::hold("parts");
+        let scene = std::sync::Arc::clone(&window.state().document().loaded.scene);
+        let parts = &mut window.state_mut().seen.parts;
+        parts.list(&scene);
+        parts.show(1, false);
+        while !is_shown(&window, "Cancel") {
+            std::thread::sleep(std::time::Duration::from_millis(20));
+            window.step();
+        }
+        window.get_by_label("Cancel").click();
+        window.run_steps(3);
+        assert!(window.state().parts().choice().shows_all());
+        assert!(window.state().document().primitives_lasted().is_none());
+        drop(hold);
+
+        window
+            .state_mut()
+            .seen
+            .settings
+            .keep_kernel("moller-trumbore");
+        wait(&mut window, "the kernel", |app| {
+            app.document().intersector().kernel().name == "moller-trumbore"
+        });
+    }
+}
