@@ -3,6 +3,8 @@
 use super::App;
 use super::labels::labels_ui;
 use super::pick::Pick;
+use crate::gpu::GpuError;
+use crate::look::Development;
 use crate::overlay::{self, Marks, OverlayInput};
 use crate::theme;
 use crate::tracer::Request;
@@ -11,6 +13,7 @@ use glam::{DVec2, UVec2};
 use hitscope_core::integrator::Context;
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Place of the picture in the window. It covers whole physical pixels, so that each pixel of the picture is one
 /// pixel of the screen.
@@ -138,9 +141,14 @@ impl App {
             .take_changes()
             .map(|(_, changed)| changed);
         let (look, film) = (self.look(), self.traced.tracer.film());
+        let mut failure = None;
         if let Some((pixels, changed)) = self.traced.development.update(film, changed, look) {
-            self.traced.picture.upload(film.size(), pixels, changed);
+            let uploaded = self.traced.picture.upload(film.size(), pixels, changed);
             self.picked.inspecting.shown.update(film, changed);
+            failure = uploaded.err();
+        }
+        if let Some(error) = failure {
+            self.retry_without_lines(&error, ui.ctx());
         }
         // Overlay and marks match the scene and the camera of the picture on the screen.
         let Some((scene, camera)) = self.traced.tracer.shown().cloned() else {
@@ -188,6 +196,18 @@ impl App {
                 cross_hair(&painter, canvas.pos_of(pixel, &camera), colour);
             }
         }
+    }
+
+    /// Without memory for the picture, the lines give theirs back, and the picture is uploaded again after a while.
+    fn retry_without_lines(&mut self, error: &GpuError, ctx: &egui::Context) {
+        const PAUSE: Duration = Duration::from_secs(1);
+        self.traced.overlay.release();
+        self.seen.settings.overlays.turn_off_added();
+        self.traced.development = Development::default();
+        if self.notice() != Some(error.to_string().as_str()) {
+            self.error(error);
+        }
+        ctx.request_repaint_after(PAUSE);
     }
 
     pub(super) fn overlay_input(
