@@ -14,6 +14,8 @@ mod commands;
 mod desktop;
 // Random actions, and the memory after them.
 mod monkey;
+// A device that is lost.
+mod lost_device;
 // The overlay in slices and on a GPU with small buffers.
 mod gpu;
 // Unusable graphics backends and display servers in the environment.
