@@ -12,8 +12,12 @@ mod cli;
 mod commands;
 // The program on a display: clipboard, closing, stored settings and fonts.
 mod desktop;
+// Frames that an unchanged window asks for.
+mod idle;
 // Random actions, and the memory after them.
 mod monkey;
+// Windows of all sizes and scales.
+mod sizes;
 // A device that is lost.
 mod lost_device;
 // The overlay in slices and on a GPU with small buffers.
