@@ -35,6 +35,8 @@ fn reopened(window: Window) -> Window {
 /// Loses the device and draws frames until the window wants to close.
 fn lose(window: &mut Window, device: &wgpu::Device) {
     device.destroy();
+    // wgpu reports the end of an idle device when it is polled next.
+    _ = device.poll(wgpu::PollType::Poll);
     wait(window, "the loss", |app| app.graphics_loss().is_some());
     window.step();
     let commands = &window.output().viewport_output[&egui::ViewportId::ROOT].commands;
