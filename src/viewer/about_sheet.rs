@@ -36,7 +36,7 @@ impl AboutSheet {
     /// Shows the sheet over the window. Returns whether the user closes it.
     pub fn about_ui(&self, ctx: &egui::Context) -> bool {
         let response = Modal::new(egui::Id::unique("about")).show(ctx, |ui| {
-            ui.set_max_width((ui.ctx().content_rect().width() - 60.0).min(480.0));
+            ui.set_max_width((ui.ctx().content_rect().width() - 60.0).clamp(1.0, 480.0));
             ui.heading(NAME);
             ui.label(SUMMARY);
             ui.add_space(4.0);

@@ -1,21 +1,19 @@
 //! The command line: parsing, the exit status, and the commands that need the viewer's crates.
 
 use crate::about::version_and_target;
-use crate::app::{App, StartOptions};
+use crate::app::StartOptions;
 use crate::completions::CompletionsArgs;
-use crate::display::{self, DisplayServer};
+use crate::display;
 use crate::document::embedded_scene;
-use crate::gpu::adapter::{BackendOrder, device_descriptor};
+use crate::launch::run_window;
 use crate::man::ManArgs;
 use crate::offscreen;
 use crate::render;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::session::is_session;
-use crate::storage::{APP_ID, Kept, stored};
-use crate::window;
+use crate::storage::{Kept, stored};
 use clap::error::ErrorKind;
 use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
-use eframe::egui_wgpu::{WgpuConfiguration, WgpuSetup, WgpuSetupCreateNew};
 use hitscope_core::names::nearest;
 use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::simd::SimdLevel;
@@ -25,7 +23,6 @@ use hitscope_lab::commands::{
 };
 use std::ffi::{OsStr, OsString};
 use std::io::{self, BufWriter, Write, stdout};
-use std::num::NonZeroUsize;
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
@@ -268,50 +265,6 @@ fn open_window(cli: &Cli) -> Result<(), CommandError> {
     }
 }
 
-/// The context as eframe creates it, but without egui's stored widget state: a bad number in it, such as a zoom
-/// of 0, would make the program panic at each start.
-fn egui_context(zoom: f32) -> egui::Context {
-    let ctx = egui::Context::default();
-    ctx.set_embed_viewports(false);
-    ctx.options_mut(|options| {
-        options.max_passes = NonZeroUsize::MIN.saturating_add(1);
-        options.zoom_factor = zoom;
-    });
-    ctx
-}
-
-/// Opens the window on the first usable display server and graphics backend, and runs it until it closes.
-fn run_window(start: &StartOptions) -> Result<(), eframe::Error> {
-    let display = DisplayServer::from_env();
-    if let DisplayServer::X11 { warning } = &display {
-        print_line(format_args!("hitscope: {warning}; using DISPLAY"));
-    }
-    let is_graphics = |error: &eframe::Error| matches!(error, eframe::Error::Wgpu(_));
-    let run = |backends| {
-        let is_screenshot = start.screenshot.is_some();
-        let options = eframe::NativeOptions {
-            viewport: window::viewport(),
-            window_builder: Some(Box::new(window::checked)),
-            wgpu_options: WgpuConfiguration {
-                wgpu_setup: WgpuSetup::CreateNew(wgpu_setup(backends)),
-                ..WgpuConfiguration::default()
-            },
-            event_loop_builder: display.event_loop_builder(),
-            // The picture's bytes must reach the screen unchanged.
-            dithering: false,
-            persist_window: !is_screenshot,
-            // An empty path, so that a screenshot doesn't depend on stored state.
-            persistence_path: is_screenshot.then(PathBuf::new),
-            ..eframe::NativeOptions::default()
-        };
-        let (ctx, start) = (egui_context(start.preferences.zoom), start.clone());
-        let create: eframe::AppCreator<'_> = Box::new(|cc| Ok(Box::new(App::new(cc, start)?)));
-        let run = || eframe::run_native_ext(APP_ID, options, Some(ctx), create);
-        window::run_until_destroyed(run).unwrap_or(Ok(()))
-    };
-    BackendOrder::from_env().first_that_opens(is_graphics, run)
-}
-
 /// The message if no window can be opened.
 fn no_window(error: &eframe::Error) -> String {
     format!("can't open a window: {}", display::explain(error))
@@ -352,14 +305,6 @@ fn render_instead(cli: &Cli) -> Result<(), CommandError> {
 struct PictureDefaults {
     #[command(flatten)]
     picture: PictureArgs,
-}
-
-/// eframe's setup with these backends and the limits that a large mesh needs.
-fn wgpu_setup(backends: wgpu::Backends) -> WgpuSetupCreateNew {
-    let mut setup = WgpuSetupCreateNew::without_display_handle();
-    setup.instance_descriptor.backends = backends;
-    setup.device_descriptor = Arc::new(device_descriptor);
-    setup
 }
 
 fn parse_seconds(text: &str) -> Result<Duration, String> {

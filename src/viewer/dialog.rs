@@ -158,7 +158,7 @@ impl FileDialog {
                     let label = ui.label("Path");
                     let edit = egui::TextEdit::singleline(&mut field.path)
                         .hint_text(spec.example)
-                        .desired_width(ui.available_width() - 80.0);
+                        .desired_width((ui.available_width() - 80.0).max(1.0));
                     let edit = ui.add(edit).labelled_by(label.id);
                     if std::mem::take(&mut field.is_new) {
                         edit.request_focus();

@@ -39,7 +39,7 @@ impl GoToBox {
         let is_enter = ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::Enter));
         let mut is_entered = is_enter;
         let modal = Modal::new(egui::Id::unique("go to")).show(ctx, |ui| {
-            ui.set_width(360.0_f32.min(ui.ctx().content_rect().width() - 40.0));
+            ui.set_width((ui.ctx().content_rect().width() - 40.0).clamp(1.0, 360.0));
             let label = ui.label("Go to element");
             let field = TextEdit::singleline(&mut self.text)
                 .hint_text(FORMS)

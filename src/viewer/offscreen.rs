@@ -14,6 +14,7 @@ use crate::overlay::wireframe::WIREFRAME;
 use crate::overlay::{Contents, Marks, OverlayInput, OverlaySpec, Overlays, overlay, switches};
 use clap::builder::{PossibleValue, PossibleValuesParser};
 use glam::{DVec3, UVec2};
+use hitscope_core::plan::PixelRect;
 use hitscope_core::scene::Shading;
 use hitscope_lab::commands::{RenderArgs, Rendered};
 use std::sync::Arc;
@@ -56,11 +57,14 @@ pub fn draw_onto(
     input: &OverlayInput,
     overlays: &Overlays,
 ) -> Result<(), GpuError> {
-    let drawn = drawn_by(gpu, input, overlays)?;
-    for (under, over) in pixels.iter_mut().zip(drawn) {
-        *under = blend(*under, over);
-    }
-    Ok(())
+    let width = input.camera.resolution().x as usize;
+    draw_tiles(gpu, input, overlays, |tile, drawn| {
+        for_each_row(tile, drawn, width, |start, row| {
+            for (under, over) in pixels[start..].iter_mut().zip(row) {
+                *under = blend(*under, *over);
+            }
+        });
+    })
 }
 
 /// The overlays that the arguments name, and those that are on at first.
@@ -106,25 +110,33 @@ pub fn drawn(
     input: &OverlayInput,
     overlays: &Overlays,
 ) -> Result<Vec<[u8; 4]>, GpuError> {
-    drawn_by((&gpu.device, &gpu.queue), input, overlays)
+    let size = input.camera.resolution();
+    let mut pixels = vec![[0; 4]; (size.x * size.y) as usize];
+    draw_tiles((&gpu.device, &gpu.queue), input, overlays, |tile, drawn| {
+        for_each_row(tile, drawn, size.x as usize, |start, row| {
+            pixels[start..start + row.len()].copy_from_slice(row);
+        });
+    })?;
+    Ok(pixels)
 }
 
-fn drawn_by(
-    (device, queue): (&wgpu::Device, &wgpu::Queue),
+/// Draws the overlays that are on, in tiles that the device can hold, and passes the pixels of each tile on.
+fn draw_tiles(
+    gpu: (&wgpu::Device, &wgpu::Queue),
     input: &OverlayInput,
     overlays: &Overlays,
-) -> Result<Vec<[u8; 4]>, GpuError> {
+    mut done: impl FnMut(PixelRect, &[[u8; 4]]),
+) -> Result<(), GpuError> {
+    let (device, queue) = gpu;
     let (scene, camera) = (&input.scene, &input.camera);
-    require_size(device, camera.resolution())?;
     let Contents {
         lines,
         outline,
         view,
     } = Contents::of(input, overlays);
-    let traced = scene.has_other_shapes().then(|| {
-        let pixels = Shapes::default().trace(scene, camera, &view);
-        Arc::new(TracedLayer::new(device, queue, view.size(), &pixels))
-    });
+    let traced = scene
+        .has_other_shapes()
+        .then(|| Shapes::default().trace(scene, camera, &view));
     let mut sets = Vec::new();
     for WantedLines { gather, looks, .. } in lines {
         let lines = Arc::new(LineSet::new(device, queue, &gather.lines(scene))?);
@@ -134,37 +146,87 @@ fn drawn_by(
             occlusion,
         }));
     }
-    let drawing = Drawing {
-        view,
-        traced,
-        outline,
-        mesh: Arc::new(DepthMesh::new(device, queue, scene)?),
-        sets,
-    };
+    let mesh = Arc::new(DepthMesh::new(device, queue, scene)?);
+    let overlay = Overlay::new(device, queue);
+    for tile in tiles(view.size(), largest_tile(&device.limits())) {
+        let view = if tile.min == UVec2::ZERO && tile.max == view.size() {
+            view
+        } else {
+            view.of_part(tile)
+        };
+        let width = camera.resolution().x as usize;
+        let traced = traced.as_ref().map(|pixels| {
+            let pixels = cut(pixels, width, tile);
+            TracedLayer::new(device, queue, view.size(), &pixels)
+        });
+        let drawing = Drawing {
+            view,
+            traced: traced.transpose()?.map(Arc::new),
+            outline,
+            mesh: Arc::clone(&mesh),
+            sets: sets.clone(),
+        };
+        done(tile, &draw_tile(gpu, &overlay, &drawing)?);
+    }
+    Ok(())
+}
+
+fn draw_tile(
+    (device, queue): (&wgpu::Device, &wgpu::Queue),
+    overlay: &Overlay,
+    drawing: &Drawing,
+) -> Result<Vec<[u8; 4]>, GpuError> {
     let canvas = Canvas {
-        targets: Arc::new(Targets::new(device, drawing.view.size())),
+        targets: Arc::new(Targets::new(device, drawing.view.size())?),
         colour: 0,
         has_depth: false,
     };
     let (mut paces, state) = (Paces::UNLIMITED, DrawingState::default());
-    Overlay::new(device, queue).draw(&drawing, &canvas, &mut paces, &state, || ());
-    let texture = canvas.targets.colour(canvas.colour);
-    read_back(device, queue, texture)
+    overlay.draw(drawing, &canvas, &mut paces, &state, || ());
+    read_back(device, queue, canvas.targets.colour(canvas.colour))
 }
 
-/// Checks that the device can hold a picture of this size and a buffer to read it back.
-fn require_size(device: &wgpu::Device, size: UVec2) -> Result<(), GpuError> {
-    let (limits, side) = (device.limits(), size.max_element());
-    let bytes = row_bytes(size.x) * u64::from(size.y);
-    if side > limits.max_texture_dimension_2d || bytes > limits.max_buffer_size {
-        return Err(GpuError::PictureTooLarge {
-            width: size.x,
-            height: size.y,
-            side: limits.max_texture_dimension_2d,
-            bytes: limits.max_buffer_size,
-        });
+/// The longest side of a tile that textures and the buffer that reads it back can have.
+fn largest_tile(limits: &wgpu::Limits) -> u32 {
+    /// A tile of this size takes 200 MB on the GPU.
+    const MOST: u32 = 4096;
+    let mut side = limits.max_texture_dimension_2d.min(MOST);
+    while side > 1 && row_bytes(side) * u64::from(side) > limits.max_buffer_size {
+        side /= 2;
     }
-    Ok(())
+    side
+}
+
+/// A picture's tiles of at most this side.
+fn tiles(size: UVec2, side: u32) -> impl Iterator<Item = PixelRect> {
+    let counts = UVec2::new(size.x.div_ceil(side), size.y.div_ceil(side));
+    let corners =
+        (0..counts.y).flat_map(move |y| (0..counts.x).map(move |x| side * UVec2::new(x, y)));
+    corners.map(move |min| PixelRect {
+        min,
+        max: (min + side).min(size),
+    })
+}
+
+/// The part of a picture of this width inside a tile.
+fn cut<T: Copy>(pixels: &[T], width: usize, tile: PixelRect) -> Vec<T> {
+    let rows = tile.min.y as usize..tile.max.y as usize;
+    let columns = tile.min.x as usize..tile.max.x as usize;
+    rows.flat_map(|y| pixels[y * width..][columns.clone()].to_vec())
+        .collect()
+}
+
+/// Passes on each row of a tile with the index of its first pixel in a picture of this width.
+fn for_each_row(
+    tile: PixelRect,
+    pixels: &[[u8; 4]],
+    width: usize,
+    mut row: impl FnMut(usize, &[[u8; 4]]),
+) {
+    let rows = pixels.chunks_exact((tile.max.x - tile.min.x) as usize);
+    for (y, pixels) in (tile.min.y as usize..).zip(rows) {
+        row(y * width + tile.min.x as usize, pixels);
+    }
 }
 
 /// Bytes per row of a buffer that a texture is copied to.
@@ -257,5 +319,33 @@ mod tests {
         // A white line of half coverage over nothing is white with half alpha.
         assert_eq!(blend([0; 4], [128, 128, 128, 128]), [255, 255, 255, 128]);
         assert_eq!(blend([50, 60, 70, 128], [0; 4]), [50, 60, 70, 128]);
+    }
+
+    #[test]
+    fn tiles_cover_each_pixel_once() {
+        for (size, side) in [((10, 7), 4), ((4, 4), 4), ((5, 1), 1), ((3, 9), 16)] {
+            let size = UVec2::from(size);
+            let numbers: Vec<u32> = (0..size.element_product()).collect();
+            let mut seen = vec![0; numbers.len()];
+            for tile in tiles(size, side) {
+                assert!((tile.max - tile.min).max_element() <= side);
+                for number in cut(&numbers, size.x as usize, tile) {
+                    seen[number as usize] += 1;
+                }
+            }
+            assert!(seen.iter().all(|&count| count == 1), "{size} {side}");
+        }
+    }
+
+    #[test]
+    fn a_tile_fits_textures_and_buffers() {
+        let limits = |side, bytes| wgpu::Limits {
+            max_texture_dimension_2d: side,
+            max_buffer_size: bytes,
+            ..wgpu::Limits::default()
+        };
+        assert_eq!(largest_tile(&limits(16384, 1 << 31)), 4096);
+        assert_eq!(largest_tile(&limits(2048, 1 << 31)), 2048);
+        assert_eq!(largest_tile(&limits(8192, 1 << 20)), 512);
     }
 }

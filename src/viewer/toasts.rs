@@ -31,6 +31,11 @@ impl Toasts {
         });
     }
 
+    /// Shows all messages for their full time again.
+    pub fn show_again(&mut self) {
+        self.0.iter_mut().for_each(|toast| toast.end_secs = None);
+    }
+
     /// The texts, oldest first.
     pub fn texts(&self) -> Vec<&str> {
         self.0.iter().map(|toast| toast.text.as_str()).collect()

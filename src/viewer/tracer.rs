@@ -301,6 +301,12 @@ impl Tracer {
         Some((&self.film, changed))
     }
 
+    /// Reports the whole picture as changed.
+    pub fn show_again(&mut self) {
+        let (min, max) = (UVec2::ZERO, self.film.size());
+        self.changed_before = Some(PixelRect { min, max });
+    }
+
     fn is_shown(&self, context: &Context) -> bool {
         let is_same = |(scene, camera): &(Arc<Scene>, Camera)| {
             Arc::ptr_eq(scene, &context.scene) && *camera == context.camera

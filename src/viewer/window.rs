@@ -80,11 +80,15 @@ fn fits(size: Vec2, screen: Vec2) -> bool {
     (size + DESKTOP).x <= screen.x && (size + DESKTOP).y <= screen.y
 }
 
-/// Runs the window; `None` if another program destroyed it (`xdotool windowclose`, `xkill` by its window).
+/// Runs the window; `None` if another program destroyed it (`xdotool windowclose`, `xkill` by its window), or if it
+/// panicked and that is expected.
 ///
 /// X11 then refuses every request for the window, and winit 0.30 panics; this function treats the panic as a
 /// normal end.
-pub fn run_until_destroyed<T>(run: impl FnOnce() -> T) -> Option<T> {
+pub fn run_until_destroyed<T>(
+    run: impl FnOnce() -> T,
+    is_expected: impl Fn() -> bool,
+) -> Option<T> {
     let is_destroyed = Arc::new(AtomicBool::new(false));
     let (shared, report) = (Arc::clone(&is_destroyed), take_hook());
     set_hook(Box::new(move |panic| {
@@ -96,7 +100,7 @@ pub fn run_until_destroyed<T>(run: impl FnOnce() -> T) -> Option<T> {
     }));
     match catch_unwind(AssertUnwindSafe(run)) {
         Ok(result) => Some(result),
-        Err(_) if is_destroyed.load(Relaxed) => None,
+        Err(_) if is_destroyed.load(Relaxed) || is_expected() => None,
         Err(panic) => resume_unwind(panic),
     }
 }

@@ -183,6 +183,16 @@ pub fn press(window: &mut Window, key: Key) {
     window.run_steps(2);
 }
 
+/// Runs the command whose title fits these words best, by the command palette.
+pub fn run_command(window: &mut Window, words: &str) {
+    window.key_press_modifiers(Modifiers::COMMAND, Key::P);
+    window.run_steps(4);
+    window.event(Event::Text(words.to_owned()));
+    window.run_steps(3);
+    window.key_press(Key::Enter);
+    window.run_steps(3);
+}
+
 /// Chooses a view in the tool bar of a window without its side panel.
 pub fn choose_view(window: &mut Window, title: &str) {
     let combo = window.get_by_role(egui::accesskit::Role::ComboBox);

@@ -2,6 +2,8 @@
 
 // The real app, driven by labels and keys.
 mod app;
+// Tests in a process of their own.
+mod alone;
 // Names of all controls for assistive technology.
 mod accessibility;
 // The program's exit statuses and its behaviour without a display.
@@ -10,6 +12,14 @@ mod cli;
 mod commands;
 // The program on a display: clipboard, closing, stored settings and fonts.
 mod desktop;
+// Frames that an unchanged window asks for.
+mod idle;
+// Random actions, and the memory after them.
+mod monkey;
+// Windows of all sizes and scales.
+mod sizes;
+// A device that is lost.
+mod lost_device;
 // The overlay in slices and on a GPU with small buffers.
 mod gpu;
 // Unusable graphics backends and display servers in the environment.

@@ -3,6 +3,8 @@
 use super::App;
 use super::labels::labels_ui;
 use super::pick::Pick;
+use crate::gpu::GpuError;
+use crate::look::Development;
 use crate::overlay::{self, Marks, OverlayInput};
 use crate::theme;
 use crate::tracer::Request;
@@ -11,6 +13,7 @@ use glam::{DVec2, UVec2};
 use hitscope_core::integrator::{Context, Setting};
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
+use std::time::Duration;
 
 /// Place of the picture in the window. It covers whole physical pixels, so that each pixel of the picture is one
 /// pixel of the screen.
@@ -100,7 +103,7 @@ impl App {
             canvas.part = self.shown.magnifier.part();
             self.rotate(ui);
             self.step_transition(ui.ctx());
-            self.show_changes();
+            self.show_changes(ui.ctx());
             self.hover(&response, canvas);
             self.paint(ui, canvas, response.dragged());
             self.gizmo_ui(ui, canvas);
@@ -149,16 +152,21 @@ impl App {
     }
 
     /// Puts the changes of the traced picture on the screen.
-    fn show_changes(&mut self) {
+    fn show_changes(&mut self, ctx: &egui::Context) {
         let changed = self
             .traced
             .tracer
             .take_changes()
             .map(|(_, changed)| changed);
         let (look, film) = (self.look(), self.traced.tracer.film());
+        let mut failure = None;
         if let Some((pixels, changed)) = self.traced.development.update(film, changed, look) {
-            self.traced.picture.upload(film.size(), pixels, changed);
+            let uploaded = self.traced.picture.upload(film.size(), pixels, changed);
             self.traced.shown.update(film, changed);
+            failure = uploaded.err();
+        }
+        if let Some(error) = failure {
+            self.retry_without_lines(&error, ctx);
         }
         self.traced.on_screen = self.traced.tracer.shown().cloned();
     }
@@ -221,6 +229,18 @@ impl App {
                 cross_hair(painter, canvas.pos_of(pixel, camera), colour);
             }
         }
+    }
+
+    /// Without memory for the picture, the lines give theirs back, and the picture is uploaded again after a while.
+    fn retry_without_lines(&mut self, error: &GpuError, ctx: &egui::Context) {
+        const PAUSE: Duration = Duration::from_secs(1);
+        self.traced.overlay.release();
+        self.seen.settings.overlays.turn_off_added();
+        self.traced.development = Development::default();
+        if self.notice() != Some(error.to_string().as_str()) {
+            self.error(error);
+        }
+        ctx.request_repaint_after(PAUSE);
     }
 
     pub(super) fn overlay_input(

@@ -17,6 +17,7 @@
 //! | `clipping`, `hiding` | the part of the scene that is shown |
 //! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
+//! | `reopening` | continuing in another window after the device was lost |
 //! | `files` | loading, reloading and saving |
 //! | `dialogs` | file dialogs |
 //! | `sessions` | sessions; undo and redo |
@@ -54,6 +55,7 @@ mod pictures;
 mod pixel_numbers;
 mod pointer;
 mod prepare;
+mod reopening;
 mod sessions;
 mod side_panel;
 mod state;
@@ -67,22 +69,20 @@ pub(crate) use work::working_ui;
 
 use crate::command::{Commands, Entry, keys, menu_bar, tool_bar};
 use crate::document::Document;
+use crate::gpu::faults::Faults;
 use crate::history::History;
 use crate::preferences::Preferences;
 use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::storage;
 use crate::tracer::Tracer;
-use eframe::egui_wgpu;
-use egui_wgpu::RenderState;
 use feedback::Feedback;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
-use hitscope_lab::commands::{default_thread_count, print_line};
+use hitscope_lab::commands::default_thread_count;
 use navigation::Navigation;
 use parts::{Open, Picked, Seen, Shown, Traced};
 use pictures::Pictures;
 use std::path::PathBuf;
-use std::sync::{Arc, Mutex};
 use std::time::Duration;
 
 /// Options for starting the window.
@@ -134,8 +134,10 @@ pub struct App {
     navigation: Navigation,
     feedback: Feedback,
     pictures: Pictures,
-    /// Uncaught errors of the GPU, from any thread.
-    gpu_errors: Arc<Mutex<Vec<String>>>,
+    /// Faults of the graphics device.
+    faults: Faults,
+    /// That of the window.
+    ctx: egui::Context,
     screenshot: Option<Screenshot>,
 }
 
@@ -167,7 +169,8 @@ impl App {
             navigation: Navigation::default(),
             feedback: Feedback::default(),
             pictures: Pictures::default(),
-            gpu_errors: catch_gpu_errors(&render_state, ctx),
+            faults: Faults::watch(&render_state.device, ctx),
+            ctx: ctx.clone(),
             screenshot: start.screenshot.map(Screenshot::new),
         };
         app.prepare(ctx);
@@ -188,15 +191,9 @@ impl App {
         self.traced.tracer.stop();
     }
 
-    fn poll_gpu_errors(&mut self) {
-        // A poisoned lock still holds the messages.
-        let mut errors = self
-            .gpu_errors
-            .lock()
-            .unwrap_or_else(std::sync::PoisonError::into_inner);
-        let message = errors.drain(..).next();
-        drop(errors);
-        if let Some(message) = message {
+    /// Shows the first of the new errors of the device.
+    fn poll_faults(&mut self) {
+        if let Some(message) = self.faults.take() {
             self.error(format!("graphics: {message}"));
         }
     }
@@ -207,6 +204,9 @@ impl eframe::App for App {
     fn logic(&mut self, ctx: &egui::Context, frame: &mut eframe::Frame) {
         if let Some(secs) = frame.info().cpu_usage {
             self.shown.ui_times.push(Duration::from_secs_f32(secs));
+        }
+        if self.leaves_window(ctx) {
+            return;
         }
         if ctx.input(|input| input.viewport().close_requested()) {
             self.stop_work();
@@ -220,7 +220,7 @@ impl eframe::App for App {
         self.poll_rendering();
         self.poll_environment(ctx);
         self.poll_watch(ctx);
-        self.poll_gpu_errors();
+        self.poll_faults();
         self.poll_picking(ctx);
         self.poll_document(ctx);
         self.poll_range_fit();
@@ -245,6 +245,9 @@ impl eframe::App for App {
 
     fn ui(&mut self, ui: &mut egui::Ui, frame: &mut eframe::Frame) {
         let ctx = ui.ctx().clone();
+        if self.leaves_window(&ctx) {
+            return;
+        }
         self.take_flight_keys(&ctx);
         for command in keys::pressed(&ctx) {
             Entry::of(command, self).run(self, &ctx, frame);
@@ -282,28 +285,7 @@ impl eframe::App for App {
     }
 }
 
-/// Installs handlers that collect wgpu's errors, on which wgpu would otherwise panic.
-fn catch_gpu_errors(render_state: &RenderState, ctx: &egui::Context) -> Arc<Mutex<Vec<String>>> {
-    let errors: Arc<Mutex<Vec<String>>> = Arc::default();
-    let (shared, ctx) = (Arc::clone(&errors), ctx.clone());
-    let push = move |message: String| {
-        print_line(format_args!("hitscope: graphics: {message}"));
-        if let Ok(mut errors) = shared.lock() {
-            errors.push(message);
-        }
-        ctx.request_repaint();
-    };
-    let lost = push.clone();
-    let device = &render_state.device;
-    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| push(error.to_string())));
-    device.set_device_lost_callback(move |reason, message| {
-        // Closing the window also loses the device, with reason `Destroyed`.
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            lost(format!("the device was lost: {message}"));
-        }
-    });
-    errors
-}
-
 #[cfg(test)]
 mod panics;
+#[cfg(test)]
+mod shortage;

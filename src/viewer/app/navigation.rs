@@ -69,6 +69,13 @@ impl Navigation {
         (self.flight.is_held, self.flight.is_flying) = (false, false);
     }
 
+    /// Ends a change of the view: the camera is where it was to go.
+    pub fn end_transition(&mut self, turntable: &mut Turntable) {
+        if let Some(transition) = self.transition.take() {
+            *turntable = transition.to;
+        }
+    }
+
     /// Whether a change of the view is in progress.
     pub fn is_changing_view(&self) -> bool {
         self.transition.is_some()

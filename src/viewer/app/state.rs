@@ -115,6 +115,16 @@ impl App {
             .map(|notice| notice.text.as_str())
     }
 
+    /// The picture's place in the window, in points.
+    pub fn canvas_rect(&self) -> egui::Rect {
+        self.shown.canvas_rect
+    }
+
+    /// The number of errors that the graphics device has reported.
+    pub fn graphics_errors(&self) -> usize {
+        self.faults.count()
+    }
+
     /// The texts of the toasts that are shown.
     pub fn toasts(&self) -> Vec<&str> {
         self.feedback.toasts.texts()

@@ -52,7 +52,7 @@ impl Palette {
             .anchor(Align2::CENTER_TOP, vec2(0.0, TOP))
             .accessible_name("Command palette");
         let modal = Modal::new(id).area(area).show(ctx, |ui| {
-            ui.set_width(WIDTH.min(ui.ctx().content_rect().width() - 40.0));
+            ui.set_width((ui.ctx().content_rect().width() - 40.0).clamp(1.0, WIDTH));
             let field = self.field_ui(ui);
             let found = found(commands.entries(), &self.query);
             self.select(step, found.len());

@@ -1,8 +1,9 @@
 //! The depth pass of the mesh, which hides the lines behind it.
 
-use super::upload::{buffer, buffers};
+use super::upload::{buffer, buffers, items_per_buffer};
 use super::view::ViewBinding;
 use super::{GpuError, shader};
+use glam::Vec3;
 use hitscope_core::Scene;
 use std::ops::Range;
 
@@ -16,24 +17,26 @@ const SLOPE_BIAS: f32 = -2.5;
 /// Triangles are also pushed back by this many of the smallest steps of depth.
 const CONSTANT_BIAS: i32 = -16;
 
-/// The vertices and indices of a mesh on the GPU.
-pub struct DepthMesh {
+/// The triangles of a mesh on the GPU, in parts within the device's limit on buffers.
+pub struct DepthMesh(Vec<Part>);
+
+/// A buffer of indices with the positions that it refers to. Parts may share the positions.
+struct Part {
     positions: wgpu::Buffer,
-    /// Buffers of three indices per triangle, each with its number of triangles.
-    triangles: Vec<(wgpu::Buffer, u32)>,
+    indices: wgpu::Buffer,
+    triangle_count: u32,
 }
 
 impl DepthMesh {
     /// Uploads the triangles of a scene that are shown. Blocks.
     ///
     /// # Errors
-    /// [`GpuError::TooLarge`].
+    /// [`GpuError::TooLarge`] if the device allows no buffer for even one triangle, [`GpuError::OutOfMemory`].
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         scene: &Scene,
     ) -> Result<Self, GpuError> {
-        use wgpu::BufferUsages as Usage;
         let mesh = scene.mesh();
         let shown = scene.shown().map(|shown| {
             let triangles = mesh.triangles().iter().zip(&**shown);
@@ -41,16 +44,85 @@ impl DepthMesh {
             shown.map(|(corners, _)| *corners).collect::<Vec<_>>()
         });
         let triangles = shown.as_deref().unwrap_or(mesh.triangles());
-        let positions = bytemuck::cast_slice(mesh.positions());
-        Ok(Self {
-            positions: buffer(device, queue, "positions", positions, Usage::VERTEX)?,
-            triangles: buffers(device, queue, "indices", triangles, Usage::INDEX)?,
-        })
+        let most = items_per_buffer::<Vec3>(device);
+        let mut parts = Vec::new();
+        if mesh.positions().len() <= most {
+            upload(device, queue, mesh.positions(), triangles, &mut parts)?;
+        } else {
+            let mut result = Ok(());
+            split(mesh.positions(), triangles, most, |positions, triangles| {
+                if result.is_ok() {
+                    result = upload(device, queue, positions, triangles, &mut parts);
+                }
+            });
+            result?;
+        }
+        Ok(Self(parts))
     }
 
-    /// The number of triangles in each buffer.
+    /// The number of triangles in each part.
     pub(super) fn triangle_counts(&self) -> Vec<u32> {
-        self.triangles.iter().map(|(_, count)| *count).collect()
+        self.0.iter().map(|part| part.triangle_count).collect()
+    }
+}
+
+/// Uploads triangles and the positions that they refer to.
+fn upload(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+    parts: &mut Vec<Part>,
+) -> Result<(), GpuError> {
+    use wgpu::BufferUsages as Usage;
+    let positions = bytemuck::cast_slice(positions);
+    let positions = buffer(device, queue, "positions", positions, Usage::VERTEX)?;
+    let indices = buffers(device, queue, "indices", triangles, Usage::INDEX)?;
+    parts.extend(indices.into_iter().map(|(indices, triangle_count)| Part {
+        positions: positions.clone(),
+        indices,
+        triangle_count,
+    }));
+    Ok(())
+}
+
+/// Passes on triangles in parts that have at most this many positions each, or three, with indices into the positions of
+/// the part.
+fn split(
+    positions: &[Vec3],
+    triangles: &[[u32; 3]],
+    most: usize,
+    mut part: impl FnMut(&[Vec3], &[[u32; 3]]),
+) {
+    const NONE: u32 = u32::MAX;
+    // The index in the part of each vertex.
+    let mut places = vec![NONE; positions.len()];
+    let (mut vertices, mut indices): (Vec<u32>, Vec<[u32; 3]>) = (Vec::new(), Vec::new());
+    let mut flush = |vertices: &mut Vec<u32>, indices: &mut Vec<[u32; 3]>, places: &mut [u32]| {
+        let own = vertices.iter().map(|&vertex| positions[vertex as usize]);
+        part(&own.collect::<Vec<_>>(), indices);
+        vertices
+            .iter()
+            .for_each(|&vertex| places[vertex as usize] = NONE);
+        vertices.clear();
+        indices.clear();
+    };
+    for corners in triangles {
+        let is_new = |corner: &&u32| places[**corner as usize] == NONE;
+        if !indices.is_empty() && vertices.len() + corners.iter().filter(is_new).count() > most {
+            flush(&mut vertices, &mut indices, &mut places);
+        }
+        indices.push(corners.map(|corner| {
+            let place = &mut places[corner as usize];
+            if *place == NONE {
+                *place = vertices.len() as u32;
+                vertices.push(corner);
+            }
+            *place
+        }));
+    }
+    if !indices.is_empty() {
+        flush(&mut vertices, &mut indices, &mut places);
     }
 }
 
@@ -97,9 +169,9 @@ impl DepthPipeline {
             &self.whole
         });
         for (part, triangles) in ranges {
-            let (indices, _) = &mesh.triangles[*part];
-            pass.set_vertex_buffer(0, mesh.positions.slice(..));
-            pass.set_index_buffer(indices.slice(..), wgpu::IndexFormat::Uint32);
+            let part = &mesh.0[*part];
+            pass.set_vertex_buffer(0, part.positions.slice(..));
+            pass.set_index_buffer(part.indices.slice(..), wgpu::IndexFormat::Uint32);
             pass.draw_indexed(3 * triangles.start..3 * triangles.end, 0, 0..1);
         }
     }
@@ -149,4 +221,28 @@ fn depth_pipeline(
         multiview_mask: None,
         cache: None,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_have_the_triangles_in_order_and_no_more_positions_than_allowed() {
+        let positions: Vec<Vec3> = (0..9).map(|k| Vec3::splat(k as f32)).collect();
+        let triangles = [[0, 1, 2], [2, 1, 3], [8, 7, 6], [0, 8, 2], [4, 5, 3]];
+        for most in [1, 3, 4, 5, 9] {
+            let (mut seen, mut parts) = (Vec::new(), 0);
+            split(&positions, &triangles, most, |own, indices| {
+                assert!(own.len() <= most.max(3), "{most}");
+                let corners = indices
+                    .iter()
+                    .map(|corners| corners.map(|k| own[k as usize].x as u32));
+                seen.extend(corners);
+                parts += 1;
+            });
+            assert_eq!(seen, triangles, "{most}");
+            assert_eq!(parts == 1, most == 9, "{most}");
+        }
+    }
 }

@@ -7,8 +7,9 @@ use super::depth::{DepthMesh, DepthPipeline};
 use super::lines::{LineOcclusion, LinePipelines, LineSet, LineStyle, StyleUniform};
 use super::slices::{Pace, Slices, submit_and_wait};
 use super::traced::{TracedGroup, TracedLayer, TracedPipelines};
+use super::upload::allocated;
 use super::view::{ViewBinding, ViewUniform};
-use super::{COLOUR_FORMAT, DEPTH_FORMAT, texture};
+use super::{COLOUR_FORMAT, DEPTH_FORMAT, GpuError, texture};
 use glam::UVec2;
 use std::sync::Arc;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -85,16 +86,21 @@ pub struct Targets {
 
 impl Targets {
     /// Creates the textures.
-    pub fn new(device: &wgpu::Device, size: UVec2) -> Self {
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`].
+    pub fn new(device: &wgpu::Device, size: UVec2) -> Result<Self, GpuError> {
         use wgpu::TextureUsages as Usage;
-        let usage = Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
-        let colour = |label| texture(device, label, size, COLOUR_FORMAT, usage);
-        let usage = Usage::RENDER_ATTACHMENT;
-        Self {
-            size,
-            colours: [colour("overlay colour 0"), colour("overlay colour 1")],
-            depth: texture(device, "overlay depth", size, DEPTH_FORMAT, usage),
-        }
+        allocated(device, || {
+            let usage = Usage::RENDER_ATTACHMENT | Usage::TEXTURE_BINDING | Usage::COPY_SRC;
+            let colour = |label| texture(device, label, size, COLOUR_FORMAT, usage);
+            let usage = Usage::RENDER_ATTACHMENT;
+            Self {
+                size,
+                colours: [colour("overlay colour 0"), colour("overlay colour 1")],
+                depth: texture(device, "overlay depth", size, DEPTH_FORMAT, usage),
+            }
+        })
     }
 
     /// Width and height in pixels.

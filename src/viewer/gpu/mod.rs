@@ -1,14 +1,16 @@
 //! GPU drawing: the traced picture ([`picture`]) and the overlay ([`drawing`]), which consists of the mesh's
-//! depth ([`depth`]), that of other shapes ([`traced`]) and [`lines`], all for the same [`view`].
+//! depth ([`depth`]), that of other shapes ([`traced`]) and [`lines`], all for the same [`view`]. [`adapter`] opens
+//! devices, [`faults`] collects their errors.
 
 pub mod adapter;
 pub mod depth;
 pub mod drawing;
+pub mod faults;
 pub mod lines;
 pub mod picture;
 pub mod slices;
 pub mod traced;
-mod upload;
+pub(crate) mod upload;
 pub mod view;
 
 use glam::UVec2;
@@ -24,7 +26,7 @@ pub enum GpuError {
     /// There is no GPU and no software renderer.
     #[error("no graphics adapter was found: {0}")]
     NoAdapter(String),
-    /// The mesh needs a larger buffer than the GPU allows.
+    /// A single line or triangle needs a larger buffer than the GPU allows.
     #[error("the overlay needs a buffer of {needed} bytes; this GPU allows {granted}")]
     TooLarge {
         /// Bytes needed.
@@ -32,20 +34,9 @@ pub enum GpuError {
         /// Bytes granted.
         granted: u64,
     },
-    /// The picture is larger than the GPU's textures or buffers.
-    #[error(
-        "a picture of {width}x{height} is too large for the overlay: this GPU allows {side} pixels per side and {bytes} bytes"
-    )]
-    PictureTooLarge {
-        /// Of the picture.
-        width: u32,
-        /// Of the picture.
-        height: u32,
-        /// Pixels granted.
-        side: u32,
-        /// Bytes granted.
-        bytes: u64,
-    },
+    /// The GPU has no memory left.
+    #[error("the graphics adapter has no memory left for the picture or the lines over it")]
+    OutOfMemory,
     /// The picture couldn't be read back.
     #[error("the overlay couldn't be read back: {0}")]
     ReadBack(String),

@@ -1,8 +1,9 @@
 //! Depth and outlines of shapes that aren't meshes, from one traced ray per pixel.
 
 use super::lines::{LinePipelines, LineStyle};
+use super::upload::allocated;
 use super::view::ViewBinding;
-use super::{extent, shader, texture};
+use super::{GpuError, extent, shader, texture};
 use glam::UVec2;
 
 /// Appended to [`view::SHADER`](super::view::SHADER).
@@ -23,21 +24,19 @@ pub struct TracedLayer(wgpu::Texture);
 
 impl TracedLayer {
     /// Uploads pixels, row by row from the top left; as many as the size says.
+    ///
+    /// # Errors
+    /// [`GpuError::OutOfMemory`].
     pub fn new(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         size: UVec2,
         pixels: &[TracedPixel],
-    ) -> Self {
+    ) -> Result<Self, GpuError> {
         use wgpu::TextureUsages as Usage;
         let usage = Usage::TEXTURE_BINDING | Usage::COPY_DST;
-        let texture = texture(
-            device,
-            "traced",
-            size,
-            wgpu::TextureFormat::Rg32Float,
-            usage,
-        );
+        let format = wgpu::TextureFormat::Rg32Float;
+        let texture = allocated(device, || texture(device, "traced", size, format, usage))?;
         queue.write_texture(
             texture.as_image_copy(),
             bytemuck::cast_slice(pixels),
@@ -48,7 +47,7 @@ impl TracedLayer {
             },
             extent(size),
         );
-        Self(texture)
+        Ok(Self(texture))
     }
 }
 

@@ -2,8 +2,9 @@
 
 use super::{uniform_group, uniform_layout};
 use bytemuck::{Pod, Zeroable};
-use glam::{DVec3, DVec4, Mat4, UVec2, Vec3};
+use glam::{DVec3, DVec4, Mat4, UVec2, Vec2, Vec3};
 use hitscope_core::camera::Projection;
+use hitscope_core::plan::PixelRect;
 use hitscope_core::{Aabb, Camera, Clip};
 use hitscope_lab::commands::MAX_OVERLAY_PLANES;
 
@@ -79,6 +80,24 @@ impl ViewUniform {
             let normal = half_space.normal().as_vec3();
             *plane = normal.extend(half_space.offset() as f32).to_array();
         }
+        self
+    }
+
+    /// The view of a part of the picture, as a picture of its own.
+    #[must_use]
+    pub fn of_part(mut self, part: PixelRect) -> Self {
+        let whole = Vec2::from_array(self.viewport).as_dvec2();
+        let (min, size) = (part.min.as_dvec2(), (part.max - part.min).as_dvec2());
+        let scale = whole / size;
+        // The part's coordinates from -1 to 1 are scaled and shifted ones of the whole picture; y points up, pixels down.
+        let shift_x = (whole.x - 2.0 * min.x - size.x) / size.x;
+        let shift_y = (size.y - whole.y + 2.0 * min.y) / size.y;
+        for column in &mut self.clip_from_eye {
+            let [x, y, _, w] = column.map(f64::from);
+            column[0] = (x * scale.x + w * shift_x) as f32;
+            column[1] = (y * scale.y + w * shift_y) as f32;
+        }
+        self.viewport = size.as_vec2().to_array();
         self
     }
 

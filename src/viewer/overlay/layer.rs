@@ -15,6 +15,7 @@ use crate::gpu::traced::TracedLayer;
 use crate::gpu::view::ViewUniform;
 use crate::task::TaskPanicked;
 use eframe::egui_wgpu::RenderState;
+use glam::UVec2;
 use hitscope_core::{Camera, Scene};
 use std::collections::{BTreeMap, BTreeSet};
 use std::sync::Arc;
@@ -52,6 +53,8 @@ pub struct OverlayLayer {
     painter: Painter,
     /// The slots of the last drawing's lines.
     wanted: BTreeSet<usize>,
+    /// The size of the picture for which there was no memory.
+    refused: Option<UVec2>,
     is_complete: bool,
 }
 
@@ -69,6 +72,7 @@ impl OverlayLayer {
             traced: Uploaded::default(),
             lines: BTreeMap::new(),
             wanted: BTreeSet::new(),
+            refused: None,
             is_complete: true,
         }
     }
@@ -122,7 +126,7 @@ impl OverlayLayer {
         self.use_scene(&input.scene);
         self.retry_if_turned_on(&contents.lines);
         self.is_complete = true;
-        if contents.lines.is_empty() {
+        if contents.lines.is_empty() || self.refused == Some(contents.view.size()) {
             self.pause();
             return Ok(None);
         }
@@ -164,9 +168,23 @@ impl OverlayLayer {
             traced,
             sets,
         };
-        let texture = self.painter.draw(&drawing, ctx)?.cloned();
+        let texture = match self.painter.draw(&drawing, ctx) {
+            Ok(texture) => texture.cloned(),
+            Err(error) => {
+                let lacks_memory = matches!(error, OverlayError::Gpu(_));
+                self.refused = lacks_memory.then(|| drawing.view.size());
+                return Err(error);
+            }
+        };
         self.is_complete &= self.painter.is_shown(&drawing);
         Ok(texture)
+    }
+
+    /// Gives the memory of the lines back. They are uploaded again when they are drawn next.
+    pub fn release(&mut self) {
+        self.painter = Painter::new(Arc::clone(&self.overlay), self.is_software);
+        self.scene = None;
+        self.discard();
     }
 
     /// The lines as far as they are ready, once for each of their styles.
@@ -216,7 +234,7 @@ impl OverlayLayer {
         let (shapes, shared, camera) = (self.shapes.clone(), Arc::clone(scene), *camera);
         let trace = move |device: &wgpu::Device, queue: &wgpu::Queue| {
             let pixels = shapes.trace(&shared, &camera, &view);
-            Ok(TracedLayer::new(device, queue, view.size(), &pixels))
+            TracedLayer::new(device, queue, view.size(), &pixels)
         };
         self.traced.get(view, &self.overlay, ctx, trace).map(Some)
     }
@@ -237,11 +255,15 @@ impl OverlayLayer {
         let old = self.scene.replace(Arc::clone(scene));
         // If the shapes are the same, only the clip, the creases of smooth shading or the tree have changed.
         if old.is_none_or(|old| !old.has_shapes_of(scene)) {
-            self.mesh = Uploaded::default();
-            self.shapes = Shapes::default();
-            self.traced = Uploaded::default();
-            self.lines.clear();
+            self.discard();
         }
+    }
+
+    fn discard(&mut self) {
+        self.mesh = Uploaded::default();
+        self.shapes = Shapes::default();
+        self.traced = Uploaded::default();
+        self.lines.clear();
     }
 
     /// Allows a retry of failed uploads when the user turns an overlay on.
@@ -251,6 +273,7 @@ impl OverlayLayer {
         let is_new =
             |lines: &WantedLines| lines.overlay.is_switch() && !before.contains(&lines.slot);
         if lines.iter().any(is_new) {
+            self.refused = None;
             self.mesh.forget_failure();
             self.traced.forget_failure();
             self.lines

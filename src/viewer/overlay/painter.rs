@@ -1,6 +1,8 @@
 //! The overlay's painter: draws in the background on a software GPU, and shows the last drawing until the next one
 //! is done.
 
+use super::OverlayError;
+use crate::gpu::GpuError;
 use crate::gpu::drawing::{Canvas, Drawing, DrawingState, Overlay, Paces, Targets};
 use crate::task::{Task, TaskPanicked};
 use std::cell::Cell;
@@ -52,12 +54,12 @@ impl Painter {
     /// new one, if its lines are mostly new; or `None`.
     ///
     /// # Errors
-    /// [`TaskPanicked`]; the next call starts again.
+    /// See [`OverlayError`]; the next call starts again.
     pub fn draw(
         &mut self,
         drawing: &Drawing,
         ctx: &egui::Context,
-    ) -> Result<Option<&wgpu::Texture>, TaskPanicked> {
+    ) -> Result<Option<&wgpu::Texture>, OverlayError> {
         self.finish()?;
         if self.is_shown(drawing) {
             self.cancel();
@@ -66,7 +68,7 @@ impl Painter {
                 Some(running) if running.drawing == *drawing => {}
                 // The textures are in use until it has ended.
                 Some(_) => self.cancel(),
-                None => self.start(drawing, ctx),
+                None => self.start(drawing, ctx)?,
             }
         }
         Ok(self.texture(drawing))
@@ -111,8 +113,8 @@ impl Painter {
         Ok(())
     }
 
-    fn start(&mut self, drawing: &Drawing, ctx: &egui::Context) {
-        let canvas = self.canvas(drawing);
+    fn start(&mut self, drawing: &Drawing, ctx: &egui::Context) -> Result<(), GpuError> {
+        let canvas = self.canvas(drawing)?;
         self.depth_of = None;
         let state = Arc::new(DrawingState::default());
         if !self.is_sliced {
@@ -121,7 +123,7 @@ impl Painter {
                 .draw(drawing, &canvas, &mut paces, &state, || ());
             self.depth_of = Some(drawing.clone());
             self.shown = Some((drawing.clone(), canvas.colour));
-            return;
+            return Ok(());
         }
         let (overlay, mut paces) = (Arc::clone(&self.overlay), self.paces);
         let (then, canvas_then, state_then) = (drawing.clone(), canvas.clone(), Arc::clone(&state));
@@ -143,26 +145,28 @@ impl Painter {
             state,
             task: Task::spawn("overlay", ctx, work),
         });
+        Ok(())
     }
 
     /// The texture that isn't shown, of the drawing's size.
-    fn canvas(&mut self, drawing: &Drawing) -> Canvas {
+    fn canvas(&mut self, drawing: &Drawing) -> Result<Canvas, GpuError> {
         let size = drawing.view.size();
         let is_right = |targets: &&Arc<Targets>| targets.size() == size;
         let targets = match self.targets.as_ref().filter(is_right) {
             Some(targets) => Arc::clone(targets),
             None => {
-                (self.shown, self.depth_of) = (None, None);
-                Arc::new(Targets::new(self.overlay.gpu().0, size))
+                // The old textures make room for the new ones.
+                (self.shown, self.depth_of, self.targets) = (None, None, None);
+                Arc::new(Targets::new(self.overlay.gpu().0, size)?)
             }
         };
         self.targets = Some(Arc::clone(&targets));
         let has_depth = self.depth_of.as_ref();
-        Canvas {
+        Ok(Canvas {
             targets,
             colour: self.shown.as_ref().map_or(0, |(_, number)| 1 - number),
             has_depth: has_depth.is_some_and(|of| of.has_depth_of(drawing)),
-        }
+        })
     }
 
     fn texture(&self, drawing: &Drawing) -> Option<&wgpu::Texture> {

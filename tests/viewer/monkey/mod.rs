@@ -1,0 +1,118 @@
+//! Random actions: none panics, none makes the graphics device report an error, and closing gives the memory back.
+//!
+//! `HITSCOPE_MONKEY=10000` sets the number of actions, `HITSCOPE_MONKEY_SEED=7` the seed of the first window.
+
+mod actions;
+mod files;
+
+pub use files::grid;
+
+use crate::alone::{alone, memory_below, memory_mb, panics};
+use crate::harness::{Window, app, gpu, press, say, settle, shared_setup, wait};
+use actions::Monkey;
+use egui::Key;
+use hitscope::app::{App, StartOptions};
+use std::path::Path;
+
+/// Actions of an ordinary run; a few seconds.
+const FEW: usize = 120;
+/// Memory may grow by this factor. The process has some 200 MB before the first action.
+const GROWTH: f64 = 1.05;
+
+fn number(variable: &str) -> Option<usize> {
+    std::env::var(variable).ok()?.parse().ok()
+}
+
+/// A window with the built-in scene.
+fn window() -> Option<Window> {
+    let gpu = gpu()?;
+    let window = egui_kittest::Harness::builder()
+        .with_size(egui::vec2(800.0, 600.0))
+        .with_step_dt(1.0 / 60.0)
+        .with_render_cursor(false)
+        .allow_missing_glyphs()
+        .wgpu_setup(shared_setup(gpu))
+        .build_eframe(|cc| App::new(cc, StartOptions::default()).expect("the harness has wgpu"));
+    Some(window)
+}
+
+/// Does random things in a new window, and closes it.
+fn play(seed: u64, count: usize, folder: &Path) -> Option<()> {
+    let mut window = window()?;
+    let mut monkey = Monkey::new(seed, folder);
+    for _ in 0..count {
+        monkey.act(&mut window);
+        assert_eq!(panics(), 0);
+        assert_eq!(window.state().graphics_errors(), 0);
+    }
+    Some(())
+}
+
+#[test]
+fn random_actions_neither_panic_nor_upset_the_gpu_and_closing_gives_the_memory_back() {
+    let name =
+        "monkey::random_actions_neither_panic_nor_upset_the_gpu_and_closing_gives_the_memory_back";
+    alone(name, |folder| {
+        let count = number("HITSCOPE_MONKEY").unwrap_or(FEW);
+        let seed = number("HITSCOPE_MONKEY_SEED").unwrap_or(1) as u64;
+        // The first window loads fonts and compiles shaders.
+        if play(seed, count.min(500), folder).is_none() {
+            return;
+        }
+        let before = memory_below(0.0);
+        play(seed + 1, count, folder);
+        let after = memory_below(GROWTH * before);
+        say(&format!(
+            "memory before {before:.1} MB, after {count} actions {after:.1} MB"
+        ));
+        assert!(
+            after <= GROWTH * before,
+            "{before:.1} MB before, {after:.1} MB after"
+        );
+    });
+}
+
+#[test]
+fn a_hundred_files_opened_and_closed_give_their_memory_back() {
+    alone(
+        "monkey::a_hundred_files_opened_and_closed_give_their_memory_back",
+        |folder| {
+            let Some(mut window) = app(None) else { return };
+            press(&mut window, Key::W);
+            let files: Vec<_> = (0..4)
+                .map(|k| grid(folder, &format!("grid-{k}.obj"), 60 + k))
+                .collect();
+            let open = |window: &mut Window, k: usize| {
+                let path = files[k % files.len()].clone();
+                let name = path
+                    .file_name()
+                    .expect("a file")
+                    .to_string_lossy()
+                    .into_owned();
+                crate::app::drop_file(window, path);
+                wait(window, &name, |app| {
+                    app.document().name() == name && app.film().samples() > 0
+                });
+                window.run_steps(3);
+            };
+            for k in 0..12 {
+                open(&mut window, k);
+            }
+            settle(&mut window, "grid-3.obj");
+            let before = memory_mb().unwrap_or(0.0);
+            for k in 0..100 {
+                open(&mut window, k);
+            }
+            settle(&mut window, "grid-3.obj");
+            let after = memory_below(GROWTH * before);
+            say(&format!(
+                "memory before {before:.1} MB, after 100 files {after:.1} MB"
+            ));
+            assert!(
+                after <= GROWTH * before,
+                "{before:.1} MB before, {after:.1} MB after"
+            );
+            assert_eq!((panics(), window.state().graphics_errors()), (0, 0));
+        },
+    );
+}
