@@ -1,4 +1,4 @@
-//! Quality: sets of settings from a draft to exact arithmetic.
+//! Quality: sets of settings from a draft to a reference.
 
 use crate::settings::Settings;
 use hitscope_core::group::kernel_named;
@@ -20,7 +20,7 @@ pub struct Quality {
     depth_limit: Option<u32>,
 }
 
-/// All sets, from fast to exact.
+/// All sets, from fast to accurate.
 pub static QUALITY: &[Quality] = &[
     Quality {
         title: "Draft",
@@ -40,23 +40,23 @@ pub static QUALITY: &[Quality] = &[
     },
     Quality {
         title: "Balanced",
-        about: "For most uses: the watertight kernel, 64 samples, the default offsets, paths of any length",
-        kernel: "watertight",
+        about: "For most uses: the exact kernel, 64 samples, the default offsets, paths of any length",
+        kernel: "exact",
         samples: 64,
         spawn: None,
         depth_limit: None,
     },
     Quality {
-        title: "Precise",
-        about: "For final pictures: the precise kernel, 256 samples, the default offsets, paths of any length",
-        kernel: "precise",
+        title: "Final",
+        about: "For final pictures: the exact kernel, 256 samples, the default offsets, paths of any length",
+        kernel: "exact",
         samples: 256,
         spawn: None,
         depth_limit: None,
     },
     Quality {
-        title: "Exact",
-        about: "For references: the exact kernel, 1024 samples, the default offsets, paths of any length",
+        title: "Reference",
+        about: "For comparisons with other renderers: the exact kernel, 1024 samples, the default offsets, paths of any length",
         kernel: "exact",
         samples: 1024,
         spawn: None,

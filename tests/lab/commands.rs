@@ -91,7 +91,7 @@ fn inspect_prints_the_documented_values() {
     let line = "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0 --json";
     let found = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
     assert_eq!(found["pixel"], serde_json::json!([50, 30]));
-    assert_eq!(found["kernel"], "watertight");
+    assert_eq!(found["kernel"], "exact");
     assert_eq!(found["hit"]["t"], 4.0);
     assert_eq!(
         (&found["hit"]["face"], &found["hit"]["material"]),

@@ -50,7 +50,7 @@ pub struct PictureArgs {
     /// Exposure and tone.
     #[command(flatten)]
     pub display: DisplayArgs,
-    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact]
+    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact; for the exact kernel, fast]
     #[arg(long, value_name = "KERNEL", value_parser = parse_kernel)]
     pub against: Option<KernelChoice>,
     /// Threads.
