@@ -9,7 +9,7 @@
 //! | they are appended in file order, and checked | `contents`, `names`, `colours`, `memory` |
 //! | material names are resolved to materials and textures | `materials` |
 //! | vertices are recentred, faces triangulated, and triangles that no ray can hit dropped | `assemble`, `used`, `origin`, `rounding`, `triangulate`, `oddities` |
-//! | warnings, errors, and the load report | `error`, `fence`, `report` |
+//! | warnings, errors, and the load report | `error`, `fence`, `report`, `steps` |
 //! | a face's statement is read again for the inspector, a vertex's to go to it | `face_source`, `vertex_source` |
 //!
 //! What happens to `f 1 2 3`:
@@ -49,6 +49,7 @@ mod rounding;
 mod skipped;
 mod source;
 mod statement;
+mod steps;
 mod tally;
 mod triangulate;
 mod used;
@@ -63,6 +64,7 @@ pub use materials::ReadFile;
 pub(crate) use materials::{Picture, read_past, read_picture};
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
+pub use steps::LoadSteps;
 pub use tally::LineRuns;
 pub use vertex_source::{VertexKey, VertexSource, vertex_source};
 
@@ -239,7 +241,8 @@ fn parse_with(
     let start = Instant::now();
     let parse = || {
         progress.enter(Phase::Reading);
-        let read = || parallel::read(bytes, CHUNK_SIZE, (&options, held), progress);
+        let mut steps = LoadSteps::default();
+        let read = || parallel::read(bytes, CHUNK_SIZE, (&options, held), progress, &mut steps);
         let contents = fenced("reading", read);
         let contents = contents.map_err(Problem::Content)??;
         // Textures get the remaining memory.
@@ -248,7 +251,8 @@ fn parse_with(
             max_memory: options.max_memory.saturating_sub(held),
             ..options
         };
-        let mut loaded = assemble::assemble(contents, &options, files, progress)?;
+        let mut loaded = assemble::assemble(contents, &options, files, progress, &mut steps)?;
+        loaded.report.steps = steps;
         loaded.report.duration = start.elapsed();
         Ok(loaded)
     };
