@@ -35,7 +35,15 @@ impl SampleSum {
     /// Digits below 2⁻⁶⁴ are dropped, and sums end at 2⁶⁴.
     pub fn add(&mut self, radiance: Vec3) -> bool {
         // A negative number becomes 0.
-        let fixed = |x: f64| (x * ONE) as u128;
+        let fixed = |x: f64| {
+            let scaled = x * ONE;
+            // Most numbers are below 1, and conversions to 64 bits take a fraction of the time.
+            if scaled < ONE {
+                u128::from(scaled as u64)
+            } else {
+                scaled as u128
+            }
+        };
         if !radiance.is_finite() {
             return false;
         }
@@ -57,7 +65,8 @@ impl SampleSum {
     /// The mean of `count` samples.
     fn mean(&self, count: u32) -> Vec3 {
         let unit = 1.0 / (ONE * f64::from(count));
-        Vec3::from_array(self.rgb.map(|sum| (sum as f64 * unit) as f32))
+        let number = |sum: u128| u64::try_from(sum).map_or_else(|_| sum as f64, |sum| sum as f64);
+        Vec3::from_array(self.rgb.map(|sum| (number(sum) * unit) as f32))
     }
 
     /// The variance of the luminance of a single sample, estimated from `count` samples; 0 for fewer than 2.

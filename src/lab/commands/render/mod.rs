@@ -154,7 +154,7 @@ impl RenderArgs {
         let outputs = outputs.iter().map(OutputNames::create);
         let outputs: Vec<Outputs> = outputs.collect::<Result<_, _>>()?;
         let mut pen = self.has_overlay().then(open_pen).transpose()?;
-        let scene = self.prepare()?;
+        let scene = self.prepare(shots.count())?;
         let cameras = shots.cameras(&scene)?;
         let meter = Meter::default();
         let bar = ProgressBar::of(&meter);
@@ -183,7 +183,7 @@ impl RenderArgs {
     /// See [`CommandError`].
     pub fn trace(&self) -> Result<Rendered, CommandError> {
         let shots = self.checked()?;
-        let scene = self.prepare()?;
+        let scene = self.prepare(shots.count())?;
         let first = shots.cameras(&scene)?[0];
         scene
             .seen_by(first)
@@ -232,8 +232,9 @@ impl RenderArgs {
     }
 
     /// Loads the scene.
-    fn prepare(&self) -> Result<PreparedScene<'_>, CommandError> {
-        let loaded = self.picture.scene.load()?;
+    fn prepare(&self, shot_count: usize) -> Result<PreparedScene<'_>, CommandError> {
+        let first_tree = self.picture.first_tree(shot_count);
+        let loaded = self.picture.scene.load_with_tree(first_tree)?;
         let has_guides = self.format()? == PictureFormat::Exr;
         let scene = self.picture.prepare(loaded, has_guides)?;
         self.check_legend(scene.views())?;
