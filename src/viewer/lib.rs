@@ -67,6 +67,7 @@ pub mod screenshot;
 pub mod session;
 pub mod settings;
 pub mod storage;
+mod subcommand;
 pub mod tab;
 pub mod task;
 pub mod theme;

@@ -298,6 +298,10 @@ fn bench_prints_a_row_per_workload_and_kernel() {
     ] {
         assert!(report[figure].as_f64().is_some_and(|x| x > 0.0), "{figure}");
     }
+    let steps = report["load_steps_ms"].as_object().expect("steps");
+    for step in ["cutting", "joining", "recentring", "triangulating"] {
+        assert!(steps[step].as_f64().is_some_and(|x| x >= 0.0), "{step}");
+    }
     let rows = report["workloads"].as_array().expect("rows");
     let workloads = [
         ("primary", 4),

@@ -78,7 +78,7 @@ pub(super) fn read(
             pending_bytes -= bytes;
         }
     })?;
-    steps.time("checking indices", || {
+    steps.time("joining", || {
         contents.finish(options.faults, chunks.has_garbage())
     })?;
     Ok(contents)
