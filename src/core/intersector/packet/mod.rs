@@ -125,7 +125,6 @@ impl<M: PacketMethod, S: Simd, const IS_ANY: bool> PacketVisitor<S> for Search<'
     }
 }
 
-
 /// The most rays whose packets are traced with one choice of the SIMD level: one bit per packet marks those that
 /// aren't coherent.
 const AT_ONCE: usize = u64::BITS as usize * PACKET;
