@@ -20,8 +20,9 @@ impl<T> Default for ListParts<T> {
 
 impl<T: Copy + Send + Sync> ListParts<T> {
     /// Adds the next part.
-    pub(super) fn push(&mut self, part: Vec<T>) {
+    pub(super) fn push(&mut self, mut part: Vec<T>) {
         if !part.is_empty() {
+            part.shrink_to_fit();
             self.ends.push(self.count() + part.len());
             self.parts.push(part);
         }

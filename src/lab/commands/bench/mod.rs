@@ -117,6 +117,7 @@ impl BenchArgs {
             load_steps_ms: (loaded.report.steps.iter())
                 .map(|(step, time)| (step.to_owned(), milliseconds(time).into()))
                 .collect(),
+            load_threads: rayon::current_num_threads(),
             build_ms: milliseconds(scene.build_time()),
             quick_build_ms: milliseconds(quick_build_time(scene.mesh())),
             bytes: packed[0].bytes,

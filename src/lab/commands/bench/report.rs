@@ -19,7 +19,9 @@ pub(super) struct Report {
     pub load_ms: f64,
     /// The same, step by step; empty for a scene file.
     pub load_steps_ms: Map<String, Value>,
-    /// Building the trees, on all cores.
+    /// The threads that load and build trees.
+    pub load_threads: usize,
+    /// Building the trees.
     pub build_ms: f64,
     /// Building the quick tree of triangles that the window starts with. No rays are traced through it here.
     pub quick_build_ms: f64,
