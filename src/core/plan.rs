@@ -34,6 +34,11 @@ pub struct PixelRect {
 }
 
 impl PixelRect {
+    /// Number of pixels.
+    pub(crate) fn pixel_count(self) -> usize {
+        (self.max - self.min).as_usizevec2().element_product()
+    }
+
     /// The smallest rectangle around both.
     #[must_use]
     pub fn union(self, other: Self) -> Self {

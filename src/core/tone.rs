@@ -130,7 +130,8 @@ impl Display {
             let encoded = |i: u32| (255.0 * to_display(i as f32 / STEPS)).round() as u8;
             (0..=STEPS as u32).map(encoded).collect()
         });
-        let encoded = |x: f32| SRGB[(x.clamp(0.0, 1.0) * STEPS).round() as usize];
+        // Rounded by truncation: `round` calls a function on CPUs without SSE 4.1. NaN is 0.
+        let encoded = |x: f32| SRGB[(x.clamp(0.0, 1.0) * STEPS + 0.5) as usize];
         let colour = self.curve.map(self.factor * linear);
         let [r, g, b] = colour.to_array().map(encoded);
         [r, g, b, 255]

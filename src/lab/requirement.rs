@@ -37,7 +37,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     } else if triangles == 0 {
         found.add(
             Tier::Watertight,
-            "The scene has no triangles, between which gaps could show; for other shapes, watertight is the default.",
+            "The scene has no triangles, between which gaps could show; the fast kernels of other shapes err from far away.",
         );
     } else {
         found.add_for_edges(health, triangles);
@@ -47,7 +47,7 @@ pub fn required_tier(scene: &Scene, health: &Health) -> Requirement {
     if triangles > 0 && !SAFE_SIZE.contains(&size) {
         let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
         found.add(Tier::Precise, format!(
-            "The scene is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and the watertight kernel tests nearly every triangle again in f64, one by one."
+            "The scene is {size:.1e} units large: outside {least:e} to {most:e}, products of lengths leave f32's range, and the watertight and exact kernels may test nearly every triangle again, one by one."
         ));
     }
     if health.max_aspect > SLIVER_ASPECT {

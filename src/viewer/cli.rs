@@ -2,27 +2,25 @@
 
 use crate::about::version_and_target;
 use crate::app::StartOptions;
-use crate::completions::CompletionsArgs;
 use crate::display;
 use crate::document::embedded_scene;
 use crate::launch::run_window;
-use crate::man::ManArgs;
 use crate::offscreen;
-use crate::render;
 use crate::screenshot::{Outcome, ScreenshotOptions};
 use crate::session::is_session;
 use crate::storage::{Kept, stored};
+use crate::subcommand::Command;
 use clap::error::ErrorKind;
-use clap::{CommandFactory, FromArgMatches as _, Parser, Subcommand};
+use clap::{CommandFactory, FromArgMatches as _, Parser};
 use hitscope_core::names::nearest;
 use hitscope_core::obj::{LoadOptions, shown};
 use hitscope_core::simd::SimdLevel;
 use hitscope_lab::commands::{
-    BenchArgs, CommandError, CompareArgs, ConvergeArgs, InfoArgs, InspectArgs, LabArgs, MemoryArg,
-    Output, PictureArgs, RenderArgs, TraceArgs, is_stdin, parse_png, print_line, start_thread_pool,
+    CommandError, MemoryArg, Output, PictureArgs, is_stdin, parse_png, print_line,
+    start_thread_pool,
 };
 use std::ffi::{OsStr, OsString};
-use std::io::{self, BufWriter, Write, stdout};
+use std::io::{self, Write, stdout};
 use std::path::{Path, PathBuf};
 use std::process::ExitCode;
 use std::sync::{Arc, PoisonError};
@@ -77,30 +75,6 @@ struct Cli {
     command: Option<Command>,
 }
 
-#[derive(Subcommand, Debug)]
-enum Command {
-    #[command(display_name = "hitscope render")]
-    Render(Box<RenderArgs>),
-    #[command(display_name = "hitscope inspect")]
-    Inspect(Box<InspectArgs>),
-    #[command(display_name = "hitscope trace")]
-    Trace(TraceArgs),
-    #[command(display_name = "hitscope info")]
-    Info(InfoArgs),
-    #[command(display_name = "hitscope compare")]
-    Compare(CompareArgs),
-    #[command(display_name = "hitscope lab")]
-    Lab(LabArgs),
-    #[command(display_name = "hitscope bench")]
-    Bench(BenchArgs),
-    #[command(display_name = "hitscope converge")]
-    Converge(ConvergeArgs),
-    #[command(display_name = "hitscope man", hide = true)]
-    Man(ManArgs),
-    #[command(display_name = "hitscope completions", hide = true)]
-    Completions(CompletionsArgs),
-}
-
 /// Runs the command line. The exit status is 0 on success, 1 for bad input or a system error, with one line on
 /// stderr, and 2 if the command line is wrong.
 pub fn run() -> ExitCode {
@@ -120,8 +94,10 @@ pub fn run() -> ExitCode {
         print_line(format_args!("hitscope: {error}"));
         return ExitCode::from(2);
     }
-    let result = start_thread_pool().and_then(|()| match &cli.command {
-        Some(command) => command.run(),
+    let threads = cli.command.as_ref().map(Command::threads);
+    let started = start_thread_pool(threads.unwrap_or_default());
+    let result = started.and_then(|()| match &cli.command {
+        Some(command) => command.run(Cli::command),
         None => open_window(&cli),
     });
     match result {
@@ -193,25 +169,6 @@ impl Cli {
             ));
         }
         Ok(())
-    }
-}
-
-impl Command {
-    fn run(&self) -> Result<(), CommandError> {
-        let mut out = BufWriter::new(stdout().lock());
-        match self {
-            Self::Render(args) => render::run(args, &mut out)?,
-            Self::Inspect(args) => args.run(&mut out)?,
-            Self::Trace(args) => args.run(&mut out)?,
-            Self::Info(args) => args.run(&mut out)?,
-            Self::Compare(args) => args.run(&mut out)?,
-            Self::Lab(args) => args.run(&mut out)?,
-            Self::Bench(args) => args.run(&mut out)?,
-            Self::Converge(args) => args.run(&mut out)?,
-            Self::Man(args) => args.run(Cli::command(), &mut out)?,
-            Self::Completions(args) => args.run(Cli::command(), &mut out)?,
-        }
-        Ok(out.flush()?)
     }
 }
 

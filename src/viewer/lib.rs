@@ -69,6 +69,7 @@ pub mod screenshot;
 pub mod session;
 pub mod settings;
 pub mod storage;
+mod subcommand;
 pub mod tab;
 pub mod task;
 pub mod theme;

@@ -1,4 +1,4 @@
-//! Quality: sets of settings from a draft to exact arithmetic.
+//! Quality: sets of settings from a draft to a reference.
 
 use crate::settings::Settings;
 use hitscope_core::group::kernel_named;
@@ -72,7 +72,7 @@ impl MovingResolution {
     }
 }
 
-/// All sets, from fast to exact.
+/// All sets, from fast to accurate.
 pub static QUALITY: &[Quality] = &[
     Quality {
         title: "Draft",
@@ -94,25 +94,25 @@ pub static QUALITY: &[Quality] = &[
     },
     Quality {
         title: "Balanced",
-        about: "For most uses: the watertight kernel, 64 samples, the default offsets, paths of any length, automatic resolution while moving",
-        kernel: "watertight",
+        about: "For most uses: the exact kernel, 64 samples, the default offsets, paths of any length, automatic resolution while moving",
+        kernel: "exact",
         samples: 64,
         spawn: None,
         depth_limit: None,
         moving: MovingResolution::Automatic,
     },
     Quality {
-        title: "Precise",
-        about: "For final pictures: the precise kernel, 256 samples, the default offsets, paths of any length, automatic resolution while moving",
-        kernel: "precise",
+        title: "Final",
+        about: "For final pictures: the exact kernel, 256 samples, the default offsets, paths of any length, automatic resolution while moving",
+        kernel: "exact",
         samples: 256,
         spawn: None,
         depth_limit: None,
         moving: MovingResolution::Automatic,
     },
     Quality {
-        title: "Exact",
-        about: "For references: the exact kernel, 1024 samples, the default offsets, paths of any length, full resolution while moving",
+        title: "Reference",
+        about: "For comparisons with other renderers: the exact kernel, 1024 samples, the default offsets, paths of any length, full resolution while moving",
         kernel: "exact",
         samples: 1024,
         spawn: None,

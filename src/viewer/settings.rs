@@ -183,9 +183,15 @@ impl Settings {
         self.kernel = kernel.to_owned();
     }
 
-    /// The kernel that the view *Disagreement* compares the selected kernel with.
+    /// The kernel that the view *Disagreement* compares the selected kernel with. It is another one, as a kernel always
+    /// agrees with itself.
     pub fn against(&self) -> KernelChoice {
-        kernel_named(&self.against).unwrap_or_else(|| exact_triangle_kernel().into())
+        let chosen = kernel_named(&self.against).unwrap_or_else(|| exact_triangle_kernel().into());
+        if chosen == self.kernel() {
+            chosen.default_second()
+        } else {
+            chosen
+        }
     }
 
     /// The kernel that the current view compares the selected kernel with.

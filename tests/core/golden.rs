@@ -11,8 +11,12 @@
 
 use glam::{DVec3, UVec2, Vec3};
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::{Context, INTEGRATORS, Lighting, ViewOptions, integrator};
-use hitscope_core::kernel::{default_triangle_kernel, exact_triangle_kernel};
+use hitscope_core::integrator::{
+    Comparison, Context, INTEGRATORS, Lighting, ViewOptions, integrator,
+};
+use hitscope_core::kernel::{
+    KernelTable as _, Tier, default_triangle_kernel, exact_triangle_kernel,
+};
 use hitscope_core::light::{DirectionalLight, Environment, Light, Lights};
 use hitscope_core::mesh::shapes::{Placement, torus};
 use hitscope_core::mesh::{Assigned, Attributes, Illumination, Material, Runs};
@@ -20,6 +24,7 @@ use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
 use hitscope_core::scene::Shading;
 use hitscope_core::scene::scene;
+use hitscope_core::shape::Triangle;
 use hitscope_core::spawn::SPAWN_POLICIES;
 use hitscope_core::{Camera, Clip, Film, Intersector, TriangleMesh};
 use std::fs;
@@ -54,7 +59,12 @@ fn mesh(view: &str) -> TriangleMesh {
 pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
     let scene = Arc::new(scene(mesh(view)));
     let view = integrator(view).expect("a view");
-    let intersector: Arc<dyn Intersector> = scene.intersector(default_triangle_kernel()).into();
+    // The exact kernel's errors would leave the pictures of errors blank.
+    let kernel = match view.needs.second {
+        Comparison::Nothing => default_triangle_kernel(),
+        Comparison::Exact | Comparison::Second => Triangle::kernel_of(Tier::Watertight),
+    };
+    let intersector: Arc<dyn Intersector> = scene.intersector(kernel).into();
     let eye = DVec3::new(1.25, -2.0, 2.25);
     let camera = Camera::look_at(eye, DVec3::ZERO, DVec3::Z, projection, plan.size());
     let lamp = DirectionalLight {

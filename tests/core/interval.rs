@@ -82,7 +82,7 @@ fn whether_t_exceeds_the_largest_f32_depends_on_the_direction_as_given() {
 fn a_hit_stays_inside_the_interval_even_if_t_rounds_to_an_end() {
     // t is exactly 1 − 2⁻²⁵, which f32 rounds to 1.
     let z = 1.0 - 1.0 / f64::from(1 << 25);
-    let kernel = triangle_kernel("watertight").expect("the default");
+    let kernel = triangle_kernel("watertight").expect("in the table");
     let half = (z / 2.0) as f32;
     let corners = [[-1.0, -1.0], [2.0, -1.0], [-1.0, 2.0]].map(|[x, y]| Vec3::new(x, y, half));
     let origin = Vec3::new(0.0, 0.0, (f64::from(half) - z) as f32);

@@ -44,7 +44,7 @@ fn info_says_that_a_scene_is_empty() {
 
 #[test]
 fn scenes_without_size_have_no_bounds() {
-    let shapes = "The scene has no triangles, between which gaps could show; for other shapes, watertight is the default.";
+    let shapes = "The scene has no triangles, between which gaps could show; the fast kernels of other shapes err from far away.";
     for (contents, reason) in [
         (NOTHING, "The scene is empty."),
         (PLANE, shapes),

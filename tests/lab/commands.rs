@@ -91,7 +91,7 @@ fn inspect_prints_the_documented_values() {
     let line = "@cube.obj --pixel 50,30 --size 101x61 --eye 0.4,0.5,5 --target 0.4,0.5,0 --json";
     let found = folder.json(|f, out| f.args::<InspectArgs>(line).run(out));
     assert_eq!(found["pixel"], serde_json::json!([50, 30]));
-    assert_eq!(found["kernel"], "watertight");
+    assert_eq!(found["kernel"], "exact");
     assert_eq!(found["hit"]["t"], 4.0);
     assert_eq!(
         (&found["hit"]["face"], &found["hit"]["material"]),
@@ -297,6 +297,10 @@ fn bench_prints_a_row_per_workload_and_kernel() {
         "bytes_per_primitive",
     ] {
         assert!(report[figure].as_f64().is_some_and(|x| x > 0.0), "{figure}");
+    }
+    let steps = report["load_steps_ms"].as_object().expect("steps");
+    for step in ["cutting", "joining", "recentring", "triangulating"] {
+        assert!(steps[step].as_f64().is_some_and(|x| x >= 0.0), "{step}");
     }
     let rows = report["workloads"].as_array().expect("rows");
     let workloads = [

@@ -55,6 +55,30 @@ fn a_turntable_shows_all_sides_beginning_with_the_usual_view() {
 }
 
 #[test]
+fn a_picture_of_few_rays_is_traced_through_the_quick_tree() {
+    let folder = Folder::new();
+    let mut text = String::new();
+    for k in 0..400 {
+        text += &format!("v {k} 0 0\nv {k} 1 0\nv {k} 0 1\nf -3 -2 -1\n");
+    }
+    folder.write("many.obj", &text);
+    let has_best_tree = |options: &str| {
+        let line = format!("@many.obj -o @out.png --size 24x20 {options}");
+        let rendered = folder.args::<RenderArgs>(&line).trace().expect("a picture");
+        rendered.loaded.scene.has_best_tree()
+    };
+    assert!(!has_best_tree("--view shaded --samples 1"));
+    // 16 times as many rays; a view of the tree; views with more rays than pixels.
+    assert!(has_best_tree("--view shaded --samples 16"));
+    for view in ["cost", "path", "spawning"] {
+        assert!(
+            has_best_tree(&format!("--view {view} --samples 1")),
+            "{view}"
+        );
+    }
+}
+
+#[test]
 fn a_list_of_cameras_gives_the_pictures_of_the_same_options() {
     let folder = Folder::new();
     folder.write(

@@ -183,7 +183,7 @@ fn a_selected_kernel_is_used_once_it_is_packed() {
     let Some(mut window) = app(None) else { return };
     assert_eq!(
         window.state().document().intersector().kernel().name,
-        "watertight"
+        "exact"
     );
     choose_kernel(&mut window, "fast – Möller–Trumbore");
     wait(&mut window, "the other kernel", |app| {

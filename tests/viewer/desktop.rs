@@ -219,7 +219,7 @@ fn bad_stored_settings_do_not_keep_the_window_from_opening() {
         program.quit();
         let kept = std::fs::read_to_string(&stored).expect("written at the end");
         assert!(
-            kept.contains("watertight") && !kept.contains("zoom_factor"),
+            kept.contains(r#"\"kernel\":\"exact\""#) && !kept.contains("zoom_factor"),
             "{kept}"
         );
     }

@@ -65,6 +65,22 @@ fn a_mesh_can_be_read_from_standard_input() {
 }
 
 #[test]
+fn the_threads_of_the_command_line_load_and_build() {
+    let program = Program::new();
+    let load_threads = |options: &str| {
+        let line = format!("bench good.obj --size 4x4 --rounds 1 --json {options}");
+        let mut command = program.command();
+        command.env("RAYON_NUM_THREADS", "3");
+        let ran = command.args(line.split_whitespace()).output();
+        let report = stdout(&ran.expect("the program runs"));
+        let report: serde_json::Value = serde_json::from_str(&report).expect("JSON");
+        report["load_threads"].clone()
+    };
+    assert_eq!(load_threads(""), 3);
+    assert_eq!(load_threads("--threads 1"), 1);
+}
+
+#[test]
 fn a_lack_of_threads_is_reported_in_one_line() {
     let program = Program::new();
     for line in [

@@ -134,8 +134,8 @@ fn a_click_inspects_at_any_scale_and_a_double_click_sets_the_pivot() {
         let row = found.kernels.iter().find(|row| row.name == found.kernel);
         let row = row.expect("a row of the current kernel");
         assert_eq!((row.t, row.triangle), (Some(hit.t), Some(hit.primitive)));
-        // The bound of the watertight kernel for a mesh seen from a few times its size; see tests/core/conformance.rs.
-        assert!(row.t_error_ulps.expect("the same triangle") < 32.0);
+        // The promise of the default kernel.
+        assert!(row.t_error_ulps.expect("the same triangle") <= 0.51);
         window.get_by_label("Copy as JSON");
         window.get_by_label("Kernels compared with exact arithmetic");
 
@@ -225,7 +225,7 @@ fn a_pick_is_inspected_again_when_kernel_or_shading_change() {
     click(&mut window, place);
     wait(&mut window, "the pick", |app| app.inspection().is_some());
     window.run_steps(2);
-    window.get_by_label("Hit (watertight)");
+    window.get_by_label("Hit (exact)");
     let normal = |app: &App| {
         app.inspection()
             .and_then(|i| Some(i.hit.as_ref()?.shading_normal))

@@ -1,6 +1,7 @@
 //! The choice of a kernel for each shape, by one name.
 
 use super::{KernelInfo, KernelRow, KernelTable, Precision, Tier};
+use crate::shape::Triangle;
 
 /// A kernel chosen by name. Shapes whose tables lack the name use the kernel of a tier.
 #[derive(Clone, Copy, Debug)]
@@ -33,6 +34,16 @@ impl KernelChoice {
             Precision::Adaptive => Tier::Exact,
         })
     }
+
+    /// The kernel to compare this one with, unless the user chooses another: the exact one; for the exact one, the fast
+    /// one.
+    pub fn default_second(self) -> Self {
+        let tier = match self.tier() {
+            Tier::Exact => Tier::Fast,
+            _ => Tier::Exact,
+        };
+        Triangle::kernel_of(tier).into()
+    }
 }
 
 impl<S> From<&'static KernelRow<S>> for KernelChoice {
@@ -51,7 +62,6 @@ impl PartialEq for KernelChoice {
 mod tests {
     use super::*;
     use crate::kernel::TRIANGLE_KERNELS;
-    use crate::shape::Triangle;
 
     #[test]
     fn a_choice_leads_to_the_kernel_of_its_name() {
@@ -61,6 +71,14 @@ mod tests {
             let infos: Vec<_> = TRIANGLE_KERNELS.iter().map(|row| row.info).collect();
             let found = choice.among(&infos).expect("in the list");
             assert!(std::ptr::eq(found, row.info));
+        }
+    }
+
+    #[test]
+    fn no_kernel_is_compared_with_itself_by_default() {
+        for row in TRIANGLE_KERNELS.iter() {
+            let choice = KernelChoice::from(row);
+            assert!(choice != choice.default_second(), "{}", row.info.name);
         }
     }
 }

@@ -15,6 +15,9 @@ pub enum Tier {
 }
 
 impl Tier {
+    /// The tier of the default kernel.
+    pub const DEFAULT: Self = Self::Exact;
+
     /// All tiers.
     pub const ALL: [Self; 4] = [Self::Fast, Self::Watertight, Self::Precise, Self::Exact];
 

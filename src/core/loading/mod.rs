@@ -153,7 +153,7 @@ fn size_warning(scene: &Scene) -> Option<Warning> {
     }
     let (least, most) = (SAFE_SIZE.start(), SAFE_SIZE.end());
     Some(Warning::of_file(format!(
-        "the scene is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits and the watertight kernel is slow: scale the scene or use the precise kernel"
+        "the scene is {size:.1e} units large; outside {least:e} to {most:e}, the fast kernel may miss hits, and the watertight and exact kernels may be slow: scale the scene or use the precise kernel"
     )))
 }
 

@@ -12,6 +12,7 @@ use super::oddities::{Oddities, no_triangles};
 use super::origin::{ChosenOrigin, choose_origin, far_vertices, sample_surface};
 use super::report::LoadReport;
 use super::rounding::max_rounding;
+use super::steps::LoadSteps;
 use super::triangulate::{Assembly, ChunkTriangles};
 use super::used::Used;
 use super::{LoadOptions, Loaded};
@@ -28,20 +29,25 @@ pub(super) fn assemble(
     options: &LoadOptions,
     files: &dyn ReferencedFiles,
     progress: &Progress,
+    steps: &mut LoadSteps,
 ) -> Result<Loaded, Problem> {
     progress.enter(Phase::Checking);
     let vertex_count = contents.positions.len();
-    let prepared = Prepared::of(&mut contents);
+    let prepared = steps.time("removing unused entries", || Prepared::of(&mut contents));
     let mut warnings = prepared.warnings;
-    let mut found = materials::resolve(&contents, files, options.max_memory, progress)?;
+    let resolve = || materials::resolve(&contents, files, options.max_memory, progress);
+    let mut found = steps.time("materials", resolve)?;
     warnings.append(&mut found.warnings);
     let has_textures = options.keeps_coordinates || !found.textures.is_empty();
     progress.check()?;
 
-    let ChosenOrigin { origin, core } =
-        choose_origin(&contents.positions, &prepared.surface, options.recentre);
     let exact = std::mem::take(&mut contents.positions);
-    let positions: Vec<Vec3> = exact.par_iter().map(|&p| (p - origin).as_vec3()).collect();
+    let (ChosenOrigin { origin, core }, positions) = steps.time("recentring", || {
+        let chosen = choose_origin(&exact, &prepared.surface, options.recentre);
+        let moved = exact.par_iter().map(|&p| (p - chosen.origin).as_vec3());
+        let positions: Vec<Vec3> = moved.collect();
+        (chosen, positions)
+    });
     let elements = std::mem::take(&mut contents.elements);
     let assembly = Assembly {
         exact: &exact,
@@ -53,12 +59,15 @@ pub(super) fn assemble(
         large_polygons: Mutex::new(()),
         progress,
     };
-    let (mut triangles, parts) = triangulate(&assembly, elements)?;
+    let (mut triangles, parts) =
+        steps.time("triangulating", || triangulate(&assembly, elements))?;
     progress.check()?;
 
     let found = (found, has_textures);
     let colours = prepared.colours;
-    let (attributes, oddities) = gather(&mut triangles, parts, &mut contents, found, colours);
+    let (attributes, oddities) = steps.time("gathering", || {
+        gather(&mut triangles, parts, &mut contents, found, colours)
+    });
     let dropped = oddities.dropped(&contents.skipped);
     warnings.extend(oddities.warnings());
     progress.check()?;
@@ -72,7 +81,7 @@ pub(super) fn assemble(
     let far = |core| far_vertices(&mesh, &exact, core, has_long_numbers);
     warnings.extend(core.and_then(far));
     let report = LoadReport {
-        max_rounding: max_rounding(&mesh, &exact, has_long_numbers),
+        max_rounding: steps.time("rounding", || max_rounding(&mesh, &exact, has_long_numbers)),
         warnings,
         dropped,
         vertex_count,

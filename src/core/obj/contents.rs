@@ -7,6 +7,7 @@ use super::corner::List;
 use super::elements::{ElementKind, Elements};
 use super::error::{Problem, Warning};
 use super::names::{LibraryNames, NamedRuns};
+use super::parts::ListParts;
 use super::reader::{self, ChunkOptions};
 use super::skipped::Skipped;
 use super::tally::LineRuns;
@@ -20,9 +21,13 @@ const MAX_ENTRIES: usize = NO_INDEX as usize - 1;
 /// The contents of a file.
 #[derive(Default)]
 pub(super) struct Contents {
+    /// The lists are empty until [`finish`](Self::finish).
     pub positions: Vec<DVec3>,
     pub textures: Vec<Vec2>,
     pub normals: Vec<Vec3>,
+    position_parts: ListParts<DVec3>,
+    texture_parts: ListParts<Vec2>,
+    normal_parts: ListParts<Vec3>,
     pub colours: Colours,
     /// The elements of each chunk.
     pub elements: Vec<Elements>,
@@ -58,9 +63,9 @@ impl Contents {
     /// Number of entries in each list.
     pub(super) fn counts(&self) -> [usize; 3] {
         [
-            self.positions.len(),
-            self.textures.len(),
-            self.normals.len(),
+            self.positions.len() + self.position_parts.count(),
+            self.textures.len() + self.texture_parts.count(),
+            self.normals.len() + self.normal_parts.count(),
         ]
     }
 
@@ -90,9 +95,9 @@ impl Contents {
         for (vertex, colour) in part.colours {
             self.colours.add(first_vertex + vertex as usize, colour);
         }
-        self.positions.append(&mut part.positions);
-        self.textures.append(&mut part.textures);
-        self.normals.append(&mut part.normals);
+        self.position_parts.push(part.positions);
+        self.texture_parts.push(part.textures);
+        self.normal_parts.push(part.normals);
         self.has_long_numbers |= part.has_long_numbers;
         for (line, name) in part.libraries {
             self.other_bytes += 2 * name.len() + 128;
@@ -158,6 +163,9 @@ impl Contents {
     /// An index is out of range, and `faults` is strict.
     pub(super) fn finish(&mut self, faults: FaultPolicy, has_garbage: bool) -> Result<(), Problem> {
         self.has_garbage = has_garbage;
+        self.positions = self.position_parts.join();
+        self.textures = self.texture_parts.join();
+        self.normals = self.normal_parts.join();
         let counts = self.counts();
         for list in [List::Texture, List::Normal] {
             if counts[list as usize] == 0 {

@@ -4,7 +4,7 @@
 //!
 //! | phase | lists |
 //! |---|---|
-//! | reading | the file's numbers, positions in f64, and the elements' indices |
+//! | reading | the file's numbers, positions in f64, twice while they are joined, and the elements' indices |
 //! | assembling | the same, and the mesh |
 //! | building the tree | the mesh, the tree, and the builder's lists |
 //!
@@ -57,7 +57,8 @@ pub(super) fn bytes(contents: &Contents) -> u64 {
         + (polygon::BYTES_PER_CORNER * polygon) as u64
         + (BYTES_PER_OUTLINE_CORNER * contents.largest_element) as u64;
     let building = mesh + bvh::BYTES_WHILE_BUILDING as u64 * triangle_count;
-    assembling.max(building) + contents.other_bytes as u64
+    let joining = file + per_entry(counts, IN_FILE);
+    joining.max(assembling).max(building) + contents.other_bytes as u64
 }
 
 fn per_entry(counts: [u64; 3], sizes: [usize; 3]) -> u64 {

@@ -6,10 +6,10 @@
 //! | the file is cut into chunks of whole statements | `chunks`; `kind` recognises other formats |
 //! | **chunks are parsed in parallel** | `parallel`; `plain`, or `reader` with `keyword`, `statement`, `words`, `corner` |
 //! | the contents of a chunk | `chunk_contents`, `elements`, `skipped`, `tally` |
-//! | they are appended in file order, and checked | `contents`, `names`, `colours`, `memory` |
+//! | they are appended in file order, and checked | `contents`, `parts`, `names`, `colours`, `memory` |
 //! | material names are resolved to materials and textures | `materials` |
 //! | vertices are recentred, faces triangulated, and triangles that no ray can hit dropped | `assemble`, `used`, `origin`, `rounding`, `triangulate`, `oddities` |
-//! | warnings, errors, and the load report | `error`, `fence`, `report` |
+//! | warnings, errors, and the load report | `error`, `fence`, `report`, `steps` |
 //! | a face's statement is read again for the inspector, a vertex's to go to it | `face_source`, `vertex_source` |
 //!
 //! What happens to `f 1 2 3`:
@@ -18,8 +18,8 @@
 //! 2. `plain::read` parses it to the indices 0, 1 and 2. `f -3 -2 -1`, `f 1 2 3 # door` and errors take the general path,
 //!    `ChunkReader::take`, instead.
 //! 3. `Elements::end` records a face of three corners and its line.
-//! 4. `Contents::append` adds the chunk's vertices to the file's and makes relative indices absolute.
-//! 5. `Contents::finish` checks that the vertices exist.
+//! 4. `Contents::append` takes the chunk's vertices and makes relative indices absolute.
+//! 5. `Contents::finish` joins the vertices of all chunks and checks that those of the face exist.
 //! 6. `Assembly::triangulate` renumbers them without unused vertices, drops the face if it has no area, and writes the
 //!    triangle to its place in the mesh's list.
 
@@ -42,6 +42,7 @@ mod names;
 mod oddities;
 mod origin;
 mod parallel;
+mod parts;
 mod plain;
 mod reader;
 mod report;
@@ -49,6 +50,7 @@ mod rounding;
 mod skipped;
 mod source;
 mod statement;
+mod steps;
 mod tally;
 mod triangulate;
 mod used;
@@ -63,6 +65,7 @@ pub use materials::ReadFile;
 pub(crate) use materials::{Picture, linear_picture, read_past, read_picture};
 pub(crate) use origin::origin_near;
 pub use report::{Dropped, LoadReport};
+pub use steps::LoadSteps;
 pub use tally::LineRuns;
 pub use vertex_source::{VertexKey, VertexSource, vertex_source};
 
@@ -239,7 +242,8 @@ fn parse_with(
     let start = Instant::now();
     let parse = || {
         progress.enter(Phase::Reading);
-        let read = || parallel::read(bytes, CHUNK_SIZE, (&options, held), progress);
+        let mut steps = LoadSteps::default();
+        let read = || parallel::read(bytes, CHUNK_SIZE, (&options, held), progress, &mut steps);
         let contents = fenced("reading", read);
         let contents = contents.map_err(Problem::Content)??;
         // Textures get the remaining memory.
@@ -248,7 +252,8 @@ fn parse_with(
             max_memory: options.max_memory.saturating_sub(held),
             ..options
         };
-        let mut loaded = assemble::assemble(contents, &options, files, progress)?;
+        let mut loaded = assemble::assemble(contents, &options, files, progress, &mut steps)?;
+        loaded.report.steps = steps;
         loaded.report.duration = start.elapsed();
         Ok(loaded)
     };

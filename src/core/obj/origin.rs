@@ -86,25 +86,25 @@ pub(crate) fn origin_near([min, max]: [DVec3; 2]) -> Option<DVec3> {
 pub(super) fn sample_surface(elements: &[Elements], positions: &[DVec3]) -> Vec<DVec3> {
     const MOST_CHUNKS: usize = 64;
     const FACES_PER_CHUNK: usize = 64;
-    let mut sample = Vec::new();
-    for elements in elements
-        .iter()
-        .step_by(elements.len().div_ceil(MOST_CHUNKS).max(1))
-    {
+    let step = elements.len().div_ceil(MOST_CHUNKS).max(1);
+    let chunks = elements.par_iter().step_by(step);
+    let faces_of = |elements: &Elements| {
         let faces = elements
             .iter()
             .filter(|element| element.kind == ElementKind::Face);
-        for face in faces.step_by(elements.count.div_ceil(FACES_PER_CHUNK).max(1)) {
+        let some = faces.step_by(elements.count.div_ceil(FACES_PER_CHUNK).max(1));
+        let corners = some.map(|face| {
             let vertices = &elements.corners[0][face.corners];
-            let corner = |third: usize| positions[vertices[third * vertices.len() / 3] as usize];
-            let corners = [0, 1, 2].map(corner);
-            let area = vector_area(&corners);
-            if area.is_finite() && area != DVec3::ZERO {
-                sample.extend(corners);
-            }
-        }
-    }
-    sample
+            [0, 1, 2].map(|third| positions[vertices[third * vertices.len() / 3] as usize])
+        });
+        corners.filter(has_area).collect::<Vec<_>>()
+    };
+    chunks.map(faces_of).collect::<Vec<_>>().concat().concat()
+}
+
+fn has_area(corners: &[DVec3; 3]) -> bool {
+    let area = vector_area(corners);
+    area.is_finite() && area != DVec3::ZERO
 }
 
 /// The warning about vertices outside the core of a surface, and what it costs them.

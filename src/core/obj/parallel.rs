@@ -9,6 +9,7 @@ use super::contents::Contents;
 use super::error::Problem;
 use super::fence::fenced;
 use super::reader::{self, ChunkOptions};
+use super::steps::LoadSteps;
 use crate::progress::Progress;
 use std::collections::VecDeque;
 use std::io::Read;
@@ -30,6 +31,7 @@ pub(super) fn read(
     chunk_size: usize,
     (options, held): (&LoadOptions, u64),
     progress: &Progress,
+    steps: &mut LoadSteps,
 ) -> Result<Contents, Problem> {
     let mut chunks = Chunks::new(bytes, chunk_size, progress)?;
     chunks.limit_statements(options.max_memory);
@@ -48,7 +50,7 @@ pub(super) fn read(
         let mut end = None;
         loop {
             while end.is_none() && pending.len() < most && pending_bytes <= most_bytes {
-                match chunks.next() {
+                match steps.time("cutting", || chunks.next()) {
                     Ok(Some(chunk)) => {
                         let (sender, receiver) = sync_channel(1);
                         pending_bytes += chunk.bytes.len();
@@ -69,14 +71,16 @@ pub(super) fn read(
             let Some((first, bytes)) = pending.pop_front() else {
                 return end.unwrap_or(Ok(()));
             };
-            let (chunk, part) = wait(&first);
+            let (chunk, part) = steps.time("waiting for parsers", || wait(&first));
             let part = part.map_err(Problem::Content)?;
-            contents.append(&chunk, part, chunk_options)?;
+            steps.time("appending", || contents.append(&chunk, part, chunk_options))?;
             chunks.recycle(chunk);
             pending_bytes -= bytes;
         }
     })?;
-    contents.finish(options.faults, chunks.has_garbage())?;
+    steps.time("joining", || {
+        contents.finish(options.faults, chunks.has_garbage())
+    })?;
     Ok(contents)
 }
 

@@ -1,6 +1,7 @@
 //! Warnings, counts and timing of a load.
 
 use super::error::Warning;
+use super::steps::LoadSteps;
 use super::tally::LineRuns;
 use std::path::PathBuf;
 use std::time::Duration;
@@ -23,6 +24,8 @@ pub struct LoadReport {
     pub files: Vec<PathBuf>,
     /// Time for reading, parsing and checking.
     pub duration: Duration,
+    /// The same, step by step.
+    pub steps: LoadSteps,
 }
 
 /// Counts of the file's triangles and other elements that were dropped, by reason.

@@ -238,10 +238,18 @@ fn in_chunks(text: &str, chunk_size: usize) -> String {
         faults: FaultPolicy::Lenient,
         ..LoadOptions::default()
     };
-    let contents =
-        parallel::read(text.as_bytes(), chunk_size, (&options, 0), &progress).expect("good");
+    let mut steps = LoadSteps::default();
+    let contents = parallel::read(
+        text.as_bytes(),
+        chunk_size,
+        (&options, 0),
+        &progress,
+        &mut steps,
+    )
+    .expect("good");
     let none = NamedFiles(&|_| Err(io::ErrorKind::NotFound.into()));
-    let loaded = assemble::assemble(contents, &options, &none, &progress).expect("a mesh");
+    let loaded =
+        assemble::assemble(contents, &options, &none, &progress, &mut steps).expect("a mesh");
     let Loaded { mesh, report } = loaded;
     let lines: Vec<usize> = (0..report.face_lines.count())
         .map(|face| report.face_lines.line(face))

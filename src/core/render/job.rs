@@ -88,12 +88,13 @@ impl Job {
     ) -> Option<TileResult> {
         let start = Instant::now();
         let samples = self.plan.pass(unit.pass).samples();
+        let most_pixels = self.plan.tile_rect(unit.tile).pixel_count();
         let mut batch = SampleBatch {
             job: self,
             at,
             rays: Vec::with_capacity(RAYS_AT_ONCE),
             places: Vec::with_capacity(RAYS_AT_ONCE),
-            sums: Vec::new(),
+            sums: Vec::with_capacity(most_pixels),
             non_finite: 0,
             hits: 0,
         };

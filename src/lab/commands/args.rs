@@ -10,7 +10,7 @@ use hitscope_core::integrator::{INTEGRATORS, Integrator, integrator};
 use hitscope_core::intersector::Packing;
 use hitscope_core::loading::{LoadedScene, is_scene_file};
 use hitscope_core::obj::{FaultPolicy, LoadOptions, Recentre};
-use hitscope_core::scene::SceneOptions;
+use hitscope_core::scene::{FirstTree, SceneOptions};
 use std::path::Path;
 
 /// How a mesh is loaded and stored for tracing.
@@ -33,6 +33,19 @@ impl MeshArgs {
     /// # Errors
     /// [`CommandError::Load`].
     pub fn load(self, path: &Path, recentre: Recentre) -> Result<LoadedScene, CommandError> {
+        self.load_with_tree(path, recentre, FirstTree::Best)
+    }
+
+    /// The same as [`load`](Self::load), with another tree to start with.
+    ///
+    /// # Errors
+    /// [`CommandError::Load`].
+    pub(super) fn load_with_tree(
+        self,
+        path: &Path,
+        recentre: Recentre,
+        first_tree: FirstTree,
+    ) -> Result<LoadedScene, CommandError> {
         let load_options = LoadOptions {
             recentre,
             faults: if self.lenient {
@@ -49,7 +62,7 @@ impl MeshArgs {
             } else {
                 Packing::Full
             },
-            ..SceneOptions::default()
+            first_tree,
         };
         let loaded = load(path, load_options, options)?;
         print_warnings(path, &loaded);

@@ -9,7 +9,7 @@ use hitscope_core::names::{alternatives, nearest};
 #[derive(Args, Clone, Copy, Debug)]
 pub struct KernelArg {
     /// Intersection kernel: fast, watertight, precise or exact, or an algorithm that `hitscope lab --help` lists
-    #[arg(long = "kernel", value_name = "KERNEL", default_value = Tier::Watertight.name(), value_parser = parse_kernel)]
+    #[arg(long = "kernel", value_name = "KERNEL", default_value = Tier::DEFAULT.name(), value_parser = parse_kernel)]
     pub choice: KernelChoice,
 }
 

@@ -14,11 +14,11 @@ use glam::{UVec2, Vec3};
 use hitscope_core::camera::UpAxis;
 use hitscope_core::colour::ColourScale;
 use hitscope_core::film::BYTES_PER_PIXEL;
-use hitscope_core::integrator::{Comparison, Integrator};
+use hitscope_core::integrator::{Comparison, Integrator, Setting};
 use hitscope_core::kernel::KernelChoice;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::{Alpha, Guides};
-use hitscope_core::scene::Shading;
+use hitscope_core::scene::{FirstTree, Shading};
 use hitscope_core::{Camera, Film};
 use std::fmt;
 use std::sync::Arc;
@@ -50,7 +50,7 @@ pub struct PictureArgs {
     /// Exposure and tone.
     #[command(flatten)]
     pub display: DisplayArgs,
-    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact]
+    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact; for the exact kernel, fast]
     #[arg(long, value_name = "KERNEL", value_parser = parse_kernel)]
     pub against: Option<KernelChoice>,
     /// Threads.
@@ -169,6 +169,28 @@ impl PictureArgs {
             Some(size) => self.check_size(size),
             None => Ok(()),
         }
+    }
+
+    /// The tree with which `shot_count` pictures of each view take the least time. The views must show first hits, so that
+    /// the rays are coherent, and the number of rays must be known.
+    pub(super) fn first_tree(&self, shot_count: usize) -> FirstTree {
+        let file = &self.scene.file;
+        let known = self.view.known(file).zip(self.camera.known_size(file));
+        let Some((views, size)) = known else {
+            return FirstTree::Best;
+        };
+        let shows_more = |view: &&Integrator| {
+            let needs = &view.needs;
+            needs.final_tree || needs.lights || needs.uses(Setting::SecondSpawn)
+        };
+        if views.iter().any(shows_more) {
+            return FirstTree::Best;
+        }
+        let pixels = u64::from(size.x) * u64::from(size.y);
+        // Views that compare trace each ray twice.
+        let traced = |view: &&Integrator| 1 + u64::from(view.needs.second != Comparison::Nothing);
+        let pictures = shot_count as u64 * views.iter().map(traced).sum::<u64>();
+        FirstTree::ForRays(pixels * u64::from(self.samples) * pictures)
     }
 
     /// Refuses a picture that exceeds the memory limit on its own.

@@ -6,7 +6,6 @@ use super::{CameraArgs, CommandError};
 use crate::progress::Meter;
 use glam::Vec3;
 use hitscope_core::integrator::{Context, Integrator, Lighting, ViewOptions};
-use hitscope_core::kernel::exact_triangle_kernel;
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::picture::{Alpha, Guides, TraceError, VisibleSurfaces, guides};
 use hitscope_core::plan::Plan;
@@ -82,7 +81,7 @@ impl PreparedPicture<'_> {
         meter: &Meter,
     ) -> Result<Rendered, CommandError> {
         let (scene, args) = (self.scene, self.scene.args);
-        let default = || exact_triangle_kernel().into();
+        let default = || args.scene.kernel.choice.default_second();
         let chosen = args.against.unwrap_or_else(default);
         let second = view.second(&scene.loaded.scene, &scene.intersector, chosen);
         self.require_memory(&second)?;

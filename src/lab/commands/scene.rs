@@ -7,7 +7,7 @@ use clap::{Args, ValueEnum};
 use hitscope_core::loading::LoadedScene;
 use hitscope_core::mesh::Crease;
 use hitscope_core::obj::Recentre;
-use hitscope_core::scene::Shading;
+use hitscope_core::scene::{FirstTree, Shading};
 use hitscope_core::{Intersector, Scene};
 use std::path::PathBuf;
 use std::sync::Arc;
@@ -72,7 +72,19 @@ impl SceneArgs {
     /// # Errors
     /// [`CommandError::Load`].
     pub fn load(&self) -> Result<LoadedScene, CommandError> {
-        let mut loaded = self.mesh.load(&self.file, Recentre::Auto)?;
+        self.load_with_tree(FirstTree::Best)
+    }
+
+    /// The same as [`load`](Self::load), with another tree to start with.
+    ///
+    /// # Errors
+    /// [`CommandError::Load`].
+    pub(super) fn load_with_tree(
+        &self,
+        first_tree: FirstTree,
+    ) -> Result<LoadedScene, CommandError> {
+        let mesh = self.mesh;
+        let mut loaded = mesh.load_with_tree(&self.file, Recentre::Auto, first_tree)?;
         if let Some(degrees) = self.crease {
             let crease = Crease::Above(degrees.to_radians());
             loaded.scene = Arc::new(loaded.scene.with_crease(crease));

@@ -10,10 +10,10 @@ use std::thread::JoinHandle;
 /// Most threads that are started for one purpose: more than any machine has cores that would gain by it.
 const MOST_THREADS: u16 = 1024;
 
-/// How many threads trace rays.
-#[derive(Args, Clone, Copy, Debug)]
+/// The number of threads that a command uses.
+#[derive(Args, Clone, Copy, Debug, Default)]
 pub struct ThreadsArg {
-    /// Threads that trace rays, 1 to 1024 [default: one per core]; loading uses all cores
+    /// Threads that load, build trees and trace rays, 1 to 1024 [default: one per core]
     #[arg(long, value_name = "N", allow_negative_numbers = true, value_parser = clap::value_parser!(u16).range(1..=i64::from(MOST_THREADS)))]
     pub threads: Option<u16>,
 }
@@ -30,18 +30,21 @@ pub fn default_thread_count() -> usize {
     std::thread::available_parallelism().map_or(1, usize::from)
 }
 
-/// Starts the threads of the process that load meshes and build trees. Where the system grants fewer than one per
-/// core, those that it grants do the work. Call it once, before anything else.
+/// Starts the threads of the process that load meshes and build trees: `threads`, but at most one per core. Where the
+/// system grants fewer, those that it grants do the work. Call it once, before anything else.
 ///
 /// # Errors
 /// The system grants no thread at all.
-pub fn start_thread_pool() -> Result<(), CommandError> {
-    let wanted = std::env::var("RAYON_NUM_THREADS")
-        .ok()
-        .and_then(|text| text.parse().ok())
-        .filter(|&count: &usize| count > 0)
-        .unwrap_or_else(default_thread_count)
-        .min(usize::from(MOST_THREADS));
+pub fn start_thread_pool(threads: ThreadsArg) -> Result<(), CommandError> {
+    let in_environment = || {
+        let text = std::env::var("RAYON_NUM_THREADS").ok()?;
+        text.parse().ok().filter(|&count: &usize| count > 0)
+    };
+    let wanted = match threads.threads {
+        Some(_) => threads.count().min(default_thread_count()),
+        None => in_environment().unwrap_or_else(default_thread_count),
+    };
+    let wanted = wanted.min(usize::from(MOST_THREADS));
     let mut idle = Vec::new();
     while idle.len() < wanted {
         match IdleThread::start(idle.len()) {

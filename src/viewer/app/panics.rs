@@ -62,10 +62,10 @@ fn a_panic_while_packing_a_kernel_is_reported_and_the_previous_kernel_stays() {
         .settings
         .use_for_session("moller-trumbore");
     wait_for_message(&mut window);
-    assert_eq!(window.state().settings().kernel().info.name, "watertight");
+    assert_eq!(window.state().settings().kernel().info.name, "exact");
     assert_eq!(
         window.state().document().intersector().kernel().name,
-        "watertight"
+        "exact"
     );
     window
         .state_mut()

@@ -3,7 +3,8 @@
 use crate::gpu::traced::TracedPixel;
 use crate::gpu::view::ViewUniform;
 use glam::{UVec2, Vec2};
-use hitscope_core::kernel::default_triangle_kernel;
+use hitscope_core::kernel::{KernelTable as _, Tier};
+use hitscope_core::shape::Triangle;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
 use rayon::prelude::*;
 use std::sync::{Arc, OnceLock};
@@ -35,7 +36,8 @@ impl Shapes {
     pub fn trace(&self, scene: &Scene, camera: &Camera, view: &ViewUniform) -> Vec<TracedPixel> {
         let whole = self.0.get_or_init(|| {
             let shapes = scene.without_triangles().with_clip(None);
-            Arc::from(shapes.intersector(default_triangle_kernel()))
+            // The lines' width exceeds the error of t, and exact arithmetic would take several times as long.
+            Arc::from(shapes.intersector(Triangle::kernel_of(Tier::Watertight)))
         });
         let intersector = scene.clipped(Arc::clone(whole));
         let size = camera.resolution();

@@ -1,8 +1,10 @@
 //! Traces packets of sixteen rays, one ray per lane. For rays with similar origins and directions, such as a
 //! camera's or those to one lamp.
 //!
-//! [`PacketMethod`] is the capability of a [`Method`]; its testers are `ranked` and `exact`.
+//! [`PacketMethod`] is the capability of a [`Method`]; its testers are `ranked` and `exact`. `back_off` tells when single
+//! rays are faster.
 
+mod back_off;
 mod exact;
 mod ranked;
 
@@ -16,6 +18,7 @@ use crate::kernel::RayLanes;
 use crate::lane::PACKET;
 use crate::ray::{Hit, Ray};
 use crate::simd::prefetch;
+use back_off::{Allowance, BackOff, EXCESS_OF_ANY, EXCESS_OF_NEAREST};
 use fearless_simd::{Simd, dispatch, f32x16, mask32x16, prelude::*, u32x8};
 
 /// A method that can also test sixteen rays against one primitive.
@@ -73,24 +76,25 @@ struct Search<'a, M: PacketMethod, S: Simd, const IS_ANY: bool> {
     tester: M::Packet<'a, S>,
     /// The ends of the rays without a hit; −1 for those with one. Only if `IS_ANY`.
     ends: f32x16<S>,
-    /// The number of blocks that may still be visited.
-    blocks_left: u32,
+    allowance: Allowance,
+    is_abandoned: bool,
 }
 
 impl<M: PacketMethod, S: Simd, const IS_ANY: bool> PacketVisitor<S> for Search<'_, M, S, IS_ANY> {
     #[inline(always)]
     fn visit(&mut self, block: usize, slabs: &Slabs<S>, farthest: f32) -> f32x16<S> {
-        if self.blocks_left == 0 {
+        if !self.allowance.takes_block() {
+            self.is_abandoned = true;
             // Nothing is of interest, which ends the walk.
             return f32x16::splat(self.token, -1.0);
         }
-        self.blocks_left -= 1;
         let rows = self.blocks.packed(block, M::VALUES);
         let boxes = M::boxes::<S>(self.token, rows);
         let (_, near) = slabs.enter_any(self.token, &boxes, farthest);
         let lanes = self.blocks.bvh.lanes(block);
         let primitives = u32x8::load_array_ref(self.token, lanes);
         let mut near = near & primitives.simd_lt(NO_PRIMITIVE).to_bitmask() as u32;
+        self.allowance.tested(near.count_ones());
         while near != 0 {
             let lane = near.trailing_zeros() as usize % BLOCK_SIZE;
             near &= near - 1;
@@ -120,12 +124,6 @@ impl<M: PacketMethod, S: Simd, const IS_ANY: bool> PacketVisitor<S> for Search<'
         (self.blocks).announce::<false, S>(self.token, block, M::VALUES);
     }
 }
-
-/// The most blocks that a packet visits. Rays that visit more are traced one by one: some start far from each other, at
-/// silhouettes, and the interval that encloses all of them meets much of the scene. Measured with 48, 96, 128, 192,
-/// 320 and without a limit, rays to a lamp, 1.1 M triangles: 7.6, 7.9, 7.9, 7.7, 7.5 and 2.7 Mrays/s, and 5.4 one by
-/// one (AVX-512, AMD, 2026-11).
-const MOST_BLOCKS: u32 = 96;
 
 /// The most rays whose packets are traced with one choice of the SIMD level: one bit per packet marks those that
 /// aren't coherent.
@@ -161,17 +159,18 @@ impl<M: PacketMethod> TreeIntersector<M> {
         hits: &mut [[Option<Hit>; PACKET]],
         stack: &mut Stack,
     ) -> u64 {
-        let mut incoherent = 0;
+        let (mut incoherent, mut back_off) = (0, BackOff::resumed());
         // A plain loop, here and below: functions called by an iterator may be compiled without the CPU's features.
         let mut i = 0;
         while i < packets.len() {
             announce_next(token, packets, i);
-            match self.search::<S, false>(token, &packets[i], stack) {
+            match self.search::<S, false>(token, &packets[i], stack, &mut back_off) {
                 Some(search) => M::write(&search.tester, &mut hits[i]),
                 None => incoherent |= 1 << i,
             }
             i += 1;
         }
+        back_off.keep();
         incoherent
     }
 
@@ -184,11 +183,11 @@ impl<M: PacketMethod> TreeIntersector<M> {
         are_hits: &mut [[bool; PACKET]],
         stack: &mut Stack,
     ) -> u64 {
-        let mut incoherent = 0;
+        let (mut incoherent, mut back_off) = (0, BackOff::resumed());
         let mut i = 0;
         while i < packets.len() {
             announce_next(token, packets, i);
-            match self.search::<S, true>(token, &packets[i], stack) {
+            match self.search::<S, true>(token, &packets[i], stack, &mut back_off) {
                 Some(search) => {
                     let ends = search.ends.to_array();
                     let mut lane = 0;
@@ -201,30 +200,39 @@ impl<M: PacketMethod> TreeIntersector<M> {
             }
             i += 1;
         }
+        back_off.keep();
         incoherent
     }
 
-    /// Traces a packet; returns `None` if its rays aren't coherent: if their directions differ much, or if they visit too
-    /// many blocks.
+    /// Traces a packet; returns `None` if its rays aren't coherent: if their directions differ much, or if they
+    /// test too many primitives.
     #[inline(always)]
     fn search<'a, S: Simd, const IS_ANY: bool>(
         &'a self,
         token: S,
         rays: &'a [Ray; PACKET],
         stack: &mut Stack,
+        back_off: &mut BackOff,
     ) -> Option<Search<'a, M, S, IS_ANY>> {
         let packet = RayPacket::new(token, rays)?;
         let interval = [packet.t_min, packet.t_max];
         let lanes = RayLanes::side_by_side(packet.origin, packet.dir, interval)?;
+        let excess = if IS_ANY {
+            EXCESS_OF_ANY
+        } else {
+            EXCESS_OF_NEAREST
+        };
         let mut search = Search {
             token,
             blocks: &self.blocks,
             tester: M::packet(&self.blocks, token, rays, &packet, lanes),
             ends: packet.t_max,
-            blocks_left: MOST_BLOCKS,
+            allowance: back_off.allowance(excess),
+            is_abandoned: false,
         };
         (self.blocks.bvh).walk_packet(token, &packet, stack, &mut search);
-        (search.blocks_left > 0).then_some(search)
+        back_off.note(search.allowance, search.is_abandoned);
+        (!search.is_abandoned).then_some(search)
     }
 }
 
@@ -253,5 +261,44 @@ fn in_packets<T>(
             alone(&packets[i], &mut of_packets[i]);
         }
         alone(rest, of_rest);
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kernel::exact_triangle_kernel;
+    use crate::mesh::shapes::{Placement, torus};
+    use crate::scene::scene;
+    use glam::Vec3;
+
+    /// A grid of parallel rays onto the torus, `step` apart.
+    fn rays(step: f32) -> Vec<Ray> {
+        let at = |k: u32, shift: u32| step * ((k >> shift & 15) as f32 - 7.5);
+        let origin = |k: u32| Vec3::new(1.0 + at(k, 0), at(k, 4), 9.0);
+        let ray = |k: u32| Ray::new(origin(k), Vec3::NEG_Z).expect("a ray");
+        (0..256).map(ray).collect()
+    }
+
+    #[test]
+    fn packets_whose_rays_lie_farther_apart_than_triangles_are_abandoned() {
+        BackOff::default().keep();
+        let scene = scene(torus(600, 300, Placement::UNIT));
+        let intersector = scene.intersector(exact_triangle_kernel());
+        let last = |step: f32| {
+            let rays = rays(step);
+            let (mut together, mut alone) = (vec![None; 256], vec![None; 256]);
+            intersector.coherent_hits(&rays, &mut together);
+            let last = BackOff::resumed();
+            intersector.closest_hits(&rays, &mut alone);
+            assert_eq!(together, alone, "{step}");
+            assert!(alone.iter().flatten().count() > 128, "{step}");
+            last
+        };
+        assert_eq!(last(0.001), BackOff::default());
+        assert_ne!(last(0.02), BackOff::default());
+        // The first packets of the next call pay for these; then packets are in use again.
+        last(0.001);
+        assert_eq!(last(0.001), BackOff::default());
     }
 }

@@ -59,9 +59,9 @@ pub fn triangle_kernel(name: &str) -> Option<&'static TriangleKernel> {
     Triangle::kernel(name)
 }
 
-/// The default kernel: watertight.
+/// The default kernel: that of [`Tier::DEFAULT`].
 pub fn default_triangle_kernel() -> &'static TriangleKernel {
-    Triangle::kernel_of(Tier::Watertight)
+    Triangle::kernel_of(Tier::DEFAULT)
 }
 
 /// The kernel whose decisions match exact arithmetic.

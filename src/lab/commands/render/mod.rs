@@ -161,7 +161,7 @@ impl RenderArgs {
         let outputs = outputs.iter().map(OutputNames::create);
         let outputs: Vec<Outputs> = outputs.collect::<Result<_, _>>()?;
         let mut pen = self.has_overlay().then(open_pen).transpose()?;
-        let scene = self.prepare()?;
+        let scene = self.prepare(shots.count())?;
         let cameras = shots.cameras(&scene)?;
         let meter = Meter::default();
         let bar = ProgressBar::of(&meter);
@@ -190,7 +190,7 @@ impl RenderArgs {
     /// See [`CommandError`].
     pub fn trace(&self) -> Result<Rendered, CommandError> {
         let shots = self.checked()?;
-        let scene = self.prepare()?;
+        let scene = self.prepare(shots.count())?;
         let first = shots.cameras(&scene)?[0];
         scene
             .seen_by(first)
@@ -251,8 +251,9 @@ impl RenderArgs {
     }
 
     /// Loads the scene.
-    fn prepare(&self) -> Result<PreparedScene<'_>, CommandError> {
-        let loaded = self.picture.scene.load()?;
+    fn prepare(&self, shot_count: usize) -> Result<PreparedScene<'_>, CommandError> {
+        let first_tree = self.picture.first_tree(shot_count);
+        let loaded = self.picture.scene.load_with_tree(first_tree)?;
         let has_guides = self.format()? == PictureFormat::Exr;
         let mut scene = self.picture.prepare(loaded, has_guides)?;
         scene.is_transparent = self.transparent;

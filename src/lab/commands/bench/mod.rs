@@ -1,5 +1,7 @@
 //! `hitscope bench`: measures the speed of loading a scene, building its trees and tracing rays.
 
+mod report;
+
 use super::args::MeshArgs;
 use super::camera::CameraArgs;
 use super::kernel::parse_kernel;
@@ -12,13 +14,12 @@ use crate::progress::{Meter, ProgressBar};
 use clap::Args;
 use cpu_time::ThreadTime;
 use hitscope_core::bvh::Bvh;
-use hitscope_core::counts::grouped;
 use hitscope_core::kernel::{KernelChoice, KernelTable as _, Tier};
 use hitscope_core::obj::Recentre;
 use hitscope_core::shape::{Triangle, bounds_in};
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Intersector, Ray, TriangleMesh};
-use serde::Serialize;
+use report::{BytesEach, PackedKernel, Report, Row, milliseconds};
 use std::hint::black_box;
 use std::io::Write;
 use std::path::PathBuf;
@@ -75,68 +76,6 @@ const MOST_RAYS: usize = 1 << 20;
 /// Rays that a thread takes from the queue at a time.
 const RAYS_PER_PART: usize = 4096;
 
-#[derive(Serialize)]
-struct Report {
-    triangles: usize,
-    /// Of all shapes.
-    primitives: usize,
-    /// The primitives in words.
-    #[serde(skip)]
-    contents: String,
-    simd: &'static str,
-    load_ms: f64,
-    /// Building the trees, on all cores.
-    build_ms: f64,
-    /// Building the quick tree of triangles that the window starts with. No rays are traced through it here.
-    quick_build_ms: f64,
-    /// The trees and the packed primitives of the first kernel.
-    #[serde(flatten)]
-    bytes: BytesEach,
-    /// `None` if the system doesn't report it.
-    peak_rss_bytes: Option<u64>,
-    kernels: Vec<PackedKernel>,
-    workloads: Vec<Row>,
-}
-
-#[derive(Serialize)]
-struct PackedKernel {
-    kernel: &'static str,
-    pack_ms: f64,
-    #[serde(flatten)]
-    bytes: BytesEach,
-}
-
-/// The memory of the trees and the packed primitives, per primitive.
-#[derive(Clone, Copy, Serialize)]
-struct BytesEach {
-    /// The same figure, under the name for scenes of triangles.
-    bytes_per_triangle: f64,
-    bytes_per_primitive: f64,
-}
-
-impl BytesEach {
-    fn new(bytes: usize, primitives: usize) -> Self {
-        let each = bytes as f64 / primitives.max(1) as f64;
-        Self {
-            bytes_per_triangle: each,
-            bytes_per_primitive: each,
-        }
-    }
-}
-
-#[derive(Serialize)]
-struct Row {
-    name: &'static str,
-    kernel: &'static str,
-    /// Rays traced together if they are coherent.
-    rays_together: usize,
-    threads: usize,
-    rays: usize,
-    hits: u64,
-    mrays_per_s: f64,
-    mrays_per_s_wall: f64,
-}
-
 /// The query of a workload.
 #[derive(Clone, Copy)]
 enum WorkloadQuery {
@@ -158,7 +97,6 @@ impl BenchArgs {
         let scene = &loaded.scene;
         let camera = self.camera.camera(scene, loaded.view.as_ref())?;
         let primitives = scene.primitive_count();
-        let milliseconds = |duration: Duration| duration.as_secs_f64() * 1e3;
         let meter = Meter::default();
         let bar = ProgressBar::of(&meter);
         meter.begin("Packing");
@@ -180,6 +118,10 @@ impl BenchArgs {
             contents: counted_primitives(scene),
             simd: SimdLevel::current().name(),
             load_ms: milliseconds(loaded.report.duration),
+            load_steps_ms: (loaded.report.steps.iter())
+                .map(|(step, time)| (step.to_owned(), milliseconds(time).into()))
+                .collect(),
+            load_threads: rayon::current_num_threads(),
             build_ms: milliseconds(scene.build_time()),
             quick_build_ms: milliseconds(quick_build_time(scene.mesh())),
             bytes: packed[0].bytes,
@@ -329,57 +271,6 @@ fn hit_count(intersector: &dyn Intersector, query: WorkloadQuery, rays: &[Ray]) 
     }
     let count = hits.iter().flatten().count() + are_hits.iter().filter(|&&is_hit| is_hit).count();
     count as u64
-}
-
-impl Report {
-    fn print(&self, out: &mut dyn Write) -> Result<(), CommandError> {
-        write!(
-            out,
-            "{}; {}; loaded in {:.0} ms, tree built in {:.0} ms",
-            self.contents, self.simd, self.load_ms, self.build_ms
-        )?;
-        if self.triangles > 0 {
-            write!(out, ", quick tree in {:.0} ms", self.quick_build_ms)?;
-        }
-        writeln!(out)?;
-        if let Some(bytes) = self.peak_rss_bytes {
-            writeln!(out, "peak memory {:.0} MB", bytes as f64 / 1e6)?;
-        }
-        writeln!(
-            out,
-            "\n{:<24}{:>12}{:>18}",
-            "kernel", "packed, ms", "bytes/primitive"
-        )?;
-        for packed in &self.kernels {
-            let (ms, bytes) = (packed.pack_ms, packed.bytes.bytes_per_primitive);
-            writeln!(out, "{:<24}{ms:>12.1}{bytes:>18.1}", packed.kernel)?;
-        }
-        writeln!(
-            out,
-            "\n{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>12}",
-            "workload", "kernel", "together", "threads", "rays", "hits", "Mrays/s", "wall-clock"
-        )?;
-        for row in &self.workloads {
-            // Without rays there is no rate.
-            let rate = |rate: f64| match row.rays {
-                0 => "–".to_owned(),
-                _ => format!("{rate:.2}"),
-            };
-            writeln!(
-                out,
-                "{:<10}{:<24}{:>9}{:>8}{:>10}{:>10}{:>10}{:>12}",
-                row.name,
-                row.kernel,
-                row.rays_together,
-                row.threads,
-                grouped(row.rays),
-                grouped(row.hits as usize),
-                rate(row.mrays_per_s),
-                rate(row.mrays_per_s_wall)
-            )?;
-        }
-        Ok(())
-    }
 }
 
 fn quick_build_time(mesh: &TriangleMesh) -> Duration {
