@@ -1,5 +1,6 @@
 //! Continuing in another window: the graphics device was lost, and the next window has a new one.
 
+use super::comparing::Compared;
 use super::{App, NoWgpu};
 use crate::about_sheet::AboutSheet;
 use crate::gpu::faults::Faults;
@@ -45,7 +46,10 @@ impl App {
         self.faults = Faults::watch(&render_state.device, ctx);
         self.shown.about = AboutSheet::new(&render_state);
         self.traced.picture = Picture::new(&render_state);
-        self.traced.overlay = OverlayLayer::new(&render_state);
+        let is_software = render_state.adapter.get_info().device_type == wgpu::DeviceType::Cpu;
+        // Side B is made again; an earlier version of the file is lost.
+        self.compared = Compared::new(&render_state);
+        self.traced.overlay = OverlayLayer::new(&render_state, is_software);
         // The whole picture is uploaded again.
         self.traced.development = Development::default();
         self.traced.tracer.show_again();
