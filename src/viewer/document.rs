@@ -1,6 +1,7 @@
 //! The open document: a scene, its file, and the intersectors that trace it.
 
 mod shown_part;
+mod sibling;
 
 pub use shown_part::ShownPrimitives;
 
@@ -166,13 +167,18 @@ impl Document {
     }
 
     fn new(path: Option<PathBuf>, loaded: LoadedScene, kernel: KernelChoice) -> Self {
+        let packing = Packing::new(kernel, Packed::of(&loaded.scene, kernel));
+        Self::packed(path, loaded, packing)
+    }
+
+    fn packed(path: Option<PathBuf>, loaded: LoadedScene, packing: Packing) -> Self {
         Self {
             path,
             is_blank: false,
             clip: None,
             showing: Showing::default(),
             part_changes: 0,
-            packing: Packing::new(kernel, Packed::of(&loaded.scene, kernel)),
+            packing,
             loaded,
             began: SystemTime::now(),
             second: None,

@@ -123,6 +123,7 @@ mod tests {
                 samples: number,
                 ..Settings::default()
             },
+            comparison: crate::comparison::Comparison::default(),
             parts: PartsChoice::default(),
             picks: Vec::new(),
         }

@@ -15,6 +15,7 @@
 //! | [`session`], [`history`] | sessions as plain data; undo and redo |
 //! | [`tracer`], [`look`] | tracing of the window's picture; what is shown of it |
 //! | [`clip_choice`], [`parts`], [`colour_choice`] | the part of the scene that is shown; the colours of the picture |
+//! | [`comparison`] | the window's picture beside another one |
 //! | [`trade`] | speed and accuracy of each kernel in this scene |
 //! | [`task`] | background tasks |
 //! | [`toasts`], [`log`], [`log_links`] | short messages about results; all messages, and the links in them |
@@ -37,6 +38,7 @@ pub mod cli;
 pub mod clip_choice;
 pub mod colour_choice;
 pub mod command;
+pub mod comparison;
 pub mod completions;
 pub mod dialog;
 pub mod display;

@@ -1,5 +1,6 @@
 //! What is shown of a film: its picture, with exposure and tone curve, or its noise.
 
+use crate::settings::Settings;
 use glam::UVec2;
 use hitscope_core::Film;
 use hitscope_core::colour::{ColourMap, ColourScale, colour_map};
@@ -20,6 +21,17 @@ pub enum Look {
 }
 
 impl Look {
+    /// What these settings show of a film, which is that of a view that needs lights or not.
+    pub fn of(settings: &Settings, is_lit: bool) -> Self {
+        if !is_lit {
+            Self::plain()
+        } else if settings.shows_noise {
+            Self::Noise(settings.exposure())
+        } else {
+            Self::Picture(settings.display())
+        }
+    }
+
     /// The film's own pixels.
     pub fn plain() -> Self {
         Self::Picture(Display::default())

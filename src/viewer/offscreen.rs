@@ -229,7 +229,7 @@ fn for_each_row(
     }
 }
 
-/// Bytes per row of a buffer that a texture is copied to.
+/// Bytes per row of a buffer that a texture is copied to, with four bytes per pixel.
 fn row_bytes(width: u32) -> u64 {
     (4 * u64::from(width)).next_multiple_of(wgpu::COPY_BYTES_PER_ROW_ALIGNMENT.into())
 }
@@ -243,7 +243,20 @@ pub fn read_back(
     queue: &wgpu::Queue,
     texture: &wgpu::Texture,
 ) -> Result<Vec<[u8; 4]>, GpuError> {
-    let (width, height) = (texture.width(), texture.height());
+    read_back_words(device, queue, texture, 1)
+}
+
+/// The same for a texture with so many times four bytes per pixel.
+///
+/// # Errors
+/// [`GpuError::ReadBack`].
+pub(crate) fn read_back_words(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    texture: &wgpu::Texture,
+    words_per_pixel: u32,
+) -> Result<Vec<[u8; 4]>, GpuError> {
+    let (width, height) = (words_per_pixel * texture.width(), texture.height());
     let row = row_bytes(width);
     let buffer = device.create_buffer(&wgpu::BufferDescriptor {
         label: Some("read back"),

@@ -9,6 +9,7 @@ mod picked_pixel;
 pub use hitscope_lab::viewpoint::Viewpoint;
 pub use picked_pixel::PickedPixel;
 
+use crate::comparison::Comparison;
 use crate::parts::PartsChoice;
 use crate::settings::Settings;
 use crate::storage::usable;
@@ -54,6 +55,9 @@ pub struct Sight {
     /// How the scene is shown.
     #[serde(default)]
     pub settings: Settings,
+    /// What the picture is compared with.
+    #[serde(default)]
+    pub comparison: Comparison,
     /// Hidden parts, and own colours of parts.
     #[serde(default)]
     pub parts: PartsChoice,
@@ -116,6 +120,7 @@ impl Session {
             pick.check()?;
         }
         sight.settings = usable(sight.settings.clone());
+        sight.comparison = sight.comparison.clone().usable();
         sight.settings.shows_noise = session.shows_noise;
         sight.settings.keep_up_axis(sight.camera.up_axis());
         Ok(session)
@@ -140,7 +145,12 @@ impl Session {
     /// All paths.
     fn paths(&mut self) -> impl Iterator<Item = &mut PathBuf> {
         let environment = &mut self.sight.settings.environment_file;
-        self.file.iter_mut().chain(environment)
+        let compared = &mut self.sight.comparison;
+        let compared = compared
+            .mesh_file
+            .iter_mut()
+            .chain(&mut compared.picture_file);
+        self.file.iter_mut().chain(environment).chain(compared)
     }
 }
 
@@ -169,6 +179,12 @@ mod tests {
             settings: Settings {
                 file_view: Some("path"),
                 ..Settings::default()
+            },
+            comparison: Comparison {
+                is_on: true,
+                mesh_file: Some("/a/b/other.obj".into()),
+                divider: 0.3,
+                ..Comparison::default()
             },
             parts: PartsChoice::default(),
             picks: vec![PickedPixel::new(&camera, UVec2::new(3, 4), Some(1), origin)],

@@ -17,16 +17,19 @@ pub enum Tab {
     Mesh,
     /// Speed and accuracy of the kernels in this scene.
     Trade,
+    /// The picture beside another one.
+    Compare,
 }
 
 impl Tab {
     /// All tabs, from left to right.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Inspect,
         Self::Display,
         Self::Parts,
         Self::Mesh,
         Self::Trade,
+        Self::Compare,
     ];
 
     /// The title.
@@ -37,6 +40,7 @@ impl Tab {
             Self::Parts => "Parts",
             Self::Mesh => "Mesh",
             Self::Trade => "Trade",
+            Self::Compare => "Compare",
         }
     }
 
@@ -48,6 +52,7 @@ impl Tab {
             Self::Parts => "Groups, materials and shapes of the scene, which can be hidden",
             Self::Mesh => "Contents, flaws and memory of the open file",
             Self::Trade => "Speed and accuracy of each kernel in this scene",
+            Self::Compare => "The picture beside another view, kernel, mesh or picture",
         }
     }
 }

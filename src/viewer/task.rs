@@ -57,6 +57,17 @@ impl<T: Send + 'static> Task<T> {
     }
 }
 
+/// Runs work whose parallel parts would keep the window's thread waiting in the global pool, in a pool of its own.
+pub fn in_own_pool<T: Send>(work: impl FnOnce() -> T + Send) -> T {
+    let threads = hitscope_lab::commands::default_thread_count();
+    let pool = rayon::ThreadPoolBuilder::new().num_threads(threads);
+    match pool.thread_name(|k| format!("pool {k}")).build() {
+        Ok(pool) => pool.install(work),
+        // Without threads, the global pool is better than nothing.
+        Err(_) => work(),
+    }
+}
+
 /// A result that a background task computes.
 pub enum Pending<T> {
     /// No task was started.

@@ -6,6 +6,7 @@ use crate::pointer::on_the_mesh;
 use egui::accesskit::{Action, Role};
 use egui::{Key, Modifiers};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use hitscope::comparison::{Mode, Source};
 use hitscope::settings::{EnvironmentSource, Settings};
 use hitscope::tab::Tab;
 use hitscope::trade::{Trade, TradeState};
@@ -48,7 +49,7 @@ fn every_control_of_every_tab_has_a_name_and_a_role() {
             Tab::Trade => wait(&mut window, "the measurement", |app| {
                 app.trade().map(Trade::state) == Some(TradeState::Done)
             }),
-            Tab::Inspect | Tab::Display | Tab::Parts => {}
+            Tab::Inspect | Tab::Display | Tab::Parts | Tab::Compare => {}
         }
         window.run_steps(3);
         check(&window, tab.title());
@@ -90,6 +91,26 @@ fn every_control_of_clips_and_scales_has_a_name_and_a_role() {
         window.get_by_label(button).click();
         window.run_steps(3);
         check(&window, button);
+    }
+}
+
+#[test]
+fn every_control_of_every_comparison_has_a_name_and_a_role() {
+    let Some(mut window) = app(None) else { return };
+    press(&mut window, Key::C);
+    for source in Source::ALL {
+        let combo = window.get_by_role_and_label(Role::ComboBox, "Made from");
+        combo.click();
+        window.run_steps(4);
+        let entry = window.get_all_by_label(source.title()).last();
+        entry.expect("in the menu").click();
+        window.run_steps(4);
+        check(&window, source.title());
+    }
+    for mode in Mode::ALL {
+        window.get_by_label(mode.title()).click();
+        window.run_steps(4);
+        check(&window, mode.title());
     }
 }
 

@@ -6,6 +6,8 @@ mod app;
 mod alone;
 // Names of all controls for assistive technology.
 mod accessibility;
+// Comparisons with another view, kernel, mesh or picture.
+mod comparing;
 // The program's exit statuses and its behaviour without a display.
 mod cli;
 // Commands by key, tool bar, menu and palette; the help sheet.

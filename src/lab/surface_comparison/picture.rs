@@ -4,7 +4,6 @@ use super::Surface;
 use glam::{UVec2, Vec3};
 use hitscope_core::colour::ColourScale;
 use hitscope_core::interaction::position_at;
-use hitscope_core::kernel::KernelChoice;
 use hitscope_core::mesh::unit_normal;
 use hitscope_core::plan::Plan;
 use hitscope_core::srgb::to_display;
@@ -20,8 +19,8 @@ pub struct DistancePicture<'a> {
     pub other: &'a Surface<'a>,
     /// The camera.
     pub camera: Camera,
-    /// The kernel that finds what is seen.
-    pub kernel: KernelChoice,
+    /// Finds what is seen of the surface.
+    pub intersector: &'a dyn Intersector,
     /// Samples per pixel.
     pub samples: u32,
     /// The colours of distances.
@@ -38,13 +37,12 @@ impl DistancePicture<'_> {
             x: width,
             y: height,
         } = self.camera.resolution();
-        let intersector = self.surface.loaded.scene.intersector(self.kernel);
         let done = AtomicU32::new(0);
         let mut pixels = vec![[0; 4]; width as usize * height as usize];
         let rows = pixels.par_chunks_mut(width as usize).zip(0..height);
         rows.for_each(|(row, y)| {
             for (pixel, x) in row.iter_mut().zip(0..) {
-                *pixel = self.pixel(&*intersector, UVec2::new(x, y));
+                *pixel = self.pixel(UVec2::new(x, y));
             }
             let count = done.fetch_add(1, Relaxed) + 1;
             advanced(f64::from(count) / f64::from(height));
@@ -52,9 +50,9 @@ impl DistancePicture<'_> {
         pixels
     }
 
-    fn pixel(&self, intersector: &dyn Intersector, pixel: UVec2) -> [u8; 4] {
+    fn pixel(&self, pixel: UVec2) -> [u8; 4] {
         let sum: Vec3 = (0..self.samples)
-            .map(|sample| self.sample(intersector, pixel, sample))
+            .map(|sample| self.sample(pixel, sample))
             .sum();
         let [r, g, b] = (sum / self.samples as f32)
             .to_array()
@@ -62,11 +60,11 @@ impl DistancePicture<'_> {
         [r, g, b, 255]
     }
 
-    fn sample(&self, intersector: &dyn Intersector, pixel: UVec2, sample: u32) -> Vec3 {
+    fn sample(&self, pixel: UVec2, sample: u32) -> Vec3 {
         /// The brightness of a surface seen from its side; it is 1 from the front. Less would hide the colours.
         const FROM_THE_SIDE: f32 = 0.5;
         let ray = self.camera.ray(pixel, Plan::position(pixel, sample));
-        let Some(hit) = intersector.closest_hit(&ray) else {
+        let Some(hit) = self.intersector.closest_hit(&ray) else {
             return self.background;
         };
         let (scene, mesh) = (&self.surface.loaded.scene, self.surface.mesh());

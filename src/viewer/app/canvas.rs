@@ -3,14 +3,16 @@
 use super::App;
 use super::labels::labels_ui;
 use super::pick::Pick;
+use crate::document::Document;
 use crate::gpu::GpuError;
 use crate::look::Development;
 use crate::overlay::{self, Marks, OverlayInput};
+use crate::settings::Settings;
 use crate::theme;
 use crate::tracer::Request;
 use egui::{Color32, Pos2, Rect, Sense};
 use glam::{DVec2, UVec2};
-use hitscope_core::integrator::{Context, Setting};
+use hitscope_core::integrator::{Context, Lighting, Setting};
 use hitscope_core::{Camera, Scene};
 use std::sync::Arc;
 use std::time::Duration;
@@ -27,7 +29,7 @@ pub(super) struct Canvas {
 }
 
 impl Canvas {
-    fn new(available: Rect, pixels_per_point: f32) -> Self {
+    pub(super) fn new(available: Rect, pixels_per_point: f32) -> Self {
         let min = (available.min.to_vec2() * pixels_per_point).ceil();
         let max = (available.max.to_vec2() * pixels_per_point).floor();
         let size = (max - min).max(egui::Vec2::splat(1.0));
@@ -36,6 +38,24 @@ impl Canvas {
             resolution: UVec2::new(size.x as u32, size.y as u32),
             pixels_per_point,
             part: Rect::from_min_max(Pos2::ZERO, Pos2::new(1.0, 1.0)),
+        }
+    }
+
+    /// The place of a picture of another size: in the middle, as large as possible. An enlarged pixel covers a whole number
+    /// of the screen's pixels.
+    pub(super) fn of_picture(available: Rect, pixels_per_point: f32, size: UVec2) -> Self {
+        let whole = Self::new(available, pixels_per_point);
+        let factors = whole.resolution.as_vec2() / size.as_vec2();
+        let factor = factors.min_element();
+        let factor = if factor > 1.0 { factor.floor() } else { factor };
+        let covered = (size.as_vec2() * factor).floor().max(glam::Vec2::ONE);
+        let margin = ((whole.resolution.as_vec2() - covered) / 2.0).floor();
+        let to_points = |v: glam::Vec2| egui::vec2(v.x, v.y) / pixels_per_point;
+        let min = whole.rect.min + to_points(margin);
+        Self {
+            rect: Rect::from_min_size(min, to_points(covered)),
+            resolution: size,
+            ..whole
         }
     }
 
@@ -88,7 +108,7 @@ impl App {
     pub(super) fn canvas_ui(&mut self, ui: &mut egui::Ui) {
         egui::CentralPanel::no_frame().show(ui, |ui| {
             let available = ui.available_rect_before_wrap();
-            let mut canvas = Canvas::new(available, ui.ctx().pixels_per_point());
+            let mut canvas = self.place_picture(available, ui.ctx().pixels_per_point());
             canvas.part = self.shown.magnifier.part();
             for rest in canvas.rest_of(available) {
                 ui.painter().rect_filled(rest, 0.0, ui.visuals().panel_fill);
@@ -106,11 +126,13 @@ impl App {
             self.show_changes(ui.ctx());
             self.hover(&response, canvas);
             self.paint(ui, canvas, response.dragged());
+            self.divider_ui(ui, canvas);
             self.gizmo_ui(ui, canvas);
             let wanted = self.wanted(ui.ctx(), canvas.resolution);
             let block = self.seen.settings.moving.block();
             self.traced.tracer.set_first_step(block);
             self.traced.tracer.request(wanted);
+            self.request_other(ui.ctx());
         });
     }
 
@@ -128,26 +150,43 @@ impl App {
 
     /// The request for the current camera and settings.
     pub(super) fn wanted(&mut self, ctx: &egui::Context, resolution: UVec2) -> Request {
-        let (settings, theme) = (&self.seen.settings, ctx.theme());
-        let background = theme::background(settings.view(), settings.colours.background, theme);
-        let mut options = settings.colours.options(settings.view());
-        if settings.view().needs.uses(Setting::PartColours) {
+        let kept = self.traced.lights.take();
+        let (document, settings) = (&self.open.document, &self.seen.settings);
+        let (lighting, lights) = self.lighting(settings, &document.loaded, kept);
+        let camera = self.seen.turntable.camera(resolution);
+        let request = self.request_of(document, settings, camera, lighting, ctx.theme());
+        self.traced.lights = lights;
+        request
+    }
+
+    /// The request for a document as these settings show it.
+    pub(super) fn request_of(
+        &self,
+        document: &Document,
+        settings: &Settings,
+        camera: Camera,
+        lighting: Lighting,
+        theme: egui::Theme,
+    ) -> Request {
+        let view = settings.view();
+        let mut options = settings.colours.options(view);
+        if view.needs.uses(Setting::PartColours) && is_mesh_of(document, &self.open.document) {
             options.surface_colours = self.seen.parts.colours().cloned();
         }
         Request {
             context: Context {
-                scene: Arc::clone(&self.open.document.loaded.scene),
-                intersector: Arc::clone(self.open.document.intersector()),
-                second: Arc::clone(self.open.document.second()),
-                camera: self.seen.turntable.camera(resolution),
-                shading: self.seen.settings.shading(),
-                background,
-                lighting: self.lighting(),
+                scene: Arc::clone(&document.loaded.scene),
+                intersector: Arc::clone(document.intersector()),
+                second: Arc::clone(document.second()),
+                camera,
+                shading: settings.shading(),
+                background: theme::background(view, settings.colours.background, theme),
+                lighting,
                 options,
             },
-            integrator: self.seen.settings.view(),
-            samples: self.seen.settings.samples,
-            shows_last_tree: self.shows_last_tree(),
+            integrator: view,
+            samples: settings.samples,
+            shows_last_tree: view.needs.final_tree && document.has_last_tree(),
         }
     }
 
@@ -164,6 +203,7 @@ impl App {
             let uploaded = self.traced.picture.upload(film.size(), pixels, changed);
             self.traced.shown.update(film, changed);
             failure = uploaded.err();
+            self.note_change_of_a(ctx);
         }
         if let Some(error) = failure {
             self.retry_without_lines(&error, ctx);
@@ -198,6 +238,7 @@ impl App {
                 .picture
                 .shape(canvas.rect, canvas.part, texture.as_ref()),
         );
+        self.paint_other(ui, canvas, texture.as_ref());
         if let Some(error) = error {
             self.seen.settings.overlays.turn_off_added();
             self.error(error);
@@ -275,6 +316,11 @@ impl App {
     }
 }
 
+/// Whether both documents are of one mesh.
+fn is_mesh_of(document: &Document, other: &Document) -> bool {
+    std::ptr::eq(document.loaded.scene.mesh(), other.loaded.scene.mesh())
+}
+
 /// Draws a ring around a picked point.
 fn ring(painter: &egui::Painter, at: Pos2) {
     for (colour, width) in [(Color32::BLACK, 3.0), (theme::PICK, 1.3)] {
@@ -312,6 +358,28 @@ mod tests {
             let middle = DVec2::new(10.5, 20.5);
             let pos = canvas.pos_of(middle, &camera);
             assert!((canvas.pixel_of(pos, &camera) - middle).length() < 1e-3);
+        }
+    }
+
+    #[test]
+    fn a_picture_of_another_size_is_whole_and_in_the_middle() {
+        let available = Rect::from_min_max(Pos2::new(0.0, 31.3), Pos2::new(901.7, 640.2));
+        for scale in [1.0, 1.5, 2.0] {
+            for size in [
+                UVec2::new(64, 48),
+                UVec2::new(3000, 100),
+                UVec2::new(5, 4000),
+            ] {
+                let canvas = Canvas::of_picture(available, scale, size);
+                assert_eq!(canvas.resolution, size);
+                assert!(available.expand(1e-3).contains_rect(canvas.rect), "{size}");
+                let off = canvas.rect.center() - available.center();
+                // Rounding to pixels moves each side by up to two of them.
+                assert!(off.length() * scale < 4.0, "{size}: {off}");
+                let factor = canvas.rect.width() * scale / size.x as f32;
+                let is_whole = (factor - factor.round()).abs() < 1e-3;
+                assert!(factor <= 1.001 || is_whole, "{size}: {factor}");
+            }
         }
     }
 

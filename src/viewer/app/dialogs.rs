@@ -21,6 +21,10 @@ pub(crate) enum Purpose {
     SaveSession,
     /// Choose the name of a file to write picks to.
     Picks,
+    /// Choose a mesh or scene to compare with.
+    CompareMesh,
+    /// Choose a picture to compare with.
+    ComparePicture,
 }
 
 /// A file dialog: what it shows, and what is done with the file.
@@ -33,7 +37,7 @@ struct Row {
     chosen: fn(&mut App, PathBuf, &egui::Context),
 }
 
-static DIALOGS: [Row; 6] = [
+static DIALOGS: [Row; 8] = [
     Row {
         purpose: Purpose::Open,
         spec: DialogSpec {
@@ -109,6 +113,37 @@ static DIALOGS: [Row; 6] = [
         suggested: |app| Some(own_path(app)?.with_extension("picks.json")),
         chosen: |app, path, ctx| app.export_picks(&path, ctx),
     },
+    Row {
+        purpose: Purpose::CompareMesh,
+        spec: DialogSpec {
+            title: "Compare with a mesh",
+            example: "/path/to/mesh.obj",
+            is_saving: false,
+            filters: &[
+                (
+                    "Meshes and scenes",
+                    &["obj", "OBJ", "obj.gz", "gz", "xml", "XML"],
+                ),
+                ("All files", &["*"]),
+            ],
+        },
+        suggested: own_path,
+        chosen: |app, path, _| app.compare_with_mesh(path),
+    },
+    Row {
+        purpose: Purpose::ComparePicture,
+        spec: DialogSpec {
+            title: "Compare with a picture",
+            example: "/path/to/reference.exr",
+            is_saving: false,
+            filters: &[
+                ("Pictures", &["png", "PNG", "exr", "EXR", "hdr", "HDR"]),
+                ("All files", &["*"]),
+            ],
+        },
+        suggested: own_path,
+        chosen: |app, path, _| app.compare_with_picture(path),
+    },
 ];
 
 fn own_path(app: &App) -> Option<PathBuf> {
@@ -175,8 +210,16 @@ mod tests {
 
     #[test]
     fn each_purpose_has_one_row_and_each_title_is_used_once_for_opening_and_saving() {
-        use Purpose::{Environment, Open, OpenSession, Picks, Save, SaveSession};
-        for purpose in [Open, Save, Environment, OpenSession, SaveSession, Picks] {
+        for purpose in [
+            Purpose::Open,
+            Purpose::Save,
+            Purpose::Environment,
+            Purpose::OpenSession,
+            Purpose::SaveSession,
+            Purpose::Picks,
+            Purpose::CompareMesh,
+            Purpose::ComparePicture,
+        ] {
             let rows = DIALOGS.iter().filter(|row| row.purpose == purpose);
             assert_eq!(rows.count(), 1, "{purpose:?}");
         }

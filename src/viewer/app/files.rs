@@ -124,7 +124,8 @@ impl App {
         let is_same_file = self.open.document.path == document.path;
         let origin = |document: &Document| document.loaded.scene.mesh().origin();
         let shift = origin(&self.open.document) - origin(&document);
-        self.open.document = document;
+        let old = std::mem::replace(&mut self.open.document, document);
+        self.compared.keep_earlier(old, is_same_file);
         if let Some(path) = &self.open.document.path {
             self.preferences.recent.add(path);
         }

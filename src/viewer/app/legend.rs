@@ -2,6 +2,7 @@
 
 use super::App;
 use super::canvas::Canvas;
+use crate::comparison::Mode;
 use crate::look::{Look, noise_scale};
 use crate::task::Task;
 use egui::{Align2, Color32, FontId, Rect, Sense, Vec2, pos2, vec2};
@@ -38,9 +39,16 @@ impl App {
     /// The scale whose legend is in the picture.
     pub fn legend(&self) -> Option<ColourScale> {
         let is_shown = self.seen.settings.colours.shows_legend && !self.open.document.is_blank;
-        self.colour_scale()
-            .filter(|_| is_shown)
-            .and_then(Result::ok)
+        if !is_shown || self.shows(Mode::Difference) {
+            return None;
+        }
+        if self.shows(Mode::Distance) {
+            return self.distance_scale();
+        }
+        if self.shows(Mode::B) {
+            return self.scale_of_b();
+        }
+        self.colour_scale().and_then(Result::ok)
     }
 
     /// Draws the legend in the lower right corner of the picture. It is a widget, so that assistive technology reads it. A

@@ -2,7 +2,7 @@
 
 use super::App;
 use crate::look::Look;
-use crate::settings::EnvironmentSource;
+use crate::settings::{EnvironmentSource, Settings};
 use crate::task::{Task, TaskPanicked};
 use crate::tracer::Limits;
 use glam::{Mat3, Vec3};
@@ -12,6 +12,7 @@ use hitscope_core::integrator::Lighting;
 use hitscope_core::light::{
     Environment, EnvironmentMap, Light, Lights, LoadedMap, MapPlacement, PlacedMap,
 };
+use hitscope_core::loading::LoadedScene;
 use hitscope_core::obj::LoadError;
 use hitscope_core::progress::Progress;
 use hitscope_core::srgb::from_texel;
@@ -53,18 +54,22 @@ pub(super) fn is_environment(path: &Path) -> bool {
 }
 
 impl App {
-    /// The lights of the scene and the options of light transport.
-    pub(super) fn lighting(&mut self) -> Lighting {
-        if !self.seen.settings.view().needs.lights {
-            return Lighting::default();
+    /// The lights of a scene and the options of light transport. `kept` are the lights of the last call, and returned for
+    /// the next one.
+    pub(super) fn lighting(
+        &self,
+        settings: &Settings,
+        loaded: &LoadedScene,
+        kept: Option<SceneLights>,
+    ) -> (Lighting, Option<SceneLights>) {
+        if !settings.view().needs.lights {
+            return (Lighting::default(), kept);
         }
-        let loaded = &self.open.document.loaded;
         let (scene, environment) = (&loaded.scene, self.environment());
         let is_current = |lights: &SceneLights| {
             Arc::ptr_eq(&lights.scene, scene) && lights.environment == environment
         };
-        let kept = self.traced.lights.take().filter(is_current);
-        let lights = kept.unwrap_or_else(|| {
+        let lights = kept.filter(is_current).unwrap_or_else(|| {
             let mut others = loaded.lights.clone();
             let lights = match environment.clone() {
                 None => Lights::or_white(scene, others),
@@ -79,7 +84,7 @@ impl App {
                 lights: Arc::new(lights),
             }
         });
-        let (settings, default) = (&self.seen.settings, loaded.lighting());
+        let default = loaded.lighting();
         let lighting = Lighting {
             lights: Arc::clone(&lights.lights),
             spawn: settings.spawn(),
@@ -89,8 +94,7 @@ impl App {
             terminator: settings.terminator(),
             ..default
         };
-        self.traced.lights = Some(lights);
-        lighting
+        (lighting, Some(lights))
     }
 
     /// The environment that replaces that of the scene's file; `None` also while it is being loaded.
@@ -143,7 +147,8 @@ impl App {
     /// Loads the file of the environment if it is wanted. If that fails, the environment is that of the scene again.
     fn load_environment(&mut self, ctx: &egui::Context) {
         let is_wanted = self.seen.settings.environment == EnvironmentSource::File
-            && self.seen.settings.view().needs.lights;
+            && (self.seen.settings.view().needs.lights
+                || self.other_settings().view().needs.lights);
         let Some(path) = self
             .seen
             .settings
@@ -210,14 +215,7 @@ impl App {
 
     /// What is shown of the film.
     pub(super) fn look(&self) -> Look {
-        let settings = &self.seen.settings;
-        if !self.traced.tracer.shows_lit() {
-            Look::plain()
-        } else if settings.shows_noise {
-            Look::Noise(settings.exposure())
-        } else {
-            Look::Picture(settings.display())
-        }
+        Look::of(&self.seen.settings, self.traced.tracer.shows_lit())
     }
 }
 

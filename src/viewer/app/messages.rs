@@ -7,6 +7,7 @@ use super::work::work_ui;
 use crate::command::{Commands, help_sheet};
 use crate::log::LogAction;
 use egui::{Align, Layout, RichText};
+use hitscope_core::picture::PictureFile;
 
 /// A sheet over the window.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -55,6 +56,8 @@ impl App {
             let path = file.path();
             if is_environment(path) {
                 self.set_environment(path);
+            } else if PictureFile::is_name_of_one(path) {
+                self.compare_with_picture(path.to_owned());
             } else {
                 self.load(path.to_owned(), ctx);
             }

@@ -15,6 +15,7 @@
 //! | `inspecting` | the list of picks, measuring, the read-out under the pointer, going to elements |
 //! | `path`, `flaws` | the path of a sample of the picked pixel; the marked flaws |
 //! | `clipping`, `hiding` | the part of the scene that is shown |
+//! | `comparing` | the picture beside another one |
 //! | `legend` | the legend in the picture, and its range |
 //! | `light` | lights, environment, exposure |
 //! | `reopening` | continuing in another window after the device was lost |
@@ -31,6 +32,7 @@
 
 mod canvas;
 mod clipping;
+mod comparing;
 mod dialogs;
 mod feedback;
 mod files;
@@ -76,6 +78,7 @@ use crate::screenshot::Screenshot;
 use crate::settings::Settings;
 use crate::storage;
 use crate::tracer::Tracer;
+use comparing::Compared;
 use feedback::Feedback;
 use hitscope_core::obj::{FaultPolicy, LoadOptions};
 use hitscope_lab::commands::default_thread_count;
@@ -128,6 +131,7 @@ pub struct App {
     pub(crate) picked: Picked,
     pub(crate) shown: Shown,
     pub(crate) traced: Traced,
+    pub(crate) compared: Compared,
     pub(crate) preferences: Preferences,
     /// Steps of undo.
     history: History,
@@ -164,6 +168,7 @@ impl App {
             picked: Picked::default(),
             shown: Shown::new(&render_state),
             traced: Traced::new(tracer, &render_state),
+            compared: Compared::new(&render_state),
             preferences: start.preferences,
             history: History::default(),
             navigation: Navigation::default(),
@@ -189,6 +194,7 @@ impl App {
         self.open.trade = None;
         self.open.document.stop_improving();
         self.traced.tracer.stop();
+        self.compared.stop();
     }
 
     /// Shows the first of the new errors of the device.
@@ -232,6 +238,7 @@ impl eframe::App for App {
             self.error(panic);
         }
         self.check_view();
+        self.poll_comparison(ctx);
         self.poll_path(ctx);
         self.preferences.zoom = ctx.zoom_factor();
         let is_settled = self.is_settled();

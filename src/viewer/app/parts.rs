@@ -7,6 +7,7 @@
 //! | [`Picked`] | what is picked: the pixel, its face and path, and the marked flaw |
 //! | [`Shown`] | what the window shows over and beside the picture |
 //! | [`Traced`] | what traces and draws the picture |
+//! | [`Compared`](super::comparing::Compared) | the other side of a comparison; the choices are in [`Seen`] |
 
 use super::Sheet;
 use super::dialogs::Dialogs;
@@ -21,6 +22,7 @@ use super::pick::{Pick, Picking};
 use super::pointer::Clicks;
 use crate::about_sheet::AboutSheet;
 use crate::command::palette::Palette;
+use crate::comparison::{Comparison, Side};
 use crate::document::Document;
 use crate::face_lookup::FaceLookup;
 use crate::flaw_place::FlawPlace;
@@ -89,6 +91,8 @@ pub(crate) struct Seen {
     pub settings: Settings,
     /// The parts of the scene, which can be hidden.
     pub parts: Parts,
+    /// What the picture is compared with.
+    pub comparison: Comparison,
     /// The camera.
     pub turntable: Turntable,
     /// Field of view and projection before a file's view replaced them; the next file gets them back.
@@ -106,6 +110,7 @@ impl Seen {
         Self {
             settings,
             parts: Parts::default(),
+            comparison: Comparison::default(),
             turntable,
             own_projection: None,
             is_unframed: true,
@@ -124,6 +129,8 @@ impl Seen {
 #[derive(Default)]
 pub(crate) struct Picked {
     pub clicks: Clicks,
+    /// The side of a comparison whose ray is inspected.
+    pub side: Side,
     pub pick: Option<Pick>,
     /// The next pick, while it is being inspected.
     pub picking: Option<Picking>,

@@ -1,6 +1,7 @@
 //! The picked pixel, which is inspected in the background, and again when kernel, shading or tree change.
 
 use super::App;
+use crate::comparison::Side;
 use crate::document::Document;
 use crate::face_lookup::{FaceInFile, FaceLookup};
 use crate::panels::{self, inspect::PickView};
@@ -26,6 +27,8 @@ pub(crate) struct Pick {
     crossing: Option<usize>,
     /// The face that was hit, once it has been read from the file.
     face: Option<FaceInFile>,
+    /// Whether the ray was traced in the open scene, not in the other one of a comparison.
+    is_of_open_scene: bool,
     basis: InspectionBasis,
 }
 
@@ -57,6 +60,7 @@ impl Picking {
 /// The settings and state that an inspection depends on, besides mesh and ray.
 #[derive(Clone, Copy, PartialEq)]
 struct InspectionBasis {
+    side: Side,
     kernel: &'static str,
     shading: Shading,
     crease: Crease,
@@ -121,9 +125,10 @@ impl Pick {
         position.map(|position| DVec3::from_array(position) - self.origin)
     }
 
-    /// The primitive at the point that is marked.
+    /// The primitive at the point that is marked, if it is one of the open scene.
     pub fn marked_primitive(&self) -> Option<u32> {
         match self.marked() {
+            _ if !self.is_of_open_scene => None,
             Some(crossing) if self.crossing.is_some() => Some(crossing.primitive),
             _ => self.inspection.hit.as_ref().map(|hit| hit.primitive),
         }
@@ -179,7 +184,13 @@ impl App {
 
     /// Why nothing can be done with what the picked ray hits; `None` if it hits something.
     pub(crate) fn lacks_hit(&self) -> Option<&'static str> {
-        self.obstacle_unless(|pick| pick.marked_primitive().is_some())
+        let is_other = self
+            .picked
+            .pick
+            .as_ref()
+            .filter(|pick| !pick.is_of_open_scene);
+        let obstacle = is_other.map(|_| "The picked ray is that of the other scene");
+        obstacle.or_else(|| self.obstacle_unless(|pick| pick.marked_primitive().is_some()))
     }
 
     fn obstacle_unless(&self, is_met: impl Fn(&Pick) -> bool) -> Option<&'static str> {
@@ -204,8 +215,15 @@ impl App {
         }
     }
 
-    /// Inspects a pixel and opens the Inspect tab.
-    pub(super) fn inspect(&mut self, camera: Camera, pixel: UVec2, ctx: &egui::Context) {
+    /// Inspects a pixel of a side and opens the Inspect tab.
+    pub(super) fn inspect(
+        &mut self,
+        side: Side,
+        camera: Camera,
+        pixel: UVec2,
+        ctx: &egui::Context,
+    ) {
+        self.picked.side = side;
         if let Some(pick) = &mut self.picked.pick {
             pick.crossing = None;
         }
@@ -242,12 +260,15 @@ impl App {
     }
 
     fn inspection_basis(&self) -> InspectionBasis {
+        let side = self.inspected_side();
+        let document = self.document_of(side);
         InspectionBasis {
-            kernel: self.open.document.intersector().kernel().name,
-            shading: self.seen.settings.shading(),
-            crease: self.open.document.loaded.scene.crease(),
-            part_changes: self.open.document.part_changes(),
-            has_last_tree: self.open.document.has_last_tree(),
+            side,
+            kernel: document.intersector().kernel().name,
+            shading: self.shading_of(side),
+            crease: document.loaded.scene.crease(),
+            part_changes: document.part_changes(),
+            has_last_tree: document.has_last_tree(),
         }
     }
 
@@ -260,19 +281,25 @@ impl App {
         ctx: &egui::Context,
     ) {
         let basis = self.inspection_basis();
-        let scene = Arc::clone(&self.open.document.loaded.scene);
-        let intersector = Arc::clone(self.open.document.intersector());
+        let document = self.document_of(basis.side);
+        let scene = Arc::clone(&document.loaded.scene);
+        let intersector = Arc::clone(document.intersector());
+        // Picks are kept in the coordinates of the open scene.
+        let origin = self.open.document.loaded.scene.mesh().origin();
+        let traced_camera = self.camera_in(document, camera);
+        let is_of_open_scene = !self.inspects_other_scene();
         // In the background: each kernel tests every triangle near the ray, which may be a million in a bad mesh.
         let inspect = move || {
             let shading = basis.shading;
-            let inspection = Inspection::of_pixel(&scene, &*intersector, shading, &camera, pixel);
-            let origin = scene.mesh().origin();
+            let inspection =
+                Inspection::of_pixel(&scene, &*intersector, shading, &traced_camera, pixel);
             Pick {
                 inspection,
                 camera,
                 origin,
                 crossing: None,
                 face: None,
+                is_of_open_scene,
                 basis,
             }
         };
@@ -285,7 +312,10 @@ impl App {
     }
 
     fn start_face_lookup(&mut self, pick: &Pick, ctx: &egui::Context) {
-        let document = &self.open.document;
+        let Some(document) = self.file_of_pick() else {
+            self.picked.face_lookup = None;
+            return;
+        };
         let triangle = pick.triangle();
         // The faces of a scene file's meshes aren't in that file.
         let is_mesh = !document.path.as_deref().is_some_and(is_scene_file);
@@ -323,8 +353,10 @@ impl App {
         self.picked.picking = None;
         match result {
             Ok(mut pick) => {
-                pick.inspection
-                    .find_line(&self.open.document.loaded.report.face_lines);
+                if let Some(document) = self.file_of_pick() {
+                    let lines = &document.loaded.report.face_lines;
+                    pick.inspection.find_line(lines);
+                }
                 let index = |pick: &Pick| pick.triangle().map(|triangle| triangle.index);
                 let is_same = |old: &Pick| index(old) == index(&pick) && old.face.is_some();
                 match self.picked.pick.take().filter(is_same) {

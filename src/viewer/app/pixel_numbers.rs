@@ -114,6 +114,10 @@ impl App {
         for (pixel, text) in pixels(rect.min, rect.max).zip(texts) {
             let corner = |offset| canvas.pos_of(pixel.as_dvec2() + offset, camera);
             let place = Rect::from_two_pos(corner(DVec2::ZERO), corner(DVec2::ONE));
+            // The numbers are those of side A of a comparison.
+            if !self.shows_a_at(place.center(), canvas) {
+                continue;
+            }
             self.write(ui, canvas, place, pixel, &text);
         }
     }

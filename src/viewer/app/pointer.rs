@@ -5,6 +5,7 @@
 
 use super::App;
 use super::canvas::Canvas;
+use crate::comparison::Side;
 use egui::{Event, PointerButton, Pos2, Response};
 use glam::{DVec2, DVec3, UVec2};
 use hitscope_core::film::ShownPixel;
@@ -30,6 +31,7 @@ impl Clicks {
 
 /// A click that may still become a double click.
 pub(crate) struct PendingClick {
+    side: Side,
     shown: ShownPixel,
     pos: Pos2,
     /// Time when it becomes a single click, by egui's clock.
@@ -54,7 +56,8 @@ impl App {
         if !response.clicked() {
             return;
         }
-        let Some(shown) = self.shown_at(pos, canvas) else {
+        let side = self.side_at(pos, canvas);
+        let Some(shown) = self.shown_on(side, pos, canvas) else {
             return;
         };
         let (delay, distance) = ui.ctx().options(|options| {
@@ -69,7 +72,7 @@ impl App {
             let releases = input.events.iter().filter(is_release);
             (input.time, releases.count())
         });
-        if ui.input(|input| input.modifiers.command) {
+        if side == Side::A && ui.input(|input| input.modifiers.command) {
             self.pick_pixel(shown.camera, shown.pixel, true, ui.ctx());
             return;
         }
@@ -77,7 +80,7 @@ impl App {
         let is_second = first.is_some_and(|first| first.pos.distance(pos) <= distance);
         if is_second || clicks > 1 {
             self.picked.clicks.last_double_secs = Some(now);
-            if let Some(point) = self.surface_along(&shown.ray()) {
+            if let Some(point) = self.surface_on(side, &shown) {
                 self.seen.turntable.centre_on(point);
             }
         } else if self
@@ -88,6 +91,7 @@ impl App {
         {
             // The third click of three is ignored.
             self.picked.clicks.pending = Some(PendingClick {
+                side,
                 shown,
                 pos,
                 due_secs: now + delay,
@@ -110,9 +114,13 @@ impl App {
             ctx.request_repaint_after(std::time::Duration::from_secs_f64(left_secs));
             return;
         }
-        let ShownPixel { camera, pixel } = click.shown;
+        let (side, ShownPixel { camera, pixel }) = (click.side, click.shown);
         self.picked.clicks.pending = None;
-        self.pick_pixel(camera, pixel, false, ctx);
+        match side {
+            Side::A => self.pick_pixel(camera, pixel, false, ctx),
+            // The list of picks is that of the open scene.
+            Side::B => self.inspect(Side::B, camera, pixel, ctx),
+        }
     }
 
     /// The camera of the picture on the screen; `None` while the screen shows another mesh or nothing.

@@ -19,6 +19,7 @@ impl App {
         let (settings, document) = (&self.seen.settings, &mut self.open.document);
         document.use_kernel(settings.kernel(), ctx);
         document.use_second(settings.second_kernel(), ctx);
+        self.prepare_other(ctx);
     }
 
     /// Collects finished work on the document. If packing failed, the settings are those of what is packed again.

@@ -14,6 +14,7 @@ impl App {
         Sight {
             camera: self.viewpoint(),
             settings: self.seen.settings.clone(),
+            comparison: self.seen.comparison.clone(),
             parts: self.seen.parts.choice().clone(),
             picks: self.picked_pixel().into_iter().collect(),
         }
@@ -49,6 +50,7 @@ impl App {
         let origin = scene.mesh().origin();
         self.seen.turntable = sight.camera.turntable(scene);
         self.seen.settings = sight.settings.clone();
+        self.seen.comparison = sight.comparison.clone();
         if *self.seen.parts.choice() != sight.parts {
             self.seen.parts.choose(sight.parts.clone());
         }
@@ -84,6 +86,7 @@ impl App {
         // Most frames change nothing; comparing is cheaper than copying.
         let is_same = self.history.now().is_some_and(|now| {
             now.settings == self.seen.settings
+                && now.comparison == self.seen.comparison
                 && now.parts == *self.seen.parts.choice()
                 && now.camera == self.viewpoint()
                 && now.picks.first() == self.picked_pixel().as_ref()

@@ -43,7 +43,9 @@ impl App {
     /// The contents of the selected tab.
     fn tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
         match self.preferences.tab {
-            Tab::Inspect | Tab::Parts | Tab::Mesh | Tab::Trade if self.open.document.is_blank => {
+            Tab::Inspect | Tab::Parts | Tab::Mesh | Tab::Trade | Tab::Compare
+                if self.open.document.is_blank =>
+            {
                 ui.label("No file is open.");
             }
             Tab::Inspect => {
@@ -54,7 +56,8 @@ impl App {
                 let is_busy = self.picked.picking.is_some() || self.picked.clicks.pending.is_some();
                 let pick = self.picked.pick.as_ref();
                 let is_reading = self.picked.face_lookup.is_some();
-                let view = pick.map(|pick| pick.view(&self.open.document, is_reading));
+                let document = self.document_of(self.inspected_side());
+                let view = pick.map(|pick| pick.view(document, is_reading));
                 let selected = panels::inspect::inspect_ui(ui, view, is_busy, commands);
                 if let Some((pick, crossing)) = self.picked.pick.as_mut().zip(selected) {
                     pick.select(crossing);
@@ -95,6 +98,7 @@ impl App {
                 }
             }
             Tab::Trade => self.trade_ui(ui),
+            Tab::Compare => self.compare_tab_ui(ui, commands),
         }
     }
 
@@ -124,7 +128,7 @@ impl App {
 /// Shows the names of the tabs.
 fn tabs_ui(ui: &mut egui::Ui, commands: &Commands) {
     ui.add_space(4.0);
-    ui.horizontal(|ui| {
+    ui.horizontal_wrapped(|ui| {
         for tab in commands.at(TABS) {
             commands.choice_ui(ui, tab);
         }

@@ -34,6 +34,7 @@ impl App {
             && self.traced.tracer.posted().is_some_and(is_wanted)
             && self.traced.tracer.is_finished()
             && self.traced.overlay.is_complete()
+            && self.is_comparison_settled()
     }
 
     /// Whether the view shows the cost of rays in the final tree.

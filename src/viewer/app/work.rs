@@ -62,6 +62,16 @@ static WORK: &[Work] = &[
         },
     },
     Work {
+        title: "Packing the scene for side B",
+        lasted: |app| app.compared.packing_lasted(),
+        cancel: |app| app.seen.comparison.is_on = false,
+    },
+    Work {
+        title: "Measuring distances between the meshes",
+        lasted: |app| app.compared.measuring_lasted(),
+        cancel: |app| app.seen.comparison.is_on = false,
+    },
+    Work {
         title: "Measuring speed and accuracy",
         lasted: |app| {
             // The tab shows it, too.

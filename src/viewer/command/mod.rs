@@ -4,7 +4,7 @@
 //! |---|---|
 //! | this file | the type of a row, and the list of all rows |
 //! | `file`, `edit`, `view`, `camera`, `pick`, `window`, `help` | the rows, one file per menu |
-//! | `clip`, `colours`, `part` | further rows of the menus *View* and *Pick* |
+//! | `clip`, `colours`, `part`, `compare` | further rows of the menus *View* and *Pick* |
 //! | `place` | menus, and the places of commands in them |
 //! | `entry` | the commands of a frame: rows of the table, and rows made from other tables |
 //! | [`keys`] | the keys of commands |
@@ -19,6 +19,7 @@
 mod camera;
 mod clip;
 mod colours;
+mod compare;
 mod edit;
 mod entry;
 mod file;
@@ -36,6 +37,7 @@ mod view;
 mod widget;
 mod window;
 
+pub use compare::COMPARE_MODES;
 pub use entry::{Commands, Entry};
 pub use pick::SNAPPING;
 pub use place::{Menu, Place};
@@ -74,6 +76,7 @@ pub static COMMANDS: &[&[Command]] = &[
     colours::ROWS,
     part::ROWS,
     view::MAGNIFIER_ROWS,
+    compare::ROWS,
     camera::ROWS,
     pick::ROWS,
     clip::PICK_ROWS,
@@ -89,6 +92,8 @@ static OTHER_TABLES: &[fn(&App) -> Vec<Entry>] = &[
     view::overlays,
     view::kernels,
     part::groupings,
+    compare::modes,
+    compare::sources,
     view::qualities,
     camera::presets,
     pick::snapping,

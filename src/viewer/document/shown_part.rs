@@ -89,17 +89,17 @@ impl Document {
             let origin = self.loaded.scene.mesh().origin();
             let in_scene = clip.map(|clip| clip.moved(-origin)).transpose()?;
             self.clip = clip.cloned();
-            self.replace_scene(self.loaded.scene.with_clip(in_scene));
+            self.replace_scene(Arc::new(self.loaded.scene.with_clip(in_scene)));
         }
         Ok(is_new)
     }
 
     /// Replaces the scene by the same one with another clip.
-    fn replace_scene(&mut self, scene: Scene) {
+    pub(super) fn replace_scene(&mut self, scene: Arc<Scene>) {
         for packing in std::iter::once(&mut self.packing).chain(&mut self.second) {
             packing.packed = packing.packed.with_clip_of(&scene);
         }
-        self.loaded.scene = Arc::new(scene);
+        self.loaded.scene = scene;
         self.part_changes += 1;
     }
 
@@ -145,7 +145,7 @@ impl Document {
             scene.with_crease(current.crease())
         };
         (self.packing, self.second) = (Packing::new(kernel, packed), None);
-        self.replace_scene(scene);
+        self.replace_scene(Arc::new(scene));
         self.stop_improving();
         self.progress = Progress::default();
         self.improve(ctx);

@@ -2,6 +2,7 @@
 
 mod clip;
 mod colours;
+pub mod compare;
 mod eye;
 mod flaws;
 pub mod inspect;

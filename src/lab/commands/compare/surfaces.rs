@@ -138,11 +138,12 @@ impl CompareArgs {
         let what = format_args!("a picture of {}x{} pixels", size.x, size.y);
         let memory = self.mesh.memory;
         memory.require(picture_bytes(size), scene, 0, what)?;
+        let intersector = scene.intersector(options.kernel.choice);
         let picture = DistancePicture {
             surface: a,
             other: b,
             camera,
-            kernel: options.kernel.choice,
+            intersector: &*intersector,
             samples: options.samples,
             scale,
             background: from_display(DARK_BACKGROUND),

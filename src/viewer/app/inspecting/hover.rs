@@ -4,6 +4,7 @@
 
 use crate::app::App;
 use crate::app::canvas::Canvas;
+use crate::comparison::Side;
 use crate::numbers::significant;
 use crate::overlay::{Label, Place};
 use crate::tracer::Request;
@@ -54,6 +55,9 @@ impl App {
         let key = pos
             .filter(|_| self.picked.inspecting.hover.is_on && self.screenshot.is_none())
             .and_then(|pos| {
+                if self.side_at(pos, canvas) == Side::B {
+                    return self.hover_on_b(pos, canvas);
+                }
                 let ShownPixel { camera, pixel } = self.shown_at(pos, canvas)?;
                 let mut request = self.traced.tracer.posted()?.clone();
                 let scene = &self.open.document.loaded.scene;
@@ -83,6 +87,14 @@ impl App {
             let text = read_out(&key);
             self.picked.inspecting.hover.last = Some((key, text));
         }
+    }
+
+    /// What is under the pointer on side B of a comparison.
+    fn hover_on_b(&self, pos: egui::Pos2, canvas: Canvas) -> Option<HoverKey> {
+        let ShownPixel { camera, pixel } = self.shown_by_b(pos, canvas)?;
+        let mut request = self.request_on_b()?;
+        request.context.camera = camera;
+        Some(HoverKey { request, pixel })
     }
 
     /// Whether the read-out under the pointer is on.

@@ -2,6 +2,7 @@
 
 use super::pick_list::{Basis, Detail, DetailBasis};
 use crate::app::App;
+use crate::comparison::Side;
 use crate::panels::picks::{PickRow, PicksChange, PicksView, WalkView};
 use crate::picks::{PickedPixel, PickedPoint, Snapping, to_csv, to_json};
 use crate::task::{Task, TaskPanicked};
@@ -26,7 +27,7 @@ impl App {
             .inspecting
             .picks
             .add(camera, pixel, keeps_others);
-        self.inspect(camera, pixel, ctx);
+        self.inspect(Side::A, camera, pixel, ctx);
     }
 
     /// Traces the rays of the picks if they or what their hits depend on have changed, and ends the export.
@@ -208,7 +209,7 @@ impl App {
                 picks.step = 0;
                 if let Some(pick) = picks.selected() {
                     let (camera, pixel) = (pick.camera, pick.pixel);
-                    self.inspect(camera, pixel, ctx);
+                    self.inspect(Side::A, camera, pixel, ctx);
                 }
             }
             PicksChange::Walk(step) => picks.step = step,

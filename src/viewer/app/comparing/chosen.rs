@@ -1,0 +1,142 @@
+//! The commands of comparisons, and the tab *Compare*.
+
+use crate::app::App;
+use crate::command::Commands;
+use crate::comparison::{Comparison, Mode, Rasterized, Side, Source};
+use crate::panels::compare::{CompareView, compare_ui};
+use crate::panels::kernel_name;
+use crate::tab::Tab;
+use hitscope_core::obj::shown;
+use std::path::{Path, PathBuf};
+
+impl App {
+    /// What is compared, and how it is shown.
+    pub fn comparison(&self) -> &Comparison {
+        &self.seen.comparison
+    }
+
+    /// Starts a comparison and shows its tab, or ends it.
+    pub(crate) fn toggle_comparison(&mut self) {
+        self.seen.comparison.is_on ^= true;
+        if self.seen.comparison.is_on {
+            self.preferences.tab = Tab::Compare;
+        }
+    }
+
+    /// Shows a comparison in this way.
+    pub(crate) fn compare_in(&mut self, mode: Mode) {
+        let comparison = &mut self.seen.comparison;
+        (comparison.is_on, comparison.mode) = (true, mode);
+    }
+
+    /// Compares with this kind of side B.
+    pub(crate) fn compare_with(&mut self, source: Source) {
+        let comparison = &mut self.seen.comparison;
+        (comparison.is_on, comparison.source) = (true, source);
+        self.preferences.tab = Tab::Compare;
+    }
+
+    /// Exchanges view, kernel and shading of both sides.
+    pub(crate) fn swap_sides(&mut self) {
+        self.seen.comparison.swap(&mut self.seen.settings);
+    }
+
+    /// Why there are no sides; `None` if two sides are compared.
+    pub(crate) fn lacks_comparison(&self) -> Option<&'static str> {
+        (!self.is_comparing()).then_some("Nothing is compared: C starts a comparison")
+    }
+
+    /// Why the sides can't be swapped; `None` if they can.
+    pub(crate) fn lacks_swap(&self) -> Option<&'static str> {
+        let is_same_scene = self.seen.comparison.source == Source::Traced;
+        let obstacle = "Only two traced pictures of the open scene can be swapped";
+        self.lacks_comparison()
+            .or((!is_same_scene).then_some(obstacle))
+    }
+
+    /// Compares with another mesh or scene.
+    pub(in crate::app) fn compare_with_mesh(&mut self, path: PathBuf) {
+        self.seen.comparison.mesh_file = Some(path);
+        // Also loads a file again that has changed.
+        self.compared.mesh = None;
+        self.compare_with(Source::Mesh);
+    }
+
+    /// Compares with a picture.
+    pub(in crate::app) fn compare_with_picture(&mut self, path: PathBuf) {
+        self.seen.comparison.picture_file = Some(path);
+        // Also loads a file again that has changed.
+        self.compared.reference.reload();
+        self.compare_with(Source::Picture);
+    }
+
+    /// A side's picture in some words.
+    pub(super) fn name_of(&self, side: Side) -> String {
+        let settings = match side {
+            Side::A => self.seen.settings.clone(),
+            Side::B => self.other_settings(),
+        };
+        let shading = if settings.is_smooth { "smooth" } else { "flat" };
+        let kernel = kernel_name(settings.kernel().info.name);
+        let view = settings.view().title;
+        let looks = format!("{view}, {kernel}, {shading}");
+        let comparison = &self.seen.comparison;
+        match (side, comparison.source) {
+            (Side::A, _) => format!("A: {looks}"),
+            (Side::B, Source::Traced) => format!("B: {looks}"),
+            (Side::B, Source::Rasterized) => {
+                let view = Rasterized::views().find(|known| known.name == settings.view().name);
+                let view = view.map_or("Shaded", |view| view.title);
+                format!("B: {view}, rasterized, {shading}")
+            }
+            (Side::B, Source::Mesh) => match &comparison.mesh_file {
+                Some(path) => format!("B: {}, {looks}", name_of_file(path)),
+                None => "B: no file".to_owned(),
+            },
+            (Side::B, Source::Earlier) if self.compared.earlier.is_none() => {
+                "B: no earlier version".to_owned()
+            }
+            (Side::B, Source::Earlier) => format!("B: earlier version, {looks}"),
+            (Side::B, Source::Picture) => match &comparison.picture_file {
+                Some(path) => format!("B: {}", name_of_file(path)),
+                None => "B: no picture".to_owned(),
+            },
+        }
+    }
+
+    /// Shows the tab.
+    pub(in crate::app) fn compare_tab_ui(&mut self, ui: &mut egui::Ui, commands: &Commands) {
+        let scene = &self.open.document.loaded.scene;
+        let is_rasterized = self.seen.comparison.source == Source::Rasterized;
+        let mut comparison = self.seen.comparison.clone();
+        let mut of_a = self.seen.settings.clone();
+        let view = CompareView {
+            kernels: scene.kernels(),
+            names: [Side::A, Side::B].map(|side| self.name_of(side)),
+            loading: self.compared.loading.as_ref(),
+            is_loading_picture: self.compared.reference.is_loading(),
+            not_drawn: Rasterized::not_drawn(scene).filter(|_| is_rasterized),
+            lacks_earlier: self.compared.earlier.is_none(),
+            sizes: self.sizes(),
+            figures: self.figures(),
+            distances: self.mesh_distances(),
+            map_status: self.map_status().filter(|_| self.shows(Mode::Distance)),
+        };
+        let is_cancelled = compare_ui(ui, (&mut of_a, &mut comparison), &view, commands);
+        if let Some(loading) = self.compared.loading.as_ref().filter(|_| is_cancelled) {
+            loading.cancel();
+        }
+        (self.seen.settings, self.seen.comparison) = (of_a, comparison);
+    }
+
+    /// Width and height of both sides, if they differ while both are at rest.
+    fn sizes(&self) -> Option<[glam::UVec2; 2]> {
+        let a = self.traced.tracer.film().size();
+        let (b, _) = self.compared.pixels()?;
+        (a != b).then_some([a, b])
+    }
+}
+
+fn name_of_file(path: &Path) -> String {
+    shown(Path::new(path.file_name().unwrap_or_default()))
+}

@@ -1,0 +1,145 @@
+//! Clicks on side B: they inspect its ray, with its kernel and its mesh.
+
+use crate::app::App;
+use crate::app::canvas::Canvas;
+use crate::comparison::{Mode, Side, Source};
+use crate::document::Document;
+use crate::tracer::Request;
+use egui::Pos2;
+use glam::{DVec2, DVec3};
+use hitscope_core::colour::ColourScale;
+use hitscope_core::film::ShownPixel;
+use hitscope_core::scene::Shading;
+
+impl App {
+    /// The side whose picture is at a place of the screen. Where side B isn't traced, its pixels show the rays of side A.
+    pub(in crate::app) fn side_at(&self, pos: Pos2, canvas: Canvas) -> Side {
+        let is_b = match self.seen.comparison.mode {
+            Mode::A | Mode::Difference | Mode::Distance => false,
+            Mode::B => true,
+            Mode::Wipe => pos.x >= self.divider_x(canvas),
+        };
+        if is_b && self.traced_document_of_b().is_some() {
+            Side::B
+        } else {
+            Side::A
+        }
+    }
+
+    /// Whether the picture of side A is at a place of the screen.
+    pub(in crate::app) fn shows_a_at(&self, pos: Pos2, canvas: Canvas) -> bool {
+        match self.seen.comparison.mode {
+            _ if !self.is_comparing() => true,
+            Mode::A => true,
+            Mode::Wipe => pos.x < self.divider_x(canvas),
+            Mode::B | Mode::Difference | Mode::Distance => false,
+        }
+    }
+
+    /// What a side's pixel at a place of the screen shows, with its camera in the coordinates of side A.
+    pub(in crate::app) fn shown_on(
+        &self,
+        side: Side,
+        pos: Pos2,
+        canvas: Canvas,
+    ) -> Option<ShownPixel> {
+        match side {
+            Side::A => self.shown_at(pos, canvas),
+            Side::B => {
+                let document = self.traced_document_of_b()?;
+                let ShownPixel { camera, pixel } = self.shown_by_b(pos, canvas)?;
+                let camera = self.camera_from(document, camera);
+                Some(ShownPixel { camera, pixel })
+            }
+        }
+    }
+
+    /// What the pixel of side B at a place of the screen shows, in the coordinates of its document.
+    pub(in crate::app) fn shown_by_b(&self, pos: Pos2, canvas: Canvas) -> Option<ShownPixel> {
+        let document = self.traced_document_of_b()?;
+        let side = self.compared.traced.as_ref()?;
+        let (scene, camera) = side.on_screen.as_ref()?;
+        let is_current = std::ptr::eq(scene.mesh(), document.loaded.scene.mesh());
+        let at = canvas.pixel_of(pos, camera).max(DVec2::ZERO).as_uvec2();
+        let shown = side.shown.at(at.min(camera.resolution() - 1));
+        shown.filter(|_| is_current)
+    }
+
+    /// The point of a side's surface that a pixel shows, in the coordinates of side A.
+    pub(in crate::app) fn surface_on(&self, side: Side, shown: &ShownPixel) -> Option<DVec3> {
+        let document = self.document_of(side);
+        let camera = self.camera_in(document, shown.camera);
+        let ray = ShownPixel { camera, ..*shown }.ray();
+        let hit = document.intersector().closest_hit(&ray)?;
+        let point = ray.origin.as_dvec3() + f64::from(hit.t) * ray.dir.as_dvec3();
+        let origin = |document: &Document| document.loaded.scene.mesh().origin();
+        Some(point + origin(document) - origin(&self.open.document))
+    }
+
+    /// The document of side B, if rays are traced for it.
+    fn traced_document_of_b(&self) -> Option<&Document> {
+        let is_traced = self.is_comparing() && self.compared.source.is_traced();
+        self.compared.document().filter(|_| is_traced)
+    }
+
+    /// The side whose ray is inspected: that of the last click, if it is still there.
+    pub(in crate::app) fn inspected_side(&self) -> Side {
+        match self.picked.side {
+            Side::B if self.traced_document_of_b().is_some() => Side::B,
+            _ => Side::A,
+        }
+    }
+
+    /// The request of side B, with the camera of its picture on the screen, in its own coordinates.
+    pub(in crate::app) fn request_on_b(&self) -> Option<Request> {
+        let side = self.compared.traced.as_ref()?;
+        let (scene, camera) = side.on_screen.as_ref()?;
+        let mut request = side.tracer.posted()?.clone();
+        request.context.camera = *camera;
+        std::sync::Arc::ptr_eq(scene, &request.context.scene).then_some(request)
+    }
+
+    /// The colours of the numbers that side B shows.
+    pub(in crate::app) fn scale_of_b(&self) -> Option<ColourScale> {
+        let request = match self.compared.source {
+            Source::Rasterized => self.compared.rasterized.picture()?.request.clone(),
+            _ => self.request_on_b()?,
+        };
+        request.integrator.scale(&request.context).ok()?
+    }
+
+    /// The document of a side.
+    pub(in crate::app) fn document_of(&self, side: Side) -> &Document {
+        let of_b = self.compared.document().filter(|_| side == Side::B);
+        of_b.unwrap_or(&self.open.document)
+    }
+
+    /// The document that knows the file of the inspected mesh; `None` if that file has changed.
+    pub(in crate::app) fn file_of_pick(&self) -> Option<&Document> {
+        match (self.inspected_side(), self.compared.source) {
+            (Side::B, Source::Earlier) => None,
+            (Side::B, Source::Mesh) => Some(self.document_of(Side::B)),
+            _ => Some(&self.open.document),
+        }
+    }
+
+    /// Whether the inspected ray is traced in another scene than the open one.
+    pub(in crate::app) fn inspects_other_scene(&self) -> bool {
+        self.inspected_side() == Side::B && self.compared.source.is_other_scene()
+    }
+
+    /// How normals vary over a triangle on a side.
+    pub(in crate::app) fn shading_of(&self, side: Side) -> Shading {
+        match side {
+            Side::A => self.seen.settings.shading(),
+            Side::B => self.other_settings().shading(),
+        }
+    }
+
+    /// Clears a pick in another scene than the open one, which has been replaced.
+    pub(super) fn forget_other_pick(&mut self) {
+        if self.picked.side == Side::B {
+            self.picked.clear_pick();
+        }
+    }
+}

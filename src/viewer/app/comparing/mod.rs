@@ -1,0 +1,171 @@
+//! Comparing the window's picture, side A, with another picture, side B.
+//!
+//! | file | part |
+//! |---|---|
+//! | this file | what is compared: the owner of side B |
+//! | `sides` | the documents of side B, and what is traced or rasterized of them |
+//! | `screen` | drawing side B, the divider and the difference |
+//! | `measured` | figures of the differences, distances, the distance map |
+//! | `inspected` | clicks on side B |
+//! | `chosen` | the commands, and the tab *Compare* |
+
+mod chosen;
+mod inspected;
+mod measured;
+mod screen;
+mod sides;
+
+use super::App;
+use super::light::SceneLights;
+use crate::comparison::{Rasterized, Reference, Source, TracedSide};
+use crate::document::Document;
+use crate::opening::Loading;
+use crate::settings::Settings;
+use eframe::egui_wgpu::RenderState;
+use measured::Measured;
+use screen::Screen;
+use std::time::Duration;
+
+/// Side B of a comparison, and what is measured between both sides.
+pub(crate) struct Compared {
+    render_state: RenderState,
+    /// How the rest was made.
+    source: Source,
+    /// The open scene, packed for side B.
+    sibling: Option<Document>,
+    /// The document of another file.
+    mesh: Option<Document>,
+    /// The open file before it was last loaded again.
+    earlier: Option<Document>,
+    loading: Option<Loading>,
+    lights: Option<SceneLights>,
+    traced: Option<TracedSide>,
+    rasterized: Rasterized,
+    reference: Reference,
+    screen: Screen,
+    measured: Measured,
+}
+
+impl Compared {
+    pub fn new(render_state: &RenderState) -> Self {
+        Self {
+            source: Source::default(),
+            sibling: None,
+            mesh: None,
+            earlier: None,
+            loading: None,
+            lights: None,
+            traced: None,
+            rasterized: Rasterized::new(&render_state.device, &render_state.queue),
+            reference: Reference::default(),
+            screen: Screen::default(),
+            measured: Measured::default(),
+            render_state: render_state.clone(),
+        }
+    }
+
+    /// The document of side B; `None` for a picture, and until there is one.
+    fn document(&self) -> Option<&Document> {
+        match self.source {
+            Source::Traced | Source::Rasterized => self.sibling.as_ref(),
+            Source::Mesh => self.mesh.as_ref(),
+            Source::Earlier => self.earlier.as_ref(),
+            Source::Picture => None,
+        }
+    }
+
+    fn document_mut(&mut self) -> Option<&mut Document> {
+        match self.source {
+            Source::Traced | Source::Rasterized => self.sibling.as_mut(),
+            Source::Mesh => self.mesh.as_mut(),
+            Source::Earlier => self.earlier.as_mut(),
+            Source::Picture => None,
+        }
+    }
+
+    /// Drops side B, except for an earlier version, which can't be had again.
+    fn clear(&mut self) {
+        if let Some(loading) = self.loading.take() {
+            loading.cancel();
+        }
+        (self.sibling, self.mesh, self.lights) = (None, None, None);
+        if let Some(mut side) = self.traced.take() {
+            side.tracer.stop();
+            // Its threads end once their last rays are traced. Without a thread to wait for them, this one waits.
+            let end = std::thread::Builder::new().name("end of side B".to_owned());
+            _ = end.spawn(move || drop(side));
+        }
+        self.rasterized = Rasterized::new(&self.render_state.device, &self.render_state.queue);
+        self.reference = Reference::default();
+        (self.screen, self.measured) = (Screen::default(), Measured::default());
+    }
+
+    /// Whether there is anything that [`clear`](Self::clear) drops.
+    fn is_idle(&self) -> bool {
+        let has_document = self.sibling.is_some() || self.mesh.is_some();
+        let has_picture = self.traced.is_some() || self.screen.has_picture();
+        let has_reference = self.reference.picture().is_some();
+        !has_document && !has_picture && !has_reference && self.loading.is_none()
+    }
+
+    /// Keeps the version of the open file that has been loaded again; drops the one of another file.
+    pub fn keep_earlier(&mut self, old: Document, is_same_file: bool) {
+        let is_version = is_same_file && old.path.is_some();
+        old.stop_improving();
+        self.earlier = is_version.then_some(old);
+    }
+
+    /// How long side B has been being packed for its kernel; `None` if it isn't.
+    pub fn packing_lasted(&self) -> Option<Duration> {
+        self.document()?.packing_lasted()
+    }
+
+    /// How long distances have been being measured, for figures or a map; `None` if none are.
+    pub fn measuring_lasted(&self) -> Option<Duration> {
+        self.measured.lasted()
+    }
+
+    /// Cancels all work.
+    pub fn stop(&mut self) {
+        if let Some(loading) = self.loading.take() {
+            loading.cancel();
+        }
+        if let Some(side) = &mut self.traced {
+            side.tracer.stop();
+        }
+    }
+}
+
+impl App {
+    /// Whether two sides are compared.
+    pub fn is_comparing(&self) -> bool {
+        self.seen.comparison.is_on && !self.open.document.is_blank
+    }
+
+    /// The settings of side B; those of side A while nothing is compared.
+    pub(super) fn other_settings(&self) -> Settings {
+        let settings = &self.seen.settings;
+        if self.is_comparing() {
+            self.seen.comparison.settings(settings)
+        } else {
+            settings.clone()
+        }
+    }
+
+    /// Collects results of background work.
+    pub(super) fn poll_comparison(&mut self, ctx: &egui::Context) {
+        if !self.is_comparing() {
+            if !self.compared.is_idle() {
+                self.compared.clear();
+            }
+            return;
+        }
+        self.poll_sides(ctx);
+        self.poll_measured(ctx);
+    }
+
+    /// Whether side B has all samples, and its figures and its map are there if they are shown.
+    pub(super) fn is_comparison_settled(&self) -> bool {
+        !self.is_comparing() || (self.are_sides_settled() && self.are_figures_settled())
+    }
+}

@@ -1,0 +1,306 @@
+//! Drawing side B, the divider and the difference.
+
+use super::Compared;
+use crate::app::App;
+use crate::app::canvas::Canvas;
+use crate::comparison::{Mode, RasterizedPicture, Side, Source, difference_picture};
+use crate::gpu::GpuError;
+use crate::gpu::picture::Picture;
+use crate::look::Look;
+use crate::theme;
+use egui::{Align2, Color32, FontId, Pos2, Rect, Sense, Shape, vec2};
+use glam::UVec2;
+use hitscope_core::plan::PixelRect;
+use hitscope_core::tone::Display;
+use std::sync::Arc;
+
+/// Width in points of the strip in which the divider can be dragged.
+const GRIP: f32 = 9.0;
+/// Distance of the sides' names from the divider and from the edge of the picture, in points.
+const MARGIN: f32 = 8.0;
+
+/// What is drawn of side B.
+#[derive(Default)]
+pub(super) struct Screen {
+    other: Option<Picture>,
+    difference: Option<Picture>,
+    map: Option<Picture>,
+    /// The number of changes of side A and of side B.
+    pub changes: [u64; 2],
+    /// The changes and the gain that the difference shows.
+    difference_of: Option<([u64; 2], f32)>,
+    /// The rasterized picture that is drawn.
+    rasterized: Option<Arc<RasterizedPicture>>,
+}
+
+impl Screen {
+    pub fn has_picture(&self) -> bool {
+        self.other.is_some()
+    }
+
+    /// Draws another distance map.
+    pub fn upload_map(
+        &mut self,
+        render_state: &eframe::egui_wgpu::RenderState,
+        size: UVec2,
+        pixels: &[[u8; 4]],
+    ) -> Result<(), GpuError> {
+        let picture = self.map.get_or_insert_with(|| Picture::new(render_state));
+        picture.upload(size, pixels, whole(size))
+    }
+}
+
+fn whole(size: UVec2) -> PixelRect {
+    PixelRect {
+        min: UVec2::ZERO,
+        max: size,
+    }
+}
+
+impl Compared {
+    /// Uploads what has changed of side B. Returns whether anything has.
+    fn upload(&mut self, look: Look, display: Display) -> Result<bool, GpuError> {
+        let (screen, render_state) = (&mut self.screen, &self.render_state);
+        let other = &mut screen.other;
+        let picture = || Picture::new(render_state);
+        match self.source {
+            Source::Traced | Source::Mesh | Source::Earlier => {
+                let Some(side) = &mut self.traced else {
+                    return Ok(false);
+                };
+                let other = other.get_or_insert_with(picture);
+                side.update(look, |size, pixels, changed| {
+                    other.upload(size, pixels, changed)
+                })
+            }
+            Source::Rasterized => {
+                let newest = self.rasterized.picture();
+                let address = |picture: Option<&Arc<_>>| picture.map(Arc::as_ptr);
+                let is_new = address(newest) != address(screen.rasterized.as_ref());
+                if let (true, Some(newest)) = (is_new, newest) {
+                    let size = newest.request.context.camera.resolution();
+                    let other = other.get_or_insert_with(picture);
+                    other.upload(size, &newest.pixels, whole(size))?;
+                    screen.rasterized = Some(Arc::clone(newest));
+                }
+                Ok(is_new)
+            }
+            Source::Picture => {
+                let is_new = self.reference.develop(display);
+                let size = self.reference.picture().map(|picture| picture.size);
+                if let (true, Some(size)) = (is_new, size) {
+                    let other = other.get_or_insert_with(picture);
+                    other.upload(size, self.reference.pixels(), whole(size))?;
+                }
+                Ok(is_new)
+            }
+        }
+    }
+
+    /// Width and height of side B, and its pixels as they were uploaded; `None` before the first ones.
+    pub(super) fn pixels(&self) -> Option<(UVec2, &[[u8; 4]])> {
+        self.screen.other.as_ref()?;
+        match self.source {
+            Source::Traced | Source::Mesh | Source::Earlier => {
+                let side = self.traced.as_ref()?;
+                Some((side.tracer.film().size(), side.pixels()))
+            }
+            Source::Rasterized => {
+                let picture = self.screen.rasterized.as_ref()?;
+                let size = picture.request.context.camera.resolution();
+                Some((size, &picture.pixels))
+            }
+            Source::Picture => {
+                let size = self.reference.picture()?.size;
+                Some((size, self.reference.pixels()))
+            }
+        }
+    }
+
+    /// Draws the difference again if a side or the gain has changed. Nothing is drawn while the sizes differ.
+    fn update_difference(
+        &mut self,
+        (size, a): (UVec2, &[[u8; 4]]),
+        gain: f32,
+    ) -> Result<(), GpuError> {
+        let wanted = (self.screen.changes, gain);
+        if self.screen.difference_of == Some(wanted) {
+            return Ok(());
+        }
+        let difference = match self.pixels() {
+            Some((other, b)) if other == size => difference_picture(a, b, gain),
+            _ => {
+                self.screen.difference = None;
+                return Ok(());
+            }
+        };
+        let render_state = &self.render_state;
+        let picture = (self.screen.difference).get_or_insert_with(|| Picture::new(render_state));
+        picture.upload(size, &difference, whole(size))?;
+        self.screen.difference_of = Some(wanted);
+        Ok(())
+    }
+}
+
+impl App {
+    /// Whether the picture shows a comparison in this way.
+    pub(in crate::app) fn shows(&self, mode: Mode) -> bool {
+        self.is_comparing() && self.seen.comparison.mode == mode
+    }
+
+    /// The place of the picture in the window. A reference has its own size, which the picture then takes, too.
+    pub(in crate::app) fn place_picture(&self, available: Rect, pixels_per_point: f32) -> Canvas {
+        let is_picture = self.is_comparing() && self.compared.source == Source::Picture;
+        match self.compared.reference.picture() {
+            Some(picture) if is_picture => {
+                Canvas::of_picture(available, pixels_per_point, picture.size)
+            }
+            _ => Canvas::new(available, pixels_per_point),
+        }
+    }
+
+    /// The divider's place on the screen, between two pixels.
+    pub(super) fn divider_x(&self, canvas: Canvas) -> f32 {
+        let (left, right) = (canvas.rect.left(), canvas.rect.right());
+        let x = left + self.seen.comparison.divider * (right - left);
+        (x * canvas.pixels_per_point).round() / canvas.pixels_per_point
+    }
+
+    /// Notes that pixels of side A have changed on the screen.
+    pub(in crate::app) fn note_change_of_a(&mut self, ctx: &egui::Context) {
+        self.compared.screen.changes[0] += 1;
+        self.ask_for_figures(ctx);
+    }
+
+    /// Draws what the comparison shows over the picture of side A.
+    pub(in crate::app) fn paint_other(
+        &mut self,
+        ui: &egui::Ui,
+        canvas: Canvas,
+        overlay: Option<&wgpu::Texture>,
+    ) {
+        if !self.is_comparing() {
+            return;
+        }
+        let settings = self.other_settings();
+        let traced = self.compared.traced.as_ref();
+        let is_lit = traced.is_some_and(|side| side.tracer.shows_lit());
+        let look = Look::of(&settings, is_lit);
+        let display = if self.traced.tracer.shows_lit() {
+            self.seen.settings.display()
+        } else {
+            Display::default()
+        };
+        match self.compared.upload(look, display) {
+            Ok(false) => {}
+            Ok(true) => {
+                self.compared.screen.changes[1] += 1;
+                self.ask_for_figures(ui.ctx());
+            }
+            Err(error) => return self.end_comparison(&error),
+        }
+        if self.shows(Mode::Difference) {
+            let film = self.traced.tracer.film();
+            let a = (film.size(), self.traced.development.pixels(film));
+            let gain = self.seen.comparison.gain;
+            if let Err(error) = self.compared.update_difference(a, gain) {
+                return self.end_comparison(&error);
+            }
+        }
+        let shape = self.shape_of_other(canvas, overlay);
+        let mut rect = canvas.rect;
+        if self.shows(Mode::Wipe) {
+            rect.min.x = self.divider_x(canvas);
+        }
+        ui.painter_at(rect).extend(shape);
+        self.names_ui(ui, canvas);
+    }
+
+    /// Without memory for side B, only side A is shown.
+    pub(super) fn end_comparison(&mut self, error: &GpuError) {
+        self.seen.comparison.is_on = false;
+        self.error(error);
+    }
+
+    /// What the mode shows instead of side A; `None` for that side, and until there is something.
+    fn shape_of_other(&mut self, canvas: Canvas, overlay: Option<&wgpu::Texture>) -> Option<Shape> {
+        let comparison = &self.seen.comparison;
+        // The lines are those of the open scene.
+        let overlay = overlay.filter(|_| !self.compared.source.is_other_scene());
+        match comparison.mode {
+            Mode::A => None,
+            Mode::B | Mode::Wipe => {
+                let other = self.compared.screen.other.as_mut()?;
+                other.shape(canvas.rect, canvas.part, overlay)
+            }
+            Mode::Difference => {
+                let difference = self.compared.screen.difference.as_mut()?;
+                difference.shape(canvas.rect, canvas.part, None)
+            }
+            Mode::Distance => {
+                let is_shown = self.is_map_shown();
+                let map = self.compared.screen.map.as_mut().filter(|_| is_shown)?;
+                map.shape(canvas.rect, canvas.part, None)
+            }
+        }
+    }
+
+    /// Draws the names of the sides at the top of their pictures.
+    fn names_ui(&self, ui: &egui::Ui, canvas: Canvas) {
+        let rect = canvas.rect;
+        let painter = ui.painter_at(rect);
+        let [a, b] = [Side::A, Side::B].map(|side| self.name_of(side));
+        let name = |x: f32, align: Align2, text: String| {
+            let at = Pos2::new(x, rect.top() + MARGIN);
+            let (font, colour) = (FontId::proportional(12.0), Color32::WHITE);
+            let galley = painter.layout_no_wrap(text, font, colour);
+            let place = align.anchor_size(at, galley.size());
+            painter.rect_filled(place.expand(3.0), 3.0, Color32::from_black_alpha(160));
+            painter.galley(place.min, galley, colour);
+        };
+        let middle = rect.center().x;
+        match self.seen.comparison.mode {
+            Mode::Wipe => {
+                let x = self.divider_x(canvas);
+                name(x - MARGIN, Align2::RIGHT_TOP, a);
+                name(x + MARGIN, Align2::LEFT_TOP, b);
+            }
+            Mode::A => name(middle, Align2::CENTER_TOP, a),
+            Mode::B => name(middle, Align2::CENTER_TOP, b),
+            Mode::Difference => name(middle, Align2::CENTER_TOP, "|A − B|".to_owned()),
+            Mode::Distance => {
+                let text = self.map_status().unwrap_or("Distance of A from B");
+                name(middle, Align2::CENTER_TOP, text.to_owned());
+            }
+        }
+    }
+
+    /// Shows the divider, which can be dragged.
+    pub(in crate::app) fn divider_ui(&mut self, ui: &egui::Ui, canvas: Canvas) {
+        if !self.shows(Mode::Wipe) {
+            return;
+        }
+        let x = self.divider_x(canvas);
+        let grip = Rect::from_center_size(
+            Pos2::new(x, canvas.rect.center().y),
+            vec2(GRIP, canvas.rect.height()),
+        );
+        let id = ui.scope_id().with("divider");
+        let response = ui
+            .interact(grip, id, Sense::drag())
+            .on_hover_and_drag_cursor(egui::CursorIcon::ResizeHorizontal);
+        if let (true, Some(pos)) = (response.dragged(), response.interact_pointer_pos()) {
+            let part = (pos.x - canvas.rect.left()) / canvas.rect.width();
+            self.seen.comparison.divider = part.clamp(0.0, 1.0);
+        }
+        let divider = f64::from(self.seen.comparison.divider);
+        response.widget_info(|| egui::WidgetInfo::slider(true, divider, "Divider in the picture"));
+        let painter = ui.painter_at(canvas.rect);
+        let is_held = response.hovered() || response.dragged() || response.has_focus();
+        for (width, colour) in [(3.0, Color32::BLACK), (1.0, theme::PICK)] {
+            let width = if is_held { width + 1.0 } else { width };
+            let stroke = egui::Stroke::new(width, colour);
+            painter.vline(self.divider_x(canvas), canvas.rect.y_range(), stroke);
+        }
+    }
+}

@@ -1,0 +1,219 @@
+//! The documents of side B, and what is traced or rasterized of them.
+
+use crate::app::App;
+use crate::comparison::{Source, TracedSide};
+use crate::document::Document;
+use crate::opening::Loading;
+use glam::DVec3;
+use hitscope_core::Camera;
+use hitscope_core::obj::LoadError;
+use hitscope_lab::commands::default_thread_count;
+
+impl App {
+    /// Starts the work that side B requires, unless it is done or under way.
+    pub(in crate::app) fn prepare_other(&mut self, ctx: &egui::Context) {
+        if !self.is_comparing() {
+            return;
+        }
+        let source = self.seen.comparison.source;
+        if source != self.compared.source {
+            self.compared.clear();
+            self.compared.source = source;
+            ctx.request_repaint();
+        }
+        match source {
+            Source::Traced | Source::Rasterized => {
+                let original = &self.open.document;
+                let sibling = &mut self.compared.sibling;
+                sibling
+                    .get_or_insert_with(|| original.sibling())
+                    .follow(original);
+            }
+            Source::Mesh => self.want_mesh(ctx),
+            Source::Picture => {
+                if let Some(path) = &self.seen.comparison.picture_file {
+                    let max_memory = self.open.load_options.max_memory;
+                    self.compared.reference.want(path, max_memory, ctx);
+                }
+            }
+            Source::Earlier => {}
+        }
+        let settings = self.other_settings();
+        let Some(document) = self.compared.document_mut() else {
+            return;
+        };
+        if source.is_other_scene() {
+            // As for side A, not while a slider is dragged.
+            if !ctx.egui_is_using_pointer() && document.use_crease(settings.crease()) {
+                ctx.request_repaint();
+            }
+            // A clip that is impossible has been turned off for side A.
+            let clip = settings.clip.clip().ok().flatten();
+            if document.use_clip(clip.as_ref()) == Ok(true) {
+                ctx.request_repaint();
+            }
+        }
+        document.use_kernel(settings.kernel(), ctx);
+        document.use_second(settings.second_kernel(), ctx);
+    }
+
+    /// Starts to load the other file unless that is done or under way.
+    fn want_mesh(&mut self, ctx: &egui::Context) {
+        let Some(path) = &self.seen.comparison.mesh_file else {
+            return;
+        };
+        let compared = &mut self.compared;
+        let loaded = compared.mesh.as_ref().and_then(|mesh| mesh.path.as_ref());
+        let loading = compared.loading.as_ref().map(|loading| &loading.path);
+        if loaded == Some(path) || loading == Some(path) {
+            return;
+        }
+        if let Some(loading) = compared.loading.take() {
+            loading.cancel();
+        }
+        let kernel = self.seen.comparison.settings(&self.seen.settings).kernel();
+        compared.loading = Some(Loading::start(
+            path.clone(),
+            self.open.load_options,
+            kernel,
+            self.preferences.scene_options(),
+            ctx,
+        ));
+    }
+
+    /// A camera of side A in the coordinates of another document.
+    pub(in crate::app) fn camera_in(&self, document: &Document, camera: Camera) -> Camera {
+        moved(camera, origin(&self.open.document) - origin(document))
+    }
+
+    /// A camera of another document in the coordinates of side A.
+    pub(super) fn camera_from(&self, document: &Document, camera: Camera) -> Camera {
+        moved(camera, origin(document) - origin(&self.open.document))
+    }
+
+    /// Traces or rasterizes side B for the camera that side A is being traced for.
+    pub(in crate::app) fn request_other(&mut self, ctx: &egui::Context) {
+        if !self.is_comparing() || self.seen.comparison.source != self.compared.source {
+            return;
+        }
+        let settings = self.other_settings();
+        let kept = self.compared.lights.take();
+        let posted = self.traced.tracer.posted();
+        let Some((document, posted)) = self.compared.document().zip(posted) else {
+            return;
+        };
+        let camera = self.camera_in(document, posted.context.camera);
+        let (lighting, lights) = self.lighting(&settings, &document.loaded, kept);
+        let request = self.request_of(document, &settings, camera, lighting, ctx.theme());
+        let compared = &mut self.compared;
+        compared.lights = lights;
+        if compared.source == Source::Rasterized {
+            compared.rasterized.request(request, ctx);
+        } else {
+            let start = || TracedSide::new(default_thread_count(), ctx);
+            let side = compared.traced.get_or_insert_with(start);
+            side.tracer
+                .set_first_step(self.seen.settings.moving.block());
+            side.tracer.request(request);
+        }
+    }
+
+    /// Collects what the threads have sent.
+    pub(super) fn poll_sides(&mut self, ctx: &egui::Context) {
+        self.poll_mesh(ctx);
+        let mut messages = Vec::new();
+        if let Some(document) = self.compared.document_mut() {
+            let broken = [
+                document.poll_kernel(),
+                document.poll_second(),
+                document.poll_tree(),
+            ];
+            let broken = broken.into_iter().filter_map(Result::err);
+            messages.extend(broken.map(|broken| broken.to_string()));
+        }
+        let (limits, is_paused) = (self.limits(), self.traced.tracer.is_paused());
+        if let Some(side) = &mut self.compared.traced {
+            side.tracer.set_limits(limits);
+            if side.tracer.is_paused() != is_paused {
+                side.tracer.toggle_pause();
+            }
+            let panics = side.tracer.collect(ctx);
+            messages.extend(panics.first().map(ToString::to_string));
+        }
+        messages.extend(self.compared.rasterized.poll(ctx).err());
+        let longest = self
+            .compared
+            .render_state
+            .device
+            .limits()
+            .max_texture_dimension_2d;
+        if let Err(message) = self.compared.reference.poll(longest) {
+            self.seen.comparison.picture_file = None;
+            messages.push(message);
+        }
+        for message in messages {
+            self.error(message);
+        }
+    }
+
+    /// Shows the other file once it is loaded.
+    fn poll_mesh(&mut self, ctx: &egui::Context) {
+        let Some(loading) = &self.compared.loading else {
+            return;
+        };
+        let loaded = match loading.poll() {
+            Ok(None) => return,
+            Ok(Some(Err(LoadError::Cancelled { .. }))) => Err(None),
+            Ok(Some(result)) => result.map_err(|error| Some(error.to_string())),
+            Err(broken) => Err(Some(format!("{}: {broken}", loading.path.display()))),
+        };
+        self.compared.loading = None;
+        match loaded {
+            Ok(mut document) => {
+                document.improve(ctx);
+                self.compared.mesh = Some(document);
+                self.forget_other_pick();
+            }
+            Err(message) => {
+                self.seen.comparison.mesh_file = None;
+                if let Some(message) = message {
+                    self.error(message);
+                }
+            }
+        }
+    }
+
+    /// Whether side B has all samples; also if there is none to wait for.
+    pub(super) fn are_sides_settled(&self) -> bool {
+        let (compared, comparison) = (&self.compared, &self.seen.comparison);
+        if compared.source != comparison.source || compared.loading.is_some() {
+            return false;
+        }
+        match compared.source {
+            Source::Rasterized => compared.rasterized.is_finished(),
+            Source::Picture => !compared.reference.is_loading(),
+            Source::Mesh if comparison.mesh_file.is_none() => true,
+            Source::Earlier if compared.earlier.is_none() => true,
+            Source::Traced | Source::Mesh | Source::Earlier => {
+                let kernel = self.other_settings().kernel();
+                let document = compared.document();
+                let is_packed = document.is_some_and(|document| document.kernel() == kernel);
+                let side = compared.traced.as_ref();
+                is_packed && side.is_some_and(|side| side.tracer.is_finished())
+            }
+        }
+    }
+}
+
+fn origin(document: &Document) -> DVec3 {
+    document.loaded.scene.mesh().origin()
+}
+
+/// A camera that is moved, or exactly the same one.
+fn moved(camera: Camera, by: DVec3) -> Camera {
+    if by == DVec3::ZERO {
+        camera
+    } else {
+        camera.moved(by)
+    }
+}

@@ -1,0 +1,108 @@
+//! Commands of the menu *View* that compare the picture with another one.
+
+use super::keys::{key, shift};
+use super::{Command, Entry, Menu, Place, lacks_scene};
+use crate::app::{App, Purpose};
+use crate::comparison::{Mode, Source};
+use egui::Key;
+
+const COMPARE: Place = Place::submenu(Menu::View, 9, "Compare");
+/// What the picture shows of a comparison.
+pub const COMPARE_MODES: Place = Place::submenu(Menu::View, 9, "Show of the comparison");
+const SOURCES: Place = Place::submenu(Menu::View, 9, "Compare with");
+
+/// The step of the divider's keys, as a part of the picture's width.
+const STEP: f32 = 0.05;
+
+pub(super) const ROWS: &[Command] = &[
+    Command {
+        name: "compare",
+        keys: &[key(Key::C)],
+        title: "Comparison",
+        tooltip: "Shows another view, kernel, mesh or picture beside the picture, for the same camera",
+        place: COMPARE,
+        is_on: Some(App::is_comparing),
+        obstacle: lacks_scene,
+        run: |app, _, _| app.toggle_comparison(),
+    },
+    Command {
+        name: "compare-switch",
+        keys: &[key(Key::X)],
+        title: "Switch sides",
+        tooltip: "Shows the other side of the comparison alone",
+        place: COMPARE,
+        is_on: None,
+        obstacle: App::lacks_comparison,
+        run: |app, _, _| app.seen.comparison.switch(),
+    },
+    Command {
+        name: "compare-swap",
+        keys: &[shift(Key::X)],
+        title: "Swap the sides",
+        tooltip: "Exchanges view, kernel and shading of both sides",
+        place: COMPARE,
+        is_on: None,
+        obstacle: App::lacks_swap,
+        run: |app, _, _| app.swap_sides(),
+    },
+    Command {
+        name: "divider-left",
+        keys: &[shift(Key::ArrowLeft)],
+        title: "Divider to the left",
+        tooltip: "Moves the divider, so that more of side B is shown",
+        place: COMPARE,
+        is_on: None,
+        obstacle: App::lacks_comparison,
+        run: |app, _, _| app.seen.comparison.move_divider(-STEP),
+    },
+    Command {
+        name: "divider-right",
+        keys: &[shift(Key::ArrowRight)],
+        title: "Divider to the right",
+        tooltip: "Moves the divider, so that more of side A is shown",
+        place: COMPARE,
+        is_on: None,
+        obstacle: App::lacks_comparison,
+        run: |app, _, _| app.seen.comparison.move_divider(STEP),
+    },
+    Command {
+        name: "compare-mesh",
+        keys: &[],
+        title: "Compare with a file…",
+        tooltip: "Chooses a mesh or scene as side B",
+        place: COMPARE,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, ctx, frame| app.show_dialog(Purpose::CompareMesh, ctx, frame),
+    },
+    Command {
+        name: "compare-picture",
+        keys: &[],
+        title: "Compare with a picture…",
+        tooltip: "Chooses a PNG, EXR or HDR picture as side B",
+        place: COMPARE,
+        is_on: None,
+        obstacle: lacks_scene,
+        run: |app, ctx, frame| app.show_dialog(Purpose::ComparePicture, ctx, frame),
+    },
+];
+
+/// What the picture can show of a comparison.
+pub(super) fn modes(app: &App) -> Vec<Entry> {
+    let entry = |mode: Mode| {
+        let is_chosen = app.is_comparing() && app.comparison().mode == mode;
+        let choose = move |app: &mut App, _: &egui::Context| app.compare_in(mode);
+        Entry::choice(COMPARE_MODES, mode.title(), mode.about(), is_chosen, choose)
+    };
+    Mode::ALL.into_iter().map(entry).collect()
+}
+
+/// What side B can be.
+pub(super) fn sources(app: &App) -> Vec<Entry> {
+    let entry = |source: Source| {
+        let is_chosen = app.is_comparing() && app.comparison().source == source;
+        let choose = move |app: &mut App, _: &egui::Context| app.compare_with(source);
+        Entry::choice(SOURCES, source.title(), source.about(), is_chosen, choose)
+    };
+    Source::ALL.into_iter().map(entry).collect()
+}

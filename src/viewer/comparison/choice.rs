@@ -1,0 +1,287 @@
+//! What is compared, and how it is shown, as plain data: it is kept in sessions and in undo steps.
+
+use crate::settings::Settings;
+use hitscope_core::group::kernel_named;
+use hitscope_core::integrator::integrator;
+use serde::{Deserialize, Serialize};
+use std::ops::RangeInclusive;
+use std::path::PathBuf;
+
+/// The range of the factor by which differences are multiplied.
+pub const GAINS: RangeInclusive<f32> = 1.0..=256.0;
+
+/// A side of a comparison.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Side {
+    /// The window's own picture.
+    #[default]
+    A,
+    /// The other picture.
+    B,
+}
+
+/// What the picture shows of a comparison.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Mode {
+    /// Side A.
+    A,
+    /// Side B.
+    B,
+    /// A left of a divider, B right of it.
+    #[default]
+    Wipe,
+    /// The differences of their colours.
+    Difference,
+    /// The distances of A's surface from B's.
+    Distance,
+}
+
+impl Mode {
+    /// All modes.
+    pub const ALL: [Self; 5] = [
+        Self::Wipe,
+        Self::A,
+        Self::B,
+        Self::Difference,
+        Self::Distance,
+    ];
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::A => "Side A",
+            Self::B => "Side B",
+            Self::Wipe => "Wipe",
+            Self::Difference => "Difference",
+            Self::Distance => "Distance map",
+        }
+    }
+
+    /// What is shown, in a phrase without a full stop.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::A => "Shows the window's own picture",
+            Self::B => "Shows the other picture",
+            Self::Wipe => "Shows side A left of a divider, and side B right of it",
+            Self::Difference => "Shows the differences of the colours of both sides",
+            Self::Distance => "Colours the mesh of side A by its distance from that of side B",
+        }
+    }
+}
+
+/// How side B is made.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+pub enum Source {
+    /// The open scene, traced.
+    #[default]
+    Traced,
+    /// The open scene, rasterized.
+    Rasterized,
+    /// The mesh or scene of another file, traced.
+    Mesh,
+    /// The open file before it was loaded again, traced.
+    Earlier,
+    /// A picture in a file.
+    Picture,
+}
+
+impl Source {
+    /// All ways to make side B.
+    pub const ALL: [Self; 5] = [
+        Self::Traced,
+        Self::Rasterized,
+        Self::Mesh,
+        Self::Earlier,
+        Self::Picture,
+    ];
+
+    /// The title.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Traced => "This scene, traced",
+            Self::Rasterized => "This scene, rasterized",
+            Self::Mesh => "Another file",
+            Self::Earlier => "The earlier version",
+            Self::Picture => "A reference picture",
+        }
+    }
+
+    /// How side B is made, in a phrase without a full stop.
+    pub fn about(self) -> &'static str {
+        match self {
+            Self::Traced => "Side B is the open scene with another view, kernel or shading",
+            Self::Rasterized => "The GPU's rasterizer finds the visible triangles of side B",
+            Self::Mesh => "Side B is the mesh or scene of another file",
+            Self::Earlier => "Side B is the open file before it was last loaded again",
+            Self::Picture => "Side B is a PNG, EXR or HDR picture",
+        }
+    }
+
+    /// Whether rays are traced for side B.
+    pub fn is_traced(self) -> bool {
+        matches!(self, Self::Traced | Self::Mesh | Self::Earlier)
+    }
+
+    /// Whether side B is of another scene.
+    pub fn is_other_scene(self) -> bool {
+        matches!(self, Self::Mesh | Self::Earlier)
+    }
+}
+
+/// What is compared, and how it is shown. View, kernel and shading of side B are those of side A where they are `None`.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Comparison {
+    /// Whether two sides are compared.
+    pub is_on: bool,
+    /// What the picture shows.
+    pub mode: Mode,
+    /// The part of the picture's width that is left of the divider.
+    pub divider: f32,
+    /// The factor by which differences are multiplied.
+    pub gain: f32,
+    /// How side B is made.
+    pub source: Source,
+    /// Name of side B's view.
+    pub view: Option<String>,
+    /// Name of side B's kernel.
+    pub kernel: Option<String>,
+    /// Whether side B's shading is smooth.
+    pub is_smooth: Option<bool>,
+    /// The file of [`Source::Mesh`].
+    pub mesh_file: Option<PathBuf>,
+    /// The file of [`Source::Picture`].
+    pub picture_file: Option<PathBuf>,
+}
+
+impl Default for Comparison {
+    fn default() -> Self {
+        Self {
+            is_on: false,
+            mode: Mode::default(),
+            divider: 0.5,
+            gain: 8.0,
+            source: Source::default(),
+            view: None,
+            kernel: None,
+            is_smooth: None,
+            mesh_file: None,
+            picture_file: None,
+        }
+    }
+}
+
+impl Comparison {
+    /// The settings of side B, where these are the settings of side A.
+    pub fn settings(&self, of_a: &Settings) -> Settings {
+        let mut settings = of_a.clone();
+        if let Some(view) = &self.view {
+            settings.keep_view(view);
+        }
+        if let Some(kernel) = &self.kernel {
+            settings.keep_kernel(kernel);
+        }
+        settings.is_smooth = self.is_smooth.unwrap_or(of_a.is_smooth);
+        // Nothing is written over a rasterized picture, which has no noise.
+        settings.shows_noise &= self.source.is_traced();
+        settings
+    }
+
+    /// Exchanges view, kernel and shading of both sides.
+    pub fn swap(&mut self, of_a: &mut Settings) {
+        let of_b = self.settings(of_a);
+        self.view = Some(of_a.view().name.to_owned());
+        self.kernel = Some(of_a.kernel().info.name.to_owned());
+        self.is_smooth = Some(of_a.is_smooth);
+        of_a.keep_view(of_b.view().name);
+        of_a.keep_kernel(of_b.kernel().info.name);
+        of_a.is_smooth = of_b.is_smooth;
+    }
+
+    /// Shows only side B, or only side A if that is shown.
+    pub fn switch(&mut self) {
+        self.mode = match self.mode {
+            Mode::B => Mode::A,
+            _ => Mode::B,
+        };
+    }
+
+    /// Moves the divider by a part of the picture's width.
+    pub fn move_divider(&mut self, by: f32) {
+        self.divider = (self.divider + by).clamp(0.0, 1.0);
+    }
+
+    /// Replaces values that the window can't have set by the defaults.
+    #[must_use]
+    pub fn usable(self) -> Self {
+        let default = Self::default();
+        let is_part = (0.0..=1.0).contains(&self.divider);
+        let is_gain = GAINS.contains(&self.gain);
+        Self {
+            divider: if is_part {
+                self.divider
+            } else {
+                default.divider
+            },
+            gain: if is_gain { self.gain } else { default.gain },
+            view: self.view.filter(|name| integrator(name).is_some()),
+            kernel: self.kernel.filter(|name| kernel_named(name).is_some()),
+            ..self
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn side_b_follows_side_a_where_nothing_else_is_chosen() {
+        let mut of_a = Settings::default();
+        let mut comparison = Comparison {
+            view: Some("normal".to_owned()),
+            ..Comparison::default()
+        };
+        of_a.keep_kernel("exact");
+        of_a.is_smooth = true;
+        let of_b = comparison.settings(&of_a);
+        assert_eq!(of_b.view().name, "normal");
+        assert_eq!(of_b.kernel().info.name, "exact");
+        assert!(of_b.is_smooth);
+        comparison.is_smooth = Some(false);
+        assert!(!comparison.settings(&of_a).is_smooth);
+    }
+
+    #[test]
+    fn swapping_twice_shows_the_same_sides_again() {
+        let mut of_a = Settings::default();
+        let mut comparison = Comparison {
+            view: Some("depth".to_owned()),
+            kernel: Some("exact".to_owned()),
+            is_smooth: Some(true),
+            ..Comparison::default()
+        };
+        let before = (of_a.clone(), comparison.settings(&of_a));
+        comparison.swap(&mut of_a);
+        assert_eq!(of_a.view().name, "depth");
+        assert_eq!(comparison.settings(&of_a).view().name, before.0.view().name);
+        comparison.swap(&mut of_a);
+        assert_eq!((of_a.clone(), comparison.settings(&of_a)), before);
+    }
+
+    #[test]
+    fn numbers_and_names_that_nobody_can_set_are_replaced() {
+        let odd = Comparison {
+            divider: -3.0,
+            gain: f32::NAN,
+            view: Some("of another version".to_owned()),
+            kernel: Some("exact".to_owned()),
+            ..Comparison::default()
+        };
+        let expected = Comparison {
+            kernel: Some("exact".to_owned()),
+            ..Comparison::default()
+        };
+        assert_eq!(odd.usable(), expected);
+    }
+}

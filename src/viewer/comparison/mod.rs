@@ -1,0 +1,27 @@
+//! Comparisons: the window's picture, side A, beside another picture for the same camera, side B.
+//!
+//! | file | contents |
+//! |---|---|
+//! | `choice` | what is compared, and how it is shown, as plain data |
+//! | `traced` | a side B that is traced |
+//! | `rasterized` | a side B whose visible surfaces are found by the GPU's rasterizer |
+//! | `reference` | a side B that is a picture in a file |
+//! | `difference` | the picture of the differences |
+//! | `figures` | the figures of the differences |
+//! | `distances` | distances between the surfaces of both sides |
+
+mod choice;
+mod difference;
+mod distances;
+mod figures;
+mod rasterized;
+mod reference;
+mod traced;
+
+pub use choice::{Comparison, GAINS, Mode, Side, Source};
+pub use difference::difference_picture;
+pub use distances::{DistanceMap, MapKey, MeshDistances, SurfacePair};
+pub use figures::{Compare, Figures, Pixels, VisibilityDifference};
+pub use rasterized::{Rasterized, RasterizedPicture};
+pub use reference::Reference;
+pub use traced::TracedSide;

@@ -1,0 +1,111 @@
+//! A side B that is a picture in a file.
+
+use crate::task::Task;
+use glam::{UVec2, Vec3};
+use hitscope_core::obj::LoadError;
+use hitscope_core::picture::{PictureEncoding, PictureFile};
+use hitscope_core::progress::Progress;
+use hitscope_core::tone::Display;
+use rayon::prelude::*;
+use std::path::{Path, PathBuf};
+use std::sync::Arc;
+
+/// The most pixels of a reference: the picture has as many, and each needs some hundred bytes.
+const MOST_PIXELS: u32 = 1 << 25;
+
+/// A picture in a file, and what is shown of it.
+#[derive(Default)]
+pub struct Reference {
+    loaded: Option<(PathBuf, Arc<PictureFile>)>,
+    loading: Option<(PathBuf, Task<Result<PictureFile, LoadError>>)>,
+    /// Whether the file is to be loaded again.
+    is_stale: bool,
+    /// How the pixels were encoded.
+    display: Option<Display>,
+    pixels: Vec<[u8; 4]>,
+}
+
+impl Reference {
+    /// Starts to load a file unless that is done or under way.
+    pub fn want(&mut self, path: &Path, max_memory: u64, ctx: &egui::Context) {
+        let is_loaded = self.loaded.as_ref().is_some_and(|(known, _)| known == path);
+        let is_loading = self
+            .loading
+            .as_ref()
+            .is_some_and(|(known, _)| known == path);
+        if (is_loaded && !self.is_stale) || is_loading {
+            return;
+        }
+        self.is_stale = false;
+        let file = path.to_owned();
+        let load = move || PictureFile::load(&file, max_memory, &Progress::default());
+        self.loading = Some((path.to_owned(), Task::spawn("reference", ctx, load)));
+    }
+
+    /// Has the file loaded again, as it may have changed; until then the picture stays.
+    pub fn reload(&mut self) {
+        (self.loading, self.is_stale) = (None, true);
+    }
+
+    /// Collects a picture that has been loaded. `longest` is the largest width and height.
+    ///
+    /// # Errors
+    /// Why there is no picture; nothing is loaded then.
+    pub fn poll(&mut self, longest: u32) -> Result<(), String> {
+        let Some((path, task)) = &self.loading else {
+            return Ok(());
+        };
+        let path = path.clone();
+        let loaded = match task.poll() {
+            Ok(None) => return Ok(()),
+            Ok(Some(result)) => result.map_err(|error| error.to_string()),
+            Err(broken) => Err(format!("{}: {broken}", path.display())),
+        };
+        *self = Self::default();
+        let picture = loaded?;
+        let UVec2 { x, y } = picture.size;
+        if x.max(y) > longest || u64::from(x) * u64::from(y) > MOST_PIXELS.into() {
+            return Err(format!(
+                "{}: {x} x {y} pixels are too many for a comparison",
+                path.display()
+            ));
+        }
+        self.loaded = Some((path, Arc::new(picture)));
+        Ok(())
+    }
+
+    /// Whether a file is being loaded.
+    pub fn is_loading(&self) -> bool {
+        self.loading.is_some()
+    }
+
+    /// The picture, once it is loaded.
+    pub fn picture(&self) -> Option<&Arc<PictureFile>> {
+        self.loaded.as_ref().map(|(_, picture)| picture)
+    }
+
+    /// Encodes the picture for the screen. Returns whether that changed a pixel.
+    pub fn develop(&mut self, display: Display) -> bool {
+        let Some((_, picture)) = &self.loaded else {
+            return false;
+        };
+        if self.display == Some(display) {
+            return false;
+        }
+        self.display = Some(display);
+        let shown = |&[r, g, b, _]: &[f32; 4]| match picture.encoding {
+            PictureEncoding::Linear => display.encode(Vec3::new(r, g, b)),
+            PictureEncoding::Display => {
+                let [r, g, b] = [r, g, b].map(|x| (255.0 * x).round() as u8);
+                [r, g, b, 255]
+            }
+        };
+        self.pixels = picture.texels.par_iter().map(shown).collect();
+        true
+    }
+
+    /// All pixels, as they were last encoded.
+    pub fn pixels(&self) -> &[[u8; 4]] {
+        &self.pixels
+    }
+}

@@ -1,0 +1,397 @@
+//! The tab *Compare*: the sides of a comparison, how it is shown, and its figures.
+
+use super::{row_ui, section_ui};
+use crate::command::{COMPARE_MODES, Commands};
+use crate::comparison::{
+    Comparison, Figures, GAINS, MeshDistances, Mode, Rasterized, Source, VisibilityDifference,
+};
+use crate::numbers::significant;
+use crate::opening::Loading;
+use crate::settings::Settings;
+use egui::{ComboBox, RichText, Slider};
+use glam::UVec2;
+use hitscope_core::group::ShapeKernels;
+use hitscope_core::integrator::{INTEGRATORS, Integrator};
+use hitscope_lab::picture_comparison::PictureComparison;
+use hitscope_lab::surface_comparison::{DistanceFigures, OneSided};
+
+/// What the tab shows besides the choices.
+pub struct CompareView<'a> {
+    /// The kernels of the scene's shapes.
+    pub kernels: Vec<ShapeKernels>,
+    /// The names of both sides.
+    pub names: [String; 2],
+    /// The other file, while it is being loaded.
+    pub loading: Option<&'a Loading>,
+    /// Whether the reference picture is being loaded.
+    pub is_loading_picture: bool,
+    /// The shapes that aren't rasterized.
+    pub not_drawn: Option<String>,
+    /// Whether there is no earlier version.
+    pub lacks_earlier: bool,
+    /// Width and height of both sides, if they differ.
+    pub sizes: Option<[UVec2; 2]>,
+    /// The figures of the differences.
+    pub figures: Option<&'a Figures>,
+    /// The distances between the surfaces.
+    pub distances: Option<&'a Result<MeshDistances, String>>,
+    /// Why the distance map isn't shown.
+    pub map_status: Option<&'static str>,
+}
+
+/// Shows the tab: the settings of side A, and what it is compared with. Returns whether the user cancels loading.
+#[must_use]
+pub fn compare_ui(
+    ui: &mut egui::Ui,
+    (of_a, comparison): (&mut Settings, &mut Comparison),
+    view: &CompareView<'_>,
+    commands: &Commands,
+) -> bool {
+    commands.check_box_ui(ui, "compare");
+    if !comparison.is_on {
+        ui.label(RichText::new("Shows the picture beside another one for the same camera.").weak());
+        return false;
+    }
+    ui.horizontal_wrapped(|ui| {
+        for mode in commands.at(COMPARE_MODES) {
+            commands.choice_ui(ui, mode);
+        }
+    });
+    mode_ui(ui, comparison, view);
+    ui.horizontal_wrapped(|ui| {
+        commands.small_button_ui(ui, "compare-switch");
+        commands.small_button_ui(ui, "compare-swap");
+    });
+    ui.separator();
+    ui.label(RichText::new(&view.names[0]).strong());
+    looks_of_a_ui(ui, of_a, view);
+    ui.separator();
+    ui.label(RichText::new(&view.names[1]).strong());
+    let is_cancelled = source_ui(ui, comparison, view, commands);
+    if comparison.source != Source::Picture {
+        looks_of_b_ui(ui, of_a, comparison, view);
+    }
+    ui.separator();
+    figures_ui(ui, comparison, view);
+    is_cancelled
+}
+
+fn mode_ui(ui: &mut egui::Ui, comparison: &mut Comparison, view: &CompareView<'_>) {
+    match comparison.mode {
+        Mode::Wipe => {
+            ui.horizontal(|ui| {
+                let label = ui.label("Divider");
+                let slider = Slider::new(&mut comparison.divider, 0.0..=1.0).max_decimals(3);
+                ui.add(slider).labelled_by(label.id);
+            });
+        }
+        Mode::Difference => {
+            ui.horizontal(|ui| {
+                let label = ui.label("Gain");
+                let slider = Slider::new(&mut comparison.gain, GAINS)
+                    .logarithmic(true)
+                    .max_decimals(1);
+                ui.add(slider)
+                    .labelled_by(label.id)
+                    .on_hover_text("Multiplies the differences");
+            });
+        }
+        Mode::Distance => {
+            if let Some(status) = view.map_status {
+                ui.label(status);
+            }
+        }
+        Mode::A | Mode::B => {}
+    }
+}
+
+/// The way side B is made, with its file. Returns whether the user cancels loading.
+fn source_ui(
+    ui: &mut egui::Ui,
+    comparison: &mut Comparison,
+    view: &CompareView<'_>,
+    commands: &Commands,
+) -> bool {
+    ui.horizontal(|ui| {
+        let label = ui.label("Made from");
+        let combo = ComboBox::from_id_salt("source")
+            .selected_text(comparison.source.title())
+            .width(180.0)
+            .show_ui(ui, |ui| {
+                for source in Source::ALL {
+                    let is_chosen = comparison.source == source;
+                    let choice = ui.selectable_label(is_chosen, source.title());
+                    if choice.on_hover_text(source.about()).clicked() {
+                        comparison.source = source;
+                    }
+                }
+            });
+        combo.response.labelled_by(label.id);
+    });
+    match comparison.source {
+        Source::Traced => {}
+        Source::Rasterized => {
+            ui.label(
+                RichText::new(
+                    "One sample at the centre of each pixel. Views that trace light are replaced by Shaded.",
+                )
+                .weak(),
+            );
+            if let Some(shapes) = &view.not_drawn {
+                ui.label(format!("Not drawn, as they aren't triangles: {shapes}"));
+            }
+        }
+        Source::Mesh => {
+            commands.button_ui(ui, "compare-mesh");
+            return view.loading.is_some_and(|loading| loading.progress_ui(ui));
+        }
+        Source::Picture => {
+            ui.horizontal(|ui| {
+                commands.button_ui(ui, "compare-picture");
+                if view.is_loading_picture {
+                    ui.spinner();
+                }
+            });
+            ui.label(RichText::new("Side A takes the size of the reference.").weak());
+        }
+        Source::Earlier if view.lacks_earlier => {
+            ui.label("There is no earlier version: the file hasn't been loaded again.");
+        }
+        Source::Earlier => {}
+    }
+    false
+}
+
+/// View, kernel and shading of side A.
+fn looks_of_a_ui(ui: &mut egui::Ui, settings: &mut Settings, view: &CompareView<'_>) {
+    let shown = settings.view();
+    let mut chosen = Some(shown.name.to_owned());
+    choice_ui(
+        ui,
+        "View of A",
+        &mut chosen,
+        shown.title,
+        None,
+        views(INTEGRATORS),
+    );
+    if let Some(name) = chosen.filter(|name| name != shown.name) {
+        settings.keep_view(&name);
+    }
+    let kernel = settings.kernel().info;
+    let mut chosen = Some(kernel.name.to_owned());
+    let kernels = kernels(&view.kernels);
+    choice_ui(
+        ui,
+        "Kernel of A",
+        &mut chosen,
+        kernel.short_name(),
+        None,
+        kernels,
+    );
+    if let Some(name) = chosen.filter(|name| name != kernel.name) {
+        settings.keep_kernel(&name);
+    }
+    let mut chosen = Some(shading(settings.is_smooth).to_owned());
+    let used = shading(settings.is_smooth);
+    choice_ui(ui, "Shading of A", &mut chosen, used, None, shadings());
+    settings.is_smooth = chosen.as_deref() == Some(shading(true));
+}
+
+/// View, kernel and shading of side B.
+fn looks_of_b_ui(
+    ui: &mut egui::Ui,
+    of_a: &Settings,
+    comparison: &mut Comparison,
+    view: &CompareView<'_>,
+) {
+    const AS_A: Option<&str> = Some("as A");
+    let of_b = comparison.settings(of_a);
+    let is_rasterized = comparison.source == Source::Rasterized;
+    let rasterized: Vec<&Integrator> = Rasterized::views().collect();
+    let all = if is_rasterized {
+        &rasterized
+    } else {
+        INTEGRATORS
+    };
+    let used = of_b.view().title;
+    choice_ui(
+        ui,
+        "View of B",
+        &mut comparison.view,
+        used,
+        AS_A,
+        views(all),
+    );
+    if !is_rasterized {
+        let used = of_b.kernel().info.short_name();
+        let kernels = kernels(&view.kernels);
+        choice_ui(
+            ui,
+            "Kernel of B",
+            &mut comparison.kernel,
+            used,
+            AS_A,
+            kernels,
+        );
+    }
+    let mut chosen = comparison.is_smooth.map(|is| shading(is).to_owned());
+    let used = shading(of_b.is_smooth);
+    choice_ui(ui, "Shading of B", &mut chosen, used, AS_A, shadings());
+    comparison.is_smooth = chosen.map(|chosen| chosen == shading(true));
+}
+
+/// The names of choices, with their titles.
+type Choices = Vec<(&'static str, String)>;
+
+fn views(views: &[&'static Integrator]) -> Choices {
+    let choice = |view: &&'static Integrator| (view.name, view.title.to_owned());
+    views.iter().map(choice).collect()
+}
+
+fn kernels(shapes: &[ShapeKernels]) -> Choices {
+    let kernels = shapes.iter().flat_map(|shape| &shape.kernels);
+    let choice = kernels.map(|kernel| {
+        let title = format!("{} – {}", kernel.short_name(), kernel.title);
+        (kernel.name, title)
+    });
+    choice.collect()
+}
+
+fn shading(is_smooth: bool) -> &'static str {
+    if is_smooth { "smooth" } else { "flat" }
+}
+
+fn shadings() -> Choices {
+    let choice = |is_smooth: bool| (shading(is_smooth), shading(is_smooth).to_owned());
+    [false, true].map(choice).to_vec()
+}
+
+/// Shows a menu of choices, after the title of having none, if that is possible.
+fn choice_ui(
+    ui: &mut egui::Ui,
+    title: &str,
+    chosen: &mut Option<String>,
+    used: &str,
+    none: Option<&str>,
+    choices: Choices,
+) {
+    ui.horizontal(|ui| {
+        let label = ui.label(title);
+        let text = match (&chosen, none) {
+            (None, Some(none)) => format!("{none} ({used})"),
+            _ => used.to_owned(),
+        };
+        let combo = ComboBox::from_id_salt(title)
+            .selected_text(text)
+            .width(170.0)
+            .height(320.0)
+            .show_ui(ui, |ui| {
+                if let Some(none) = none
+                    && ui.selectable_label(chosen.is_none(), none).clicked()
+                {
+                    *chosen = None;
+                }
+                for (name, title) in choices {
+                    let is_chosen = chosen.as_deref() == Some(name);
+                    if ui.selectable_label(is_chosen, title).clicked() {
+                        *chosen = Some(name.to_owned());
+                    }
+                }
+            });
+        combo.response.labelled_by(label.id);
+    });
+}
+
+fn figures_ui(ui: &mut egui::Ui, comparison: &Comparison, view: &CompareView<'_>) {
+    if let Some([a, b]) = view.sizes {
+        ui.label(format!(
+            "Both sides differ in size: {}×{} and {}×{} pixels",
+            a.x, a.y, b.x, b.y
+        ));
+    }
+    if let Some(figures) = view.figures {
+        picture_ui(ui, &figures.picture);
+        if let Some(visibility) = figures.visibility {
+            visibility_ui(ui, visibility);
+        }
+    } else if view.sizes.is_none() {
+        ui.label("The differences are counted once both pictures are there.");
+    }
+    if comparison.source.is_other_scene() {
+        match view.distances {
+            Some(Ok(distances)) => distances_ui(ui, distances),
+            Some(Err(reason)) => _ = ui.label(reason),
+            None => {}
+        }
+    }
+}
+
+fn picture_ui(ui: &mut egui::Ui, found: &PictureComparison) {
+    let encoding = if found.is_linear {
+        "Differences, linear RGB"
+    } else {
+        "Differences, sRGB from 0 to 1"
+    };
+    section_ui(ui, encoding, |ui| {
+        let [width, height] = found.size;
+        let count = found.pixels_over_tolerance;
+        let part = significant(found.percent_over_tolerance, 3);
+        let all = u64::from(width) * u64::from(height);
+        row_ui(ui, "Pixels", format!("{count} of {all} differ ({part} %)"));
+        row_ui(ui, "MSE", significant(found.mse, 5));
+        row_ui(ui, "RMSE", significant(found.rmse, 5));
+        let psnr = found.psnr_db;
+        let psnr = psnr.map_or("no difference".to_owned(), |psnr| format!("{psnr:.2} dB"));
+        row_ui(ui, "PSNR", psnr);
+        if let Some(relative) = found.relative_mse {
+            row_ui(ui, "Relative MSE", significant(relative, 5));
+        }
+        if let Some(worst) = &found.worst {
+            let [x, y] = worst.pixel;
+            let difference = significant(worst.difference, 4);
+            let text = format!("{difference} at {x}, {y} ({})", worst.channel);
+            row_ui(ui, "Largest", text);
+        }
+        if found.non_finite_pixels > 0 {
+            row_ui(ui, "Not finite", found.non_finite_pixels);
+        }
+    });
+}
+
+fn visibility_ui(ui: &mut egui::Ui, found: VisibilityDifference) {
+    section_ui(ui, "Visible triangles at the pixels' centres", |ui| {
+        let VisibilityDifference { covered, different } = found;
+        row_ui(ui, "Pixels", format!("{different} of {covered} differ"));
+    });
+}
+
+fn distances_ui(ui: &mut egui::Ui, distances: &MeshDistances) {
+    let (there, back) = (&distances.there, &distances.back);
+    let both = DistanceFigures::both_ways(there.figures(), back.figures());
+    let relative = both.relative_to(distances.diagonal);
+    section_ui(ui, "Distances of A from B", |ui| one_sided_ui(ui, there));
+    section_ui(ui, "Distances of B from A", |ui| one_sided_ui(ui, back));
+    section_ui(ui, "Both ways", |ui| {
+        for (name, length, part) in [
+            ("Mean", both.mean, relative.mean),
+            ("RMS", both.rms, relative.rms),
+            ("Largest", both.max, relative.max),
+        ] {
+            let percent = significant(100.0 * part, 3);
+            let text = format!("{} ({percent} % of the diagonal)", significant(length, 5));
+            row_ui(ui, name, text);
+        }
+    });
+}
+
+fn one_sided_ui(ui: &mut egui::Ui, side: &OneSided) {
+    row_ui(ui, "Mean", significant(side.mean, 5));
+    row_ui(ui, "RMS", significant(side.rms, 5));
+    row_ui(ui, "99 % below", significant(side.p99, 5));
+    let at = side.worst.position.map(|x| significant(x, 6)).join(", ");
+    row_ui(
+        ui,
+        "Largest",
+        format!("{} at {at}", significant(side.max, 5)),
+    );
+}
