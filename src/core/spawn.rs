@@ -26,32 +26,6 @@ pub struct Departure<'a> {
     pub offset: Vec3,
 }
 
-/// Where a ray between two points ends.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Endpoint {
-    /// At a point in space.
-    InSpace(Vec3),
-    /// At a point of a primitive, which the ray mustn't hit.
-    OnSurface {
-        /// The hit of a ray at the point.
-        hit: Hit,
-        /// The surface there.
-        surface: SurfacePoint,
-        /// The corners of the triangle, if it is one.
-        corners: Option<[Vec3; 3]>,
-    },
-}
-
-impl Endpoint {
-    /// The point.
-    pub fn position(&self) -> Vec3 {
-        match self {
-            Self::InSpace(point) => *point,
-            Self::OnSurface { surface, .. } => surface.position,
-        }
-    }
-}
-
 /// A rule for the origin of a spawned ray.
 pub struct SpawnPolicy {
     /// The name, as in the lab's tables and `--spawn`.
@@ -67,11 +41,51 @@ pub struct SpawnPolicy {
     begin: fn(&Departure<'_>) -> RayStart,
 }
 
-/// The origin of a spawned ray, the start of its interval and the triangle that it excludes.
-struct RayStart {
+/// The origin of spawned rays, the start of their interval and the triangle that they exclude. It is the same for all
+/// directions on one side of a surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(crate) struct RayStart {
     origin: Vec3,
     t_min: f32,
     exclude: Option<u32>,
+}
+
+impl RayStart {
+    fn at(origin: Vec3) -> Self {
+        Self {
+            origin,
+            t_min: 0.0,
+            exclude: None,
+        }
+    }
+
+    /// The ray in a direction.
+    ///
+    /// # Errors
+    /// See [`RayError`].
+    #[inline]
+    pub fn towards(&self, dir: Vec3) -> Result<Ray, RayError> {
+        let ray = Ray::with_interval(self.origin, dir, self.t_min, f32::INFINITY)?;
+        Ok(Ray {
+            exclude: self.exclude,
+            ..ray
+        })
+    }
+
+    /// The ray to a point. The last [`END_SLACK`] of the way isn't tested.
+    ///
+    /// # Errors
+    /// See [`RayError`]; also if both ends are the same point.
+    #[inline]
+    pub fn connect(&self, end: Vec3) -> Result<Ray, RayError> {
+        let t_max = 1.0 - END_SLACK;
+        let t_min = self.t_min.min(0.5 * t_max);
+        let ray = Ray::with_interval(self.origin, end - self.origin, t_min, t_max)?;
+        Ok(Ray {
+            exclude: self.exclude,
+            ..ray
+        })
+    }
 }
 
 impl SpawnPolicy {
@@ -81,17 +95,12 @@ impl SpawnPolicy {
     /// See [`RayError`].
     #[inline]
     pub fn spawn(&self, departure: &Departure<'_>) -> Result<Ray, RayError> {
-        let RayStart {
-            origin,
-            t_min,
-            exclude,
-        } = self.start(departure);
-        let ray = Ray::with_interval(origin, departure.dir, t_min, f32::INFINITY)?;
-        Ok(Ray { exclude, ..ray })
+        self.start(departure).towards(departure.dir)
     }
 
+    /// Where the spawned ray starts.
     #[inline]
-    fn start(&self, departure: &Departure<'_>) -> RayStart {
+    pub(crate) fn start(&self, departure: &Departure<'_>) -> RayStart {
         let offset = departure.offset;
         if offset == Vec3::ZERO {
             return (self.begin)(departure);
@@ -109,48 +118,34 @@ impl SpawnPolicy {
         }
     }
 
-    /// The ray from a departure to an endpoint. `departure.dir` points there. Both ends keep off their surfaces by this
-    /// policy, so that the ray hits neither; the last [`END_SLACK`] of the way isn't tested.
-    ///
-    /// # Errors
-    /// See [`RayError`]; also if both ends are the same point.
-    #[inline]
-    pub fn connect(&self, departure: &Departure<'_>, end: &Endpoint) -> Result<Ray, RayError> {
-        let start = self.start(departure);
-        let target = match end {
-            Endpoint::InSpace(point) => *point,
-            Endpoint::OnSurface {
-                hit,
-                surface,
-                corners,
-            } => {
-                let way = surface.position - start.origin;
-                // Only the policy reads it.
-                let arrived_by = Ray {
-                    origin: start.origin,
-                    dir: way,
-                    t_min: 0.0,
-                    t_max: f32::INFINITY,
-                    scale: 0,
-                    exclude: None,
-                };
-                let arrival = Departure {
-                    arrived_by: &arrived_by,
-                    hit: &Hit { t: 1.0, ..*hit },
-                    surface,
-                    corners: *corners,
-                    dir: -way,
-                    offset: Vec3::ZERO,
-                };
-                (self.begin)(&arrival).origin
-            }
+    /// Where a ray from the point `from` to a point of a surface ends: as far off the surface as a ray back would start, so
+    /// that it doesn't hit the surface. `corners` are those of a triangle.
+    pub(crate) fn end(
+        &self,
+        from: Vec3,
+        hit: &Hit,
+        surface: &SurfacePoint,
+        corners: impl FnOnce() -> Option<[Vec3; 3]>,
+    ) -> Vec3 {
+        let way = surface.position - from;
+        // Only the policy reads it.
+        let arrived_by = Ray {
+            origin: from,
+            dir: way,
+            t_min: 0.0,
+            t_max: f32::INFINITY,
+            scale: 0,
+            exclude: None,
         };
-        let (way, t_max) = (target - start.origin, 1.0 - END_SLACK);
-        let ray = Ray::with_interval(start.origin, way, start.t_min.min(0.5 * t_max), t_max)?;
-        Ok(Ray {
-            exclude: start.exclude,
-            ..ray
-        })
+        let arrival = Departure {
+            arrived_by: &arrived_by,
+            hit: &Hit { t: 1.0, ..*hit },
+            surface,
+            corners: if self.uses_corners { corners() } else { None },
+            dir: -way,
+            offset: Vec3::ZERO,
+        };
+        (self.begin)(&arrival).origin
     }
 }
 
@@ -253,16 +248,6 @@ const LECTURE_EPSILON: f32 = 1e-6;
 const MITSUBA_EPSILON: f32 = 1500.0 * U;
 /// Half an ulp of 1.
 const U: f32 = f32::EPSILON / 2.0;
-
-impl RayStart {
-    fn at(origin: Vec3) -> Self {
-        Self {
-            origin,
-            t_min: 0.0,
-            exclude: None,
-        }
-    }
-}
 
 impl<'a> Departure<'a> {
     /// A departure from a triangle.

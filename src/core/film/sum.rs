@@ -26,6 +26,8 @@ impl SampleSum {
     pub fn add(&mut self, radiance: Vec3) -> bool {
         if !radiance.is_finite() {
             return false;
+        } else if radiance == Vec3::ZERO {
+            return true;
         }
         let radiance = radiance.max(Vec3::ZERO);
         let rgb = radiance.to_array().map(|x| fixed(x.into()));

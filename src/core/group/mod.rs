@@ -27,7 +27,8 @@ use crate::mesh::TextureFrame;
 use crate::progress::{Cancelled, Progress};
 use crate::ray::{Hit, Ray};
 use crate::shape::{
-    AddLine, Interior, LineDetail, Primitives, SampledSurface, Shape, ShapeInfo, SurfacePoint,
+    AddLine, FlatPatch, Interior, LineDetail, Primitives, SampledSurface, Shape, ShapeInfo,
+    SurfacePoint,
 };
 use crate::simd::SimdLevel;
 use glam::{DVec2, Vec3};
@@ -83,6 +84,11 @@ pub trait Group: Debug + Send + Sync {
 
     /// A point of a primitive to be lit by; see [`Shape::sampled_surface`].
     fn sampled_from(&self, _index: u32, _from: Vec3, _at: DVec2) -> Option<SampledSurface> {
+        None
+    }
+
+    /// A primitive prepared for sampling; see [`Shape::flat_patch`].
+    fn flat_patch(&self, _index: u32) -> Option<FlatPatch> {
         None
     }
 
@@ -226,6 +232,15 @@ impl<S: Grouped> Group for ShapeGroup<S> {
             self.appearance.turn(index, &mut sampled.surface);
         }
         sampled
+    }
+
+    fn flat_patch(&self, index: u32) -> Option<FlatPatch> {
+        let patch = self.primitives.primitive(index).flat_patch()?;
+        Some(if self.appearance.is_flipped(index) {
+            patch.flipped()
+        } else {
+            patch
+        })
     }
 
     fn density_from(&self, index: u32, from: Vec3) -> Option<f64> {

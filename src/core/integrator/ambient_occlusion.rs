@@ -2,10 +2,10 @@
 //!
 //! Source: Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", Rendering Techniques 1998.
 
-use super::transport::{ShadingPoint, transmittance};
-use super::{Context, Integrator, Needs, Setting, Source};
-use crate::ray::{Hit, Ray};
-use crate::sampler::Sampler;
+use super::transport::ShadingPoint;
+use super::visibility::parts_that_pass;
+use super::{Context, Integrator, Needs, Sample, Setting, Source};
+use crate::ray::Ray;
 use glam::Vec3;
 
 /// The row of the view.
@@ -18,25 +18,36 @@ pub(super) static AMBIENT_OCCLUSION: Integrator = Integrator {
         ..Needs::LIGHTS
     },
     legend: Vec::new,
-    source: Source::Colour(radiance),
+    source: Source::Together(radiances),
 };
 
-fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    let Some(hit) = hit else {
-        return context.background;
-    };
-    let point = ShadingPoint::unrepaired(context, ray, hit);
-    let Some(ray) = point
-        .open_direction(sampler)
-        .and_then(|dir| point.spawn(dir))
-    else {
-        return Vec3::ZERO;
-    };
+fn radiances(context: &Context, samples: &mut [Sample]) {
+    let (mut rays, mut of) = (Vec::new(), Vec::new());
+    for (i, sample) in samples.iter_mut().enumerate() {
+        match occlusion_ray(context, sample) {
+            Ok(ray) => {
+                rays.push(ray);
+                of.push(i);
+            }
+            Err(colour) => sample.radiance = colour,
+        }
+    }
+    for (i, part) in of.into_iter().zip(parts_that_pass(context, &rays)) {
+        samples[i].radiance = Vec3::splat(part);
+    }
+}
+
+/// The ray that looks for what is near; the colour if there is no such ray.
+fn occlusion_ray(context: &Context, sample: &mut Sample) -> Result<Ray, Vec3> {
+    let hit = sample.hit.ok_or(context.background)?;
+    let point = ShadingPoint::unrepaired(context, &sample.ray, hit);
+    let dir = point.open_direction(&mut sample.sampler);
+    let ray = dir.and_then(|dir| point.spawn(dir)).ok_or(Vec3::ZERO)?;
     // The direction's length is 1 up to rounding.
     let distance = f64::from(context.lighting.ao_distance) * context.scene.bounds().radius();
     let t_max = (distance * 2f64.powi(-ray.scale)) as f32;
     if ray.t_min >= t_max {
-        return Vec3::ONE;
+        return Err(Vec3::ONE);
     }
-    Vec3::splat(transmittance(context, Ray { t_max, ..ray }))
+    Ok(Ray { t_max, ..ray })
 }

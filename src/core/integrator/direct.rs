@@ -1,10 +1,7 @@
 //! The view *Direct light*: light that reaches surfaces straight from the lights.
 
-use super::path::follow;
-use super::{Context, Integrator, Needs, Source};
-use crate::ray::{Hit, Ray};
-use crate::sampler::Sampler;
-use glam::Vec3;
+use super::path::follow_all;
+use super::{Context, Integrator, Needs, Sample, Source};
 
 /// The row of the view.
 pub(super) static DIRECT: Integrator = Integrator {
@@ -13,11 +10,11 @@ pub(super) static DIRECT: Integrator = Integrator {
     about: "Light from the lights, without light by way of other surfaces.",
     needs: Needs::LIGHTS,
     legend: Vec::new,
-    source: Source::Colour(radiance),
+    source: Source::Together(radiances),
 };
 
-fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sampler) -> Vec3 {
-    follow(context, ray, hit, sampler, limit(context), &mut ())
+fn radiances(context: &Context, samples: &mut [Sample]) {
+    follow_all(context, samples, limit(context));
 }
 
 /// The most surfaces on a path.

@@ -24,6 +24,7 @@ mod shading_normal;
 mod spawning;
 mod transport;
 mod triangle;
+mod visibility;
 mod whitted;
 
 pub use options::{ScaleOptions, SurfaceColours, ViewOptions, back_face_colour};
@@ -40,6 +41,7 @@ use crate::spawn::{SPAWN_POLICIES, SpawnPolicy, default_spawn_policy};
 use crate::terminator::{TerminatorRepair, default_terminator_repair};
 use glam::Vec3;
 use number::NumberView;
+use std::slice::from_mut;
 use std::sync::Arc;
 
 /// Everything that a colour depends on besides the ray.
@@ -119,10 +121,37 @@ pub struct Integrator {
     source: Source,
 }
 
+/// A sample of a picture. Views that follow paths change the ray and its hit to those that the path ends with.
+#[derive(Clone, Debug)]
+pub struct Sample {
+    /// The camera's ray.
+    pub ray: Ray,
+    /// Its first hit.
+    pub hit: Option<Hit>,
+    /// The random numbers.
+    pub sampler: Sampler,
+    /// The colour in linear RGB; black until [`Integrator::radiances`] sets it.
+    pub radiance: Vec3,
+}
+
+impl Sample {
+    /// A sample without a colour.
+    pub fn new(ray: Ray, hit: Option<Hit>, sampler: Sampler) -> Self {
+        Self {
+            ray,
+            hit,
+            sampler,
+            radiance: Vec3::ZERO,
+        }
+    }
+}
+
 /// Where the colours of a view come from.
 enum Source {
     /// A function from a ray and its first hit to a colour.
     Colour(fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3),
+    /// A function that finds the colours of several samples, whose further rays it traces together.
+    Together(fn(&Context, &mut [Sample])),
     /// Numbers, which a scale colours.
     Number(NumberView),
     /// The index of the primitive that was hit.
@@ -265,17 +294,41 @@ impl Integrator {
         hit: Option<Hit>,
         sampler: &mut Sampler,
     ) -> Vec3 {
-        if hit.is_none() && context.options.has_transparent_background {
-            return Vec3::ZERO;
+        let mut sample = Sample::new(*ray, hit, sampler.clone());
+        self.radiances(context, from_mut(&mut sample));
+        *sampler = sample.sampler;
+        sample.radiance
+    }
+
+    /// Sets the colours of several samples. Each gets the same bits as alone.
+    pub fn radiances(&self, context: &Context, samples: &mut [Sample]) {
+        let is_background = |sample: &Sample| sample.hit.is_none();
+        let transparent: Vec<bool> = if context.options.has_transparent_background {
+            samples.iter().map(is_background).collect()
+        } else {
+            Vec::new()
+        };
+        self.colour(context, samples);
+        for (sample, _) in samples.iter_mut().zip(transparent).filter(|(_, is)| *is) {
+            sample.radiance = Vec3::ZERO;
         }
+    }
+
+    fn colour(&self, context: &Context, samples: &mut [Sample]) {
         match &self.source {
-            Source::Colour(radiance) => radiance(context, ray, hit, sampler),
-            Source::Index => {
-                hit.map_or(context.background, |hit| palette::id_colour(hit.primitive))
+            Source::Together(radiances) => radiances(context, samples),
+            Source::Colour(radiance) => {
+                for sample in samples {
+                    let Sample { ray, hit, .. } = *sample;
+                    sample.radiance = radiance(context, &ray, hit, &mut sample.sampler);
+                }
             }
             Source::Number(view) => {
-                let shown = (view.shown)(context, ray, hit, sampler);
-                view.colour(context, shown)
+                for sample in samples {
+                    let Sample { ray, hit, .. } = *sample;
+                    let shown = (view.shown)(context, &ray, hit, &mut sample.sampler);
+                    sample.radiance = view.colour(context, shown);
+                }
             }
         }
     }

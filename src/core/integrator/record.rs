@@ -1,12 +1,10 @@
 //! The path of one sample of a picture, vertex by vertex.
 
-use super::transport::ShadingPoint;
-use super::{Context, Integrator, direct, path};
-use crate::light::LightSample;
+use super::transport::{Connection, ShadingPoint};
+use super::{Context, Integrator, Sample, direct, path};
 use crate::plan::Plan;
 use crate::ray::Ray;
 use crate::sampler::Sampler;
-use crate::spawn::Endpoint;
 use glam::{UVec2, Vec3};
 
 /// A recorded path. Positions are in the scene's coordinates; light is what the vertex adds to the sample's colour.
@@ -55,7 +53,7 @@ pub struct PathVertex {
 pub struct ShadowRay {
     /// The unit direction to the light.
     pub dir: Vec3,
-    /// The point of the light; `None` if it is infinitely far away.
+    /// The point of the light, up to the distance that rays keep off surfaces; `None` if it is infinitely far away.
     pub target: Option<Vec3>,
     /// The part of the light that arrives: 0 if a surface is in the way.
     pub arriving: f32,
@@ -97,16 +95,18 @@ pub(super) trait Recorder {
     fn pass(&mut self) {}
     /// The last surface emits this light.
     fn emission(&mut self, _light: Vec3) {}
-    /// A ray from the last surface to a light; the second number is the part of the light that arrives.
-    fn shadow_ray(&mut self, _sample: &LightSample, _arriving: f32) {}
-    /// The last surface scatters this light from a light.
-    fn direct(&mut self, _light: Vec3) {}
+    /// A ray from the last surface to a light.
+    fn shadow_ray(&mut self, _connection: &Connection) {}
+    /// This part of the light arrives along it, and the last surface scatters this light.
+    fn direct(&mut self, _part: f32, _light: Vec3) {}
     /// Russian roulette lets the path continue with this probability.
     fn roulette(&mut self, _survival: f32) {}
     /// The path continues with this throughput.
     fn scatter(&mut self, _throughput: Vec3) {}
-    /// The path ends with this ray, which brings this light from afar.
-    fn end(&mut self, _end: PathEnd, _ray: &Ray, _from_afar: Vec3) {}
+    /// The last ray brings this light from afar.
+    fn from_afar(&mut self, _light: Vec3) {}
+    /// The path ends with this ray.
+    fn end(&mut self, _end: PathEnd, _ray: &Ray) {}
 }
 
 impl Recorder for () {}
@@ -137,18 +137,22 @@ impl Recorder for PathRecord {
         self.change(|vertex| vertex.emission = light);
     }
 
-    fn shadow_ray(&mut self, sample: &LightSample, arriving: f32) {
-        let target = sample.end.as_ref().map(Endpoint::position);
+    fn shadow_ray(&mut self, connection: &Connection) {
         let ray = ShadowRay {
-            dir: sample.dir,
-            target,
-            arriving,
+            dir: connection.ray.dir.normalize(),
+            target: connection.end,
+            arriving: 0.0,
         };
         self.change(|vertex| vertex.shadow_ray = Some(ray));
     }
 
-    fn direct(&mut self, light: Vec3) {
-        self.change(|vertex| vertex.direct = light);
+    fn direct(&mut self, part: f32, light: Vec3) {
+        self.change(|vertex| {
+            vertex.direct = light;
+            if let Some(ray) = &mut vertex.shadow_ray {
+                ray.arriving = part;
+            }
+        });
     }
 
     fn roulette(&mut self, survival: f32) {
@@ -159,9 +163,13 @@ impl Recorder for PathRecord {
         self.change(|vertex| vertex.throughput = throughput);
     }
 
-    fn end(&mut self, end: PathEnd, ray: &Ray, from_afar: Vec3) {
+    fn from_afar(&mut self, light: Vec3) {
+        self.from_afar = light;
+    }
+
+    fn end(&mut self, end: PathEnd, ray: &Ray) {
         self.last_dir = ray.dir.normalize();
-        (self.end, self.from_afar) = (end, from_afar);
+        self.end = end;
     }
 }
 
@@ -208,9 +216,9 @@ impl Integrator {
             end: PathEnd::Left,
             radiance: Vec3::ZERO,
         };
-        let mut sampler = Sampler::new(pixel, sample);
-        let limit = limit(context);
-        record.radiance = path::follow(context, &ray, hit, &mut sampler, limit, &mut record);
+        let mut sample = Sample::new(ray, hit, Sampler::new(pixel, sample));
+        path::follow_recorded(context, &mut sample, limit(context), &mut record);
+        record.radiance = sample.radiance;
         Some(record)
     }
 }

@@ -2,7 +2,6 @@
 
 use super::Context;
 use super::offset::offset_by;
-use super::record::Recorder;
 use crate::appearance::Appearance;
 use crate::bsdf::{Bsdf, Frame, Scatter, Scattered, cosine_direction};
 use crate::interaction::SurfaceInteraction;
@@ -10,10 +9,11 @@ use crate::light::LightSample;
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use crate::shape::{SurfacePoint, on_sphere};
-use crate::spawn::{Departure, SpawnPolicy};
+use crate::spawn::{Departure, RayStart, SpawnPolicy};
 use crate::terminator::Offset;
 use glam::{Vec2, Vec3};
 use std::borrow::Cow;
+use std::cell::Cell;
 
 /// A point of a surface that a ray hits, with the way it scatters light.
 pub(super) struct ShadingPoint<'a> {
@@ -32,6 +32,8 @@ pub(super) struct ShadingPoint<'a> {
     bsdf: Cow<'a, Bsdf>,
     /// What the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray comes from.
     offset: Vec3,
+    /// Where rays start that leave on the side that the ray comes from, without a repair of the shadow terminator.
+    start: Cell<Option<RayStart>>,
     /// The light that the surface emits towards the ray's origin.
     pub emission: Vec3,
     /// The part of the surface that is there; light passes through the rest.
@@ -83,6 +85,7 @@ impl<'a> ShadingPoint<'a> {
             normal: side * interaction.geometric_normal,
             bsdf,
             offset: offset.map_or(Vec3::ZERO, |f| offset_by(f, context, &hit, is_front)),
+            start: Cell::new(None),
             emission,
             opacity,
         }
@@ -120,10 +123,26 @@ impl<'a> ShadingPoint<'a> {
         self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
+    /// Where the ray that leaves in a direction starts. Kept for the side that the ray comes from: rays to lights and rays
+    /// that continue the path start there.
+    #[inline]
+    fn start(&self, dir: Vec3) -> RayStart {
+        let policy = self.context.lighting.spawn;
+        let is_behind = |dir: Vec3| self.surface.normal.dot(dir.as_dvec3()) < 0.0;
+        if self.offset != Vec3::ZERO || is_behind(dir) != is_behind(-self.ray.dir) {
+            return policy.start(&self.departure(policy, dir));
+        }
+        self.start.get().unwrap_or_else(|| {
+            let start = policy.start(&self.departure(policy, dir));
+            self.start.set(Some(start));
+            start
+        })
+    }
+
     /// The ray that leaves in a direction; `None` if numbers overflow.
     #[inline]
     pub fn spawn(&self, dir: Vec3) -> Option<Ray> {
-        self.spawn_by(self.context.lighting.spawn, dir)
+        self.start(dir).towards(dir).ok()
     }
 
     /// The same by another policy.
@@ -233,30 +252,24 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// The light from one of the lights that is scattered towards the ray's origin, weighted against the density of
-    /// [`scatter`](Self::scatter) by the balance heuristic.
+    /// [`scatter`](Self::scatter) by the balance heuristic; `None` if there is none.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
     #[inline]
-    pub fn direct_light(&self, sampler: &mut Sampler, recorder: &mut impl Recorder) -> Vec3 {
-        // By reference: it is large.
-        match &self.light_sample(sampler) {
-            Some(sample) => self.scattered_light(sample, recorder),
-            None => Vec3::ZERO,
-        }
+    pub fn direct_light(&self, sampler: &mut Sampler) -> Option<Connection> {
+        self.connection(&self.light_sample(sampler)?)
     }
 
     /// The same without the lights that are single points or directions.
-    pub fn light_with_extent(&self, sampler: &mut Sampler) -> Vec3 {
+    pub fn light_with_extent(&self, sampler: &mut Sampler) -> Option<Connection> {
         let sample = self.light_sample(sampler);
-        let sample = sample.filter(|sample| sample.density.is_some());
-        sample.map_or(Vec3::ZERO, |sample| self.scattered_light(&sample, &mut ()))
+        self.connection(&sample.filter(|sample| sample.density.is_some())?)
     }
 
-    /// The light from all lights that are single points or directions that is scattered towards the ray's origin.
-    pub fn light_without_extent(&self) -> Vec3 {
+    /// The light from each light that is a single point or direction that is scattered towards the ray's origin.
+    pub fn light_without_extent(&self) -> impl Iterator<Item = Connection> {
         let samples = self.context.lighting.lights.without_extent(self.position());
-        let light = |sample| self.scattered_light(&sample, &mut ());
-        samples.map(light).sum()
+        samples.filter_map(|sample| self.connection(&sample))
     }
 
     /// `None`, and no number is drawn, if there is no light to aim at or the surface scatters none of it.
@@ -278,15 +291,16 @@ impl<'a> ShadingPoint<'a> {
         } = self.context;
         let lights = &lighting.lights;
         let choice = sampler.next_1d_if(lights.are_several());
-        lights.sample(scene, self.position(), at, choice)
+        lights.sample(scene, lighting.spawn, self.position(), at, choice)
     }
 
-    /// The light of a sample that arrives and is scattered towards the ray's origin, weighted by the balance heuristic.
+    /// The light of a sample that is scattered towards the ray's origin, weighted by the balance heuristic; `None` if it is
+    /// black, or if numbers overflow.
     #[inline]
-    fn scattered_light(&self, sample: &LightSample, recorder: &mut impl Recorder) -> Vec3 {
+    fn connection(&self, sample: &LightSample) -> Option<Connection> {
         let incoming = self.frame.to_local(sample.dir);
         if !self.is_consistent(incoming, sample.dir) {
-            return Vec3::ZERO;
+            return None;
         }
         let part = self.remaining_part(sample.dir) * self.unshadowed(sample.dir);
         let (value, own) = self.bsdf.evaluate_with_density(self.outgoing, incoming);
@@ -295,54 +309,28 @@ impl<'a> ShadingPoint<'a> {
             light *= balance(density, own);
         }
         if light == Vec3::ZERO {
-            return light;
+            return None;
         }
-        let arriving = self.visibility(sample);
-        recorder.shadow_ray(sample, arriving);
-        light * arriving
-    }
-
-    /// The part of a light sample that arrives: surfaces with coverage let some of it pass.
-    #[inline]
-    fn visibility(&self, sample: &LightSample) -> f32 {
-        let policy = self.context.lighting.spawn;
-        let departure = self.departure(policy, sample.dir);
-        let ray = match &sample.end {
-            None => policy.spawn(&departure),
-            Some(end) => policy.connect(&departure, end),
+        let start = self.start(sample.dir);
+        let ray = match sample.end {
+            None => start.towards(sample.dir),
+            Some(end) => start.connect(end),
         };
-        ray.map_or(0.0, |ray| transmittance(self.context, ray))
+        Some(Connection {
+            light,
+            ray: ray.ok()?,
+            end: sample.end,
+        })
     }
 }
 
-/// The part of light that passes along a ray.
-#[inline]
-pub(super) fn transmittance(context: &Context, mut ray: Ray) -> f32 {
-    if !context.lighting.lights.has_coverage() {
-        return if context.intersector.any_hit(&ray) {
-            0.0
-        } else {
-            1.0
-        };
-    }
-    let mut passed = 1.0;
-    while let Some(hit) = context.intersector.closest_hit(&ray) {
-        let point = ShadingPoint::new(context, &ray, hit);
-        passed *= 1.0 - point.opacity;
-        if passed <= 0.0 {
-            return 0.0;
-        }
-        let Some(onward) = point.onward() else {
-            return 0.0;
-        };
-        // The rest of the way.
-        let t_max = ray.t_max - hit.t;
-        if t_max <= onward.t_min {
-            break;
-        }
-        ray = Ray { t_max, ..onward };
-    }
-    passed
+/// Light that a surface scatters towards a ray's origin unless something is in the way to the light.
+pub(super) struct Connection {
+    pub light: Vec3,
+    /// The way to the light.
+    pub ray: Ray,
+    /// Where it ends; `None` if the light is infinitely far away.
+    pub end: Option<Vec3>,
 }
 
 /// The weight of a sample of one density where another technique has the second density.

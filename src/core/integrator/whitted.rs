@@ -6,7 +6,8 @@
 
 use super::hidden_emitters::past_emitters;
 use super::path::follow_scattered;
-use super::transport::{INVISIBLE, ShadingPoint, emitted, from_afar, shows_background};
+use super::transport::{Connection, INVISIBLE, ShadingPoint, emitted, from_afar, shows_background};
+use super::visibility::transmittance;
 use super::{Context, Integrator, Needs, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -102,18 +103,22 @@ fn radiance(context: &Context, ray: &Ray, hit: Option<Hit>, sampler: &mut Sample
 /// Lights that are points or directions are all summed, without random numbers. For the others, there is one sample of the
 /// lights and one of the surface.
 fn direct_light(context: &Context, point: &ShadingPoint<'_>, sampler: &mut Sampler) -> Vec3 {
-    let mut light = point.light_without_extent();
+    let arriving =
+        |connection: Connection| connection.light * transmittance(context, connection.ray);
+    let mut light: Vec3 = point.light_without_extent().map(arriving).sum();
     if !context.lighting.lights.has_extent() {
         return light;
     }
-    light += point.light_with_extent(sampler);
+    light += point
+        .light_with_extent(sampler)
+        .map_or(Vec3::ZERO, arriving);
     if let Some(scattered) = point.scatter(sampler)
         && scattered.density.is_some()
         && let Some(ray) = point.spawn(scattered.incoming)
     {
         let hit = context.intersector.closest_hit(&ray);
         let left = (point.position(), scattered.density);
-        let found = follow_scattered(context, ray, hit, left, sampler, Some(0), &mut ());
+        let found = follow_scattered(context, ray, hit, left, sampler, Some(0));
         light += scattered.weight * found;
     }
     light

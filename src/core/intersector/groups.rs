@@ -124,6 +124,42 @@ struct SceneIntersector {
     groups: Vec<Numbered>,
 }
 
+/// From this number of rays on, each group searches once for all of them: that pays for the lists.
+const MANY: usize = 8;
+
+/// The rays that meet a group's box, in the group's numbers.
+struct Entering {
+    /// All rays, for tests of boxes.
+    box_rays: Vec<Option<BoxRay>>,
+    rays: Vec<Ray>,
+    /// The index of each of them among all.
+    of: Vec<usize>,
+}
+
+impl Entering {
+    fn new(rays: &[Ray]) -> Self {
+        Self {
+            box_rays: rays.iter().map(box_ray).collect(),
+            rays: Vec::with_capacity(rays.len()),
+            of: Vec::with_capacity(rays.len()),
+        }
+    }
+
+    /// Selects the rays that may hit a group before the end that `t_max` gives for their index, if it gives one.
+    fn select(&mut self, group: &Numbered, rays: &[Ray], t_max: impl Fn(usize) -> Option<f32>) {
+        self.rays.clear();
+        self.of.clear();
+        for (i, (ray, box_ray)) in rays.iter().zip(&self.box_rays).enumerate() {
+            if let Some(t_max) = t_max(i)
+                && group.may_be_hit(box_ray.as_ref(), t_max)
+            {
+                self.rays.push(group.ray(ray, t_max));
+                self.of.push(i);
+            }
+        }
+    }
+}
+
 /// The ray for tests of groups' boxes; `None` if it starts behind its origin.
 #[inline]
 fn box_ray(ray: &Ray) -> Option<BoxRay> {
@@ -185,6 +221,42 @@ impl SceneIntersector {
         Some(nearest)
     }
 
+    /// The nearest hits of rays. Each group searches once, for the rays that meet its box.
+    fn closest_hits_by_group(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        hits.fill(None);
+        let mut are_clear = vec![true; rays.len()];
+        let (mut entering, mut found) = (Entering::new(rays), vec![None; rays.len()]);
+        for group in &self.groups {
+            entering.select(group, rays, |i| Some(self.t_max(&rays[i], hits[i])));
+            let found = &mut found[..entering.rays.len()];
+            group.intersector.closest_hits(&entering.rays, found);
+            for (&i, found) in entering.of.iter().zip(&*found) {
+                if let Some(found) = *found {
+                    are_clear[i] &= self.is_clear(found, hits[i]);
+                    hits[i] = Some(group.numbered(found));
+                }
+            }
+        }
+        let all = rays.iter().zip(hits).zip(are_clear);
+        for ((ray, hit), _) in all.filter(|(_, is_clear)| !is_clear) {
+            *hit = self.closest_hit_with_cost(ray).0;
+        }
+    }
+
+    /// Which rays hit anything. Each group searches once, for the rays that meet its box and hit no earlier group.
+    fn any_hits_by_group(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        are_hits.fill(false);
+        let (mut entering, mut found) = (Entering::new(rays), vec![false; rays.len()]);
+        for group in &self.groups {
+            entering.select(group, rays, |i| (!are_hits[i]).then_some(rays[i].t_max));
+            let found = &mut found[..entering.rays.len()];
+            group.intersector.any_hits(&entering.rays, found);
+            for (&i, is_hit) in entering.of.iter().zip(&*found) {
+                are_hits[i] = *is_hit;
+            }
+        }
+    }
+
     /// Whether a group's hits are rounded to f32, so that equal t may differ.
     fn is_rounded(&self) -> bool {
         self.kernel.precision != Precision::F32
@@ -212,6 +284,9 @@ impl Intersector for SceneIntersector {
     }
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
+        if rays.len() >= MANY {
+            return self.closest_hits_by_group(rays, hits);
+        }
         for (ray, hit) in rays.iter().zip(hits) {
             let closest = || self.closest_hit_with_cost(ray).0;
             *hit = self.clearly_closest_hit(ray).unwrap_or_else(closest);
@@ -273,6 +348,9 @@ impl Intersector for SceneIntersector {
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
+        if rays.len() >= MANY {
+            return self.any_hits_by_group(rays, are_hits);
+        }
         for (ray, is_hit) in rays.iter().zip(are_hits) {
             let box_ray = box_ray(ray);
             *is_hit = self

@@ -5,13 +5,13 @@ use crate::appearance::Appearance;
 use crate::mesh::{Material, Property};
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
-use crate::shape::SampledSurface;
-use crate::spawn::Endpoint;
+use crate::shape::{FlatPatch, SampledSurface};
+use crate::spawn::SpawnPolicy;
 use glam::{Vec2, Vec3};
 use std::f32::consts::PI;
 
 /// A primitive that emits the same light everywhere and to all directions on one side or both.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct AreaLight {
     primitive: u32,
     radiance: Vec3,
@@ -20,6 +20,8 @@ pub struct AreaLight {
     emits_on_back: bool,
     /// Whether a texture dims the light.
     is_textured: bool,
+    /// The primitive, prepared for sampling, if it is flat and no triangle: scenes have few of them.
+    patch: Option<Box<FlatPatch>>,
 }
 
 /// The primitives of a scene that emit light.
@@ -63,12 +65,13 @@ impl AreaLight {
     /// `None` if the primitive has no area that can be sampled.
     fn new(scene: &Scene, primitive: u32, material: &Material) -> Option<Self> {
         let area = scene.area(primitive);
-        (area > 0.0 && area.is_finite()).then_some(Self {
+        (area > 0.0 && area.is_finite()).then(|| Self {
             primitive,
             radiance: material.emission,
             area,
             emits_on_back: material.emits_on_back,
             is_textured: material.further_map(Property::Emission).is_some(),
+            patch: scene.flat_patch(primitive).map(Box::new),
         })
     }
 
@@ -81,23 +84,21 @@ impl AreaLight {
         sides * PI * self.area as f32 * self.radiance
     }
 
-    /// The sample of a light that is chosen with a probability. `None` if the sampled point doesn't emit towards `from`.
+    /// `None` if the sampled point doesn't emit towards `from`.
     #[inline]
     pub(super) fn sample(
         &self,
         scene: &Scene,
+        spawn: &SpawnPolicy,
         from: Vec3,
         at: Vec2,
-        probability: f32,
     ) -> Option<LightSample> {
-        let sampled = scene.sampled(self.primitive, from, at.as_dvec2());
-        // By reference: a copy would wait until all of it is in memory.
         let SampledSurface {
             surface,
             u,
             v,
             density,
-        } = sampled.as_ref()?;
+        } = &self.sampled(scene, from, at)?;
         let hit = Hit {
             t: 1.0,
             u: *u,
@@ -108,16 +109,26 @@ impl AreaLight {
         let dir = way.try_normalize()?.as_vec3();
         let cos = surface.normal.as_vec3().dot(-dir);
         let density = self.density_at(*density, way.length_squared(), cos)?;
+        let corners = || scene.corners(self.primitive);
         Some(LightSample {
             dir,
-            weight: self.radiance_at(scene, surface.position, &hit) / density / probability,
-            density: Some(density * probability),
-            end: Some(Endpoint::OnSurface {
-                hit,
-                surface: *surface,
-                corners: scene.corners(self.primitive),
-            }),
+            weight: self.radiance_at(scene, surface.position, &hit) / density,
+            density: Some(density),
+            end: Some(spawn.end(from, &hit, surface, corners)),
         })
+    }
+
+    /// A point of the primitive that may light `from`.
+    #[inline]
+    fn sampled(&self, scene: &Scene, from: Vec3, at: Vec2) -> Option<SampledSurface> {
+        let at = at.as_dvec2();
+        match &self.patch {
+            Some(patch) => {
+                let sampled = patch.sampled(at);
+                scene.keeps(sampled.surface.position).then_some(sampled)
+            }
+            None => scene.sampled(self.primitive, from, at),
+        }
     }
 
     /// The light at a hit, which a texture may dim.

@@ -22,7 +22,7 @@ pub use studio::studio;
 use crate::mesh::Material;
 use crate::ray::{Hit, Ray};
 use crate::scene::Scene;
-use crate::spawn::Endpoint;
+use crate::spawn::SpawnPolicy;
 use crate::srgb::luminance;
 use area::Emitters;
 use glam::{Vec2, Vec3};
@@ -46,8 +46,8 @@ pub enum Light {
 pub struct LightSample {
     /// The unit direction to the light.
     pub dir: Vec3,
-    /// Where the way to the light ends; `None` if it doesn't.
-    pub end: Option<Endpoint>,
+    /// Where the way to the light ends: off the light's surface, by the spawn policy; `None` if it doesn't end.
+    pub end: Option<Vec3>,
     /// The light that arrives, divided by the density.
     pub weight: Vec3,
     /// The density; `None` if the light comes from a single direction, so that no ray meets it by chance.
@@ -151,13 +151,20 @@ impl Lights {
         self.lights.len() > 1
     }
 
-    /// Light that reaches a point, from a light chosen by its power. `at` and `choice` are uniform numbers in [0, 1).
+    /// Light that reaches a point, from a light chosen by its power. Rays leave surfaces by the policy `spawn`. `at` and
+    /// `choice` are uniform numbers in [0, 1).
     #[inline]
-    pub fn sample(&self, scene: &Scene, from: Vec3, at: Vec2, choice: f32) -> Option<LightSample> {
+    pub fn sample(
+        &self,
+        scene: &Scene,
+        spawn: &SpawnPolicy,
+        from: Vec3,
+        at: Vec2,
+        choice: f32,
+    ) -> Option<LightSample> {
         let (index, probability) = self.choice.sample(choice)?;
         let sample = match &self.lights[index] {
-            // Without a change afterwards, which would copy it: it is large.
-            Light::Area(light) => return light.sample(scene, from, at, probability),
+            Light::Area(light) => light.sample(scene, spawn, from, at),
             Light::Environment(light) => light.sample(at),
             Light::Directional(light) => Some(light.sample()),
             Light::Point(light) => light.sample(from),

@@ -1,7 +1,6 @@
 //! Light from a point.
 
 use super::LightSample;
-use crate::spawn::Endpoint;
 use glam::Vec3;
 use std::f32::consts::PI;
 
@@ -21,7 +20,7 @@ impl PointLight {
         let dir = way.try_normalize()?;
         Some(LightSample {
             dir: dir.as_vec3(),
-            end: Some(Endpoint::InSpace(self.position)),
+            end: Some(self.position),
             // The square of a short way would vanish in f32.
             weight: (self.intensity.as_dvec3() / way.length_squared()).as_vec3(),
             density: None,

@@ -42,6 +42,7 @@ pub use texture_map::TextureMap;
 
 use crate::aabb::Aabb;
 use crate::shape::{Primitives, Triangle};
+use crate::simd::{baseline, prefetch};
 use glam::{DVec3, Vec3};
 use rayon::prelude::*;
 use weld::Welded;
@@ -177,6 +178,22 @@ impl TriangleMesh {
     #[inline]
     pub fn corners(&self, triangle: u32) -> [Vec3; 3] {
         self.triangles[triangle as usize].map(|v| self.positions[v as usize])
+    }
+
+    /// Prefetches the corners of triangles that will be looked up soon: they are spread over memory.
+    pub(crate) fn announce(&self, triangles: impl Iterator<Item = u32> + Clone) {
+        let token = baseline();
+        for triangle in triangles.clone() {
+            prefetch(
+                token,
+                &self.triangles,
+                triangle as usize,
+                size_of::<[u32; 3]>(),
+            );
+        }
+        for vertex in triangles.flat_map(|triangle| self.triangles[triangle as usize]) {
+            prefetch(token, &self.positions, vertex as usize, size_of::<Vec3>());
+        }
     }
 
     /// The mesh's attributes.

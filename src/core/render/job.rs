@@ -3,10 +3,10 @@
 use super::worker::{Message, Renderer};
 use crate::camera::Projection;
 use crate::film::{Film, SampleSum, TileSamples};
-use crate::integrator::{Context, Integrator};
+use crate::integrator::{Context, Integrator, Sample};
 use crate::lane::PACKET;
 use crate::plan::{Plan, WorkUnit};
-use crate::ray::Ray;
+use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
 use glam::{DVec3, UVec2};
 use std::any::Any;
@@ -92,8 +92,7 @@ impl Job {
         let mut batch = SampleBatch {
             job: self,
             at,
-            rays: Vec::with_capacity(RAYS_AT_ONCE),
-            places: Vec::with_capacity(RAYS_AT_ONCE),
+            places: Vec::with_capacity(SAMPLES_AT_ONCE),
             sums: Vec::with_capacity(most_pixels),
             non_finite: 0,
             hits: 0,
@@ -104,7 +103,7 @@ impl Job {
             for sample in samples.clone() {
                 batch.add(pixel, sample);
                 rays += 1;
-                if batch.rays.len() == RAYS_AT_ONCE {
+                if batch.places.len() == SAMPLES_AT_ONCE {
                     // A relaxed load is cheap compared with a ray, and rays may be slow.
                     if is_stale() {
                         return None;
@@ -125,55 +124,73 @@ impl Job {
             busy: start.elapsed(),
         })
     }
+
+    /// The samples of a batch with their colours, and the number of the camera's rays that hit the scene.
+    fn traced(&self, places: &[Place]) -> (Vec<Sample>, u32) {
+        let context = &self.context;
+        let ray = |place: &Place| {
+            let at = Plan::position(place.pixel, place.sample);
+            context.camera.ray(place.pixel, at)
+        };
+        let rays: Vec<Ray> = places.iter().map(ray).collect();
+        let mut hits = vec![None; rays.len()];
+        context.intersector.coherent_hits(&rays, &mut hits);
+        let all = places.iter().zip(rays).zip(hits);
+        let sample = |((place, ray), hit): ((&Place, Ray), Option<Hit>)| {
+            Sample::new(ray, hit, Sampler::new(place.pixel, place.sample))
+        };
+        let mut samples: Vec<Sample> = all.map(sample).collect();
+        let hits = samples.iter().filter(|sample| sample.hit.is_some()).count();
+        self.integrator.radiances(context, &mut samples);
+        (samples, hits as u32)
+    }
 }
 
-/// Rays traced in one call: two packets. More gains no speed and delays cancellation.
-const RAYS_AT_ONCE: usize = 2 * PACKET;
+/// Samples traced together: eight packets. More delays cancellation.
+const SAMPLES_AT_ONCE: usize = 8 * PACKET;
 
-/// Rays collected for one call, and the sums of their tile's pixels.
+/// Samples collected to be traced together, and the sums of their tile's pixels.
 struct SampleBatch<'a> {
     job: &'a Job,
     /// The sample being traced, for the message if it panics.
     at: &'a Cell<(UVec2, u32)>,
-    rays: Vec<Ray>,
-    /// Index of the pixel's sum, the pixel, and the index of the sample.
-    places: Vec<(usize, UVec2, u32)>,
+    places: Vec<Place>,
     sums: Vec<SampleSum>,
     non_finite: u32,
     hits: u32,
 }
 
+/// A sample's index of the pixel's sum, its pixel, and its index in the pixel.
+#[derive(Clone, Copy)]
+struct Place {
+    sum: usize,
+    pixel: UVec2,
+    sample: u32,
+}
+
 impl SampleBatch<'_> {
     /// Adds a sample to the last pixel.
     fn add(&mut self, pixel: UVec2, sample: u32) {
-        self.at.set((pixel, sample));
-        let place = Plan::position(pixel, sample);
-        self.rays.push(self.job.context.camera.ray(pixel, place));
-        self.places.push((self.sums.len() - 1, pixel, sample));
+        self.places.push(Place {
+            sum: self.sums.len() - 1,
+            pixel,
+            sample,
+        });
     }
 
     fn trace(&mut self) {
-        let (context, integrator) = (&self.job.context, self.job.integrator);
-        let mut hits = [None; RAYS_AT_ONCE];
-        let hits = &mut hits[..self.rays.len()];
-        let together = || context.intersector.coherent_hits(&self.rays, hits);
-        if let Err(panic) = catch_unwind(AssertUnwindSafe(together)) {
-            // Trace the rays one by one to find the sample that panics.
-            for (ray, &(_, pixel, sample)) in self.rays.iter().zip(&self.places) {
-                self.at.set((pixel, sample));
-                context
-                    .intersector
-                    .coherent_hits(from_ref(ray), &mut [None]);
+        let together = || self.job.traced(&self.places);
+        let (samples, hits) = catch_unwind(AssertUnwindSafe(together)).unwrap_or_else(|panic| {
+            // Trace the samples one by one to find the one that panics.
+            for place in &self.places {
+                self.at.set((place.pixel, place.sample));
+                self.job.traced(from_ref(place));
             }
-            resume_unwind(panic);
-        }
-        let rays = self.rays.drain(..).zip(self.places.drain(..)).zip(hits);
-        for ((ray, (index, pixel, sample)), hit) in rays {
-            self.at.set((pixel, sample));
-            self.hits += u32::from(hit.is_some());
-            let mut sampler = Sampler::new(pixel, sample);
-            let radiance = integrator.radiance(context, &ray, *hit, &mut sampler);
-            self.non_finite += u32::from(!self.sums[index].add(radiance));
+            resume_unwind(panic)
+        });
+        self.hits += hits;
+        for (place, sample) in self.places.drain(..).zip(samples) {
+            self.non_finite += u32::from(!self.sums[place.sum].add(sample.radiance));
         }
     }
 }

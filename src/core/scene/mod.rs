@@ -13,7 +13,7 @@ use crate::kernel::KernelChoice;
 use crate::mesh::{Crease, Material, TriangleMesh, VertexNormals};
 use crate::progress::{Cancelled, Phase, Progress};
 use crate::ray::{Hit, Ray};
-use crate::shape::{SampledSurface, SurfacePoint};
+use crate::shape::{FlatPatch, SampledSurface, SurfacePoint};
 use crate::simd::SimdLevel;
 use glam::{DVec2, Vec3};
 use hidden::Hidden;
@@ -207,6 +207,13 @@ impl Scene {
         group.surface(ray, &Hit { primitive, ..*hit })
     }
 
+    /// Prefetches what [`surface`](Self::surface) reads of hits that will be looked up soon.
+    pub(crate) fn announce(&self, hits: &[Option<Hit>]) {
+        let primitives = hits.iter().flatten().map(|hit| hit.primitive);
+        let triangles = primitives.filter(|&primitive| self.is_triangle(primitive));
+        self.mesh.announce(triangles);
+    }
+
     /// The area of a primitive; 0 if its points can't be sampled.
     pub fn area(&self, primitive: u32) -> f64 {
         let (group, index) = self.group_of(primitive);
@@ -219,8 +226,19 @@ impl Scene {
     pub fn sampled(&self, primitive: u32, from: Vec3, at: DVec2) -> Option<SampledSurface> {
         let (group, index) = self.group_of(primitive);
         let sampled = group.sampled_from(index, from, at)?;
-        let is_kept = |clip: &Clip| clip.keeps(sampled.surface.position.as_dvec3());
-        self.clip.as_ref().is_none_or(is_kept).then_some(sampled)
+        self.keeps(sampled.surface.position).then_some(sampled)
+    }
+
+    /// Whether the clip keeps a point.
+    pub(crate) fn keeps(&self, position: Vec3) -> bool {
+        let is_kept = |clip: &Clip| clip.keeps(position.as_dvec3());
+        self.clip.as_ref().is_none_or(is_kept)
+    }
+
+    /// A primitive that is part of a plane, prepared for sampling; `None` for others and for triangles.
+    pub(crate) fn flat_patch(&self, primitive: u32) -> Option<FlatPatch> {
+        let (group, index) = self.group_of(primitive);
+        group.flat_patch(index)
     }
 
     /// The density per solid angle of the points of [`sampled`](Self::sampled) as seen from `from`, if their directions are

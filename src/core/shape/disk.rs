@@ -2,11 +2,12 @@
 
 use super::compact::Slots;
 use super::extent::{ellipse_reach, rounded_outwards};
+use super::flat_patch::Outline;
 use super::lines::disk_lines;
 use super::span::{Span, SpannedRay};
 use super::{
-    AddLine, LineDetail, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint, in_disk,
-    numbers_of,
+    AddLine, FlatPatch, LineDetail, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint,
+    in_disk, numbers_of,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
@@ -70,11 +71,15 @@ impl Shape for Disk {
     }
 
     fn sampled_point(&self, at: DVec2) -> Option<SampledPoint> {
-        Some(self.0.at(coordinates(at)))
+        Some(self.0.at(in_disk(at.as_vec2()).0.as_dvec2()))
     }
 
     fn sampled_surface(&self, _: Vec3, at: DVec2) -> Option<SampledSurface> {
-        Some(self.0.sampled(coordinates(at)))
+        Some(FlatPatch::new(&self.0, Outline::Disk).sampled(at))
+    }
+
+    fn flat_patch(&self) -> Option<FlatPatch> {
+        Some(FlatPatch::new(&self.0, Outline::Disk))
     }
 
     /// Circles and diameters.
@@ -83,11 +88,6 @@ impl Shape for Disk {
         let normal = u.cross(v).normalize_or_zero();
         disk_lines(centre, [u, v], normal, detail, add);
     }
-}
-
-/// The coordinates of a point, uniform by area for uniform points of the unit square.
-fn coordinates(at: DVec2) -> DVec2 {
-    in_disk(at.as_vec2()).0.as_dvec2()
 }
 
 impl Pieces for Disk {

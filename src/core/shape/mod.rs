@@ -8,6 +8,7 @@ mod cuboid;
 mod cylinder;
 mod disk;
 mod extent;
+mod flat_patch;
 mod interior;
 mod lines;
 mod parameter;
@@ -35,6 +36,7 @@ pub use cylinder::Cylinder;
 pub(crate) use cylinder::{BASE, SIDE, TOP};
 pub use disk::Disk;
 pub(crate) use extent::{disk_reach, ellipse_reach};
+pub(crate) use flat_patch::FlatPatch;
 pub use interior::Interior;
 pub(crate) use interior::UNBOUNDED;
 pub use lines::{AddLine, LineDetail, LinePoint};
@@ -159,6 +161,12 @@ pub trait Shape: Clone + Debug + Send + Sync + 'static {
             v,
             density: self.density_from(from),
         })
+    }
+
+    /// The primitive prepared for sampling, with the points of [`sampled_surface`](Self::sampled_surface); `None` if that
+    /// isn't faster.
+    fn flat_patch(&self) -> Option<FlatPatch> {
+        None
     }
 
     /// The density per solid angle of [`sampled_from`](Self::sampled_from), if the directions to its points are uniform over

@@ -2,10 +2,12 @@
 
 use super::compact::Slots;
 use super::extent::{above, rounded_outwards};
+use super::flat_patch::Outline;
 use super::lines::grid;
 use super::span::{Span, SpannedRay};
 use super::{
-    AddLine, LineDetail, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint, numbers_of,
+    AddLine, FlatPatch, LineDetail, SampledPoint, SampledSurface, Shape, ShapeInfo, SurfacePoint,
+    numbers_of,
 };
 use crate::aabb::{Aabb, Planes};
 use crate::algebra::{Piece, Pieces, Polynomial, RayIn, Ring};
@@ -73,7 +75,11 @@ impl Shape for Rectangle {
     }
 
     fn sampled_surface(&self, _: Vec3, at: DVec2) -> Option<SampledSurface> {
-        Some(self.0.sampled(2.0 * at - 1.0))
+        Some(FlatPatch::new(&self.0, Outline::Rectangle).sampled(at))
+    }
+
+    fn flat_patch(&self) -> Option<FlatPatch> {
+        Some(FlatPatch::new(&self.0, Outline::Rectangle))
     }
 
     /// A grid.

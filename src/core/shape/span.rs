@@ -1,10 +1,11 @@
 //! A centre and two half axes: what disks and rectangles have in common.
 
-use super::{Parameter, SampledPoint, SampledSurface, SurfacePoint, U};
+use super::flat_patch::Outline;
+use super::{FlatPatch, Parameter, SampledPoint, SurfacePoint};
 use crate::algebra::{Polynomial, RayIn, Ring, cross, difference, dot, vector};
 use crate::lane::Values;
 use crate::ray::{Hit, Ray};
-use glam::{DVec2, DVec3, Vec3};
+use glam::{DVec2, Vec3};
 
 /// The plane of the points c + a·u + b·v, with a and b as its coordinates.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -79,31 +80,7 @@ impl Span {
             p.cross(v).dot(normal) / across,
             u.cross(p).dot(normal) / across,
         );
-        self.surface_at(DVec2::new(a, b), normal)
-    }
-
-    /// The surface at the point with coordinates a and b, given u × v.
-    fn surface_at(&self, uv: DVec2, normal: DVec3) -> SurfacePoint {
-        let position = self.at(uv).position.as_vec3();
-        let reach = self.centre.abs() + self.u.abs() + self.v.abs();
-        SurfacePoint {
-            position,
-            normal: normal.normalize_or(DVec3::Z),
-            uv,
-            error: 4.0 * U * (position.abs() + reach),
-            is_flat: true,
-        }
-    }
-
-    /// The surface at the point with coordinates a and b, for points that are uniform by area.
-    pub(super) fn sampled(&self, at: DVec2) -> SampledSurface {
-        let normal = self.u.as_dvec3().cross(self.v.as_dvec3());
-        SampledSurface {
-            surface: self.surface_at(at, normal),
-            u: at.x as f32,
-            v: at.y as f32,
-            density: None,
-        }
+        FlatPatch::new(self, Outline::Rectangle).surface_at(DVec2::new(a, b))
     }
 }
 

@@ -167,7 +167,7 @@ fn every_way_to_sample_an_environment_has_the_same_mean() {
         let cos = |dir: Vec3| f64::from(dir.dot(normal).max(0.0));
         let by_light = Estimate::of(path_count(), |sampler: &mut Sampler| {
             let (at, choice) = (sampler.next_2d(), sampler.next_1d());
-            let sample = lights.sample(&context.scene, normal, at, choice);
+            let sample = lights.sample(&context.scene, context.lighting.spawn, normal, at, choice);
             sample.map_or(0.0, |sample| {
                 FRAC_1_PI * cos(sample.dir) * f64::from(sample.weight.y)
             })

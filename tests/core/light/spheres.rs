@@ -66,7 +66,13 @@ fn the_density_of_a_sphere_is_that_of_its_samples() {
         for k in 0..1000 {
             let mut sampler = Sampler::new(UVec2::new(k, 1), 0);
             let at: Vec2 = sampler.next_2d();
-            let sample = lights.sample(&context.scene, outside, at, sampler.next_1d());
+            let sample = lights.sample(
+                &context.scene,
+                context.lighting.spawn,
+                outside,
+                at,
+                sampler.next_1d(),
+            );
             let sample = sample.expect("the sphere is visible");
             // Directions are rounded, so that a ray at the edge may miss.
             if at.x < 0.999 {
