@@ -4,13 +4,14 @@ use crate::golden;
 use glam::{UVec2, Vec3};
 use hitscope_core::Scene;
 use hitscope_core::camera::Projection;
-use hitscope_core::integrator::{INTEGRATORS, PathEnd, PathRecord, PathVertex};
+use hitscope_core::integrator::{INTEGRATORS, PathEnd, PathRecord, PathVertex, Sample};
 use hitscope_core::kernel::default_triangle_kernel;
 use hitscope_core::light::{DirectionalLight, Environment, Light, Lights};
 use hitscope_core::mesh::shapes::{Placement, torus};
 use hitscope_core::mesh::{Assigned, Attributes, Material, Runs};
 use hitscope_core::plan::Plan;
 use hitscope_core::render::{Job, render};
+use hitscope_core::sampler::Sampler;
 use hitscope_core::scene::{Shading, scene};
 use std::sync::Arc;
 
@@ -79,6 +80,32 @@ fn a_recorded_path_has_the_colour_of_its_sample_bit_for_bit() {
                 let found = film.radiance(pixel).expect("a sample").to_array();
                 assert_eq!(found, expected, "{view} {pixel}");
             }
+        }
+    }
+}
+
+#[test]
+fn samples_of_a_batch_get_the_same_bits_as_alone() {
+    for view in INTEGRATORS {
+        let job = job(view.name, 1, true);
+        let context = &job.context;
+        let sample = |pixel| {
+            let ray = context.camera.ray(pixel, Plan::position(pixel, 1));
+            let hit = context.intersector.closest_hit(&ray);
+            Sample::new(ray, hit, Sampler::new(pixel, 1))
+        };
+        let mut together: Vec<Sample> = pixels().map(sample).collect();
+        view.radiances(context, &mut together);
+        for (pixel, found) in pixels().zip(together) {
+            let Sample {
+                ray,
+                hit,
+                mut sampler,
+                ..
+            } = sample(pixel);
+            let alone = view.radiance(context, &ray, hit, &mut sampler);
+            let bits = |colour: Vec3| colour.to_array().map(f32::to_bits);
+            assert_eq!(bits(found.radiance), bits(alone), "{} {pixel}", view.name);
         }
     }
 }
