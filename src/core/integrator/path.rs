@@ -60,7 +60,7 @@ pub(super) fn follow_recorded(
 ) {
     (sample.ray, sample.hit) = past_emitters(context, &sample.ray, sample.hit, recorder);
     if shows_background(context, sample.hit) {
-        recorder.from_afar(context.background);
+        recorder.escape(context.background);
         recorder.end(PathEnd::Left, &sample.ray);
         sample.radiance = context.background;
         return;
@@ -170,7 +170,7 @@ impl<'a> Path<'a> {
         let ray = self.sample.ray;
         let Some(hit) = self.sample.hit else {
             let light = self.throughput * from_afar(context, &ray, self.density);
-            recorder.from_afar(light);
+            recorder.escape(light);
             self.sample.radiance += light;
             return (None, Some(PathEnd::Left));
         };

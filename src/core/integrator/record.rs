@@ -104,7 +104,7 @@ pub(super) trait Recorder {
     /// The path continues with this throughput.
     fn scatter(&mut self, _throughput: Vec3) {}
     /// The last ray brings this light from afar.
-    fn from_afar(&mut self, _light: Vec3) {}
+    fn escape(&mut self, _light: Vec3) {}
     /// The path ends with this ray.
     fn end(&mut self, _end: PathEnd, _ray: &Ray) {}
 }
@@ -163,7 +163,7 @@ impl Recorder for PathRecord {
         self.change(|vertex| vertex.throughput = throughput);
     }
 
-    fn from_afar(&mut self, light: Vec3) {
+    fn escape(&mut self, light: Vec3) {
         self.from_afar = light;
     }
 
