@@ -323,6 +323,12 @@ impl Integrator {
                     sample.radiance = radiance(context, &ray, hit, &mut sample.sampler);
                 }
             }
+            Source::Index => {
+                for sample in samples {
+                    let colour = |hit: Hit| palette::id_colour(hit.primitive);
+                    sample.radiance = sample.hit.map_or(context.background, colour);
+                }
+            }
             Source::Number(view) => {
                 for sample in samples {
                     let Sample { ray, hit, .. } = *sample;
