@@ -81,7 +81,7 @@ fn a_panic_while_packing_a_kernel_is_reported_and_the_previous_kernel_stays() {
 fn a_panic_while_packing_for_a_comparing_view_is_reported_and_the_default_view_is_restored() {
     let Some(mut window) = app(None) else { return };
     sabotage::next("pack");
-    window.state_mut().seen.settings.view = "error-t".to_owned();
+    window.state_mut().seen.settings.view = "disagreement".to_owned();
     assert!(window.state().settings().second_kernel().is_some());
     wait_for_message(&mut window);
     assert_eq!(window.state().settings().view, Settings::default().view);
