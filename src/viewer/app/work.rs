@@ -163,7 +163,7 @@ mod tests {
         window.get_by_label("Cancel").click();
         window.run_steps(3);
         assert!(!is_shown(&window, "Packing the scene"));
-        assert_eq!(window.state().settings().kernel().info.name, "watertight");
+        assert_eq!(window.state().settings().kernel().info.name, "exact");
         drop(hold);
 
         let hold = sabotage::hold("parts");
