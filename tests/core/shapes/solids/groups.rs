@@ -21,6 +21,7 @@ fn lines_end_at_the_seam_of_two_operands() {
     let detail = LineDetail {
         segments: 64,
         around: scene.bounds(),
+        view: None,
     };
     let (mut nearest, mut sees_dent) = (f64::INFINITY, false);
     scene.groups()[0].lines(0, &detail, &mut |line| {
