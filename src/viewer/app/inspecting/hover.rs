@@ -141,7 +141,7 @@ fn element(scene: &Scene, hit: &Hit) -> Vec<String> {
         parts.extend(attributes.groups.of(hit.primitive).cloned());
     }
     let material = attributes.materials.get(scene.material(hit.primitive));
-    let name = material.map(|material| material.name.clone());
-    parts.extend(name.filter(|name| !name.is_empty()));
+    parts.extend(material.map(|material| material.name.clone()));
+    parts.retain(|part| !part.is_empty());
     parts
 }
