@@ -154,13 +154,14 @@ mod tests {
     use super::*;
     use glam::Vec3;
     use hitscope_core::TriangleMesh;
+    use hitscope_core::group::Grouped;
     use hitscope_core::mesh::Runs;
     use hitscope_core::progress::Progress;
     use hitscope_core::scene::{SceneOptions, scene};
-    use hitscope_core::shape::{AxisBox, Shape, Sphere, Torus};
+    use hitscope_core::shape::{AxisBox, Sphere, Torus};
 
     /// Starts and directions of the normals of a shape alone.
-    fn normals_of(shape: impl Shape) -> Vec<[DVec3; 2]> {
+    fn normals_of(shape: impl Grouped) -> Vec<[DVec3; 2]> {
         let mut scene = scene(TriangleMesh::default());
         let options = SceneOptions::default();
         let added = scene.add_group(vec![shape], Runs::default(), options, &Progress::default());

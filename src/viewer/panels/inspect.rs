@@ -137,7 +137,7 @@ fn shape_ui(ui: &mut egui::Ui, hit: &HitReport) {
         ui.label(RichText::new("Solid").strong())
             .on_hover_text("The operations, and the intervals of t inside each part");
         rows_ui(ui, |ui| {
-            solid.lines.iter().for_each(|line| tree_line_ui(ui, line))
+            solid.lines.iter().for_each(|line| tree_line_ui(ui, line));
         });
     }
 }
