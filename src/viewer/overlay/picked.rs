@@ -20,7 +20,7 @@ pub static PICKED: OverlaySpec = OverlaySpec {
         ..LineSpec::new(|input, _| {
             let primitive = input.marks.picked?;
             let is_triangle = input.scene.is_triangle(primitive);
-            let camera = (!is_triangle).then_some(input.camera);
+            let camera = (!is_triangle).then_some(input.lines_camera);
             let gather = Gather::new(
                 (primitive, camera),
                 |scene, (primitive, camera)| match camera {

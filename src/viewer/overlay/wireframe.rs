@@ -35,7 +35,7 @@ pub static WIREFRAME: OverlaySpec = OverlaySpec {
         LineSpec {
             fade: Fade::Dense,
             has_outlines: true,
-            ..LineSpec::new(|input, _| of_shapes(input, ShapeLines::Seen(input.camera)))
+            ..LineSpec::new(|input, _| of_shapes(input, ShapeLines::Seen(input.lines_camera)))
         },
         LineSpec {
             fade: Fade::Dense,
