@@ -8,7 +8,7 @@ struct Style {
     // The end is moved to this many times its distance from the start.
     stretch: f32,
     // 1: lines fade where they or the gap between them would be less than a few pixels long. 2: the gap alone counts, as
-    // lines are pieces of curves. 0: they don't fade.
+    // lines are pieces of curves. 3: the same, whatever the gap's direction. 0: they don't fade.
     fade: f32,
     // 1: the clip cuts lines. 0: it doesn't.
     is_cut: f32,
@@ -45,6 +45,23 @@ fn visible_part(gap_px: f32) -> f32 {
     const VEIL = 0.12;
     let veil = VEIL * min(gap_px / MERGED_PX, 1.0);
     return mix(veil, 1.0, smoothstep(MERGED_PX, ALONE_PX, gap_px));
+}
+
+// The length in pixels of a vector at a point, along the axis where it appears longest.
+fn longest_px(at: vec3f, size: f32) -> f32 {
+    const SEPARATE_PX = 1e6;
+    let here = clip_from_position(at);
+    var longest = 0.0;
+    for (var axis = 0u; axis < 3u; axis += 1u) {
+        var beside_at = at;
+        beside_at[axis] += size;
+        let beside = clip_from_position(beside_at);
+        if min(here.w, beside.w) <= view.near_w {
+            return SEPARATE_PX;
+        }
+        longest = max(longest, length(pixel_from_clip(beside) - pixel_from_clip(here)));
+    }
+    return longest;
 }
 
 // The part of a line that the clip keeps, as two factors from 0 to 1; the first is the larger one if nothing is kept.
@@ -99,7 +116,9 @@ fn vs_main(@builtin(vertex_index) vertex: u32, line: Line) -> Fragment {
     }
 
     var alpha = 1.0;
-    if style.fade > 0.0 {
+    if style.fade > 2.0 {
+        alpha = visible_part(longest_px(line.start, length(line.gap)));
+    } else if style.fade > 0.0 {
         let middle = mix(line.start, line.end, 0.5);
         let here = clip_from_position(middle);
         let beside = clip_from_position(middle + line.gap);

@@ -90,6 +90,7 @@ fn input(rendered: &Rendered) -> OverlayInput {
     OverlayInput {
         scene: Arc::clone(scene),
         camera: rendered.camera,
+        lines_camera: rendered.camera,
         up_axis: rendered.up_axis,
         pivot: if bounds.is_empty() {
             DVec3::ZERO

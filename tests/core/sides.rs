@@ -171,6 +171,7 @@ fn only_the_flipped_shapes_of_a_group_are_flipped() {
     let detail = LineDetail {
         segments: 8,
         around: Aabb::EMPTY,
+        view: None,
     };
     for (index, is_flipped) in (0..).zip(flipped) {
         let centre = Vec3::new(4.0 * index as f32, 0.0, 0.0);

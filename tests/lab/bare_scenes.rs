@@ -59,13 +59,13 @@ fn scenes_without_size_have_no_bounds() {
 
 #[test]
 fn info_states_nothing_about_triangles_where_there_are_none() {
-    for (contents, shape) in [
-        (PLANE, "1 axis-aligned plane"),
-        (SOLID, "1 solid"),
-        (EMPTY_SOLID, "1 solid"),
+    for (contents, shape, tree) in [
+        (PLANE, "1 axis-aligned plane", "no tree\n"),
+        (SOLID, "1 solid", "tree of "),
+        (EMPTY_SOLID, "1 solid", "tree of "),
     ] {
         let (text, json) = info(&folder(contents));
-        let line = format!("\nshape               {shape}: tree of ");
+        let line = format!("\nshape               {shape}: {tree}");
         assert!(text.contains(&line), "{text}");
         for part in [
             "vertices rounded by",

@@ -43,6 +43,7 @@ pub fn input(scene: &Arc<Scene>, camera: Camera) -> OverlayInput {
     OverlayInput {
         scene: Arc::clone(scene),
         camera,
+        lines_camera: camera,
         up_axis: UpAxis::Y,
         pivot: DVec3::ZERO,
         marks: Marks::default(),

@@ -190,6 +190,62 @@ fn a_sphere_has_an_outline_and_no_lines_beyond_it() {
 }
 
 #[test]
+fn lines_of_a_sphere_are_unbroken_from_near() {
+    if gpu().is_none() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let xml = format!("<scene version=\"3.0.0\">{BALL}</scene>");
+    std::fs::write(folder.path().join("scene.xml"), xml).expect("written");
+    // The equator and a meridian cross in the middle of the picture.
+    for (distance, fov) in [("1.3", "40"), ("1.01", "40"), ("4", "0.5")] {
+        let eye = format!("{distance},0,0");
+        let view = ["--target", "1,0,0", "--up", "0,0,1", "--fov", fov];
+        let picture = |overlay: &[&str]| {
+            let mut line = vec!["render", "scene.xml", "-o", "out.png", "--samples", "1"];
+            line.extend(["--size", "300x300", "--eye", &eye]);
+            line.extend(view);
+            line.extend(overlay);
+            let output = Command::new(env!("CARGO_BIN_EXE_hitscope"))
+                .args(&line)
+                .current_dir(folder.path())
+                .output()
+                .expect("the program runs");
+            let said = String::from_utf8_lossy(&output.stderr);
+            assert!(output.status.success(), "{said}");
+            let path = folder.path().join("out.png");
+            image::open(path).expect("a PNG").to_rgba8()
+        };
+        let (plain, drawn) = (picture(&[]), picture(&["--wireframe"]));
+        let is_drawn = |x: u32, y: u32| plain.get_pixel(x, y) != drawn.get_pixel(x, y);
+        for k in 20..280 {
+            // Lines are at the border of two pixels.
+            let (row, column) = (
+                is_drawn(k, 149) || is_drawn(k, 150),
+                is_drawn(149, k) || is_drawn(150, k),
+            );
+            assert!(row && column, "{k} from {distance}");
+        }
+    }
+}
+
+/// A torus before itself: the near part of its tube covers the far part.
+#[test]
+fn a_shape_in_front_of_itself_has_an_outline() {
+    let Some(_) = gpu() else { return };
+    let torus = r#"<shape type="torus"><float name="major" value="1.2"/><float name="minor" value="0.8"/></shape>"#;
+    // From 22.5° above the plane of the torus: the border is between two of its lines, three pixels from each.
+    let pixels = changed_from("0,-4.62,1.914", torus, "--wireframe");
+    let border = 0.8 - 1.2 * 22.5_f64.to_radians().sin();
+    for x in 88..112 {
+        // The border falls by less than half a pixel beside the middle.
+        let at = DVec2::new(f64::from(x) + 0.5, 100.0 - 50.0 * border);
+        let is_near = |p: &DVec2| p.x == at.x && (p.y - at.y).abs() < 1.6;
+        assert!(pixels.iter().any(is_near), "{x}");
+    }
+}
+
+#[test]
 fn a_flat_shape_hides_the_lines_behind_it() {
     let Some(_) = gpu() else { return };
     let flat = r#"<shape type="rectangle"><transform name="to_world"><scale value="1.5"/><translate z="2"/></transform></shape>"#;

@@ -2,7 +2,7 @@
 
 use crate::harness::{Window, app, click, in_picture, press, say, settle, wait};
 use egui::{Key, Modifiers};
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{By, Queryable as _};
 use glam::DVec3;
 use hitscope::app::App;
 use hitscope::trade::{Trade, TradeState};
@@ -134,7 +134,18 @@ fn keys_and_a_slider_step_through_the_crossings_of_the_picked_ray() {
     window.get_by_label("axis-aligned box 1, back");
     press(&mut window, Key::OpenBracket);
     is_near(state(&window), (2, -4.0));
-    window.get_by_role(egui::accesskit::Role::Slider);
+    // The tooltip appears at the heading: at the slider it would cover the rows that change.
+    let tooltip = "The slider moves the mark along the ray";
+    window.get_by_role(egui::accesskit::Role::Slider).hover();
+    window.run_steps(60);
+    assert!(window.query_by_label_contains(tooltip).is_none());
+    let heading = By::new()
+        .include_labels()
+        .role(egui::accesskit::Role::Label)
+        .label("Crossings");
+    window.get(heading).hover();
+    window.run_steps(60);
+    assert!(window.query_by_label_contains(tooltip).is_some());
     // Another kernel keeps the crossing; another click doesn't.
     window.run_steps(2);
     click(&mut window, middle);

@@ -1,5 +1,6 @@
 //! Wireframe lines of shapes: lines of constant surface coordinates.
 
+use super::curve::LineView;
 use crate::aabb::Aabb;
 use glam::DVec3;
 use std::f64::consts::TAU;
@@ -16,10 +17,12 @@ pub struct LinePoint {
 /// How lines are drawn.
 #[derive(Clone, Copy, Debug)]
 pub struct LineDetail {
-    /// The number of straight pieces of a full circle.
+    /// The least number of straight pieces of a full circle.
     pub segments: u32,
     /// The region in which infinite surfaces are drawn.
     pub around: Aabb,
+    /// The camera whose picture curves are divided for. Without it, they have the least number of pieces.
+    pub view: Option<LineView>,
 }
 
 /// Receives lines, each as a sequence of points.
@@ -34,15 +37,15 @@ impl LineDetail {
         add: AddLine<'_>,
         normal: impl Fn(DVec3) -> DVec3,
     ) {
-        let point = |k: u32| {
-            let (sin, cos) = (TAU * f64::from(k) / f64::from(self.segments)).sin_cos();
+        let point = |angle: f64| {
+            let (sin, cos) = angle.sin_cos();
             let outwards = cos * x + sin * y;
             LinePoint {
                 position: centre + outwards,
                 normal: normal(outwards.normalize_or_zero()),
             }
         };
-        add(&(0..=self.segments).map(point).collect::<Vec<_>>());
+        add(&self.curve([0.0, TAU], self.segments, &point));
     }
 }
 
@@ -51,10 +54,14 @@ pub(super) fn straight(from: DVec3, to: DVec3, normal: DVec3, add: AddLine<'_>) 
     add(&[from, to].map(|position| LinePoint { position, normal }));
 }
 
-/// A grid over the points c + a·u + b·v with |a|, |b| ≤ 1, with `count` cells along each side.
+/// A grid over the points c + a·u + b·v with |a|, |b| ≤ 1, with an even `count` of cells along each side. The lines through
+/// the centre come first.
 pub(super) fn grid(centre: DVec3, [u, v]: [DVec3; 2], count: u32, normal: DVec3, add: AddLine<'_>) {
+    let half = f64::from(count / 2);
     for k in 0..=count {
-        let at = 2.0 * f64::from(k) / f64::from(count) - 1.0;
+        // 0, −1, 1, −2, 2, …
+        let steps = f64::from(k.div_ceil(2));
+        let at = if k % 2 == 1 { -steps } else { steps } / half;
         straight(centre + at * u - v, centre + at * u + v, normal, add);
         straight(centre + at * v - u, centre + at * v + u, normal, add);
     }
@@ -90,7 +97,7 @@ pub(super) fn box_grid(centre: DVec3, axes: [DVec3; 3], add: AddLine<'_>) {
     }
 }
 
-/// Circles and diameters of a disk with this normal, or of an ellipse with these half axes.
+/// Diameters, which come first, and circles of a disk with this normal, or of an ellipse with these half axes.
 pub(super) fn disk_lines(
     centre: DVec3,
     axes: [DVec3; 2],
@@ -100,13 +107,13 @@ pub(super) fn disk_lines(
 ) {
     /// Diameters; they meet the lines of a cylinder's side.
     const DIAMETERS: u32 = 6;
-    for part in [0.5, 1.0] {
-        detail.circle(centre, axes.map(|axis| part * axis), add, |_| normal);
-    }
     for k in 0..DIAMETERS {
         let (sin, cos) = (TAU * f64::from(k) / f64::from(2 * DIAMETERS)).sin_cos();
         let radius = cos * axes[0] + sin * axes[1];
         straight(centre - radius, centre + radius, normal, add);
+    }
+    for part in [0.5, 1.0] {
+        detail.circle(centre, axes.map(|axis| part * axis), add, |_| normal);
     }
 }
 

@@ -127,6 +127,9 @@ struct ShapeGroup {
     reversed_normals: usize,
     /// Null if there is none, as for planes, which are infinite, and for empty solids.
     bounds: Option<Bounds>,
+    /// Whether the tree orders the primitives. Rays visit all primitives of a group with infinite ones.
+    #[serde(skip)]
+    has_tree: bool,
     #[serde(skip)]
     text: String,
 }
@@ -146,6 +149,7 @@ impl ShapeGroup {
             tree_bytes: group.bvh().bytes(),
             build_ms: group.build_time().as_secs_f64() * 1e3,
             bounds: Bounds::of(bounds, mesh),
+            has_tree: group.is_bounded(),
             reversed_normals,
             text: counted_as(group.count(), shape.name, shape.plural) + &reversed,
         }
@@ -317,12 +321,13 @@ impl Info {
             return writeln!(out, "shape               none: the scene is empty");
         }
         for group in &self.shapes {
-            let (bytes, ms) = (grouped(group.tree_bytes), group.build_ms);
-            writeln!(
-                out,
-                "shape               {}: tree of {bytes} bytes in {ms:.1} ms",
-                group.text
-            )?;
+            let tree = if group.has_tree {
+                let (bytes, ms) = (grouped(group.tree_bytes), group.build_ms);
+                format!("tree of {bytes} bytes in {ms:.1} ms")
+            } else {
+                "no tree".to_owned()
+            };
+            writeln!(out, "shape               {}: {tree}", group.text)?;
             Bounds::print(group.bounds.as_ref(), "", "no bounds", out)?;
         }
         Ok(())

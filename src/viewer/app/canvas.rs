@@ -308,6 +308,7 @@ impl App {
         OverlayInput {
             scene: Arc::clone(scene),
             camera,
+            lines_camera: camera,
             up_axis: self.seen.settings.up_axis(),
             pivot: self.seen.turntable.pivot,
             marks: if is_current { marks } else { Marks::default() },

@@ -47,7 +47,12 @@ impl App {
                         ui.label(format!("No file is open. Drop a file here or press {key}."));
                     }
                     _ => {
-                        ui.label("The mesh isn't visible.");
+                        let has_others = self.open.document.loaded.scene.has_other_shapes();
+                        ui.label(if has_others {
+                            "No surface is visible."
+                        } else {
+                            "The mesh isn't visible."
+                        });
                         commands.button_ui(ui, "frame");
                         if commands.named("show-everything").is_enabled() {
                             commands.button_ui(ui, "show-everything");

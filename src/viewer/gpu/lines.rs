@@ -48,7 +48,8 @@ pub struct StyleUniform {
     pub half_width_px: f32,
     /// Factor of the line's length; the start stays in place.
     pub stretch: f32,
-    /// 1 if lines fade where they are short or dense, 2 if only where they are dense, else 0.
+    /// 1 if lines fade where they are short or dense, 2 if only where they are dense, 3 if where they are dense in any
+    /// direction, else 0.
     pub fade: f32,
     /// 1 if the clip cuts lines, else 0.
     pub is_cut: f32,

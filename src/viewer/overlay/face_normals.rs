@@ -2,7 +2,7 @@
 
 use super::gather::Gather;
 use super::normals::{LENGTH, line};
-use super::shapes;
+use super::shape_normals::NORMALS_OF_SHAPES;
 use super::spec::{Fade, LineSpec, OverlaySpec, OverlayStyle};
 use crate::gpu::lines::Line;
 use hitscope_core::Scene;
@@ -18,15 +18,18 @@ pub static FACE_NORMALS: OverlaySpec = OverlaySpec {
         width_px: 1.0,
     },
     options: &[&LENGTH],
-    lines: &[LineSpec {
-        fade: Fade::ShortOrDense,
-        length: Some(&LENGTH),
-        ..LineSpec::new(|_, _| Some(Gather::new((), |scene, ()| lines(scene))))
-    }],
+    lines: &[
+        LineSpec {
+            fade: Fade::ShortOrDense,
+            length: Some(&LENGTH),
+            ..LineSpec::new(|_, _| Some(Gather::new((), |scene, ()| lines(scene))))
+        },
+        NORMALS_OF_SHAPES,
+    ],
     ..OverlaySpec::SWITCH
 };
 
-/// One line per triangle that is shown, and those of other shapes.
+/// One line per triangle that is shown.
 pub fn lines(scene: &Scene) -> Vec<Line> {
     let mesh = scene.mesh();
     let of_triangle = |triangle: u32| {
@@ -39,12 +42,10 @@ pub fn lines(scene: &Scene) -> Vec<Line> {
             0.5 * (b - a),
         )
     };
-    let mut lines: Vec<Line> = (0..mesh.triangles().len() as u32)
+    (0..mesh.triangles().len() as u32)
         .filter(|&triangle| scene.is_shown(triangle))
         .map(of_triangle)
-        .collect();
-    lines.extend(shapes::normals(scene));
-    lines
+        .collect()
 }
 
 #[cfg(test)]

@@ -15,6 +15,8 @@ pub struct OverlayInput {
     pub scene: Arc<Scene>,
     /// The camera of the picture.
     pub camera: Camera,
+    /// The camera that curves are divided into lines for: that of the picture, but while it moves, an earlier one.
+    pub lines_camera: Camera,
     /// The axis that points up.
     pub up_axis: UpAxis,
     /// The point that the camera turns about, in the scene's coordinates.

@@ -51,6 +51,8 @@ pub struct OverlayLayer {
     /// Lines by their slots.
     lines: BTreeMap<usize, Uploaded<Key, LineSet>>,
     painter: Painter,
+    /// The camera of the last drawing while the camera was still.
+    lines_camera: Option<Camera>,
     /// The slots of the last drawing's lines.
     wanted: BTreeSet<usize>,
     /// The size of the picture for which there was no memory.
@@ -66,6 +68,7 @@ impl OverlayLayer {
             painter: Painter::new(Arc::clone(&overlay), is_software),
             overlay,
             is_software,
+            lines_camera: None,
             scene: None,
             mesh: Uploaded::default(),
             shapes: Shapes::default(),
@@ -94,6 +97,7 @@ impl OverlayLayer {
         overlays: &Overlays,
         ctx: &egui::Context,
     ) -> Result<Option<wgpu::Texture>, OverlayError> {
+        self.lines_camera = Some(input.camera);
         self.draw_in(Motion::Still, input, overlays, ctx)
     }
 
@@ -112,7 +116,12 @@ impl OverlayLayer {
             self.pause();
             return Ok(None);
         }
-        self.draw_in(Motion::Moving, input, overlays, ctx)
+        // Lines for each view would be gathered too late, and take threads.
+        let input = OverlayInput {
+            lines_camera: *self.lines_camera.get_or_insert(input.camera),
+            ..input.clone()
+        };
+        self.draw_in(Motion::Moving, &input, overlays, ctx)
     }
 
     fn draw_in(

@@ -11,7 +11,7 @@
 //! | [`wireframe`], [`elements`], [`bounding_box`], [`grid`], [`axes`] | overlays with a switch |
 //! | [`face_normals`], [`vertex_normals`] | two more, and [`normals`], which they share |
 //! | [`flaws`], [`picked`], [`path`], [`walk`], [`measure`] | marks of what is selected |
-//! | [`shapes`], [`traced`] | lines of shapes other than meshes; their depth and outlines |
+//! | [`shapes`], [`shape_normals`], [`traced`] | lines and normals of shapes other than meshes; their depth and outlines |
 //! | [`step`] | round numbers |
 //! | [`contents`] | the lines of all overlays that are on |
 //! | [`layer`] | the overlay of the window's picture |
@@ -35,6 +35,7 @@ pub(crate) mod older;
 mod painter;
 pub mod path;
 pub mod picked;
+pub mod shape_normals;
 pub mod shapes;
 pub mod spec;
 pub mod state;

@@ -1,8 +1,9 @@
 //! The picked primitive: the outline of a triangle, or the lines of another shape.
 
 use super::gather::Gather;
+use super::shapes::lines_of;
 use super::spec::{Behind, LineSpec, OverlaySpec, OverlayStyle};
-use super::wireframe::primitive_lines;
+use super::wireframe::triangle_lines;
 
 /// The overlay.
 pub static PICKED: OverlaySpec = OverlaySpec {
@@ -17,9 +18,16 @@ pub static PICKED: OverlaySpec = OverlaySpec {
     lines: &[LineSpec {
         behind: Behind::Faint,
         ..LineSpec::new(|input, _| {
-            let gather = Gather::new(input.marks.picked?, |scene, &primitive| {
-                primitive_lines(scene, primitive)
-            });
+            let primitive = input.marks.picked?;
+            let is_triangle = input.scene.is_triangle(primitive);
+            let camera = (!is_triangle).then_some(input.lines_camera);
+            let gather = Gather::new(
+                (primitive, camera),
+                |scene, (primitive, camera)| match camera {
+                    Some(camera) => lines_of(scene, *primitive, camera),
+                    None => triangle_lines(scene.mesh(), *primitive).to_vec(),
+                },
+            );
             Some(gather)
         })
     }],

@@ -101,6 +101,8 @@ pub enum Fade {
     ShortOrDense,
     /// Where they are dense: for lines that consist of short pieces.
     Dense,
+    /// Where they are dense, whatever the direction to the next one: for lines at points that are spread over a surface.
+    Spread,
 }
 
 /// How lines behind a surface are drawn.
@@ -190,6 +192,7 @@ impl LineSpec {
                 Fade::Never => 0.0,
                 Fade::ShortOrDense => 1.0,
                 Fade::Dense => 2.0,
+                Fade::Spread => 3.0,
             },
             is_cut: f32::from(u8::from(self.is_cut)),
         }

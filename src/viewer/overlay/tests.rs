@@ -18,9 +18,11 @@ pub(crate) fn input(scene: &Arc<Scene>) -> OverlayInput {
     let eye = centre + 10.0 * radius * DVec3::new(0.3, 0.4, 0.86);
     let projection = Projection::Perspective { fov_y_radians: 0.5 };
     let camera = Camera::look_at(eye, centre, DVec3::Y, projection, UVec2::new(640, 480));
+    let camera = camera.expect("a camera");
     OverlayInput {
         scene: Arc::clone(scene),
-        camera: camera.expect("a camera"),
+        camera,
+        lines_camera: camera,
         up_axis: UpAxis::Y,
         pivot: centre,
         marks: Marks::default(),

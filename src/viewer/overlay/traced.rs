@@ -2,7 +2,7 @@
 
 use crate::gpu::traced::TracedPixel;
 use crate::gpu::view::ViewUniform;
-use glam::{UVec2, Vec2};
+use glam::{DVec3, UVec2, Vec2};
 use hitscope_core::kernel::{KernelTable as _, Tier};
 use hitscope_core::shape::Triangle;
 use hitscope_core::{Camera, Intersector, Ray, Scene};
@@ -13,20 +13,36 @@ use std::sync::{Arc, OnceLock};
 /// edge, and a margin, so that it doesn't hide the lines on it.
 const REACH_PX: usize = 2;
 
+/// A surface hides lines that are farther than it by more than this many pixels, so that it doesn't hide the lines on it,
+/// whose pieces are chords: they may be deeper by the tolerance of lines, a tenth of a pixel.
+const SLACK_PX: f64 = 0.5;
+
+/// Between neighbouring pixels of one surface that show a fold, its depth changes by more than this factor of the change
+/// beside them. It changes less at a silhouette without a fold, where depth is proportional to the square root of the
+/// distance x from it, by at most (√(x+1) − √x)/(√(x+2) − √(x+1)) < 1 + √2.
+const FOLD: f32 = 3.0;
+
+/// The depth of a fold, in units of the slack: two pixels.
+const FOLD_SLACKS: f32 = 4.0;
+
 /// The shapes of a scene other than triangles, packed without the clip on first use.
 #[derive(Clone, Default)]
 pub struct Shapes(Arc<OnceLock<Arc<dyn Intersector>>>);
 
-/// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss.
+/// The surface visible in a pixel, with its reversed depth; 0 and `None` for a miss. The depth is that of a point behind
+/// the surface by the slack.
 #[derive(Clone, Copy, PartialEq)]
 struct VisibleSurface {
     depth: f32,
+    /// The change of depth within [`SLACK_PX`].
+    slack: f32,
     surface: Option<[u32; 2]>,
 }
 
 impl VisibleSurface {
     const NONE: Self = Self {
         depth: 0.0,
+        slack: 0.0,
         surface: None,
     };
 }
@@ -66,13 +82,25 @@ fn trace_row(
     intersector.coherent_hits(&rays, &mut hits);
     for ((visible, hit), ray) in row.iter_mut().zip(hits).zip(&rays) {
         if let Some(hit) = hit {
+            let point = ray.at(hit.t);
+            let depth = view.depth_of(behind(point, ray, camera));
             *visible = VisibleSurface {
-                depth: view.depth_of(ray.at(hit.t)),
+                depth,
+                slack: view.depth_of(point) - depth,
                 // v tells the operands of a solid apart.
                 surface: Some([hit.primitive, hit.v.to_bits()]),
             };
         }
     }
+}
+
+/// The point behind a hit by [`SLACK_PX`], and by what rounding of t and of lines' points to f32 takes.
+fn behind(point: DVec3, ray: &Ray, camera: &Camera) -> DVec3 {
+    const ULPS: f64 = 4.0;
+    let reach = point.abs().max_element() + ray.origin.as_dvec3().abs().max_element();
+    let rounding = ULPS * f64::from(f32::EPSILON) * reach;
+    let pixel = camera.pixel_size_at(camera.depth_of(point));
+    point + (SLACK_PX * pixel + rounding) * ray.dir.as_dvec3().normalize_or_zero()
 }
 
 /// The least depth, which is the farthest point, near each pixel.
@@ -100,22 +128,43 @@ fn farthest_around(visible: &[VisibleSurface], size: UVec2) -> Vec<f32> {
 }
 
 /// The depth of the outline in a pixel, or −1 if there is none: the nearer of two neighbouring pixels that show different
-/// surfaces has it; both do if they are equally near.
+/// surfaces, or a fold of one surface in front of itself, has it; both do if they are equally near.
 fn outline(visible: &[VisibleSurface], size: UVec2, index: usize) -> f32 {
-    let width = size.x as usize;
+    let (width, height) = (size.x as usize, size.y as usize);
     let (x, y) = (index % width, index / width);
-    let neighbours = [
-        (x > 0).then(|| index - 1),
-        (x + 1 < width).then_some(index + 1),
-        (y > 0).then(|| index - width),
-        (y + 1 < size.y as usize).then_some(index + width),
+    // The number of pixels on a side, and the distance of their indices.
+    let sides = [
+        (x, -1),
+        (width - 1 - x, 1),
+        (y, -(width as isize)),
+        (height - 1 - y, width as isize),
     ];
     let own = visible[index];
-    let is_outline = |other: &usize| {
-        let other = visible[*other];
-        other.surface != own.surface && other.depth <= own.depth
+    let is_outline = |side: usize| {
+        let (count, step) = sides[side];
+        let at = |steps: isize| visible[(index as isize + steps * step) as usize];
+        if count == 0 {
+            return false;
+        }
+        let other = at(1);
+        if other.surface != own.surface {
+            return other.depth <= own.depth;
+        }
+        // Depth is linear in the picture where a surface is flat.
+        let change = |a: VisibleSurface, b: VisibleSurface| {
+            let is_same = a.surface == own.surface && b.surface == own.surface;
+            is_same.then(|| (a.depth - b.depth).abs())
+        };
+        let before = (sides[side ^ 1].0 > 0)
+            .then(|| change(at(-1), own))
+            .flatten();
+        let after = (count > 1).then(|| change(other, at(2))).flatten();
+        let Some(beside) = before.into_iter().chain(after).reduce(f32::max) else {
+            return false;
+        };
+        own.depth - other.depth > (FOLD * beside).max(FOLD_SLACKS * own.slack)
     };
-    if own.surface.is_some() && neighbours.iter().flatten().any(is_outline) {
+    if own.surface.is_some() && (0..4).any(is_outline) {
         own.depth
     } else {
         -1.0
@@ -129,6 +178,7 @@ mod tests {
     fn row(depths: &[f32]) -> Vec<VisibleSurface> {
         let visible = |&depth: &f32| VisibleSurface {
             depth,
+            slack: 0.0,
             surface: (depth > 0.0).then_some([(10.0 * depth) as u32, 0]),
         };
         depths.iter().map(visible).collect()
@@ -148,5 +198,27 @@ mod tests {
         );
         let hides = farthest_around(&visible, size);
         assert_eq!(hides, [0.0, 0.0, 0.0, 0.0, 0.0, 0.5, 0.2, 0.2, 0.2, 0.2]);
+    }
+
+    #[test]
+    fn a_fold_of_one_surface_has_an_outline_and_a_round_border_and_an_edge_have_none() {
+        let outlined = |depths: &[f32]| -> Vec<usize> {
+            let visible: Vec<VisibleSurface> = depths
+                .iter()
+                .map(|&depth| VisibleSurface {
+                    depth,
+                    slack: 1e-3,
+                    surface: Some([0, 0]),
+                })
+                .collect();
+            let size = UVec2::new(depths.len() as u32, 1);
+            let has_outline = |index: &usize| outline(&visible, size, *index) >= 0.0;
+            (0..depths.len()).filter(has_outline).collect()
+        };
+        assert_eq!(outlined(&[0.2, 0.21, 0.22, 0.5, 0.52, 0.53]), [3]);
+        assert_eq!(outlined(&[0.5, 0.45, 0.2, 0.19]), [1]);
+        let round: Vec<f32> = (0..9).map(|x| 0.1 + 0.1 * (x as f32).sqrt()).collect();
+        assert!(outlined(&round).is_empty());
+        assert!(outlined(&[0.5, 0.5, 0.5, 0.48, 0.46, 0.44]).is_empty());
     }
 }

@@ -2,7 +2,7 @@
 
 use super::gather::Gather;
 use super::normals::{LENGTH, line};
-use super::shapes;
+use super::shape_normals::NORMALS_OF_SHAPES;
 use super::spec::{Fade, LineSpec, OverlaySpec, OverlayStyle};
 use crate::gpu::lines::Line;
 use glam::Vec3;
@@ -19,16 +19,21 @@ pub static VERTEX_NORMALS: OverlaySpec = OverlaySpec {
         width_px: 1.0,
     },
     options: &[&LENGTH],
-    lines: &[LineSpec {
-        fade: Fade::ShortOrDense,
-        length: Some(&LENGTH),
-        // Normals differ at creases.
-        ..LineSpec::new(|input, _| Some(Gather::new(input.scene.crease(), |scene, _| lines(scene))))
-    }],
+    lines: &[
+        LineSpec {
+            fade: Fade::ShortOrDense,
+            length: Some(&LENGTH),
+            // Normals differ at creases.
+            ..LineSpec::new(|input, _| {
+                Some(Gather::new(input.scene.crease(), |scene, _| lines(scene)))
+            })
+        },
+        NORMALS_OF_SHAPES,
+    ],
     ..OverlaySpec::SWITCH
 };
 
-/// One line per distinct normal of a vertex of the triangles that are shown, and those of other shapes.
+/// One line per distinct normal of a vertex of the triangles that are shown.
 pub fn lines(scene: &Scene) -> Vec<Line> {
     let (mesh, normals) = (scene.mesh(), scene.vertex_normals());
     let mut corners: Vec<(u32, [u32; 3], u32, usize)> = Vec::new();
@@ -47,9 +52,7 @@ pub fn lines(scene: &Scene) -> Vec<Line> {
         let normal = Vec3::from_array(normal.map(f32::from_bits));
         line(scene, p[k], normal, p[(k + 1) % 3] - p[k])
     };
-    let mut lines: Vec<Line> = corners.iter().map(from_corner).collect();
-    lines.extend(shapes::normals(scene));
-    lines
+    corners.iter().map(from_corner).collect()
 }
 
 #[cfg(test)]

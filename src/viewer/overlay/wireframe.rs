@@ -1,7 +1,8 @@
 //! The wireframe: edges of meshes and lines of other shapes.
 
 use super::gather::Gather;
-use super::shapes;
+use super::input::OverlayInput;
+use super::shapes::{self, ShapeLines};
 use super::spec::{Fade, LineSpec, OptionKind, OverlayOption, OverlaySpec, OverlayStyle};
 use crate::gpu::lines::Line;
 use glam::Vec3;
@@ -34,14 +35,20 @@ pub static WIREFRAME: OverlaySpec = OverlaySpec {
         LineSpec {
             fade: Fade::Dense,
             has_outlines: true,
-            ..LineSpec::new(|input, _| {
-                let gather = Gather::new((), |scene, ()| shapes::lines(scene));
-                input.scene.has_other_shapes().then_some(gather)
-            })
+            ..LineSpec::new(|input, _| of_shapes(input, ShapeLines::Seen(input.lines_camera)))
+        },
+        LineSpec {
+            fade: Fade::Dense,
+            ..LineSpec::new(|input, _| of_shapes(input, ShapeLines::Fixed))
         },
     ],
     ..OverlaySpec::SWITCH
 };
+
+fn of_shapes(input: &OverlayInput, which: ShapeLines) -> Option<Gather> {
+    let has_any = input.scene.has_other_shapes();
+    has_any.then(|| Gather::new(which, shapes::lines))
+}
 
 /// Whether the diagonals of triangulated polygons are drawn.
 pub static DIAGONALS: OverlayOption = OverlayOption {
@@ -90,15 +97,6 @@ pub fn lines(scene: &Scene, edges: WireframeEdges) -> Vec<Line> {
         each.min_by(|a, b| length(a).total_cmp(&length(b)))
     };
     same_edge.filter_map(line).collect()
-}
-
-/// The outline of a triangle, or the lines of another shape.
-pub fn primitive_lines(scene: &Scene, primitive: u32) -> Vec<Line> {
-    if scene.is_triangle(primitive) {
-        triangle_lines(scene.mesh(), primitive).to_vec()
-    } else {
-        shapes::lines_of(scene, primitive)
-    }
 }
 
 /// The outline of one triangle.

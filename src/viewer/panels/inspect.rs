@@ -136,21 +136,40 @@ fn shape_ui(ui: &mut egui::Ui, hit: &HitReport) {
     if let Some(solid) = &hit.solid {
         ui.label(RichText::new("Solid").strong())
             .on_hover_text("The operations, and the intervals of t inside each part");
-        let text = RichText::new(solid.lines.join("\n")).monospace().size(10.5);
+        rows_ui(ui, |ui| {
+            solid.lines.iter().for_each(|line| tree_line_ui(ui, line));
+        });
+    }
+}
+
+/// Shows a line of a tree. Where it wraps, it keeps its indent.
+fn tree_line_ui(ui: &mut egui::Ui, line: &str) {
+    /// Width of a character relative to the size of the monospaced font.
+    const ADVANCE: f32 = 0.6;
+    const SIZE: f32 = 10.5;
+    let text = line.trim_start();
+    let indent = (line.len() - text.len()) as f32;
+    ui.horizontal_top(|ui| {
+        ui.add_space(ADVANCE * SIZE * indent);
+        let text = RichText::new(text).monospace().size(SIZE);
         ui.add(egui::Label::new(text).wrap());
-        ui.add_space(4.0);
+    });
+}
+
+/// The name of a parameter with its symbol, unless it ends with that.
+fn parameter_label(name: &str, symbol: &str) -> String {
+    let words = name.replace('_', " ");
+    if words.split(' ').next_back() == Some(symbol) {
+        words
+    } else {
+        format!("{words} {symbol}")
     }
 }
 
 fn parameters_ui(ui: &mut egui::Ui, parameters: Option<&Parameters>) {
     for parameter in parameters.iter().flat_map(|parameters| &parameters.0) {
         let ParameterReport { name, symbol, .. } = parameter;
-        let words = name.replace('_', " ");
-        let name = if name == symbol {
-            words
-        } else {
-            format!("{words} {symbol}")
-        };
+        let name = parameter_label(name, symbol);
         let value = match parameter.value {
             ParameterValue::Point(p) => lines(p),
             ParameterValue::Vector(v) => lines(v),
@@ -192,8 +211,10 @@ fn crossings_ui(
         let name = ui.label(RichText::new("Crossings").strong());
         if count > 1 {
             let slider = egui::Slider::new(&mut selected, 0..=count - 1).show_value(false);
-            ui.add(slider).labelled_by(name.id).on_hover_text(format!(
-                "Moves the mark along the ray ({} and {})",
+            ui.add(slider).labelled_by(name.id);
+            // At the slider it would cover the rows below while the user drags.
+            name.on_hover_text(format!(
+                "The slider moves the mark along the ray ({} and {})",
                 keys_of("previous-crossing", ui.ctx()),
                 keys_of("next-crossing", ui.ctx())
             ));
@@ -384,4 +405,16 @@ fn rounded_error(error: Option<f64>) -> String {
 
 fn or_dash(name: &str) -> &str {
     if name.is_empty() { "–" } else { name }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_symbol_is_not_repeated() {
+        let labels = [("axis_u", "u"), ("a", "a"), ("half_size", "s")];
+        let labels = labels.map(|(name, symbol)| parameter_label(name, symbol));
+        assert_eq!(labels, ["axis u", "a", "half size s"]);
+    }
 }

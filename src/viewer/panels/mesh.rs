@@ -98,14 +98,15 @@ fn shapes_ui(ui: &mut egui::Ui, loaded: &LoadedScene) {
             } else {
                 format!("{}\n{}", corner(bounds.min), corner(bounds.max))
             };
-            let kb = group.bvh().bytes().div_ceil(1000);
-            let time = duration(group.build_time());
+            let tree = if group.is_bounded() {
+                let kb = group.bvh().bytes().div_ceil(1000);
+                let time = duration(group.build_time());
+                format!("tree {} kB in {time}", grouped(kb))
+            } else {
+                "no tree".to_owned()
+            };
             let count = grouped(group.count());
-            row_ui(
-                ui,
-                shape.plural,
-                format!("{count}\ntree {} kB in {time}\n{place}", grouped(kb)),
-            );
+            row_ui(ui, shape.plural, format!("{count}\n{tree}\n{place}"));
         }
     });
 }

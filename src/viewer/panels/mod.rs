@@ -30,10 +30,11 @@ const NAME_WIDTH: f32 = 104.0;
 /// Shows a name and a value that can be selected and copied.
 fn row_ui(ui: &mut egui::Ui, name: &str, value: impl ToString) {
     ui.horizontal_top(|ui| {
-        let right = ui.cursor().min.x + NAME_WIDTH;
-        ui.add(egui::Label::new(name).extend());
-        // A longer name pushes its value to the right.
-        ui.add_space((right - ui.cursor().min.x).max(0.0));
+        let width = NAME_WIDTH - ui.spacing().item_spacing.x;
+        ui.vertical(|ui| {
+            ui.set_width(width);
+            ui.add(egui::Label::new(name).wrap());
+        });
         let value = RichText::new(value.to_string()).monospace().size(11.5);
         ui.add(egui::Label::new(value).wrap());
     });
@@ -64,4 +65,26 @@ pub fn kernel_name(name: &'static str) -> &'static str {
 /// Three numbers, one per line.
 fn lines<T: Into<f64> + Display + LowerExp + Copy>(v: [T; 3]) -> String {
     v.map(number).join("\n")
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use egui_kittest::Harness;
+    use egui_kittest::kittest::Queryable as _;
+
+    #[test]
+    fn values_are_in_one_column_however_long_their_names_are() {
+        let rows = |ui: &mut egui::Ui| {
+            for (name, value) in [
+                ("t", "1"),
+                ("a name that is much too long for its column", "2"),
+            ] {
+                row_ui(ui, name, value);
+            }
+        };
+        let harness = Harness::new_ui(rows);
+        let left = |value| harness.get_by_label(value).rect().min.x;
+        assert!((left("1") - left("2")).abs() < 0.5);
+    }
 }

@@ -37,7 +37,7 @@ pub fn quality_ui(
             false
         }
         None => ui
-            .small_button("Measure speed and accuracy")
+            .button("Measure speed and accuracy")
             .on_hover_text("Measures all kernels in this scene and shows them in the Trade tab")
             .clicked(),
     }

@@ -50,7 +50,7 @@ impl PackedSolid {
 
     /// Passes the parts of an operand's line that are on the solid's surface to `add`.
     fn visible_parts(&self, line: &[LinePoint], operand: usize, add: AddLine<'_>) {
-        let is_on = |point: &LinePoint| self.is_on_surface(point.position, operand);
+        let is_on = |point: &LinePoint| self.is_on_surface(point, operand);
         let mut part: Vec<LinePoint> = Vec::new();
         let mut last: Option<(&LinePoint, bool)> = None;
         for point in line {
@@ -80,12 +80,12 @@ impl PackedSolid {
 
     /// The end of a line's visible part between a visible point and one that isn't: the seam with another operand.
     fn seam(&self, ends: [&LinePoint; 2], operand: usize) -> LinePoint {
-        /// A piece of a line is at most some hundred pixels long, and a gap below a pixel isn't seen.
-        const HALVINGS: u32 = 10;
+        /// As many as f32 coordinates distinguish on a piece that is a 64th of the solid.
+        const HALVINGS: u32 = 18;
         let (mut visible, mut hidden) = (0.0, 1.0);
         for _ in 0..HALVINGS {
             let middle = 0.5 * (visible + hidden);
-            if self.is_on_surface(between(ends, middle).position, operand) {
+            if self.is_on_surface(&between(ends, middle), operand) {
                 visible = middle;
             } else {
                 hidden = middle;
@@ -94,18 +94,25 @@ impl PackedSolid {
         between(ends, visible)
     }
 
-    /// Whether a point of an operand's surface is on the solid's: the solid differs on the operand's two sides.
-    /// Where another operand's surface coincides, rounding decides.
-    fn is_on_surface(&self, point: DVec3, operand: usize) -> bool {
-        // Any direction does; this one lies in no plane of symmetry.
-        let Ok(ray) = Ray::new(point.as_vec3(), Vec3::new(0.36, 0.48, 0.8)) else {
-            return false;
+    /// Whether a point of an operand's surface is on the solid's: the solid differs on the operand's two sides, if other
+    /// operands are asked beside the point on the same sides. So where surfaces coincide, rounding decides nothing.
+    fn is_on_surface(&self, point: &LinePoint, operand: usize) -> bool {
+        /// Ulps of f32 by which the sides are apart from the point: more than rounding moves it.
+        const ULPS: f64 = 4.0;
+        let size = self.solid().bounds().map_or(0.0, |bounds| bounds.radius());
+        let reach = point.position.abs().max_element().max(size);
+        let outwards = ULPS * f64::from(f32::EPSILON) * reach * point.normal;
+        let is_inside = |position: DVec3, is_in_operand: bool| {
+            // Any direction does; this one lies in no plane of symmetry.
+            let ray = Ray::new(position.as_vec3(), Vec3::new(0.36, 0.48, 0.8)).ok()?;
+            let mut inside = self.inside_at_start(&ray);
+            inside[operand] = is_in_operand;
+            Some(self.solid().is_inside(&inside))
         };
-        let mut inside = self.inside_at_start(&ray);
-        let mut with = |is_inside: bool| {
-            inside[operand] = is_inside;
-            self.solid().is_inside(&inside)
-        };
-        with(true) != with(false)
+        let within = is_inside(point.position - outwards, true);
+        let beyond = is_inside(point.position + outwards, false);
+        within
+            .zip(beyond)
+            .is_some_and(|(within, beyond)| within != beyond)
     }
 }

@@ -141,7 +141,34 @@ fn element(scene: &Scene, hit: &Hit) -> Vec<String> {
         parts.extend(attributes.groups.of(hit.primitive).cloned());
     }
     let material = attributes.materials.get(scene.material(hit.primitive));
-    let name = material.map(|material| material.name.clone());
-    parts.extend(name.filter(|name| !name.is_empty()));
+    parts.extend(material.map(|material| material.name.clone()));
+    parts.retain(|part| !part.is_empty());
     parts
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use glam::Vec3;
+    use hitscope_core::TriangleMesh;
+    use hitscope_core::mesh::{Assigned, Attributes, Runs};
+
+    #[test]
+    fn a_group_without_a_name_leaves_no_empty_field() {
+        for (name, expected) in [("", vec!["triangle 0"]), ("lid", vec!["triangle 0", "lid"])] {
+            let corners = vec![Vec3::ZERO, Vec3::X, Vec3::Y];
+            let attributes = Attributes {
+                groups: Assigned::new(vec![name.to_owned()], Runs::default()),
+                ..Attributes::default()
+            };
+            let mesh = TriangleMesh::new(corners, vec![[0, 1, 2]]).with_attributes(attributes);
+            let hit = Hit {
+                t: 1.0,
+                u: 0.2,
+                v: 0.2,
+                primitive: 0,
+            };
+            assert_eq!(element(&hitscope_core::scene::scene(mesh), &hit), expected);
+        }
+    }
 }

@@ -21,6 +21,7 @@ fn lines_end_at_the_seam_of_two_operands() {
     let detail = LineDetail {
         segments: 64,
         around: scene.bounds(),
+        view: None,
     };
     let (mut nearest, mut sees_dent) = (f64::INFINITY, false);
     scene.groups()[0].lines(0, &detail, &mut |line| {
@@ -37,6 +38,29 @@ fn lines_end_at_the_seam_of_two_operands() {
     let slack = 2.0 / 64.0 / 1024.0 + 1e-6;
     assert!((nearest - 0.51).abs() < slack, "{nearest}");
     assert!(sees_dent);
+}
+
+#[test]
+fn a_difference_of_equal_shapes_has_no_lines() {
+    let ball = || {
+        Solid::of(Sphere {
+            centre: Vec3::new(0.3, -0.2, 0.7),
+            radius: 1.1,
+        })
+    };
+    let lines_of = |operation: CsgOperation| {
+        let scene = scene_of(vec![Solid::combined(operation, vec![ball(), ball()])]);
+        let detail = LineDetail {
+            segments: 64,
+            around: scene.bounds(),
+            view: None,
+        };
+        let mut count = 0;
+        scene.groups()[0].lines(0, &detail, &mut |_| count += 1);
+        count
+    };
+    assert_eq!(lines_of(CsgOperation::Difference), 0);
+    assert!(lines_of(CsgOperation::Union) > 0);
 }
 
 #[test]
