@@ -144,7 +144,10 @@ fn several_pictures_need_different_names() {
 #[test]
 fn each_camera_has_its_views_distances_and_numbers() {
     let folder = Folder::new();
-    let line = "@cube.obj -o @{view}-{index}.png --view depth --view normal --turntable 2 \
+    // A cube looks the same from both sides.
+    let wedge = "v 0 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 0.5\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n";
+    folder.write("wedge.obj", wedge);
+    let line = "@wedge.obj -o @{view}-{index}.png --view depth --view normal --turntable 2 \
         --depth-map @t{index}.exr --ids @id{index}.exr --size 24x20 --samples 1";
     run(&folder, line).expect("done");
     for name in ["depth-0.png", "depth-1.png", "normal-0.png", "normal-1.png"] {

@@ -195,8 +195,12 @@ fn a_click_on_side_b_inspects_with_its_kernel() {
         return;
     };
     compare(&mut window);
-    choose(&mut window, "Kernel of B", "exact – Exact, adaptive");
-    for (x, kernel) in [(0.55, "exact"), (0.45, "watertight")] {
+    choose(
+        &mut window,
+        "Kernel of B",
+        "watertight – Watertight (Woop et al.)",
+    );
+    for (x, kernel) in [(0.55, "watertight"), (0.45, "exact")] {
         let at = in_picture(&window, x, 0.5);
         click(&mut window, at);
         wait(&mut window, kernel, |app| {

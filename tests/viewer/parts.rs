@@ -80,6 +80,10 @@ fn an_own_colour_changes_the_pixels_of_its_part_and_undo_takes_it_away() {
     wait(&mut window, "the picture", App::is_settled);
     let pixels = |window: &Window| window.state().film().pixels().to_vec();
     let before = pixels(&window);
+    // The panel of colours has a symbol of egui's that comes from the system's fonts.
+    window
+        .ctx
+        .set_missing_glyph_policy(egui::MissingGlyphPolicy::Tofu);
     window.get_by_label("Colour of knot").click();
     window.run_steps(3);
     let red = window.get_all_by_role(Role::SpinButton).next();

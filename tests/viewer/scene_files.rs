@@ -183,6 +183,10 @@ fn a_scene_of_one_shape_is_packed_once_for_a_kernel_that_its_table_lacks() {
     let Some((mut window, _folder)) = opened("sphere.xml", sphere) else {
         return;
     };
+    window.get_by_label("Draft").click();
+    wait(&mut window, "the kernel for spheres", |app| {
+        app.document().intersector().kernel().name == "sphere-geometric"
+    });
     let intersector = Arc::clone(window.state().document().intersector());
     assert_ne!(intersector.kernel().name, window.state().settings().kernel);
     window.run_steps(20);

@@ -272,10 +272,11 @@ mod tests {
     use crate::scene::scene;
     use glam::Vec3;
 
-    /// A grid of parallel rays onto the torus, `step` apart.
+    /// A grid of parallel rays onto the torus, `step` apart, in packets of 4 × 4.
     fn rays(step: f32) -> Vec<Ray> {
-        let at = |k: u32, shift: u32| step * ((k >> shift & 15) as f32 - 7.5);
-        let origin = |k: u32| Vec3::new(1.0 + at(k, 0), at(k, 4), 9.0);
+        let index = |k: u32, shift: u32| (k >> shift & 3) + 4 * (k >> shift >> 4 & 3);
+        let at = |k: u32, shift: u32| step * (index(k, shift) as f32 - 7.5);
+        let origin = |k: u32| Vec3::new(1.0 + at(k, 0), at(k, 2), 9.0);
         let ray = |k: u32| Ray::new(origin(k), Vec3::NEG_Z).expect("a ray");
         (0..256).map(ray).collect()
     }
