@@ -18,7 +18,7 @@ pub(crate) struct Appearance<'a> {
     material: Option<&'a Material>,
     position: Vec3,
     hit: Hit,
-    /// Texture coordinates, once they are needed.
+    /// Texture coordinates, computed on first use.
     uv: OnceCell<Option<Vec2>>,
 }
 
@@ -50,13 +50,13 @@ impl<'a> Appearance<'a> {
         self.of_texture(map).unwrap_or(Vec3::ONE)
     }
 
-    /// The value of a texture. No surface reflects more than all light, so that it ends at 1.
+    /// The value of a texture, at most 1: no surface reflects more light than arrives.
     fn of_texture(&self, map: Option<&TextureMap>) -> Option<Vec3> {
-        self.unlimited(map).map(|value| value.min(Vec3::ONE))
+        self.unclamped(map).map(|value| value.min(Vec3::ONE))
     }
 
-    /// The value of a texture, which exceeds 1 in pictures of light.
-    fn unlimited(&self, map: Option<&TextureMap>) -> Option<Vec3> {
+    /// The value of a texture, which may exceed 1 in linear pictures.
+    fn unclamped(&self, map: Option<&TextureMap>) -> Option<Vec3> {
         let textures = &self.scene.mesh().attributes().textures;
         Some(map?.value(textures, self.uv()?))
     }
@@ -89,11 +89,11 @@ impl<'a> Appearance<'a> {
         self.material.map_or(Vec3::ZERO, specular)
     }
 
-    /// The light that is emitted, by either side.
+    /// The light that is emitted by either side, at most [`MAX_BRIGHTNESS`].
     pub fn emission(&self) -> Vec3 {
         match self.material {
             Some(material) if material.emission != Vec3::ZERO => {
-                let value = self.unlimited(material.further_map(Property::Emission));
+                let value = self.unclamped(material.further_map(Property::Emission));
                 let light = material.emission * value.unwrap_or(Vec3::ONE);
                 light.min(Vec3::splat(MAX_BRIGHTNESS))
             }

@@ -7,7 +7,8 @@ use std::ops::RangeInclusive;
 /// 2¹⁶ samples, whose sum the [film](crate::film) cuts at 2⁶⁴: below the limit, it never does.
 pub const MAX_BRIGHTNESS: f32 = (1_u64 << 48) as f32;
 
-/// The exposures that a picture may need, in stops: they show the brightest light, and the darkest, 2⁻⁶⁴, as white.
+/// The range of useful exposures, in stops: the lowest shows [`MAX_BRIGHTNESS`] as white, the highest shows 2⁻⁶⁴, the
+/// darkest light that a film holds.
 pub const EXPOSURES: RangeInclusive<f32> = -48.0..=64.0;
 
 /// Checks the radiance or the irradiance of a light.

@@ -98,7 +98,7 @@ impl SpawnPolicy {
         self.start(departure).towards(departure.dir)
     }
 
-    /// Where the spawned ray starts.
+    /// The start of the spawned ray.
     #[inline]
     pub(crate) fn start(&self, departure: &Departure<'_>) -> RayStart {
         let offset = departure.offset;
@@ -118,8 +118,8 @@ impl SpawnPolicy {
         }
     }
 
-    /// Where a ray from the point `from` to a point of a surface ends: as far off the surface as a ray back would start, so
-    /// that it doesn't hit the surface. `corners` are those of a triangle.
+    /// The end of a ray from the point `from` to a point of a surface: where a ray back to `from` would start, so that the ray
+    /// doesn't hit the surface. `corners` are those of a triangle.
     pub(crate) fn end(
         &self,
         from: Vec3,

@@ -20,7 +20,9 @@ mod packets;
 
 // Every tree: bit-identical results.
 mod trees;
-mod turns;
+
+// Interleaved rays: bit-identical to single rays.
+mod interleaved;
 
 // The record of the boxes that a ray opens.
 mod opened_boxes;

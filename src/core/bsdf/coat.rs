@@ -1,5 +1,5 @@
-//! What models of a coat over a base share: the choice between both, the light that the base returns, and sampling of a
-//! rough coat over a diffuse base.
+//! Shared parts of the models of a coat over a base: the choice between the two, the light that the base returns, and sampling
+//! of a rough coat over a diffuse base.
 
 use super::diffuse::{cosine_density, cosine_direction};
 use super::microfacets::Microfacets;
@@ -7,15 +7,16 @@ use super::optics::reflected;
 use super::rough_conductor::{reflecting, reflection_density};
 use glam::{Vec2, Vec3};
 
-/// The probability of the first of two lobes with these weights.
+/// The probability of the first of two lobes with these weights; 0 if both are black.
 pub(super) fn probability(first: Vec3, second: Vec3) -> f32 {
     let (first, second) = (first.element_sum(), second.element_sum());
     let sum = first + second;
     if sum > 0.0 { first / sum } else { 0.0 }
 }
 
-/// The reflectance of a base below a coat that reflects `inner` of its light back: the sum over all reflections, and the
-/// scale of light that leaves a medium of relative index `eta`.
+/// The reflectance of a diffuse base below a coat of relative index `eta` that reflects the part `inner` of the base's light
+/// back to it: the sum over all reflections between the two, divided by `eta`² because light spreads as it leaves the medium.
+/// If `is_nonlinear`, every reflection by the base colours the light; else only the last one does.
 pub(super) fn below_coat(diffuse: Vec3, inner: f32, eta: f32, is_nonlinear: bool) -> Vec3 {
     let back = if is_nonlinear {
         inner * diffuse

@@ -44,10 +44,10 @@ pub(crate) type Stack = [u64; 256];
 
 const _: () = assert!(MAX_DEPTH * (WIDTH - 1) < 256);
 
-/// The number of walks in turns, a stack each; see [`in_turns`](crate::intersector::in_turns).
+/// The number of interleaved walks, each with its own stack; see [`interleaved`](crate::intersector::interleaved).
 pub(crate) const WALKS: usize = 8;
 
-/// The stacks of walks in turns.
+/// The stacks of interleaved walks.
 pub(crate) type Stacks = [Stack; WALKS];
 
 thread_local! {
@@ -68,7 +68,7 @@ impl LentStack {
         &mut self.all()[0]
     }
 
-    /// The stacks of walks in turns.
+    /// The stacks of interleaved walks.
     pub fn all(&mut self) -> &mut Stacks {
         self.0.get_or_insert_with(|| Box::new([[0; 256]; WALKS]))
     }
@@ -108,7 +108,7 @@ pub(crate) fn rank<L: Lane>(t: L, floor: L) -> L {
     L::select(t.lt(floor), floor, t)
 }
 
-/// A walk, which is at a node or a leaf.
+/// The state of a ray's walk through a tree, which is at a node or a leaf.
 pub(crate) struct Walk<S: Simd> {
     slabs: SlabRay<S>,
     /// The distance up to which boxes are visited.
@@ -132,7 +132,7 @@ impl<S: Simd> Walk<S> {
     }
 
     /// Opens the node, or passes the leaf's blocks to the visitor, and goes on to the next node or leaf. Returns whether
-    /// the walk is at its end.
+    /// the walk has ended.
     #[inline(always)]
     pub fn step<V: Visitor<S>>(
         &mut self,

@@ -26,7 +26,7 @@ pub struct TileSamples {
     pub sums: Vec<SampleSum>,
 }
 
-/// What the pixels of a tile show.
+/// The state of a tile's pixels.
 #[derive(Clone, Debug, Default)]
 struct TileState {
     /// Whether the tile has samples of the plan. If not, its counts and block sizes are those of an earlier plan, and its
@@ -46,7 +46,7 @@ pub struct Film {
     /// The camera of the plan's picture, if it is known.
     camera: Option<Camera>,
     tiles: Vec<TileState>,
-    /// A pixel without samples has any sum.
+    /// Undefined for pixels without samples.
     sums: Vec<SampleSum>,
     counts: Vec<u32>,
     /// Size in pixels of the block whose colour a pixel shows; 0 once the pixel has a sample of its own.
@@ -92,7 +92,7 @@ impl Film {
     }
 
     /// Discards all samples and starts another plan. If the size stays the same, pixels keep their colour until
-    /// they receive a sample. Takes no time: the samples of a tile are discarded when it receives its first new one.
+    /// they receive a sample. This is fast: the old samples of a tile are discarded when it receives its first new ones.
     pub fn restart(&mut self, plan: Plan, background: Vec3) {
         if plan.size() != self.plan.size() {
             let display = self.display;
@@ -108,7 +108,7 @@ impl Film {
         self.plan = plan;
     }
 
-    /// Names the camera of the plan's picture, for [`ShownPixels`].
+    /// Sets the camera of the plan's picture, which [`ShownPixels`] reports.
     pub fn set_camera(&mut self, camera: Camera) {
         self.camera = Some(camera);
     }
@@ -266,7 +266,7 @@ impl Film {
         self.samples_of(pixel).1
     }
 
-    /// The sum and the number of a pixel's samples; of 0 samples, any sum.
+    /// The sum and the number of a pixel's samples; the sum of 0 samples is undefined.
     fn samples_of(&self, pixel: UVec2) -> (&SampleSum, u32) {
         let i = self.index(pixel);
         let has_samples = self.tiles[self.plan.tile_of(pixel)].has_samples;

@@ -1,7 +1,7 @@
-//! What a picture on the screen shows: for each pixel, the camera and the pixel whose samples it shows.
+//! The pixels on the screen: for each, the camera and the pixel whose samples it shows.
 //!
-//! The film changes before its changes are on the screen: tiles arrive, or another picture is begun. So whoever uploads
-//! the film's pixels notes here what they show. While a new picture replaces an old one, tiles of both are on the screen.
+//! The film changes before its changes are on the screen: tiles arrive, or another picture is begun. Therefore the
+//! code that uploads the film's pixels records here what they show. While a new picture replaces an old one, tiles of both are on the screen.
 
 use super::Film;
 use crate::Camera;
@@ -25,7 +25,7 @@ impl ShownPixel {
     }
 }
 
-/// For each pixel of a picture on the screen, the pixel whose samples it shows.
+/// For each pixel of a picture on the screen, the camera and the pixel whose samples it shows.
 #[derive(Clone, Debug, Default)]
 pub struct ShownPixels {
     size: UVec2,
@@ -36,7 +36,7 @@ pub struct ShownPixels {
 }
 
 impl ShownPixels {
-    /// Notes that some tiles of the film, those that a rectangle touches, are on the screen now.
+    /// Records that the film's tiles that a rectangle touches are on the screen now.
     pub fn update(&mut self, film: &Film, rect: PixelRect) {
         let size = film.size();
         if size != self.size {

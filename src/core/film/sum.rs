@@ -1,4 +1,4 @@
-//! Sum of a pixel's samples: integers, in which the order of additions doesn't matter.
+//! The sum of a pixel's samples, in integers, so that the order of additions doesn't matter.
 
 use crate::srgb::luminance_f64;
 use glam::{DVec3, Vec3};
@@ -31,13 +31,13 @@ impl SampleSum {
         }
         let radiance = radiance.max(Vec3::ZERO);
         let rgb = radiance.to_array().map(|x| fixed(x.into()));
-        /// From here on, no digit of an f32 is dropped: it has 24.
+        /// From this number on, none of the 24 digits of an f32 is dropped.
         const WHOLE: f32 = 1.0 / (1_u64 << (PLACES - 24)) as f32;
         let is_whole = |x: f32| x >= WHOLE || x == 0.0;
         let luminance = if radiance.to_array().into_iter().all(is_whole) {
             luminance_f64(radiance)
         } else {
-            // Of the same numbers as the mean.
+            // The luminance of the numbers that the mean is computed from.
             luminance_of(rgb.map(|x| x as f64 / ONE))
         };
         self.merge(&Self {
@@ -47,6 +47,7 @@ impl SampleSum {
         true
     }
 
+    /// Adds another sum.
     pub(super) fn merge(&mut self, other: &Self) {
         for (sum, part) in self.rgb.iter_mut().zip(other.rgb) {
             *sum = sum.saturating_add(part);
@@ -66,8 +67,7 @@ impl SampleSum {
 
     /// The variance of the luminance of a single sample, estimated from `count` samples; 0 for fewer than 2.
     ///
-    /// Its error is a few units of 2⁻⁵² of the mean's square, and 2⁻¹²⁸ for each sample, for every luminance of which the
-    /// sum is below 2⁶⁴.
+    /// As long as the sum is below 2⁶⁴, its error is a few units of 2⁻⁵² of the mean's square, and 2⁻¹²⁸ for each sample.
     pub(super) fn variance(&self, count: u32) -> f64 {
         if count < 2 {
             return 0.0;
@@ -133,7 +133,8 @@ fn fixed(x: f64) -> u128 {
     shifted(digits, exponent + PLACES)
 }
 
-/// The digits and the exponent of a number that isn't negative; of subnormal ones, any that are too small to matter.
+/// The digits and the exponent of a number that isn't negative. Those of 0 and subnormal numbers are wrong, but too small to
+/// matter.
 fn parts(x: f64) -> (u128, i32) {
     let bits = x.to_bits();
     let digits = bits & ((1 << 52) - 1) | 1 << 52;
@@ -230,7 +231,7 @@ mod tests {
             );
         }
         assert_eq!(sum_of([Vec3::splat(0.25); 2]).variance(1), 0.0);
-        // Equal samples, whose luminance isn't a number of f32.
+        // Equal samples, whose luminance isn't an f32.
         let grey = sum_of([Vec3::new(0.1, 0.7, 0.3); 9]);
         assert!(grey.variance(9) < 1e-15, "{}", grey.variance(9));
     }

@@ -20,12 +20,12 @@ pub enum FirstTree {
     Best,
     /// For a large group, one that is built sooner; [`Scene::improve`](crate::Scene::improve) replaces it.
     Quick,
-    /// For this many coherent rays: the one with which building and tracing take less time together.
+    /// The tree with which building and tracing this many coherent rays take less time together.
     ForRays(u64),
 }
 
 /// Coherent rays per primitive up to which the quick tree takes less time. The best one takes 170 ns per triangle more to
-/// build, and saves 12 to 29 ns of a ray (bunny, 1.1 M triangles, exact packets, AVX-512, AMD, 2026-11).
+/// build, and saves 12 to 29 ns per ray (bunny, 1.1 M triangles, exact packets, AVX-512, AMD, 2026-11).
 const RAYS_FOR_QUICK: u64 = 5;
 
 impl FirstTree {
@@ -258,7 +258,7 @@ mod tests {
     }
 
     #[test]
-    fn the_number_of_rays_decides_about_the_first_tree() {
+    fn the_number_of_rays_selects_the_first_tree() {
         let of_rays = |rays: u64| {
             let options = SceneOptions {
                 first_tree: FirstTree::ForRays(rays),

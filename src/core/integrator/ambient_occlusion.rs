@@ -3,7 +3,7 @@
 //! Source: Zhukov, Iones, Kronin, "An Ambient Light Illumination Model", Rendering Techniques 1998.
 
 use super::transport::ShadingPoint;
-use super::visibility::parts_that_pass;
+use super::visibility::transmittances;
 use super::{Context, Integrator, Needs, Sample, Setting, Source};
 use crate::ray::Ray;
 use glam::Vec3;
@@ -18,26 +18,26 @@ pub(super) static AMBIENT_OCCLUSION: Integrator = Integrator {
         ..Needs::LIGHTS
     },
     legend: Vec::new,
-    source: Source::Together(radiances),
+    source: Source::Batch(radiances),
 };
 
 fn radiances(context: &Context, samples: &mut [Sample]) {
-    let (mut rays, mut of) = (Vec::new(), Vec::new());
+    let (mut rays, mut indices) = (Vec::new(), Vec::new());
     for (i, sample) in samples.iter_mut().enumerate() {
         match occlusion_ray(context, sample) {
             Ok(ray) => {
                 rays.push(ray);
-                of.push(i);
+                indices.push(i);
             }
             Err(colour) => sample.radiance = colour,
         }
     }
-    for (i, part) in of.into_iter().zip(parts_that_pass(context, &rays)) {
+    for (i, part) in indices.into_iter().zip(transmittances(context, &rays)) {
         samples[i].radiance = Vec3::splat(part);
     }
 }
 
-/// The ray that looks for what is near; the colour if there is no such ray.
+/// The ray that tests for occluders; as the error, the colour of a sample without such a ray.
 fn occlusion_ray(context: &Context, sample: &mut Sample) -> Result<Ray, Vec3> {
     let hit = sample.hit.ok_or(context.background)?;
     let point = ShadingPoint::unrepaired(context, &sample.ray, hit);

@@ -10,7 +10,7 @@ pub(super) static DIRECT: Integrator = Integrator {
     about: "Light from the lights, without light by way of other surfaces.",
     needs: Needs::LIGHTS,
     legend: Vec::new,
-    source: Source::Together(radiances),
+    source: Source::Batch(radiances),
 };
 
 fn radiances(context: &Context, samples: &mut [Sample]) {

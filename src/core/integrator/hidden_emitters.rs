@@ -1,12 +1,12 @@
-//! Rays of the camera where emitters light the scene but aren't seen: they pass through surfaces that emit light.
+//! Hidden emitters, which light the scene but aren't seen: rays of the camera pass through surfaces that emit light.
 
 use super::Context;
 use super::record::Recorder;
 use super::transport::ShadingPoint;
 use crate::ray::{Hit, Ray};
 
-/// The part of a camera's ray behind all emitters that it meets first, with its hit; the ray itself unless emitters are
-/// hidden.
+/// The part of a camera's ray behind the emitters before the first other surface, with its hit; the ray itself unless
+/// emitters are hidden.
 #[inline]
 pub(super) fn past_emitters(
     context: &Context,
@@ -31,7 +31,7 @@ fn search(
         let point = ShadingPoint::new(context, &ray, nearest);
         recorder.meet(&point);
         recorder.pass();
-        // Numbers overflow: nothing is behind.
+        // If numbers overflow, the ray hits nothing more.
         let Some(onward) = point.onward() else {
             return (ray, None);
         };

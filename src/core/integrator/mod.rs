@@ -78,10 +78,10 @@ pub struct Lighting {
     pub ao_distance: f32,
     /// The most surfaces on a path; `None` for no limit.
     pub depth_limit: Option<u32>,
-    /// The surface of a path, counted from 1, from which on Russian roulette may end it.
+    /// The number of the surface, counted from 1, from which on Russian roulette may end a path.
     pub roulette_depth: u32,
-    /// Whether the camera sees neither emitters nor the environment. Seen in mirrors, through glass and through parts of
-    /// surfaces that aren't there, they're visible.
+    /// Whether the camera sees neither emitters nor the environment. They stay visible in mirrors, through glass, and
+    /// through surfaces with coverage.
     pub hides_emitters: bool,
     /// The repair of the shadow terminator.
     pub terminator: &'static TerminatorRepair,
@@ -121,7 +121,7 @@ pub struct Integrator {
     source: Source,
 }
 
-/// A sample of a picture. Views that follow paths change the ray and its hit to those that the path ends with.
+/// A sample of a picture. Views that follow paths replace the ray and its hit by the last ones of the path.
 #[derive(Clone, Debug)]
 pub struct Sample {
     /// The camera's ray.
@@ -150,8 +150,8 @@ impl Sample {
 enum Source {
     /// A function from a ray and its first hit to a colour.
     Colour(fn(&Context, &Ray, Option<Hit>, &mut Sampler) -> Vec3),
-    /// A function that finds the colours of several samples, whose further rays it traces together.
-    Together(fn(&Context, &mut [Sample])),
+    /// A function that sets the colours of a batch of samples and traces their further rays together.
+    Batch(fn(&Context, &mut [Sample])),
     /// Numbers, which a scale colours.
     Number(NumberView),
     /// The index of the primitive that was hit.
@@ -300,7 +300,8 @@ impl Integrator {
         sample.radiance
     }
 
-    /// Sets the colours of several samples. Each gets the same bits as alone.
+    /// Sets the colours of a batch of samples, each bit-identical to that of the sample alone. Samples of a transparent
+    /// background are black.
     pub fn radiances(&self, context: &Context, samples: &mut [Sample]) {
         let is_background = |sample: &Sample| sample.hit.is_none();
         let transparent: Vec<bool> = if context.options.has_transparent_background {
@@ -316,7 +317,7 @@ impl Integrator {
 
     fn colour(&self, context: &Context, samples: &mut [Sample]) {
         match &self.source {
-            Source::Together(radiances) => radiances(context, samples),
+            Source::Batch(radiances) => radiances(context, samples),
             Source::Colour(radiance) => {
                 for sample in samples {
                     let Sample { ray, hit, .. } = *sample;

@@ -90,7 +90,7 @@ impl Integrator {
     fn number_view(&self) -> Option<&NumberView> {
         match &self.source {
             Source::Number(view) => Some(view),
-            Source::Colour(_) | Source::Together(_) | Source::Index => None,
+            Source::Colour(_) | Source::Batch(_) | Source::Index => None,
         }
     }
 

@@ -29,13 +29,15 @@ pub struct SurfaceColours {
 }
 
 impl PartialEq for SurfaceColours {
+    /// Compares the numbers by identity, because there are as many as primitives.
     fn eq(&self, other: &Self) -> bool {
         Arc::ptr_eq(&self.numbers, &other.numbers) && self.colours == other.colours
     }
 }
 
 impl SurfaceColours {
-    /// Colours, and for each primitive the number of its colour, counted from 1, or 0.
+    /// Colours, and for each primitive the number of its colour, counted from 1; 0, or a number without a colour, leaves the
+    /// primitive's own.
     pub fn new(numbers: Vec<u32>, colours: Vec<Vec3>) -> Self {
         let numbers = Arc::new(numbers);
         Self { numbers, colours }

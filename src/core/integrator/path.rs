@@ -6,7 +6,7 @@
 use super::hidden_emitters::past_emitters;
 use super::record::{PathEnd, Recorder};
 use super::transport::{Connection, ShadingPoint, emitted, from_afar, shows_background};
-use super::visibility::parts_that_pass;
+use super::visibility::transmittances;
 use super::{Context, Integrator, Needs, Sample, Source};
 use crate::ray::{Hit, Ray};
 use crate::sampler::Sampler;
@@ -20,7 +20,7 @@ pub(super) static PATH: Integrator = Integrator {
     about: "Light from the lights and by way of other surfaces.",
     needs: Needs::PATHS,
     legend: Vec::new,
-    source: Source::Together(radiances),
+    source: Source::Batch(radiances),
 };
 
 /// The largest probability of going on, so that paths between white surfaces end.
@@ -51,7 +51,7 @@ pub(super) fn follow_all(context: &Context, samples: &mut [Sample], limit: Optio
     follow(context, &mut paths, &mut recorders, limit);
 }
 
-/// The same for one sample, which is recorded.
+/// The same for one sample, whose path is recorded.
 pub(super) fn follow_recorded(
     context: &Context,
     sample: &mut Sample,
@@ -89,8 +89,8 @@ pub(super) fn follow_scattered(
     sample.radiance
 }
 
-/// Follows paths to their ends, all by one surface at a time, so that rays are traced together: those to the lights, then
-/// those that continue the paths.
+/// Follows paths to their ends. All advance by one surface at a time, so that their rays are traced together: first the rays
+/// to the lights, then those that continue the paths.
 fn follow<R: Recorder>(
     context: &Context,
     paths: &mut [Path<'_>],
@@ -115,14 +115,14 @@ fn follow<R: Recorder>(
             }
             end.is_none()
         });
-        let parts = parts_that_pass(context, &to_lights);
+        let parts = transmittances(context, &to_lights);
         for ((i, light), part) in lit.drain(..).zip(parts) {
             recorders[i].direct(part, part * light);
             paths[i].sample.radiance += part * light;
         }
         hits.resize(rays.len(), None);
         context.intersector.closest_hits(&rays, &mut hits);
-        context.scene.announce(&hits);
+        context.scene.prefetch_surfaces(&hits);
         for (&i, hit) in going.iter().zip(&hits) {
             paths[i].sample.hit = *hit;
         }
@@ -135,7 +135,8 @@ fn follow<R: Recorder>(
 struct Path<'a> {
     /// The ray that continues it, its hit, the random numbers, and the light that has been found.
     sample: &'a mut Sample,
-    /// The point where the ray left a surface or the camera, which differs from its origin behind surfaces with coverage.
+    /// The point where the ray left a surface or the camera; not the ray's origin once it has passed through a surface with
+    /// coverage.
     from: Vec3,
     /// The density with which that surface scattered it; `None` for single directions and rays of the camera.
     density: Option<f32>,
@@ -159,8 +160,9 @@ impl<'a> Path<'a> {
         }
     }
 
-    /// Adds the light that comes from where the ray leads, and lets the path continue there. Returns the light that a light
-    /// sends there, which is to be added if it arrives, and why the path ends, if it does.
+    /// Adds the light that arrives along the ray from the surface that it hits, or from the environment, and chooses the
+    /// path's next ray. Returns a connection to a light, whose light is still to be added if it arrives, and why the path
+    /// ends, if it does.
     fn advance(
         &mut self,
         context: &Context,
@@ -195,7 +197,7 @@ impl<'a> Path<'a> {
         (connection, self.scatter(context, &point, recorder).err())
     }
 
-    /// Continues the path in a direction that the surface scatters light from.
+    /// Continues the path in a direction from which the surface scatters light; the error is why the path ends.
     fn scatter(
         &mut self,
         context: &Context,
@@ -215,12 +217,13 @@ impl<'a> Path<'a> {
         Ok(())
     }
 
+    /// Continues the path with a ray; without one, numbers have overflowed.
     fn go_on(&mut self, onward: Option<Ray>) -> Result<(), PathEnd> {
         self.sample.ray = onward.ok_or(PathEnd::Overflow)?;
         Ok(())
     }
 
-    /// Russian roulette.
+    /// Ends the path by Russian roulette, or divides its throughput by the probability of survival.
     fn play_roulette(&mut self, recorder: &mut impl Recorder) -> Result<(), PathEnd> {
         // Refraction scales radiance, but not what is left of the path.
         let survival = (self.throughput.max_element() * self.scale).min(MOST_LIKELY);

@@ -53,7 +53,7 @@ pub struct PathVertex {
 pub struct ShadowRay {
     /// The unit direction to the light.
     pub dir: Vec3,
-    /// The point of the light, up to the distance that rays keep off surfaces; `None` if it is infinitely far away.
+    /// The end of the ray, slightly off the light's surface; `None` if the light is infinitely far away.
     pub target: Option<Vec3>,
     /// The part of the light that arrives: 0 if a surface is in the way.
     pub arriving: f32,
@@ -97,7 +97,7 @@ pub(super) trait Recorder {
     fn emission(&mut self, _light: Vec3) {}
     /// A ray from the last surface to a light.
     fn shadow_ray(&mut self, _connection: &Connection) {}
-    /// This part of the light arrives along it, and the last surface scatters this light.
+    /// The part of the light that arrives along the shadow ray, and the light that the last surface scatters of it.
     fn direct(&mut self, _part: f32, _light: Vec3) {}
     /// Russian roulette lets the path continue with this probability.
     fn roulette(&mut self, _survival: f32) {}

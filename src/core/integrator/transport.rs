@@ -1,4 +1,4 @@
-//! What the views that transport light have in common: the surface that a ray hits, and the light that reaches it.
+//! Shared parts of the views that transport light: the surface that a ray hits, and the light that reaches it.
 
 use super::Context;
 use super::offset::offset_by;
@@ -30,9 +30,10 @@ pub(super) struct ShadingPoint<'a> {
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
     bsdf: Cow<'a, Bsdf>,
-    /// What the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray comes from.
+    /// The offset that the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray
+    /// comes from.
     offset: Vec3,
-    /// Where rays start that leave on the side that the ray comes from, without a repair of the shadow terminator.
+    /// The start of rays that leave on the side that the ray comes from, computed on first use; unused with an offset.
     start: Cell<Option<RayStart>>,
     /// The light that the surface emits towards the ray's origin.
     pub emission: Vec3,
@@ -123,8 +124,8 @@ impl<'a> ShadingPoint<'a> {
         self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
-    /// Where the ray that leaves in a direction starts. Kept for the side that the ray comes from: rays to lights and rays
-    /// that continue the path start there.
+    /// The start of a ray that leaves in a direction. It is kept for the side that the ray comes from, where the ray to a
+    /// light and the ray that continues the path usually share it.
     #[inline]
     fn start(&self, dir: Vec3) -> RayStart {
         let policy = self.context.lighting.spawn;
@@ -221,7 +222,7 @@ impl<'a> ShadingPoint<'a> {
     }
 
     /// Whether a direction, in the frame and in the world, lies on the same side of the shading and the geometric normal,
-    /// and of the shading normal before a texture tilts it: a relief doesn't see what is behind the surface that has it.
+    /// and of the shading normal before a texture tilts it: no light reaches a relief from behind its surface.
     /// Rays that start above the surface may point through it.
     #[inline]
     fn is_consistent(&self, local: Vec3, dir: Vec3) -> bool {
@@ -251,8 +252,8 @@ impl<'a> ShadingPoint<'a> {
         2.0 / (1.0 + (1.0 + squared_roughness * squared_tangent(dir)).sqrt())
     }
 
-    /// The light from one of the lights that is scattered towards the ray's origin, weighted against the density of
-    /// [`scatter`](Self::scatter) by the balance heuristic; `None` if there is none.
+    /// A connection to one of the lights, weighted against the density of [`scatter`](Self::scatter) by the balance
+    /// heuristic; `None` if no light is scattered towards the ray's origin.
     ///
     /// Source: Veach, Guibas, "Optimally Combining Sampling Techniques for Monte Carlo Rendering", SIGGRAPH 1995.
     #[inline]
@@ -266,7 +267,7 @@ impl<'a> ShadingPoint<'a> {
         self.connection(&sample.filter(|sample| sample.density.is_some())?)
     }
 
-    /// The light from each light that is a single point or direction that is scattered towards the ray's origin.
+    /// The connections to all lights that are single points or directions.
     pub fn light_without_extent(&self) -> impl Iterator<Item = Connection> {
         let samples = self.context.lighting.lights.without_extent(self.position());
         samples.filter_map(|sample| self.connection(&sample))
@@ -294,8 +295,8 @@ impl<'a> ShadingPoint<'a> {
         lights.sample(scene, lighting.spawn, self.position(), at, choice)
     }
 
-    /// The light of a sample that is scattered towards the ray's origin, weighted by the balance heuristic; `None` if it is
-    /// black, or if numbers overflow.
+    /// The connection to a sample of a light, weighted by the balance heuristic; `None` if its light is black, or if numbers
+    /// overflow.
     #[inline]
     fn connection(&self, sample: &LightSample) -> Option<Connection> {
         let incoming = self.frame.to_local(sample.dir);
@@ -324,12 +325,13 @@ impl<'a> ShadingPoint<'a> {
     }
 }
 
-/// Light that a surface scatters towards a ray's origin unless something is in the way to the light.
+/// A surface connected to a light.
 pub(super) struct Connection {
+    /// The light that the surface scatters towards a ray's origin, unless something blocks the shadow ray.
     pub light: Vec3,
-    /// The way to the light.
+    /// The shadow ray to the light.
     pub ray: Ray,
-    /// Where it ends; `None` if the light is infinitely far away.
+    /// The end of the shadow ray; `None` if the light is infinitely far away.
     pub end: Option<Vec3>,
 }
 
@@ -341,7 +343,7 @@ pub(super) fn balance(own: f32, other: f32) -> f32 {
 /// The part of light below which a ray isn't followed: half a step of 8 bits.
 pub(super) const INVISIBLE: f32 = 1.0 / 512.0;
 
-/// Whether a camera's ray shows the background: it hits nothing, and no environment is there to be seen.
+/// Whether a camera's ray shows the background: it hits nothing, and no environment is visible.
 pub(super) fn shows_background(context: &Context, hit: Option<Hit>) -> bool {
     let lighting = &context.lighting;
     hit.is_none() && (lighting.hides_emitters || lighting.lights.environment().is_none())

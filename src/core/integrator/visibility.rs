@@ -1,15 +1,15 @@
-//! The part of light that passes along rays, which surfaces in the way take away.
+//! Transmittance of rays: the part of the light that surfaces in the way let pass.
 
 use super::Context;
 use super::transport::ShadingPoint;
 use crate::ray::Ray;
 
-/// The part of light that passes along each ray.
+/// The part of the light that passes along each ray.
 ///
-/// Without packets: rays to a lamp from neighbouring pixels, sorted by the signs of their directions, take twice as many
+/// Packets aren't used: rays to a lamp from neighbouring pixels, sorted by the signs of their directions, take twice as many
 /// instructions in packets as one by one, because the paths' first surfaces and the points of the lamp are too far apart
 /// (bunny on a plane, AVX2, 2026-11).
-pub(super) fn parts_that_pass(context: &Context, rays: &[Ray]) -> Vec<f32> {
+pub(super) fn transmittances(context: &Context, rays: &[Ray]) -> Vec<f32> {
     if context.lighting.lights.has_coverage() {
         return rays
             .iter()
@@ -22,7 +22,7 @@ pub(super) fn parts_that_pass(context: &Context, rays: &[Ray]) -> Vec<f32> {
     are_blocked.into_iter().map(part).collect()
 }
 
-/// The part of light that passes along a ray.
+/// The part of the light that passes along a ray, from 0 to 1; 0 if numbers overflow.
 #[inline]
 pub(super) fn transmittance(context: &Context, mut ray: Ray) -> f32 {
     if !context.lighting.lights.has_coverage() {

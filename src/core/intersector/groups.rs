@@ -124,37 +124,37 @@ struct SceneIntersector {
     groups: Vec<Numbered>,
 }
 
-/// From this number of rays on, each group searches once for all of them: that pays for the lists.
-const MANY: usize = 8;
+/// The least number of rays for which each group searches once for all of them; for fewer, the lists cost more.
+const LEAST_BATCH: usize = 8;
 
-/// The rays that meet a group's box, in the group's numbers.
-struct Entering {
-    /// All rays, for tests of boxes.
+/// The rays of a batch that meet a group's box, with primitives numbered as in the group.
+struct GroupRays {
+    /// The whole batch, for tests of boxes.
     box_rays: Vec<Option<BoxRay>>,
     rays: Vec<Ray>,
-    /// The index of each of them among all.
-    of: Vec<usize>,
+    /// The index in the batch of each ray.
+    indices: Vec<usize>,
 }
 
-impl Entering {
+impl GroupRays {
     fn new(rays: &[Ray]) -> Self {
         Self {
             box_rays: rays.iter().map(box_ray).collect(),
             rays: Vec::with_capacity(rays.len()),
-            of: Vec::with_capacity(rays.len()),
+            indices: Vec::with_capacity(rays.len()),
         }
     }
 
-    /// Selects the rays that may hit a group before the end that `t_max` gives for their index, if it gives one.
+    /// Selects the rays that may hit a group before `t_max` of their index; `None` excludes a ray.
     fn select(&mut self, group: &Numbered, rays: &[Ray], t_max: impl Fn(usize) -> Option<f32>) {
         self.rays.clear();
-        self.of.clear();
+        self.indices.clear();
         for (i, (ray, box_ray)) in rays.iter().zip(&self.box_rays).enumerate() {
             if let Some(t_max) = t_max(i)
                 && group.may_be_hit(box_ray.as_ref(), t_max)
             {
                 self.rays.push(group.ray(ray, t_max));
-                self.of.push(i);
+                self.indices.push(i);
             }
         }
     }
@@ -225,12 +225,12 @@ impl SceneIntersector {
     fn closest_hits_by_group(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
         hits.fill(None);
         let mut are_clear = vec![true; rays.len()];
-        let (mut entering, mut found) = (Entering::new(rays), vec![None; rays.len()]);
+        let (mut subset, mut found) = (GroupRays::new(rays), vec![None; rays.len()]);
         for group in &self.groups {
-            entering.select(group, rays, |i| Some(self.t_max(&rays[i], hits[i])));
-            let found = &mut found[..entering.rays.len()];
-            group.intersector.closest_hits(&entering.rays, found);
-            for (&i, found) in entering.of.iter().zip(&*found) {
+            subset.select(group, rays, |i| Some(self.t_max(&rays[i], hits[i])));
+            let found = &mut found[..subset.rays.len()];
+            group.intersector.closest_hits(&subset.rays, found);
+            for (&i, found) in subset.indices.iter().zip(&*found) {
                 if let Some(found) = *found {
                     are_clear[i] &= self.is_clear(found, hits[i]);
                     hits[i] = Some(group.numbered(found));
@@ -246,12 +246,12 @@ impl SceneIntersector {
     /// Which rays hit anything. Each group searches once, for the rays that meet its box and hit no earlier group.
     fn any_hits_by_group(&self, rays: &[Ray], are_hits: &mut [bool]) {
         are_hits.fill(false);
-        let (mut entering, mut found) = (Entering::new(rays), vec![false; rays.len()]);
+        let (mut subset, mut found) = (GroupRays::new(rays), vec![false; rays.len()]);
         for group in &self.groups {
-            entering.select(group, rays, |i| (!are_hits[i]).then_some(rays[i].t_max));
-            let found = &mut found[..entering.rays.len()];
-            group.intersector.any_hits(&entering.rays, found);
-            for (&i, is_hit) in entering.of.iter().zip(&*found) {
+            subset.select(group, rays, |i| (!are_hits[i]).then_some(rays[i].t_max));
+            let found = &mut found[..subset.rays.len()];
+            group.intersector.any_hits(&subset.rays, found);
+            for (&i, is_hit) in subset.indices.iter().zip(&*found) {
                 are_hits[i] = *is_hit;
             }
         }
@@ -284,7 +284,7 @@ impl Intersector for SceneIntersector {
     }
 
     fn closest_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        if rays.len() >= MANY {
+        if rays.len() >= LEAST_BATCH {
             return self.closest_hits_by_group(rays, hits);
         }
         for (ray, hit) in rays.iter().zip(hits) {
@@ -348,7 +348,7 @@ impl Intersector for SceneIntersector {
     }
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        if rays.len() >= MANY {
+        if rays.len() >= LEAST_BATCH {
             return self.any_hits_by_group(rays, are_hits);
         }
         for (ray, is_hit) in rays.iter().zip(are_hits) {

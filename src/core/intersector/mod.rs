@@ -4,7 +4,7 @@
 //! or two while a better tree is being built. `tree` is the intersector of primitives of one shape. It is
 //! written once for all `method`s: `ranked` for kernels that decide about each primitive separately, `exact` for
 //! triangles and `algebraic` for other shapes whose hits are compared exactly. `packet` traces coherent rays together, and
-//! `in_turns` any rays in turns, so that none waits for memory; `several` joins both.
+//! `interleaved` alternates between rays, so that none waits for memory; `stream` is the table of these searches.
 //! `improving` forwards to an intersector that can be replaced when a better tree is ready. `groups` finds the hits of
 //! a scene's groups, which `ranked_hit` orders. `clipped` cuts rays with a clip.
 
@@ -14,14 +14,14 @@ mod clipped;
 mod exact;
 mod groups;
 pub(crate) mod improving;
-mod in_turns;
+mod interleaved;
 mod levels;
 mod method;
 mod order;
 mod packet;
 mod ranked;
 mod ranked_hit;
-mod several;
+mod stream;
 mod tree;
 mod visitors;
 
@@ -49,7 +49,7 @@ use exact::Exact;
 use levels::{BaselineLevel, EveryLevel};
 use method::Method;
 use ranked::Ranked;
-use several::Several;
+use stream::StreamSearches;
 use std::ops::AddAssign;
 use std::slice::from_ref;
 use std::sync::Arc;
@@ -128,7 +128,7 @@ struct Packer<'a, S> {
 }
 
 impl<S: Shape> Packer<'_, S> {
-    fn pack<M: Method<Shape = S>>(&mut self, kernel: &KernelInfo, several: Option<Several<M>>) {
+    fn pack<M: Method<Shape = S>>(&mut self, kernel: &KernelInfo, streams: Option<StreamSearches<M>>) {
         if kernel.name == self.kernel.name {
             self.packed = Some(Box::new(TreeIntersector::new(
                 self.kernel,
@@ -136,7 +136,7 @@ impl<S: Shape> Packer<'_, S> {
                 Arc::clone(&self.bvh),
                 self.level,
                 self.packing,
-                several,
+                streams,
             )));
         }
     }
@@ -152,14 +152,14 @@ impl<S: Shape> KernelVisitor<S> for Packer<'_, S> {
     }
 
     fn visit_with_packets<K: Kernel<Shape = S>>(&mut self) {
-        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(Several::NEW));
+        self.pack::<Ranked<K, f32, EveryLevel>>(K::info::<f32>(), Some(StreamSearches::NEW));
     }
 
     fn visit_exact_triangle(&mut self)
     where
         S: From<Triangle> + Into<Triangle>,
     {
-        self.pack::<Exact<S>>(&kernel::exact::INFO, Some(Several::NEW));
+        self.pack::<Exact<S>>(&kernel::exact::INFO, Some(StreamSearches::NEW));
     }
 
     fn visit_algebraic(&mut self)

@@ -1,4 +1,4 @@
-//! A hit with its t, exact if the kernel is, and the order of such hits.
+//! Hits with a t that is exact if the kernel is, and their order.
 
 use super::Crossing;
 use super::order::{Comparison, precedes};

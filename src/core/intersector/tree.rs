@@ -1,11 +1,11 @@
 //! Intersector of primitives of one shape: a tree and packed primitives, traced by any method.
 
 use super::blocks::{Blocks, Packing, Scratch, candidates};
-use super::in_turns;
+use super::interleaved;
 use super::levels::Levels;
 use super::method::{BlocksOf, Method, Tester};
 use super::order::crossings;
-use super::several::Several;
+use super::stream::StreamSearches;
 use super::visitors::{Any, Each, Kept, Nearest};
 use super::{Cost, Crossing, GroupIntersector, Intersector, RankedHit, answer_behind, is_behind};
 use crate::aabb::Aabb;
@@ -24,8 +24,8 @@ pub(super) struct TreeIntersector<M: Method> {
     pub blocks: BlocksOf<M>,
     pub level: SimdLevel,
     kernel: &'static KernelInfo,
-    /// Traces several rays at once.
-    several: Option<Several<M>>,
+    /// Traces many rays at once.
+    streams: Option<StreamSearches<M>>,
 }
 
 impl<M: Method> TreeIntersector<M> {
@@ -35,26 +35,26 @@ impl<M: Method> TreeIntersector<M> {
         bvh: Arc<Bvh>,
         level: SimdLevel,
         packing: Packing,
-        several: Option<Several<M>>,
+        streams: Option<StreamSearches<M>>,
     ) -> Self {
         const { assert!(M::VALUES <= MAX_VALUES) };
         Self {
             blocks: Blocks::new(primitives, bvh, packing, M::VALUES, M::EMPTY, M::pack),
             level,
             kernel,
-            several,
+            streams,
         }
     }
 
-    /// The searches of several rays at once, which need packed rows.
-    fn several(&self) -> Option<&Several<M>> {
-        self.several.as_ref().filter(|_| !self.blocks.are_compact())
+    /// The searches of many rays at once, which need packed rows.
+    fn streams(&self) -> Option<&StreamSearches<M>> {
+        self.streams.as_ref().filter(|_| !self.blocks.are_compact())
     }
 
-    /// These searches, if walks of the rays would wait for memory.
-    fn in_turns(&self, rays: &[Ray]) -> Option<&Several<M>> {
-        self.several()
-            .filter(|_| in_turns::pays(&self.blocks, rays))
+    /// These searches, if interleaving the rays is faster than tracing one after another.
+    fn interleaved(&self, rays: &[Ray]) -> Option<&StreamSearches<M>> {
+        self.streams()
+            .filter(|_| interleaved::is_faster(&self.blocks, rays))
     }
 
     /// Finds the nearest hits of the rays whose intervals don't start behind their origins.
@@ -183,9 +183,9 @@ impl<M: Method> Intersector for TreeIntersector<M> {
             .zip(hits.chunks_mut(M::BATCH_SIZE));
         for (rays, hits) in batches {
             let mut batch = M::batch();
-            match self.in_turns(rays) {
-                Some(several) => {
-                    (several.nearest_in_turns)(self, rays, hits, &mut batch, lent.all());
+            match self.interleaved(rays) {
+                Some(streams) => {
+                    (streams.nearest_interleaved)(self, rays, hits, &mut batch, lent.all());
                 }
                 None => M::Levels::find(self, rays, hits, &mut batch, lent.get()),
             }
@@ -197,21 +197,21 @@ impl<M: Method> Intersector for TreeIntersector<M> {
     }
 
     fn coherent_hits(&self, rays: &[Ray], hits: &mut [Option<Hit>]) {
-        match self.several() {
-            Some(several) => (several.nearest_of_packets)(self, rays, hits),
+        match self.streams() {
+            Some(streams) => (streams.nearest_of_packets)(self, rays, hits),
             None => self.closest_hits(rays, hits),
         }
     }
 
     fn coherent_any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
-        match self.several() {
-            Some(several) => (several.any_of_packets)(self, rays, are_hits),
+        match self.streams() {
+            Some(streams) => (streams.any_of_packets)(self, rays, are_hits),
             None => self.any_hits(rays, are_hits),
         }
     }
 
     fn rays_together(&self) -> usize {
-        self.several().map_or(1, |_| PACKET)
+        self.streams().map_or(1, |_| PACKET)
     }
 
     fn closest_hit_with_cost(&self, ray: &Ray) -> (Option<Hit>, Cost) {
@@ -224,8 +224,8 @@ impl<M: Method> Intersector for TreeIntersector<M> {
 
     fn any_hits(&self, rays: &[Ray], are_hits: &mut [bool]) {
         let mut lent = LentStack::new();
-        match self.in_turns(rays) {
-            Some(several) => (several.any_in_turns)(self, rays, are_hits, lent.all()),
+        match self.interleaved(rays) {
+            Some(streams) => (streams.any_interleaved)(self, rays, are_hits, lent.all()),
             None => M::Levels::find_any(self, rays, are_hits, lent.get()),
         }
         answer_behind(rays, are_hits, &|ray| {

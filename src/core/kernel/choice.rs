@@ -35,8 +35,7 @@ impl KernelChoice {
         })
     }
 
-    /// The kernel to compare this one with, unless the user chooses another: the exact one; for the exact one, the fast
-    /// one.
+    /// The kernel that this one is compared with by default: the exact kernel, or the fast one if this one is exact.
     pub fn default_second(self) -> Self {
         let tier = match self.tier() {
             Tier::Exact => Tier::Fast,

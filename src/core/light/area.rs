@@ -20,7 +20,7 @@ pub struct AreaLight {
     emits_on_back: bool,
     /// Whether a texture dims the light.
     is_textured: bool,
-    /// The primitive, prepared for sampling, if it is flat and no triangle: scenes have few of them.
+    /// The primitive prepared for sampling, if it is flat and not a triangle; of triangles, a scene may have too many.
     patch: Option<Box<FlatPatch>>,
 }
 
@@ -28,8 +28,8 @@ pub struct AreaLight {
 pub(super) struct Emitters {
     /// Those with an area that can be sampled. Rays that hit the others find their light.
     pub lights: Vec<AreaLight>,
-    /// Whether there are others.
-    pub are_more: bool,
+    /// Whether other primitives emit light.
+    pub has_others: bool,
 }
 
 impl Emitters {
@@ -39,7 +39,7 @@ impl Emitters {
         let count = if any { scene.primitive_count() } else { 0 };
         let mut found = Self {
             lights: Vec::new(),
-            are_more: false,
+            has_others: false,
         };
         for primitive in 0..count as u32 {
             if let Some(material) = materials.get(scene.material(primitive))
@@ -48,21 +48,21 @@ impl Emitters {
             {
                 match AreaLight::new(scene, primitive, material) {
                     Some(light) => found.lights.push(light),
-                    None => found.are_more = true,
+                    None => found.has_others = true,
                 }
             }
         }
         found
     }
 
-    /// Whether there are any.
-    pub fn are_some(&self) -> bool {
-        self.are_more || !self.lights.is_empty()
+    /// Whether no primitive emits light.
+    pub fn is_empty(&self) -> bool {
+        self.lights.is_empty() && !self.has_others
     }
 }
 
 impl AreaLight {
-    /// `None` if the primitive has no area that can be sampled.
+    /// The light of a primitive; `None` if it has no area that can be sampled.
     fn new(scene: &Scene, primitive: u32, material: &Material) -> Option<Self> {
         let area = scene.area(primitive);
         (area > 0.0 && area.is_finite()).then(|| Self {
@@ -84,7 +84,7 @@ impl AreaLight {
         sides * PI * self.area as f32 * self.radiance
     }
 
-    /// `None` if the sampled point doesn't emit towards `from`.
+    /// Light that reaches `from`; `None` if the sampled point doesn't emit towards it. `at` is uniform in the unit square.
     #[inline]
     pub(super) fn sample(
         &self,

@@ -46,7 +46,8 @@ pub enum Light {
 pub struct LightSample {
     /// The unit direction to the light.
     pub dir: Vec3,
-    /// Where the way to the light ends: off the light's surface, by the spawn policy; `None` if it doesn't end.
+    /// The end of the way to the light, which the spawn policy moves off the light's surface; `None` if the light is
+    /// infinitely far away.
     pub end: Option<Vec3>,
     /// The light that arrives, divided by the density.
     pub weight: Vec3,
@@ -75,7 +76,7 @@ impl Lights {
     }
 
     fn with(scene: &Scene, emitters: Emitters, others: Vec<Light>) -> Self {
-        let has_emitters = emitters.are_some();
+        let has_emitters = !emitters.is_empty();
         let mut lights: Vec<Light> = emitters.lights.into_iter().map(Light::Area).collect();
         let of_primitive = lights
             .iter()
@@ -110,7 +111,7 @@ impl Lights {
     /// The same; if nothing emits light, white light of radiance 1 from all directions, so that pictures aren't black.
     pub fn or_white(scene: &Scene, others: Vec<Light>) -> Self {
         let emitters = Emitters::of_scene(scene);
-        let others = if others.is_empty() && !emitters.are_some() {
+        let others = if others.is_empty() && emitters.is_empty() {
             vec![Light::Environment(Environment::Constant(Vec3::ONE))]
         } else {
             others

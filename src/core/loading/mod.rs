@@ -116,7 +116,7 @@ impl LoadedScene {
         integrator(self.file_integrator()?.view?)
     }
 
-    /// What light transport depends on as the file's integrator asks for it; else the defaults.
+    /// The settings of light transport, without lights: those of the file's integrator, or the defaults.
     pub fn lighting(&self) -> Lighting {
         let default = Lighting::default();
         match self.file_integrator() {

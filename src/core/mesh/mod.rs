@@ -181,7 +181,7 @@ impl TriangleMesh {
     }
 
     /// Prefetches the corners of triangles that will be looked up soon: they are spread over memory.
-    pub(crate) fn announce(&self, triangles: impl Iterator<Item = u32> + Clone) {
+    pub(crate) fn prefetch_corners(&self, triangles: impl Iterator<Item = u32> + Clone) {
         let token = baseline();
         for triangle in triangles.clone() {
             prefetch(

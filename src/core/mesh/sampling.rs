@@ -1,6 +1,6 @@
-//! How textures are read between and beyond their texels.
+//! Sampling of textures: filters between texels, and values beyond the image.
 
-/// How values between and beyond the texels follow from them.
+/// How a texture is sampled.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct Sampling {
     /// Between texels.

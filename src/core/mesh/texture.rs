@@ -40,8 +40,8 @@ impl Texture {
         })
     }
 
-    /// Creates a texture from linear values, row by row from the top, and returns how many numbers were replaced: one
-    /// that is negative or NaN becomes 0, one above [`MAX_BRIGHTNESS`] this limit. `None` as for [`new`](Self::new).
+    /// Creates a texture from linear values, row by row from the top, and returns how many numbers were
+    /// replaced: negative numbers and NaN become 0, and numbers above [`MAX_BRIGHTNESS`] become that limit. `None` as for [`new`](Self::new).
     pub fn linear(name: &str, size: UVec2, mut texels: Vec<Vec3>) -> Option<(Self, usize)> {
         let count = size.x as usize * size.y as usize;
         if count == 0 || texels.len() != count {
@@ -114,7 +114,7 @@ impl Texture {
         self.size
     }
 
-    /// The value at `uv`; of bytes, it is from 0 to 1. A coordinate that isn't finite counts as 0.
+    /// The value at `uv`; from 0 to 1 if texels are bytes. A coordinate that isn't finite counts as 0.
     pub fn value(&self, uv: Vec2, sampling: Sampling) -> Vec3 {
         match &self.texels {
             Texels::Checkers(values) => values[usize::from(is_odd_field(uv))],

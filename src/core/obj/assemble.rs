@@ -15,7 +15,7 @@ use super::rounding::max_rounding;
 use super::steps::LoadSteps;
 use super::triangulate::{Assembly, ChunkTriangles};
 use super::used::Used;
-use super::{LoadOptions, Loaded};
+use super::{LoadOptions, Loaded, Recentre};
 use crate::counts::counted_as;
 use crate::mesh::{Assigned, Attributes, CornerValues, Runs, TriangleMesh};
 use crate::progress::{Phase, Progress};
@@ -42,12 +42,8 @@ pub(super) fn assemble(
     progress.check()?;
 
     let exact = std::mem::take(&mut contents.positions);
-    let (ChosenOrigin { origin, core }, positions) = steps.time("recentring", || {
-        let chosen = choose_origin(&exact, &prepared.surface, options.recentre);
-        let moved = exact.par_iter().map(|&p| (p - chosen.origin).as_vec3());
-        let positions: Vec<Vec3> = moved.collect();
-        (chosen, positions)
-    });
+    let recentre = || recentred(&exact, &prepared.surface, options.recentre);
+    let (ChosenOrigin { origin, core }, positions) = steps.time("recentring", recentre);
     let elements = std::mem::take(&mut contents.elements);
     let assembly = Assembly {
         exact: &exact,
@@ -63,9 +59,8 @@ pub(super) fn assemble(
         steps.time("triangulating", || triangulate(&assembly, elements))?;
     progress.check()?;
 
-    let found = (found, has_textures);
-    let colours = prepared.colours;
     let (attributes, oddities) = steps.time("gathering", || {
+        let (found, colours) = ((found, has_textures), prepared.colours);
         gather(&mut triangles, parts, &mut contents, found, colours)
     });
     let dropped = oddities.dropped(&contents.skipped);
@@ -89,6 +84,18 @@ pub(super) fn assemble(
         ..LoadReport::default()
     };
     Ok(Loaded { mesh, report })
+}
+
+/// The origin, and the vertices' positions relative to it.
+fn recentred(
+    exact: &[DVec3],
+    surface: &[DVec3],
+    recentre: Recentre,
+) -> (ChosenOrigin, Vec<Vec3>) {
+    let chosen = choose_origin(exact, surface, recentre);
+    let moved = exact.par_iter().map(|&p| (p - chosen.origin).as_vec3());
+    let positions = moved.collect();
+    (chosen, positions)
 }
 
 /// What the assembly needs besides the contents that elements use.

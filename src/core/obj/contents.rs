@@ -21,7 +21,7 @@ const MAX_ENTRIES: usize = NO_INDEX as usize - 1;
 /// The contents of a file.
 #[derive(Default)]
 pub(super) struct Contents {
-    /// The lists are empty until [`finish`](Self::finish).
+    /// Empty until [`finish`](Self::finish), as are the next two lists.
     pub positions: Vec<DVec3>,
     pub textures: Vec<Vec2>,
     pub normals: Vec<Vec3>,

@@ -4,7 +4,7 @@
 //!
 //! | phase | lists |
 //! |---|---|
-//! | reading | the file's numbers, positions in f64, twice while they are joined, and the elements' indices |
+//! | reading | the file's numbers, positions in f64 (twice while they are joined), and the elements' indices |
 //! | assembling | the same, and the mesh |
 //! | building the tree | the mesh, the tree, and the builder's lists |
 //!

@@ -1,4 +1,4 @@
-//! A list that is read in parts, chunk by chunk, and joined in parallel once all of them are there.
+//! A list that is read in parts, one per chunk, which are joined in parallel in the end.
 
 use rayon::prelude::*;
 
@@ -33,12 +33,12 @@ impl<T: Copy + Send + Sync> ListParts<T> {
         self.ends.last().copied().unwrap_or(0)
     }
 
-    /// Takes all entries.
+    /// Takes all entries, in file order.
     pub(super) fn join(&mut self) -> Vec<T> {
         let Self { parts, ends } = std::mem::take(self);
         let start_of = |part: usize| part.checked_sub(1).map_or(0, |before| ends[before]);
         let count = ends.last().copied().unwrap_or(0);
-        // Each thread copies runs of entries, and so remembers the part that it is in.
+        // Each thread copies runs of entries, so it remembers the part that it is in.
         let entry = |part: &mut usize, at: usize| {
             if at < start_of(*part) || at >= ends[*part] {
                 *part = ends.partition_point(|&end| end <= at);

@@ -24,7 +24,7 @@ pub struct LoadReport {
     pub files: Vec<PathBuf>,
     /// Time for reading, parsing and checking.
     pub duration: Duration,
-    /// The same, step by step.
+    /// The duration of each step; empty for scene files.
     pub steps: LoadSteps,
 }
 

@@ -1,8 +1,8 @@
-//! The time of each step of a load.
+//! The time that each step of a load takes.
 
 use std::time::{Duration, Instant};
 
-/// The time of each step of a load by wall clock, in the order of their first use.
+/// Wall-clock times of the steps of a load, in the order in which the steps first began.
 #[derive(Clone, Debug, Default)]
 pub struct LoadSteps(Vec<(&'static str, Duration)>);
 
@@ -12,7 +12,7 @@ impl LoadSteps {
         self.0.iter().copied()
     }
 
-    /// Does a part of a step and adds its time.
+    /// Runs a part of a step and adds its time to the step's.
     pub(super) fn time<T>(&mut self, step: &'static str, part: impl FnOnce() -> T) -> T {
         let start = Instant::now();
         let result = part();

@@ -1,7 +1,7 @@
 //! The part of each pixel that surfaces cover: the alpha channel of a picture with a transparent background.
 //!
-//! Such a picture is rendered with [`ViewOptions::has_transparent_background`], so that samples that hit nothing are black: the
-//! film's colours are premultiplied by alpha.
+//! Such a picture is rendered with [`ViewOptions::has_transparent_background`]. Samples that hit nothing are then black, so
+//! the film's colours are premultiplied by alpha.
 //!
 //! Source: Porter, Duff, "Compositing Digital Images", SIGGRAPH 1984.
 //!
@@ -26,7 +26,7 @@ pub struct Alpha {
 }
 
 impl Alpha {
-    /// Traces a plan's samples again, up to their first hits, on `threads` threads; 0 takes one for each processor core. The
+    /// Traces a plan's samples again, up to their first hits, on `threads` threads; 0 stands for one thread per core. The
     /// result doesn't depend on the number of threads. A transparent material counts as a surface.
     ///
     /// # Errors
@@ -54,12 +54,13 @@ impl Alpha {
         self.size
     }
 
-    /// Row by row from the top.
+    /// The covered part of each pixel, from 0 to 1, row by row from the top.
     pub fn pixels(&self) -> &[f32] {
         &self.pixels
     }
 
-    /// A film with premultiplied colours as sRGB with straight alpha, as it is displayed, row by row from the top.
+    /// The pixels of a film with premultiplied colours as they are displayed: sRGB with straight alpha, row by row from the
+    /// top.
     ///
     /// # Panics
     /// If the film has another size.

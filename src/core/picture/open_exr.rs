@@ -54,9 +54,9 @@ pub const NO_PRIMITIVE: u32 = u32::MAX;
 #[derive(Debug, thiserror::Error)]
 pub enum PictureError {
     /// Film and guides, or film and alpha, differ in size.
-    #[error("the guides or the alpha are of {guides} pixels, the film is of {film} pixels")]
+    #[error("the guides or the alpha channel have {guides} pixels, the film has {film} pixels")]
     Size {
-        /// Width and height of the guides.
+        /// Width and height of the guides or the alpha.
         guides: UVec2,
         /// Width and height of the film.
         film: UVec2,

@@ -125,7 +125,7 @@ impl Job {
         })
     }
 
-    /// The samples of a batch with their colours, and the number of the camera's rays that hit the scene.
+    /// Traces the samples of a batch. Returns them with their colours, and the number of camera rays that hit the scene.
     fn traced(&self, places: &[Place]) -> (Vec<Sample>, u32) {
         let context = &self.context;
         let ray = |place: &Place| {
@@ -160,7 +160,7 @@ struct SampleBatch<'a> {
     hits: u32,
 }
 
-/// A sample's index of the pixel's sum, its pixel, and its index in the pixel.
+/// A sample: the index of its pixel's sum, the pixel, and its index among the pixel's samples.
 #[derive(Clone, Copy)]
 struct Place {
     sum: usize,

@@ -207,11 +207,11 @@ impl Scene {
         group.surface(ray, &Hit { primitive, ..*hit })
     }
 
-    /// Prefetches what [`surface`](Self::surface) reads of hits that will be looked up soon.
-    pub(crate) fn announce(&self, hits: &[Option<Hit>]) {
+    /// Prefetches the data that [`surface`](Self::surface) will read for these hits.
+    pub(crate) fn prefetch_surfaces(&self, hits: &[Option<Hit>]) {
         let primitives = hits.iter().flatten().map(|hit| hit.primitive);
         let triangles = primitives.filter(|&primitive| self.is_triangle(primitive));
-        self.mesh.announce(triangles);
+        self.mesh.prefetch_corners(triangles);
     }
 
     /// The area of a primitive; 0 if its points can't be sampled.

@@ -17,7 +17,7 @@ pub struct Integrator {
     pub view: Option<&'static str>,
     /// The most surfaces on a path; `None` for no limit. Mitsuba's `max_depth` also counts the emitter.
     pub depth_limit: Option<u32>,
-    /// The surface of a path from which on Russian roulette may end it.
+    /// The number of the surface, counted from 1, from which on Russian roulette may end a path.
     pub roulette_depth: u32,
     /// Whether the camera sees neither emitters nor the environment.
     pub hides_emitters: bool,

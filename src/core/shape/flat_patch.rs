@@ -1,4 +1,4 @@
-//! Part of a plane that is sampled again and again, as a lamp is.
+//! Rectangles and disks prepared for sampling, as lamps are sampled often.
 
 use super::{SampledSurface, Span, SurfacePoint, U, in_disk};
 use glam::{DVec2, DVec3, Vec3};
@@ -12,7 +12,7 @@ pub(super) enum Outline {
     Disk,
 }
 
-/// A rectangle or a disk, with everything that its points have in common.
+/// A rectangle or a disk, with the numbers that its points share.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct FlatPatch {
     centre: DVec3,
@@ -59,7 +59,7 @@ impl FlatPatch {
         }
     }
 
-    /// The surface at the point c + a·u + b·v.
+    /// The surface at the point c + a·u + b·v, where `uv` is (a, b).
     #[inline]
     pub(super) fn surface_at(&self, uv: DVec2) -> SurfacePoint {
         let [u, v] = self.axes;

@@ -47,7 +47,7 @@ fn integrals(bsdf: &Bsdf, outgoing: Vec3) -> Vec<f64> {
     cells
 }
 
-/// The quantile of the χ² distribution that is exceeded once in 100 000 times.
+/// The quantile of the χ² distribution that is exceeded with probability 10⁻⁵.
 ///
 /// Source: Wilson, Hilferty, "The Distribution of Chi-Square", PNAS 17, 1931.
 fn chi_squared_bound(degrees: usize) -> f64 {
@@ -58,7 +58,8 @@ fn chi_squared_bound(degrees: usize) -> f64 {
 
 #[test]
 fn directions_are_sampled_with_their_density_whose_integral_is_the_probability_of_any() {
-    // As many that the integrals' errors, below 1e-4 of the whole, are below the samples', √(n · integral).
+    // Few enough that the errors of the integrals, below 1e-4 of the whole, are below those of the samples,
+    // √(n · integral).
     const N: usize = 20_000;
     for (name, bsdf, outgoing) in cases() {
         let mut integrals = integrals(&bsdf, outgoing);
@@ -76,10 +77,10 @@ fn directions_are_sampled_with_their_density_whose_integral_is_the_probability_o
                 counts[cell(incoming)] += 1;
             }
         }
-        // Single directions and none.
+        // Samples of single directions, and samples without a direction.
         counts.push(N - counts.iter().sum::<usize>());
         integrals.push((1.0 - sum).max(0.0));
-        // The test needs 5 expected samples a cell; the others are one.
+        // The test needs 5 expected samples per cell; cells with fewer are joined to one.
         let (mut statistic, mut degrees) = (0.0, 0);
         let mut few = (0.0, 0.0);
         let mut add = |expected: f64, count: f64| {
@@ -97,7 +98,7 @@ fn directions_are_sampled_with_their_density_whose_integral_is_the_probability_o
         if few.0 >= 5.0 {
             add(few.0, few.1);
         } else {
-            // 5 expected samples are exceeded by 25 once in 10¹⁰ times.
+            // Where 5 samples are expected, there are 25 or more with a probability of about 10⁻¹⁰.
             assert!(few.1 < 25.0, "{name}: {few:?}");
         }
         if degrees > 1 {

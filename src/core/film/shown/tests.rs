@@ -1,4 +1,4 @@
-//! Tests of what a picture on the screen shows.
+//! Tests of the record of the pixels on the screen.
 
 use super::*;
 use crate::camera::Projection;
@@ -14,7 +14,7 @@ const ALL: PixelRect = PixelRect {
     max: SIZE,
 };
 
-/// A camera at this height, which is the blue of its picture.
+/// A camera at this height, which is the blue component of its picture.
 fn camera(height: f64) -> Camera {
     let projection = Projection::Orthographic { height: 1.0 };
     let eye = DVec3::new(0.0, height, 1.0);

@@ -1,31 +1,34 @@
-//! When packets are abandoned for single rays.
+//! Back-off: decides when packets are abandoned and their rays traced one by one.
 //!
 //! Where rays lie farther apart than triangles are large, as in a view from far away or at silhouettes, a packet tests
 //! more triangles than its rays do one by one. The interval that encloses the rays then meets most triangles of a block,
 //! while coherent rays share a few. A packet is abandoned once it has tested too many triangles for its blocks. As its
-//! neighbours rarely fare better, the next ones are abandoned at their first block; how many doubles with each failure.
+//! neighbours rarely fare better, the next packets are abandoned at their first block; their number doubles with each
+//! failure.
 
 use std::cell::Cell;
 
-/// Triangles tested in excess of [`PER_BLOCK`] before a packet is abandoned: for nearest hits, which cost single rays more,
-/// and for any hits.
+/// Triangles tested in excess of [`PER_BLOCK`] before a packet that searches for nearest hits is abandoned. It is more than
+/// for any hits because nearest hits cost single rays more.
 ///
 /// Measured with 8 to 64, and with 0 to 3.5 per block, on rays of a camera and to a lamp at 0.3, 1, 3 and 10 times the
 /// distance of the starting view, 1.1 M triangles (AVX-512, AMD, 2026-11). Relative to single rays, rays to a lamp run at
 /// 2.1, 0.9, 1.0 and 0.9; without back-off at 2.1, 0.7, 0.4 and 0.3.
 pub(super) const EXCESS_OF_NEAREST: i32 = 48;
+/// The same for packets that search for any hits.
 pub(super) const EXCESS_OF_ANY: i32 = 32;
 
-/// Triangles of a block that coherent rays test.
+/// Triangles per block that coherent rays test.
 const PER_BLOCK: i32 = 3;
 
-/// The most blocks that a packet visits, however few triangles it tests in each.
+/// The most blocks that a packet visits, even if it tests few triangles in each.
 const MOST_BLOCKS: u32 = 96;
 
-/// The most failures that count: after each the next 2ⁿ − 1 packets that reach a block are abandoned there.
+/// The most successive failures that count. After n failures, the next 2ⁿ − 1 packets that reach a block are abandoned
+/// there.
 const MOST_FAILURES: u32 = 4;
 
-/// What the packet may still test.
+/// The triangles and blocks that a packet may still test.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Allowance {
     excess: i32,
@@ -50,27 +53,27 @@ impl Allowance {
     }
 }
 
-/// What the last packets have shown about the coherence of rays.
+/// The state of the back-off: how coherent the last packets were.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub(super) struct BackOff {
     /// Failures since the last packet that was worthwhile, at most [`MOST_FAILURES`].
     failures: u32,
-    /// Packets to abandon at their first block.
+    /// The number of packets that are still to be abandoned at their first block.
     alone: u32,
 }
 
 thread_local! {
-    // A caller passes few packets at a time. The state changes the speed of later packets, never their hits.
+    // A caller passes few packets at a time, so the state outlives the call. The state changes the speed of later packets, never their hits.
     static LAST: Cell<BackOff> = const { Cell::new(BackOff { failures: 0, alone: 0 }) };
 }
 
 impl BackOff {
-    /// As the thread's last call has left it.
+    /// The state that the thread's last call kept.
     pub fn resumed() -> Self {
         LAST.get()
     }
 
-    /// Keeps it for the thread's next call.
+    /// Keeps the state for the thread's next call.
     pub fn keep(self) {
         LAST.set(self);
     }
@@ -135,7 +138,7 @@ mod tests {
         for untried in [1, 3, 7, 15, 15] {
             assert!(trace(&mut state, 40, 6));
             for _ in 0..untried {
-                // Packets that meet nothing are traced and tell nothing.
+                // Packets that meet nothing are traced and don't change the state.
                 assert!(!trace(&mut state, 0, 0));
                 assert_eq!(state.allowance(EXCESS).excess, 0);
                 assert!(trace(&mut state, 1, 2));

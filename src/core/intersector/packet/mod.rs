@@ -1,8 +1,8 @@
 //! Traces packets of sixteen rays, one ray per lane. For rays with similar origins and directions, such as a
 //! camera's or those to one lamp.
 //!
-//! [`PacketMethod`] is the capability of a [`Method`]; its testers are `ranked` and `exact`. `back_off` tells when single
-//! rays are faster.
+//! [`PacketMethod`] is the capability of a [`Method`]; its testers are `ranked` and `exact`. `back_off` decides when
+//! single rays are faster.
 
 mod back_off;
 mod exact;

@@ -63,7 +63,7 @@ fn is_degenerate(form: &PlaneForm) -> bool {
     }
 }
 
-/// The parameters of which a plane has those of one row.
+/// The ways to describe a plane, each by its parameters besides `point`. A plane has one description.
 const FORMS: [&[&str]; 4] = [
     &["p0", "p1", "p2"],
     &["a", "b", "c", "d"],
@@ -71,6 +71,8 @@ const FORMS: [&[&str]; 4] = [
     &["normal"],
 ];
 
+/// Checks that a plane has one description.
+///
 /// # Errors
 /// Parameters of two descriptions are given.
 fn require_one_form(parameters: &Parameters) -> Result<(), Problem> {

@@ -1,4 +1,4 @@
-//! In trees larger than the caches, rays that are traced in turns get the same bits as single rays.
+//! In trees larger than the caches, interleaved rays are bit-identical to single rays.
 
 use crate::simd::bits;
 use glam::Vec3;
@@ -9,7 +9,7 @@ use hitscope_core::scene::scene;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Ray, Scene};
 
-/// Packed primitives of more bytes are traced in turns.
+/// Packed primitives of more bytes are traced interleaved.
 const LARGE: usize = 8 << 20;
 
 /// Rays through the scene. Some exclude a triangle, start behind their origin, or end soon.
@@ -33,7 +33,7 @@ fn rays(scene: &Scene, count: usize) -> Vec<Ray> {
 }
 
 #[test]
-fn rays_in_turns_have_the_hits_of_single_rays() {
+fn interleaved_rays_have_the_hits_of_single_rays() {
     let scene = scene(torus(500, 320, Placement::UNIT));
     let rays = rays(&scene, 3000);
     for kernel in TRIANGLE_KERNELS.iter().filter(|k| k.info.tier.is_some()) {
@@ -43,7 +43,7 @@ fn rays_in_turns_have_the_hits_of_single_rays() {
             assert!(intersector.bytes() > LARGE, "{name}");
             let mut hits = vec![None; rays.len()];
             let mut any = vec![false; rays.len()];
-            // Batches with fewer rays than turns, and with more.
+            // Batches with fewer rays than interleaved walks, and with more.
             for count in [1, 7, 8, 9, 3000] {
                 intersector.closest_hits(&rays[..count], &mut hits[..count]);
                 intersector.any_hits(&rays[..count], &mut any[..count]);

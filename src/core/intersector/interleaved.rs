@@ -1,9 +1,9 @@
-//! Traces rays in turns: a step of one walk, then a step of the next. While a walk waits for its next node or block, which
-//! it has prefetched, the others proceed.
+//! Interleaved tracing of rays: a step of one ray's walk, then a step of the next ray's. While a walk waits for the next node
+//! or block, which it has prefetched, the others proceed.
 //!
 //! Source: O. Kocberber, B. Falsafi, B. Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015.
 //!
-//! Relative to one ray after another (random rays and rays from their hits, `watertight`, AMD Zen 4 with 1 MB of L2
+//! Speed relative to tracing one ray after another (random rays and rays from their hits, `watertight`, AMD Zen 4 with 1 MB of L2
 //! cache, 2026-11), with 4, 6, 8, 12 and 16 walks:
 //!
 //! ```text
@@ -14,8 +14,8 @@
 //!    4.4 M  240 MB     1.54  1.78  1.84                1.62  1.81  1.87
 //! ```
 //!
-//! Rays that start near each other visit the same nodes, which stay in the cache. They lose with 8 walks: camera rays .83,
-//! and rays from the hits of neighbouring pixels .89 (1.1 M triangles).
+//! Rays that start near each other visit the same nodes, which stay in the cache. Interleaving makes them slower: with 8
+//! walks, camera rays run at .83, and rays from the hits of neighbouring pixels at .89 (1.1 M triangles).
 
 use super::blocks::Blocks;
 use super::is_behind;
@@ -28,18 +28,18 @@ use crate::ray::{Hit, Ray};
 use crate::shape::Shape;
 use fearless_simd::{Simd, dispatch};
 
-/// The size of a tree with its blocks, in bytes, from which turns pay: between those of the table in the
-/// [module](self) that lose and gain.
+/// The size of a tree with its blocks, in bytes, from which interleaving is faster: between the sizes in the
+/// [module](self)'s table that lose and gain.
 const LARGE: usize = 8 << 20;
 
-/// Part of the tree's diameter: rays that start farther apart are scattered.
+/// Rays are scattered if their origins are farther apart than this part of the tree's diameter.
 const APART: f32 = 1.0 / 64.0;
 
 /// Pairs of successive rays whose origins are compared.
 const PAIRS: usize = 16;
 
-/// Whether turns are faster than one ray after another.
-pub(super) fn pays<S, T>(blocks: &Blocks<S, T>, rays: &[Ray]) -> bool
+/// Whether interleaving is faster than tracing one ray after another.
+pub(super) fn is_faster<S, T>(blocks: &Blocks<S, T>, rays: &[Ray]) -> bool
 where
     S: Shape,
     T: Copy + Default + Send + Sync,
@@ -79,7 +79,7 @@ struct Running<S: Simd, V> {
     search: V,
 }
 
-/// Runs the searches of the rays whose intervals don't start behind their origins. The tree isn't empty.
+/// Runs the searches of the rays whose intervals don't start behind their origins. The tree must not be empty.
 #[inline(always)]
 fn run<S: Simd, Q: Searches<S>>(
     bvh: &Bvh,
@@ -181,8 +181,8 @@ impl<'a, M: Method, S: Simd> Searches<S> for AnySearches<'a, M, S> {
 }
 
 impl<M: Method> TreeIntersector<M> {
-    /// As [`find`](Self::find), in turns, for packed rows.
-    pub(super) fn nearest_in_turns(
+    /// The same as [`find`](Self::find), interleaved. Needs packed rows.
+    pub(super) fn nearest_interleaved(
         &self,
         rays: &[Ray],
         hits: &mut [Option<Hit>],
@@ -195,8 +195,8 @@ impl<M: Method> TreeIntersector<M> {
         });
     }
 
-    /// As [`find_any`](Self::find_any), in turns, for packed rows.
-    pub(super) fn any_in_turns(&self, rays: &[Ray], are_hits: &mut [bool], stacks: &mut Stacks) {
+    /// The same as [`find_any`](Self::find_any), interleaved. Needs packed rows.
+    pub(super) fn any_interleaved(&self, rays: &[Ray], are_hits: &mut [bool], stacks: &mut Stacks) {
         dispatch!(self.level.level(), token => {
             let mut searches = AnySearches { intersector: self, token, rays, are_hits };
             run(&self.blocks.bvh, token, rays, stacks, &mut searches);
