@@ -1,4 +1,4 @@
-//! The window's camera as plain data: that of session files, of steps of undo, and of `--session` on the command line.
+//! The window's camera as plain data, for session files, undo, and `--session` on the command line.
 
 use glam::{DVec3, UVec2};
 use hitscope_core::camera::{Turntable, UpAxis};
@@ -6,7 +6,7 @@ use hitscope_core::{Camera, Scene};
 use serde::{Deserialize, Serialize};
 use std::f64::consts::PI;
 
-/// The version of session files that is written. Files of later versions are refused.
+/// The version of the format of session files. Files of later versions are refused.
 pub const SESSION_FORMAT: u32 = 1;
 
 /// The window's camera in the file's coordinates.
@@ -41,7 +41,7 @@ impl Viewpoint {
         }
     }
 
-    /// The camera in a scene; exactly the same one if the scene's origin is the same.
+    /// The camera in a scene; the same, bit for bit, if the scene's origin is the same.
     pub fn turntable(&self, scene: &Scene) -> Turntable {
         let mut turntable = Turntable::framing(scene.bounds_with_elements(), UVec2::ONE);
         let shift = DVec3::from_array(self.origin) - scene.mesh().origin();
@@ -56,12 +56,12 @@ impl Viewpoint {
         turntable
     }
 
-    /// Refuses numbers that no window has set.
+    /// Refuses values that the window can't set.
     ///
     /// # Errors
     /// What is wrong.
     pub fn check(&self) -> Result<(), &'static str> {
-        /// As on the command line, in radians.
+        /// Below the least field of view of the command line, 10⁻⁶ degrees.
         const LEAST_FOV: f64 = 1e-8;
         let limit = f64::from(f32::MAX);
         let is_place = |v: [f64; 3]| v.iter().all(|x| x.abs() <= limit);

@@ -59,7 +59,7 @@ fn mesh(view: &str) -> TriangleMesh {
 pub fn job(view: &str, shading: Shading, projection: Projection, plan: Plan) -> Job {
     let scene = Arc::new(scene(mesh(view)));
     let view = integrator(view).expect("a view");
-    // The exact kernel's errors would leave the pictures of errors blank.
+    // The exact kernel would leave the pictures of errors blank.
     let kernel = match view.needs.second {
         Comparison::Nothing => default_triangle_kernel(),
         Comparison::Exact | Comparison::Second => Triangle::kernel_of(Tier::Watertight),

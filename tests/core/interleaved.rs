@@ -9,7 +9,7 @@ use hitscope_core::scene::scene;
 use hitscope_core::simd::SimdLevel;
 use hitscope_core::{Ray, Scene};
 
-/// Packed primitives of more bytes are traced interleaved.
+/// Rays are interleaved in trees whose packed primitives exceed this number of bytes.
 const LARGE: usize = 8 << 20;
 
 /// Rays through the scene. Some exclude a triangle, start behind their origin, or end soon.

@@ -147,7 +147,7 @@ fn a_scenes_report_has_a_page_with_each_kernel_and_one_row_per_tier() {
     let folder = folder();
     let line = "--quick --scene @scene.xml --size 8x6 --out @report";
     let text = folder.text(|f, out| f.args::<LabArgs>(line).run(out));
-    assert!(text.contains("Each row is of the whole scene"), "{text}");
+    assert!(text.contains("Each row measures the whole scene"), "{text}");
     let count = |name: &str| {
         let mut words = text
             .lines()

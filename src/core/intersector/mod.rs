@@ -49,10 +49,10 @@ use exact::Exact;
 use levels::{BaselineLevel, EveryLevel};
 use method::Method;
 use ranked::Ranked;
-use stream::StreamSearches;
 use std::ops::AddAssign;
 use std::slice::from_ref;
 use std::sync::Arc;
+use stream::StreamSearches;
 use tree::TreeIntersector;
 
 /// The cost of tracing a ray.
@@ -128,7 +128,11 @@ struct Packer<'a, S> {
 }
 
 impl<S: Shape> Packer<'_, S> {
-    fn pack<M: Method<Shape = S>>(&mut self, kernel: &KernelInfo, streams: Option<StreamSearches<M>>) {
+    fn pack<M: Method<Shape = S>>(
+        &mut self,
+        kernel: &KernelInfo,
+        streams: Option<StreamSearches<M>>,
+    ) {
         if kernel.name == self.kernel.name {
             self.packed = Some(Box::new(TreeIntersector::new(
                 self.kernel,

@@ -87,11 +87,7 @@ pub(super) fn assemble(
 }
 
 /// The origin, and the vertices' positions relative to it.
-fn recentred(
-    exact: &[DVec3],
-    surface: &[DVec3],
-    recentre: Recentre,
-) -> (ChosenOrigin, Vec<Vec3>) {
+fn recentred(exact: &[DVec3], surface: &[DVec3], recentre: Recentre) -> (ChosenOrigin, Vec<Vec3>) {
     let chosen = choose_origin(exact, surface, recentre);
     let moved = exact.par_iter().map(|&p| (p - chosen.origin).as_vec3());
     let positions = moved.collect();

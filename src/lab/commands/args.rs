@@ -36,7 +36,7 @@ impl MeshArgs {
         self.load_with_tree(path, recentre, FirstTree::Best)
     }
 
-    /// The same as [`load`](Self::load), with another tree to start with.
+    /// The same as [`load`](Self::load), with a choice of the first tree.
     ///
     /// # Errors
     /// [`CommandError::Load`].

@@ -47,7 +47,7 @@ pub struct LabArgs {
     /// Measure fewer rays: half a minute instead of several minutes
     #[arg(long)]
     pub quick: bool,
-    /// Write report.html and lab.json to this directory, and without --scene accuracy.md
+    /// Write report.html and lab.json to this directory; without --scene, also accuracy.md
     #[arg(long, value_name = "DIR")]
     pub out: Option<PathBuf>,
     /// Measure only cases whose names begin with NAME, and neither speed nor packing; repeat the option for several
@@ -247,7 +247,8 @@ impl LabArgs {
     }
 }
 
-/// The page and its data, opened before the measurement, which takes minutes, to be sure that they are writable.
+/// The page and its data. They are opened before the measurement, which takes minutes, so that it isn't lost if they can't be
+/// written.
 struct PageFiles {
     json: Output,
     page: Output,
@@ -359,7 +360,7 @@ fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
 
 fn print_row(name: &str, row: &SceneRow, width: usize, out: &mut dyn Write) -> io::Result<()> {
     let (rates, t) = (row.speed.mrays_per_s, row.t_ulps);
-    // There are no bounce rays where nothing is hit, and no random rays at what has no bounds.
+    // There are no bounce rays if nothing is hit, and no random rays if the scene has no bounds.
     let ulps = |x: Option<f64>| x.map_or("–".to_owned(), short);
     writeln!(
         out,

@@ -50,7 +50,8 @@ pub struct PictureArgs {
     /// Exposure and tone.
     #[command(flatten)]
     pub display: DisplayArgs,
-    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact; for the exact kernel, fast]
+    /// Kernel to compare with, for the view “disagreement”, by name or tier as for --kernel [default: exact, or fast if
+    /// --kernel is exact]
     #[arg(long, value_name = "KERNEL", value_parser = parse_kernel)]
     pub against: Option<KernelChoice>,
     /// Threads.
@@ -171,8 +172,8 @@ impl PictureArgs {
         }
     }
 
-    /// The tree with which `shot_count` pictures of each view take the least time. The views must show first hits, so that
-    /// the rays are coherent, and the number of rays must be known.
+    /// The first tree with which `shot_count` pictures of each view take the least time. It is the best tree unless all views
+    /// show first hits, whose rays are coherent, and the number of rays is known before the scene is loaded.
     pub(super) fn first_tree(&self, shot_count: usize) -> FirstTree {
         let file = &self.scene.file;
         let known = self.view.known(file).zip(self.camera.known_size(file));

@@ -23,7 +23,7 @@ pub struct PreparedScene<'a> {
     pub(super) intersector: Arc<dyn Intersector>,
     pub(super) views: Vec<&'static Integrator>,
     pub(super) has_guides: bool,
-    /// Whether rays that hit nothing are transparent.
+    /// Whether the background is transparent.
     pub(super) is_transparent: bool,
     /// `None` if no view needs light.
     pub(super) light: Option<SceneLight>,

@@ -75,7 +75,7 @@ impl SceneArgs {
         self.load_with_tree(FirstTree::Best)
     }
 
-    /// The same as [`load`](Self::load), with another tree to start with.
+    /// The same as [`load`](Self::load), with a choice of the first tree.
     ///
     /// # Errors
     /// [`CommandError::Load`].

@@ -28,8 +28,7 @@ use hitscope_core::shape::{AxisBox, Cuboid, Parameter, ParameterKind, Plane, Sha
 use hitscope_core::{Hit, Ray, Scene};
 use number::{point, polynomial, text};
 
-/// The derivation of a ray's hit. The ray is relative to
-/// `origin`, which is the scene's unless only triangles are hit.
+/// The derivation of a ray's hit. The ray is relative to `origin`, which is the scene's unless only triangles are hit.
 ///
 /// # Panics
 /// If the scene has no such primitive.
@@ -72,8 +71,8 @@ pub fn lines(scene: &Scene, origin: DVec3, ray: &Ray, hit: &Hit) -> Vec<String> 
     lines
 }
 
-/// How the t of a given ray follows from the t of the ray that is traced, which starts at the given one's `start` and whose t
-/// is in units of `scale`.
+/// A sentence that derives the t of a given ray from the t of the traced ray. The traced ray starts at t = `start` of the given
+/// one, and its t is in units of `scale`.
 pub fn t_of_given_ray(start: f64, scale: f64, t: f64) -> String {
     let product = if scale == 1.0 {
         "t".to_owned()
@@ -88,7 +87,7 @@ pub fn t_of_given_ray(start: f64, scale: f64, t: f64) -> String {
     )
 }
 
-/// The exact t of a hit, rounded once: of all points in which the ray crosses the primitive, that of the nearest to the hit.
+/// The exact t, rounded once, of the ray's crossing of the primitive that is nearest to the hit; `None` if it misses.
 fn exact_t(scene: &Scene, ray: &Ray, hit: &Hit) -> Option<f64> {
     let (mut rest, mut nearest) = (*ray, None);
     let distance = |t: f64| (t - f64::from(hit.t)).abs();

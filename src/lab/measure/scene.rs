@@ -40,8 +40,8 @@ impl SceneSizes {
     };
 }
 
-/// What a row means in a scene with several shapes.
-pub const OF_WHOLE_SCENE: &str = "Each row is of the whole scene: other shapes are tested by their kernels of the same tier or precision.";
+/// The explanation of rows in reports of scenes with several shapes.
+pub const OF_WHOLE_SCENE: &str = "Each row measures the whole scene: the other shapes use their kernels of the same tier or precision.";
 
 /// The result of one kernel, for the whole scene.
 #[derive(Clone, Debug, Serialize)]

@@ -1,7 +1,7 @@
 //! Speed of the kernels of every shape but the triangle: rays through the tree over random primitives.
 //!
-//! Planes and boxes that are aligned with the axes are measured as general planes and boxes, too: the difference is what
-//! the simplification saves.
+//! Axis-aligned planes and boxes are also measured with the kernels of general planes and boxes, to show how much time
+//! alignment saves.
 
 use super::primitives::{Counts, of_primitives, scenes};
 use super::scene::counted_primitives;
@@ -20,7 +20,7 @@ use serde::Serialize;
 pub struct ShapeSpeed {
     /// The shape.
     pub shape: &'static str,
-    /// Whether its primitives are aligned with the axes, although the kernel doesn't require that.
+    /// Whether the primitives are aligned with the axes although the kernel doesn't require it.
     pub is_aligned: bool,
     /// The kernel.
     pub kernel: &'static str,
@@ -92,7 +92,7 @@ fn measure_kernels(
     Ok(())
 }
 
-/// The same primitives as general planes or boxes, if they are planes or boxes that are aligned with the axes.
+/// The primitives as general planes or boxes; `None` unless they are axis-aligned planes or boxes.
 fn generalised(scene: &Scene) -> Option<Scene> {
     let group = &scene.groups()[0];
     let numbers = (0..group.count()).map(|index| group.numbers(index as u32));

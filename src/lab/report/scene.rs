@@ -1,4 +1,4 @@
-//! The measurement of the user's scene, for the page.
+//! The report of the measurement of the user's scene, for the page.
 
 use super::RunInfo;
 use crate::measure::scene::{OF_WHOLE_SCENE, SceneRow, counted_primitives};
@@ -19,7 +19,7 @@ pub fn scene_for_page(about: &RunInfo, file: &str, scene: &Scene, rows: &[SceneR
     })
 }
 
-/// The kernels as the page draws them. In a scene of several shapes, a tier is one entry.
+/// The kernels as the page draws them. In a scene of several shapes, each tier has one entry.
 fn entries(rows: &[SceneRow], has_several_shapes: bool) -> Vec<Value> {
     let is_first = |row: &SceneRow| row.tier.is_none() || row.shape == rows[0].shape;
     let entry = |row: &SceneRow| {

@@ -33,7 +33,7 @@ fn print_speed(all: &Measurements, out: &mut dyn Write) -> io::Result<()> {
     print_speeds(all.shape_speed.iter().filter(|row| !row.is_aligned), out)?;
     writeln!(
         out,
-        "General planes and boxes, at the primitives and rays of the axis-aligned ones; times relative to their fast kernel"
+        "Kernels of general planes and boxes on axis-aligned primitives; times relative to the fast kernel for axis-aligned ones"
     )?;
     print_speeds(all.shape_speed.iter().filter(|row| row.is_aligned), out)
 }

@@ -48,7 +48,7 @@ fn roulette_begins_at_the_surface_that_the_file_names_and_does_not_change_the_me
     }
 }
 
-/// What views show of a lamp before a white wall under a sky, along a ray through the lamp.
+/// A hidden lamp under a sky, before a white wall if `has_wall`.
 fn lamp(integrator: &str, has_wall: bool) -> Context {
     let wall = "<shape type='rectangle'><transform name='to_world'><scale value='9'/><translate z='-1'/></transform>
          <bsdf type='diffuse'><spectrum name='reflectance' value='1'/></bsdf></shape>";
@@ -66,11 +66,7 @@ fn hidden_emitters_light_the_scene_and_are_not_seen() {
     let down = Ray::new(Vec3::new(0.1, 0.2, 3.0), Vec3::NEG_Z).expect("a ray");
     for view in ["path", "direct", "whitted"] {
         let behind = radiance(&lamp(view, false), view, &down).expect("the lamp is hit");
-        assert_eq!(
-            behind,
-            DVec3::new(0.1, 0.2, 0.3).as_vec3().as_dvec3(),
-            "{view}"
-        );
+        assert_eq!(behind, Vec3::new(0.1, 0.2, 0.3).as_dvec3(), "{view}");
         // The wall faces the sky and the lamp, both of radiance 1: the lamp replaces the sky that it covers.
         Estimate::of_ray(&lamp(view, true), view, path_count(), down).require(1.0);
     }

@@ -1,4 +1,4 @@
-//! Textures in linear formats: their numbers aren't decoded from sRGB, and reach the picture.
+//! Textures in linear formats: their numbers reach the picture without decoding from sRGB.
 
 use super::lamps::radiance;
 use super::lit;

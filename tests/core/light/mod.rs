@@ -84,9 +84,9 @@ impl Estimate {
     /// The mean of a function of independent random numbers. The samples of one pixel aren't independent, so each sample
     /// is of a pixel of its own.
     fn of(n: u32, sample: impl Fn(&mut Sampler) -> f64 + Sync) -> Self {
-        /// Of a chunk, all values are in memory.
+        /// Samples per chunk; a thread keeps the values of one chunk in memory.
         const CHUNK: u32 = 1 << 12;
-        // The sum of a chunk, and the squared deviations from its mean.
+        // The count and the sum of a chunk, and the squared deviations from its mean.
         let chunk = |k: u32| {
             let range = k * CHUNK..(k + 1).saturating_mul(CHUNK).min(n);
             let count = f64::from(range.end - range.start);

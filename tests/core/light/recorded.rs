@@ -85,7 +85,7 @@ fn a_recorded_path_has_the_colour_of_its_sample_bit_for_bit() {
 }
 
 #[test]
-fn samples_of_a_batch_get_the_same_bits_as_alone() {
+fn samples_of_a_batch_are_bit_identical_to_single_samples() {
     for view in INTEGRATORS {
         let job = job(view.name, 1, true);
         let context = &job.context;

@@ -107,8 +107,8 @@ fn repairs_change_nothing_where_only_a_texture_tilts_the_normal() {
     assert_eq!(none, hanika);
 }
 
-/// The edges of the facets. The light comes from 0°, so that some facets face it although the curved surface behind them
-/// doesn't, and others the other way round.
+/// The edges of the facets. They are placed so that some facets face the light, which comes from 0°, where the curved surface
+/// turns away, and others turn away where the curved surface faces it.
 const EDGES: std::ops::Range<i32> = 0..12;
 
 fn edge_degrees(edge: i32) -> f64 {
@@ -161,7 +161,7 @@ fn inwards(degrees: f64, z: f64) -> Ray {
 }
 
 #[test]
-fn no_light_reaches_a_relief_where_the_surface_that_has_it_turns_away() {
+fn no_light_reaches_a_relief_where_its_surface_turns_away() {
     let mut random = Random::new(11);
     let (mut seen_by_relief, mut seen_by_facet) = (0, 0);
     let mut contexts = TILTS.map(|(red, tangent)| (embossed_tube(red), f64::atan(tangent)));

@@ -1,4 +1,4 @@
-//! The figures of `hitscope bench`, and their tables.
+//! The report of `hitscope bench`: its figures as JSON and as tables.
 
 use super::super::CommandError;
 use hitscope_core::counts::grouped;
@@ -7,6 +7,7 @@ use serde_json::{Map, Value};
 use std::io::Write;
 use std::time::Duration;
 
+/// All figures. Times are in milliseconds of wall-clock time.
 #[derive(Serialize)]
 pub(super) struct Report {
     pub triangles: usize,
@@ -17,9 +18,9 @@ pub(super) struct Report {
     pub contents: String,
     pub simd: &'static str,
     pub load_ms: f64,
-    /// The same, step by step; empty for a scene file.
+    /// The time of each step; empty for a scene file.
     pub load_steps_ms: Map<String, Value>,
-    /// The threads that load and build trees.
+    /// The number of threads that load and build trees.
     pub load_threads: usize,
     /// Building the trees.
     pub build_ms: f64,
@@ -34,6 +35,7 @@ pub(super) struct Report {
     pub workloads: Vec<Row>,
 }
 
+/// The packed primitives of a kernel.
 #[derive(Serialize)]
 pub(super) struct PackedKernel {
     pub kernel: &'static str,
@@ -60,6 +62,7 @@ impl BytesEach {
     }
 }
 
+/// The speed of a kernel in a workload, by CPU time and by wall-clock time.
 #[derive(Serialize)]
 pub(super) struct Row {
     pub name: &'static str,

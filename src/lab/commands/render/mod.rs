@@ -243,7 +243,7 @@ impl RenderArgs {
         let compares = |view: &&&Integrator| view.needs.second != Comparison::Nothing;
         match views.iter().find(compares) {
             Some(view) if self.transparent => Err(CommandError::Usage(format!(
-                "--transparent can't be used with the view “{}”: where its ray hits nothing, another kernel's may hit",
+                "--transparent can't be used with the view “{}”: where one kernel hits nothing, the other may hit",
                 view.name
             ))),
             _ => Ok(()),

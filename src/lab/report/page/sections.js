@@ -125,7 +125,7 @@ const sections = {
   meshes: { needs: () => lab.meshes, show: () => section('meshes').append(...heatMap(meshMap), ...cellTable(meshMap)) },
   order: { needs: () => lab.order, show: () => section('order').append(...heatMap(orderMap), ...cellTable(orderMap)) },
   boxes: { needs: () => lab.boxes, show: showBoxes },
-  spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap({ ...spawningMap, entries: lab.spawning.filter(row => row.kernel === 'watertight') }), ...cellTable(spawningMap)) },
+  spawning: { needs: () => lab.spawning, show: () => section('spawning').append(...heatMap({ ...spawningMap, entries: lab.spawning.filter(row => row.kernel === 'exact') }), ...cellTable(spawningMap)) },
   shapes: { needs: () => lab.shapes, show: () => section('shapes').append(...mapsByShape(shapeMap), ...cellTable(shapeMap)) },
   'shape-spawning': { needs: () => lab.shape_spawning, show: () => section('shape-spawning').append(...mapsByShape(shapeSpawningMap), ...cellTable(shapeSpawningMap)) },
   packing: { needs: () => lab.packing, show: () => section('packing').append(scrollBox('Packing', null, sortableTable(packingColumns, lab.packing).table)) },
