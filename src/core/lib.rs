@@ -24,17 +24,18 @@
 //! | [`interaction`] | the surface at a hit: normals, material, texture coordinates |
 //! | `appearance` | the material at a hit, with textures and vertex colours |
 //! | `statements` | the BSDF that the statements of a material library describe |
-//! | [`bsdf`] | how surfaces scatter light, one file a model |
-//! | [`light`] | lights, one file a kind |
+//! | [`bsdf`] | how surfaces scatter light, one file per model |
+//! | [`light`] | lights, one file per kind |
 //! | [`colour`] | colour maps and scales of numbers |
 //! | [`integrator`] | the views: from a hit to a colour |
 //! | [`spawn`] | origins of rays that leave a surface |
+//! | [`terminator`] | repairs of the shadow terminator |
 //! | [`plan`] | the order in which pixels and samples are traced |
 //! | [`film`] | accumulation of samples |
 //! | [`tone`] | exposure and tone curves |
 //! | [`picture`] | pictures for other programs |
 //! | [`render`] | progressive rendering on several threads |
-//! | [`ray`], [`aabb`], `lane`, [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`], [`names`], [`brightness`] | shared types |
+//! | [`ray`], [`aabb`], `lane`, [`simd`], [`srgb`], [`sampler`], [`random`], [`progress`], [`counts`], [`names`], [`brightness`] | shared types |
 //!
 //! Meshes and rays consist of f32 numbers; a mesh is stored relative to an f64 origin. Nothing here
 //! depends on a scene's size, position or units.

@@ -118,8 +118,8 @@ impl SpawnPolicy {
         }
     }
 
-    /// The end of a ray from the point `from` to a point of a surface: where a ray back to `from` would start, so that the ray
-    /// doesn't hit the surface. `corners` are those of a triangle.
+    /// The end of a ray from the point `from` to a point of a surface: where a ray back to `from` would start, so that
+    /// the ray doesn't hit the surface. `corners` are those of a triangle.
     pub(crate) fn end(
         &self,
         from: Vec3,

@@ -52,7 +52,7 @@ impl Viewpoint {
         turntable.roll_radians = self.roll_radians;
         turntable.fov_y_radians = self.fov_y_radians;
         turntable.is_orthographic = self.is_orthographic;
-        turntable.up_axis = if self.is_z_up { UpAxis::Z } else { UpAxis::Y };
+        turntable.up_axis = self.up_axis();
         turntable
     }
 

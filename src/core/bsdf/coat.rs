@@ -1,5 +1,5 @@
-//! Shared parts of the models of a coat over a base: the choice between the two, the light that the base returns, and sampling
-//! of a rough coat over a diffuse base.
+//! Shared parts of the models of a coat over a base: the choice between the two, the light that the base returns, and
+//! sampling of a rough coat over a diffuse base.
 
 use super::diffuse::{cosine_density, cosine_direction};
 use super::microfacets::Microfacets;
@@ -14,9 +14,9 @@ pub(super) fn probability(first: Vec3, second: Vec3) -> f32 {
     if sum > 0.0 { first / sum } else { 0.0 }
 }
 
-/// The reflectance of a diffuse base below a coat of relative index `eta` that reflects the part `inner` of the base's light
-/// back to it: the sum over all reflections between the two, divided by `eta`² because light spreads as it leaves the medium.
-/// If `is_nonlinear`, every reflection by the base colours the light; else only the last one does.
+/// The reflectance of a diffuse base below a coat of relative index `eta` that reflects the part `inner` of the base's
+/// light back to it: the sum over all reflections between the two, divided by `eta`² because light spreads as it leaves
+/// the medium. If `is_nonlinear`, every reflection by the base colours the light; else only the last one does.
 pub(super) fn below_coat(diffuse: Vec3, inner: f32, eta: f32, is_nonlinear: bool) -> Vec3 {
     let back = if is_nonlinear {
         inner * diffuse

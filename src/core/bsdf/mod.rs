@@ -1,4 +1,4 @@
-//! How surfaces scatter light: one file a model.
+//! How surfaces scatter light: one file per model.
 //!
 //! Directions are unit vectors in the frame of the shading normal, its z axis; both point away from the surface. To add
 //! a model, write its file with its row, and add it to [`Bsdf`] and to [`MODELS`], with whose examples one suite of tests

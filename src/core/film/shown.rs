@@ -1,7 +1,8 @@
 //! The pixels on the screen: for each, the camera and the pixel whose samples it shows.
 //!
 //! The film changes before its changes are on the screen: tiles arrive, or another picture is begun. Therefore the
-//! code that uploads the film's pixels records here what they show. While a new picture replaces an old one, tiles of both are on the screen.
+//! code that uploads the film's pixels records here what they show. While a new picture replaces an old one, tiles of
+//! both are on the screen.
 
 use super::Film;
 use crate::Camera;

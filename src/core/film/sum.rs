@@ -67,7 +67,8 @@ impl SampleSum {
 
     /// The variance of the luminance of a single sample, estimated from `count` samples; 0 for fewer than 2.
     ///
-    /// As long as the sum is below 2⁶⁴, its error is a few units of 2⁻⁵² of the mean's square, and 2⁻¹²⁸ for each sample.
+    /// As long as the sum is below 2⁶⁴, its error is a few units of 2⁻⁵² of the mean's square, and 2⁻¹²⁸ for each
+    /// sample.
     pub(super) fn variance(&self, count: u32) -> f64 {
         if count < 2 {
             return 0.0;
@@ -133,8 +134,8 @@ fn fixed(x: f64) -> u128 {
     shifted(digits, exponent + PLACES)
 }
 
-/// The digits and the exponent of a number that isn't negative. Those of 0 and subnormal numbers are wrong, but too small to
-/// matter.
+/// The digits and the exponent of a number that isn't negative. Those of 0 and subnormal numbers are wrong, but too
+/// small to matter.
 fn parts(x: f64) -> (u128, i32) {
     let bits = x.to_bits();
     let digits = bits & ((1 << 52) - 1) | 1 << 52;

@@ -6,8 +6,8 @@ use crate::scene::Shading;
 use crate::terminator::Offset;
 use glam::Vec3;
 
-/// The offset of the origins of rays that leave on the front or the back; zero with flat shading and for primitives other
-/// than triangles.
+/// The offset of the origins of rays that leave on the front or the back; zero with flat shading and for primitives
+/// other than triangles.
 pub(super) fn offset_by(offset: Offset, context: &Context, hit: &Hit, is_front: bool) -> Vec3 {
     let scene = &context.scene;
     let corners = scene.corners(hit.primitive);

@@ -36,8 +36,8 @@ impl PartialEq for SurfaceColours {
 }
 
 impl SurfaceColours {
-    /// Colours, and for each primitive the number of its colour, counted from 1; 0, or a number without a colour, leaves the
-    /// primitive's own.
+    /// Colours, and for each primitive the number of its colour, counted from 1; 0, or a number without a colour,
+    /// leaves the primitive's own.
     pub fn new(numbers: Vec<u32>, colours: Vec<Vec3>) -> Self {
         let numbers = Arc::new(numbers);
         Self { numbers, colours }

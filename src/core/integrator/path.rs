@@ -89,8 +89,8 @@ pub(super) fn follow_scattered(
     sample.radiance
 }
 
-/// Follows paths to their ends. All advance by one surface at a time, so that their rays are traced together: first the rays
-/// to the lights, then those that continue the paths.
+/// Follows paths to their ends. All advance by one surface at a time, so that their rays are traced together: first the
+/// rays to the lights, then those that continue the paths.
 fn follow<R: Recorder>(
     context: &Context,
     paths: &mut [Path<'_>],
@@ -135,8 +135,8 @@ fn follow<R: Recorder>(
 struct Path<'a> {
     /// The ray that continues it, its hit, the random numbers, and the light that has been found.
     sample: &'a mut Sample,
-    /// The point where the ray left a surface or the camera; not the ray's origin once it has passed through a surface with
-    /// coverage.
+    /// The point where the ray left a surface or the camera; not the ray's origin once it has passed through a surface
+    /// with coverage.
     from: Vec3,
     /// The density with which that surface scattered it; `None` for single directions and rays of the camera.
     density: Option<f32>,
@@ -161,8 +161,8 @@ impl<'a> Path<'a> {
     }
 
     /// Adds the light that arrives along the ray from the surface that it hits, or from the environment, and chooses the
-    /// path's next ray. Returns a connection to a light, whose light is still to be added if it arrives, and why the path
-    /// ends, if it does.
+    /// path's next ray. Returns a connection to a light, whose light is still to be added if it arrives, and why the
+    /// path ends, if it does.
     fn advance(
         &mut self,
         context: &Context,

@@ -30,8 +30,8 @@ pub(super) struct ShadingPoint<'a> {
     /// The direction to where the ray comes from, in the frame.
     outgoing: Vec3,
     bsdf: Cow<'a, Bsdf>,
-    /// The offset that the repair of the shadow terminator adds to the origins of rays that leave on the side that the ray
-    /// comes from.
+    /// The offset that the repair of the shadow terminator adds to the origins of rays that leave on the side that the
+    /// ray comes from.
     offset: Vec3,
     /// The start of rays that leave on the side that the ray comes from, computed on first use; unused with an offset.
     start: Cell<Option<RayStart>>,
@@ -124,8 +124,8 @@ impl<'a> ShadingPoint<'a> {
         self.untilted.dot(dir) * self.untilted.dot(self.ray.dir) < 0.0
     }
 
-    /// The start of a ray that leaves in a direction. It is kept for the side that the ray comes from, where the ray to a
-    /// light and the ray that continues the path usually share it.
+    /// The start of a ray that leaves in a direction. It is kept for the side that the ray comes from, where the ray to
+    /// a light and the ray that continues the path usually share it.
     #[inline]
     fn start(&self, dir: Vec3) -> RayStart {
         let policy = self.context.lighting.spawn;
@@ -295,8 +295,8 @@ impl<'a> ShadingPoint<'a> {
         lights.sample(scene, lighting.spawn, self.position(), at, choice)
     }
 
-    /// The connection to a sample of a light, weighted by the balance heuristic; `None` if its light is black, or if numbers
-    /// overflow.
+    /// The connection to a sample of a light, weighted by the balance heuristic; `None` if its light is black, or if
+    /// numbers overflow.
     #[inline]
     fn connection(&self, sample: &LightSample) -> Option<Connection> {
         let incoming = self.frame.to_local(sample.dir);

@@ -6,9 +6,9 @@ use crate::ray::Ray;
 
 /// The part of the light that passes along each ray.
 ///
-/// Packets aren't used: rays to a lamp from neighbouring pixels, sorted by the signs of their directions, take twice as many
-/// instructions in packets as one by one, because the paths' first surfaces and the points of the lamp are too far apart
-/// (bunny on a plane, AVX2, 2026-11).
+/// Packets aren't used: rays to a lamp from neighbouring pixels, sorted by the signs of their directions, take twice as
+/// many instructions in packets as one by one, because the paths' first surfaces and the points of the lamp are too far
+/// apart (bunny on a plane, AVX2, 2026-11).
 pub(super) fn transmittances(context: &Context, rays: &[Ray]) -> Vec<f32> {
     if context.lighting.lights.has_coverage() {
         return rays

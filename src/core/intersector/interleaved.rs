@@ -1,10 +1,10 @@
-//! Interleaved tracing of rays: a step of one ray's walk, then a step of the next ray's. While a walk waits for the next node
-//! or block, which it has prefetched, the others proceed.
+//! Interleaved tracing of rays: a step of one ray's walk, then a step of the next ray's. While a walk waits for the
+//! next node or block, which it has prefetched, the others proceed.
 //!
 //! Source: O. Kocberber, B. Falsafi, B. Grot, "Asynchronous Memory Access Chaining", PVLDB 9(4), 2015.
 //!
-//! Speed relative to tracing one ray after another (random rays and rays from their hits, `watertight`, AMD Zen 4 with 1 MB of L2
-//! cache, 2026-11), with 4, 6, 8, 12 and 16 walks:
+//! Speed relative to tracing one ray after another (random rays and rays from their hits, `watertight`, AMD Zen 4 with
+//! 1 MB of L2 cache, 2026-11), with 4, 6, 8, 12 and 16 walks:
 //!
 //! ```text
 //! triangles   size     random                          from hits

@@ -1,5 +1,5 @@
-//! Searches of many rays at once: in packets and interleaved. Only the kernels of the tiers have them, because each search is
-//! compiled for every SIMD level.
+//! Searches of many rays at once: in packets and interleaved. Only the kernels of the tiers have them, because each
+//! search is compiled for every SIMD level.
 
 use super::method::Method;
 use super::packet::PacketMethod;

@@ -84,7 +84,8 @@ impl AreaLight {
         sides * PI * self.area as f32 * self.radiance
     }
 
-    /// Light that reaches `from`; `None` if the sampled point doesn't emit towards it. `at` is uniform in the unit square.
+    /// Light that reaches `from`; `None` if the sampled point doesn't emit towards it. `at` is uniform in the unit
+    /// square.
     #[inline]
     pub(super) fn sample(
         &self,

@@ -1,4 +1,4 @@
-//! Lights: one file a kind.
+//! Lights, one file per kind.
 //!
 //! Radiance is linear RGB, in any unit: twice the light gives twice the picture. A density is a probability per solid
 //! angle as seen from the lit point.

@@ -41,7 +41,8 @@ impl Texture {
     }
 
     /// Creates a texture from linear values, row by row from the top, and returns how many numbers were
-    /// replaced: negative numbers and NaN become 0, and numbers above [`MAX_BRIGHTNESS`] become that limit. `None` as for [`new`](Self::new).
+    /// replaced: negative numbers and NaN become 0, and numbers above [`MAX_BRIGHTNESS`] become that limit. `None` as
+    /// for [`new`](Self::new).
     pub fn linear(name: &str, size: UVec2, mut texels: Vec<Vec3>) -> Option<(Self, usize)> {
         let count = size.x as usize * size.y as usize;
         if count == 0 || texels.len() != count {

@@ -1,7 +1,7 @@
 //! The part of each pixel that surfaces cover: the alpha channel of a picture with a transparent background.
 //!
-//! Such a picture is rendered with [`ViewOptions::has_transparent_background`]. Samples that hit nothing are then black, so
-//! the film's colours are premultiplied by alpha.
+//! Such a picture is rendered with [`ViewOptions::has_transparent_background`]. Samples that hit nothing are then
+//! black, so the film's colours are premultiplied by alpha.
 //!
 //! Source: Porter, Duff, "Compositing Digital Images", SIGGRAPH 1984.
 //!
@@ -26,8 +26,8 @@ pub struct Alpha {
 }
 
 impl Alpha {
-    /// Traces a plan's samples again, up to their first hits, on `threads` threads; 0 stands for one thread per core. The
-    /// result doesn't depend on the number of threads. A transparent material counts as a surface.
+    /// Traces a plan's samples again, up to their first hits, on `threads` threads; 0 stands for one thread per core.
+    /// The result doesn't depend on the number of threads. A transparent material counts as a surface.
     ///
     /// # Errors
     /// See [`TraceError`].
@@ -59,8 +59,8 @@ impl Alpha {
         &self.pixels
     }
 
-    /// The pixels of a film with premultiplied colours as they are displayed: sRGB with straight alpha, row by row from the
-    /// top.
+    /// The pixels of a film with premultiplied colours as they are displayed: sRGB with straight alpha, row by row from
+    /// the top.
     ///
     /// # Panics
     /// If the film has another size.

@@ -172,9 +172,9 @@
 //!
 //! `max_depth` = −1 (no limit) counts the surfaces on a path and the emitter: 1 shows emitters alone, 2 also light that
 //! one surface reflects. In [`Integrator::depth_limit`] it is one less, the number of surfaces. `rr_depth` = 5 is the
-//! number of the surface from which on Russian roulette may end a path. If `hide_emitters` is true, which by default it isn't,
-//! camera rays pass through surfaces that emit light, and show the background where they hit nothing; behind a `mask`,
-//! emitters and the environment stay visible, as in Mitsuba's `direct`.
+//! number of the surface from which on Russian roulette may end a path. If `hide_emitters` is true, which by default it
+//! isn't, camera rays pass through surfaces that emit light, and show the background where they hit nothing; behind a
+//! `mask`, emitters and the environment stay visible, as in Mitsuba's `direct`.
 //!
 //! ## Objects that aren't used
 //!

@@ -247,8 +247,8 @@ impl LabArgs {
     }
 }
 
-/// The page and its data. They are opened before the measurement, which takes minutes, so that it isn't lost if they can't be
-/// written.
+/// The page and its data. They are opened before the measurement, which takes minutes, so that it isn't lost if they
+/// can't be written.
 struct PageFiles {
     json: Output,
     page: Output,
@@ -307,7 +307,7 @@ fn print_cases(about: &RunInfo, all: &Measurements, out: &mut dyn Write) -> io::
 
 fn print_scene(rows: &[SceneRow], out: &mut dyn Write) -> io::Result<()> {
     let (n, hits) = rows.first().map_or((0, 0), |row| (row.n, row.hits));
-    let has_several_shapes = rows.iter().any(|row| row.shape != rows[0].shape);
+    let has_several_shapes = measure::scene::has_several_shapes(rows);
     writeln!(out, "{}", machine())?;
     writeln!(
         out,

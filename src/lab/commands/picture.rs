@@ -172,8 +172,8 @@ impl PictureArgs {
         }
     }
 
-    /// The first tree with which `shot_count` pictures of each view take the least time. It is the best tree unless all views
-    /// show first hits, whose rays are coherent, and the number of rays is known before the scene is loaded.
+    /// The first tree with which `shot_count` pictures of each view take the least time. It is the best tree unless all
+    /// views show first hits, whose rays are coherent, and the number of rays is known before the scene is loaded.
     pub(super) fn first_tree(&self, shot_count: usize) -> FirstTree {
         let file = &self.scene.file;
         let known = self.view.known(file).zip(self.camera.known_size(file));

@@ -71,8 +71,8 @@ pub fn lines(scene: &Scene, origin: DVec3, ray: &Ray, hit: &Hit) -> Vec<String> 
     lines
 }
 
-/// A sentence that derives the t of a given ray from the t of the traced ray. The traced ray starts at t = `start` of the given
-/// one, and its t is in units of `scale`.
+/// A sentence that derives the t of a given ray from the t of the traced ray. The traced ray starts at t = `start` of
+/// the given one, and its t is in units of `scale`.
 pub fn t_of_given_ray(start: f64, scale: f64, t: f64) -> String {
     let product = if scale == 1.0 {
         "t".to_owned()

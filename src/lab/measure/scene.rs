@@ -43,6 +43,11 @@ impl SceneSizes {
 /// The explanation of rows in reports of scenes with several shapes.
 pub const OF_WHOLE_SCENE: &str = "Each row measures the whole scene: the other shapes use their kernels of the same tier or precision.";
 
+/// Whether the rows are of a scene with several shapes.
+pub fn has_several_shapes(rows: &[SceneRow]) -> bool {
+    rows.iter().any(|row| row.shape != rows[0].shape)
+}
+
 /// The result of one kernel, for the whole scene.
 #[derive(Clone, Debug, Serialize)]
 pub struct SceneRow {

@@ -1,13 +1,13 @@
 //! The report of the measurement of the user's scene, for the page.
 
 use super::RunInfo;
-use crate::measure::scene::{OF_WHOLE_SCENE, SceneRow, counted_primitives};
+use crate::measure::scene::{OF_WHOLE_SCENE, SceneRow, counted_primitives, has_several_shapes};
 use hitscope_core::Scene;
 use serde_json::{Value, json};
 
 /// The results of a scene as [`to_page`](super::to_page) takes them.
 pub fn scene_for_page(about: &RunInfo, file: &str, scene: &Scene, rows: &[SceneRow]) -> Value {
-    let has_several_shapes = rows.iter().any(|row| row.shape != rows[0].shape);
+    let has_several_shapes = has_several_shapes(rows);
     json!({
         "about": about,
         "file": file,

@@ -107,8 +107,8 @@ fn repairs_change_nothing_where_only_a_texture_tilts_the_normal() {
     assert_eq!(none, hanika);
 }
 
-/// The edges of the facets. They are placed so that some facets face the light, which comes from 0°, where the curved surface
-/// turns away, and others turn away where the curved surface faces it.
+/// The edges of the facets. They are placed so that some facets face the light, which comes from 0°, where the curved
+/// surface turns away, and others turn away where the curved surface faces it.
 const EDGES: std::ops::Range<i32> = 0..12;
 
 fn edge_degrees(edge: i32) -> f64 {

@@ -8,8 +8,8 @@
 
 use std::cell::Cell;
 
-/// Triangles tested in excess of [`PER_BLOCK`] before a packet that searches for nearest hits is abandoned. It is more than
-/// for any hits because nearest hits cost single rays more.
+/// Triangles tested in excess of [`PER_BLOCK`] before a packet that searches for nearest hits is abandoned. It is more
+/// than for any hits because nearest hits cost single rays more.
 ///
 /// Measured with 8 to 64, and with 0 to 3.5 per block, on rays of a camera and to a lamp at 0.3, 1, 3 and 10 times the
 /// distance of the starting view, 1.1 M triangles (AVX-512, AMD, 2026-11). Relative to single rays, rays to a lamp run at
@@ -63,7 +63,8 @@ pub(super) struct BackOff {
 }
 
 thread_local! {
-    // A caller passes few packets at a time, so the state outlives the call. The state changes the speed of later packets, never their hits.
+    // A caller passes few packets at a time, so the state outlives the call. The state changes the speed of later
+    // packets, never their hits.
     static LAST: Cell<BackOff> = const { Cell::new(BackOff { failures: 0, alone: 0 }) };
 }
 
